@@ -1,0 +1,39 @@
+# embed_files(TARGET TABLE FILE...): puts files into the program and defines, in <TABLE>.cpp,
+# `std::span<const clatter::EmbeddedFile> clatter::<TABLE>()`, one entry per file, named by file name.
+# The bytes go through the assembler's .incbin, so a large font costs no compile time.
+function(embed_files target table)
+  set(assembly ".section .rodata\n")
+  set(declarations "")
+  set(entries "")
+  set(index 0)
+  foreach(file ${ARGN})
+    get_filename_component(name ${file} NAME)
+    set(symbol "clatter_${table}_${index}")
+    string(APPEND assembly ".global ${symbol}, ${symbol}_end\n${symbol}:\n.incbin \"${file}\"\n"
+                           "${symbol}_end:\n")
+    string(APPEND declarations "extern const char ${symbol}[], ${symbol}_end[];\n")
+    string(APPEND entries
+           "      {\"${name}\", {${symbol}, static_cast<std::size_t>(${symbol}_end - ${symbol})}},\n")
+    math(EXPR index "${index} + 1")
+  endforeach()
+  string(APPEND assembly ".section .note.GNU-stack,\"\",@progbits\n")
+
+  set(base ${CMAKE_CURRENT_BINARY_DIR}/${table})
+  file(CONFIGURE OUTPUT ${base}_bytes.S CONTENT "${assembly}")
+  file(CONFIGURE OUTPUT ${base}.cpp CONTENT
+"#include \"engine/embedded_file.h\"
+
+extern \"C\" {
+${declarations}}
+
+namespace clatter {
+std::span<const EmbeddedFile> ${table}() {
+  static const EmbeddedFile files[] = {
+${entries}  };
+  return files;
+}
+}  // namespace clatter
+")
+  set_source_files_properties(${base}_bytes.S PROPERTIES OBJECT_DEPENDS "${ARGN}")
+  target_sources(${target} PRIVATE ${base}_bytes.S ${base}.cpp)
+endfunction()

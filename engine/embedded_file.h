@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace clatter {
+
+/// A file that the build put into the program: its name without folders, and its bytes.
+struct EmbeddedFile {
+  std::string_view name;
+  std::string_view bytes;
+};
+
+/// The scenes of assets/scenes, in alphabetical order.
+std::span<const EmbeddedFile> embedded_scenes();
+
+/// The shaders of shaders/.
+std::span<const EmbeddedFile> embedded_shaders();
+
+/// The fonts that text is drawn with: DejaVuSans.ttf.
+std::span<const EmbeddedFile> embedded_fonts();
+
+}  // namespace clatter

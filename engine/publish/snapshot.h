@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// A field on a grid of equal box cells over the whole box, Sec. 4.
+struct FieldMap {
+  Field field = Field::Density;
+  std::array<int, 2> cells = {0, 0};  ///< along x and y
+  std::vector<double> values;  ///< [cells_y][cells_x], row by row from y = 0; NaN: never visited
+};
+
+/// The gas at one instant, evaluated exactly: all that the renderer knows of the engine.
+struct Snapshot {
+  double time = 0.0;      ///< simulation time
+  Vec2 box = {0.0, 0.0};  ///< Lx, Ly
+  double diameter = 1.0;  ///< of every disk
+  std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
+  std::vector<Vec2> positions;   ///< [N] centres, wrapped into the box, in original order
+  std::vector<Vec2> velocities;  ///< [N]
+  std::optional<FieldMap> field;  ///< averaged over the view's window; absent: not asked for
+  double temperature = 0.0;       ///< granular temperature T = (m/2N) sum v^2
+  std::uint64_t collisions = 0;   ///< disk-disk collisions since time 0
+};
+
+}  // namespace clatter

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// What a wall does to the disks that touch it, Sec. 3.1.
+enum class WallKind {
+  Static,   ///< reflects with its restitution
+  Driven,   ///< adds drive_speed to the normal velocity: the saw-tooth limit, Eqs. (2.17), (3.1)
+  Thermal,  ///< forgets the incoming velocity and emits at its temperature
+};
+
+/// One wall of the box.
+struct Wall {
+  WallKind kind = WallKind::Static;
+  double restitution = 1.0;  ///< alpha_w >= 0 of static and driven walls
+  double drive_speed = 0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity, Eq. (2.17)
+  double temperature = 1.0;  ///< T_w >= 0 of a thermal wall
+};
+
+/// The sides of the box: axis is side / 2, and the odd ones lie at the axis' far end.
+enum Side { kLeft, kRight, kBottom, kTop };
+
+/// Names of the sides in scene files, indexed by Side.
+inline constexpr std::array<const char*, 4> kSideNames = {"left", "right", "bottom", "top"};
+
+/// How the disks are placed at time 0.
+enum class Layout { Random, Lattice };
+
+/// Positions and velocities at time 0.
+struct Start {
+  Layout layout = Layout::Random;
+  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed
+};
+
+/// The disks; their diameter and mass are the units of length and mass.
+struct Disks {
+  int count = 0;             ///< N >= 0; resolved from area_fraction where the scene gives that
+  double restitution = 1.0;  ///< alpha, 0..1
+  Start start;
+};
+
+/// A field over the box, chapter 4, and what a disk contributes to it.
+enum class Field { Density, VelocityX, VelocityY, Temperature, TemperatureX, TemperatureY };
+
+/// What `clatter measure` averages.
+struct Measure {
+  double burn_in = 100.0;        ///< time before averages start, >= 0
+  double duration = 1000.0;      ///< time averaged over, > 0
+  double series_interval = 1.0;  ///< spacing of temperature_series, > 0
+  std::vector<Field> fields;     ///< profiles asked for; empty: none
+  std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
+};
+
+/// What a disk's colour shows.
+enum class ColourBy { None, Speed, VelocityX, VelocityY };
+
+/// The colour maps for magnitudes.
+enum class Palette { Viridis, Inferno };
+
+/// What is drawn.
+struct View {
+  ColourBy colour_by = ColourBy::Speed;
+  std::optional<Field> field;  ///< the heatmap below the disks; absent: none, and nothing is averaged
+  double window = 5.0;         ///< averaging time of the live field, > 0
+  double speed = 1.0;          ///< simulation time per second of film, > 0
+  Palette palette = Palette::Viridis;  ///< of the disks
+  std::optional<std::array<double, 2>> range;  ///< colour range of the disks; absent: automatic
+  bool overlay = true;                         ///< time, title, colour bar, scale bar
+};
+
+/// A complete, validated description of a run: what the scene file says, resolved, nothing derived.
+struct Scene {
+  std::string title;
+  std::string caption;
+  Vec2 box = {20.0, 25.0};  ///< Lx, Ly in disk diameters; disks touch walls with their surface
+  Disks disks;
+  std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
+  Measure measure;
+  View view;
+
+  /// Whether the box is periodic along an axis (0: x, 1: y).
+  bool periodic(int axis) const { return !walls[2 * axis]; }
+  /// phi = N pi / (4 Lx Ly).
+  double area_fraction() const;
+};
+
+}  // namespace clatter

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// One `--set key=value` of the command line: a dotted key of the scene file and a TOML value.
+struct Override {
+  std::string key;
+  std::string value;
+};
+
+/// Reads the scene at a path, or the gallery scene of that name, applies the overrides, and
+/// validates the whole. Throws UserError with file, line, column, what is wrong and what to do.
+Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {});
+
+/// Like load_scene, from text; `file` is the name that errors carry.
+Scene parse_scene(std::string_view text, const std::string& file,
+                  const std::vector<Override>& overrides = {});
+
+/// The scene as a file that parses back to the same scene, every default written out.
+std::string scene_to_toml(const Scene& scene);
+
+/// The scene as a JSON object with the keys of the scene file, every default written out.
+std::string scene_to_json(const Scene& scene);
+
+}  // namespace clatter

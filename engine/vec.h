@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace clatter {
+
+/// A position, velocity or extent in D dimensions.
+template <int D>
+using Vec = Eigen::Matrix<double, D, 1>;
+
+/// A cell, an image or a count along each of D dimensions.
+template <int D>
+using IntVec = Eigen::Matrix<int, D, 1>;
+
+using Vec2 = Vec<2>;
+
+}  // namespace clatter
