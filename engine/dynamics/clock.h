@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+namespace clatter {
+
+/// A simulation time as an unevaluated sum of two doubles, about 32 digits.
+struct LongTime {
+  double high = 0.0;
+  double low = 0.0;
+};
+
+/// Maps between simulation time and the moving base on which the engine keeps event times, so that
+/// an event at t = 1e9 is as precise as one at t = 0.
+class Clock {
+ public:
+  /// A clock whose base lies at `start`.
+  explicit Clock(double start = 0.0) : base_{start, 0.0} {}
+
+  /// Moves the base by `shift`; event times become smaller by it.
+  void advance(double shift);
+
+  /// Simulation time of a time on the base.
+  double absolute(double relative) const;
+  /// A simulation time on the base.
+  double relative(double absolute) const;
+  /// start + count * interval on the base: the product is exact, however large the count.
+  double relative(double start, std::uint64_t count, double interval) const;
+
+ private:
+  LongTime base_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+namespace clatter {
+
+/// What stands for a partner where an event has none: a wall (kWall + side) or a cell border.
+/// Disk numbers lie below.
+inline constexpr std::uint32_t kWall = 0xfffffff0u;
+inline constexpr std::uint32_t kCellBorder = 0xfffffffeu;
+
+/// An entry of the event queue: something that a disk does at a time.
+struct Event {
+  double time = 0.0;          ///< on the moving base
+  std::uint32_t disk = 0;
+  std::uint32_t partner = 0;  ///< a disk, kWall + side, or kCellBorder
+};
+
+/// Total order of events: by time; ties by kind (disks, walls, cell borders), then by disks, a pair
+/// counting the same from either side.
+inline bool before(const Event& a, const Event& b) {
+  if (a.time != b.time) return a.time < b.time;
+  const auto rank = [](const Event& e) {
+    const int kind = e.partner < kWall ? 0 : e.partner < kCellBorder ? 1 : 2;
+    const bool swap = kind == 0 && e.partner < e.disk;
+    return std::tuple(kind, swap ? e.partner : e.disk, swap ? e.disk : e.partner);
+  };
+  return rank(a) < rank(b);
+}
+
+}  // namespace clatter

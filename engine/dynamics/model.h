@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// The laws of one run, constant while it lasts.
+template <int D>
+struct Model {
+  Vec<D> box = Vec<D>::Zero();  ///< edge lengths
+  std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
+  double diameter = 1.0;
+  double restitution = 1.0;  ///< alpha of disk-disk collisions
+  std::uint64_t seed = 1;    ///< of every random number of the run
+
+  /// Whether the box is periodic along an axis.
+  bool periodic(int axis) const { return !walls[2 * axis]; }
+  /// Where the centres of disks that touch a wall lie: `end` 0 is the near wall of the axis, 1 the far.
+  double wall_plane(int axis, int end) const {
+    return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;
+  }
+};
+
+/// Positions and velocities of all disks at one time, in original order.
+template <int D>
+struct State {
+  std::vector<Vec<D>> positions;   ///< [N] centres inside the box
+  std::vector<Vec<D>> velocities;  ///< [N]
+};
+
+/// The laws that a scene asks for.
+Model<2> model_of(const Scene& scene, std::uint64_t seed);
+
+}  // namespace clatter

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/cell_grid.h"
+#include "engine/dynamics/disk.h"
+#include "engine/dynamics/event.h"
+#include "engine/dynamics/model.h"
+#include "engine/physics/contact.h"
+
+namespace clatter {
+
+/// What a disk will do next: the first contact known of, and when it leaves its cell.
+template <int D>
+struct Plan {
+  double contact = kNever;           ///< time of the first contact; kNever: none known
+  double crossing = kNever;          ///< time at which it leaves its cell
+  std::uint32_t partner = 0;         ///< of the contact: a disk, or kWall + side
+  std::uint32_t partner_flight = 0;  ///< number of the partner's flight that the contact is with
+  IntVec<D> image = IntVec<D>::Zero();  ///< box lengths to add to this disk's r minus the partner's
+  IntVec<D> cell = IntVec<D>::Zero();
+  std::int8_t crossing_axis = 0;
+  std::int8_t crossing_step = 0;  ///< +1 or -1 along that axis
+
+  /// The earlier of the two, as an entry of the event queue.
+  Event event(std::uint32_t disk) const {
+    if (contact <= crossing) return {contact, disk, partner};
+    return {crossing, disk, kCellBorder};
+  }
+};
+
+/// Finds what a disk will do next, from stored states alone.
+template <int D>
+class Prediction {
+ public:
+  /// Looks at the model, the disks and the grid of a simulation, which outlive it.
+  Prediction(const Model<D>& model, const std::vector<Disk<D>>& disks, const CellGrid<D>& grid)
+      : model_(model), disks_(disks), grid_(grid) {}
+
+  /// The first contact with any disk or wall about the disk's cell, and its way out of the cell.
+  void plan(std::uint32_t disk, double now, Plan<D>& plan) const;
+
+  /// The same after the disk has just entered `plan.cell` by `step` along `axis`: the contact known
+  /// stays, and only the cells that came within reach are looked at.
+  void plan_entered(std::uint32_t disk, double now, int axis, int step, Plan<D>& plan) const;
+
+ private:
+  void look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
+                     Plan<D>& plan) const;
+  void look_at_walls(std::uint32_t disk, Plan<D>& plan) const;
+  void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
+  void offer(double time, std::uint32_t disk, std::uint32_t partner, const Vec<D>& image,
+             Plan<D>& plan) const;
+
+  const Model<D>& model_;
+  const std::vector<Disk<D>>& disks_;
+  const CellGrid<D>& grid_;
+};
+
+extern template class Prediction<2>;
+
+}  // namespace clatter
