@@ -12,8 +12,8 @@ struct Place {
   int column = 0;
 };
 
-/// A person's mistake in a scene, a flag or a file: `what()` is "file:line:column: what, what to do".
-/// The program prints it and exits with 2.
+/// A person's mistake in a scene, a flag or a file: `what()` is "file:line:column: what, what to
+/// do". The program prints it and exits with 2.
 class UserError : public std::runtime_error {
  public:
   UserError(const Place& place, const std::string& what, const std::string& advice);
@@ -25,8 +25,8 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A physical stop (overlap, collapse, no more room for motion): where, when, which disks, what would
-/// help; the program prints it and exits with 3.
+/// A physical stop (overlap, collapse, no more room for motion): where, when, which disks, what
+/// would help; the program prints it and exits with 3.
 class PhysicalStop : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -23,8 +23,8 @@ static IntVec<D> choose_counts(const Model<D>& model, std::size_t disks) {
   IntVec<D> counts;
   for (int k = 0; k < D; ++k) {
     const double length = model.box[axes[k]];
-    const double edge = std::max(std::pow(volume / cells, 1.0 / (D - k)),
-                                 kLeastWidth * model.diameter);
+    const double edge =
+        std::max(std::pow(volume / cells, 1.0 / (D - k)), kLeastWidth * model.diameter);
     const double count = std::max(1.0, std::floor(length / edge));
     counts[axes[k]] = static_cast<int>(count);
     cells = std::max(1.0, cells / count);
@@ -39,7 +39,7 @@ CellGrid<D>::CellGrid(const Model<D>& model, std::size_t disks)
   int stride = 1;
   for (int axis = 0; axis < D; ++axis) {
     periodic_[axis] = model.periodic(axis);
-    per_width_[axis] = counts_[axis] / box_[axis];
+    widths_[axis] = box_[axis] / counts_[axis];
     strides_[axis] = stride;
     stride *= counts_[axis];
   }
@@ -62,15 +62,10 @@ template <int D>
 IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
   IntVec<D> cell;
   for (int axis = 0; axis < D; ++axis) {
-    const int at = static_cast<int>(std::floor(position[axis] * per_width_[axis]));
+    const int at = static_cast<int>(std::floor(position[axis] / widths_[axis]));
     cell[axis] = std::clamp(at, 0, counts_[axis] - 1);
   }
   return cell;
-}
-
-template <int D>
-double CellGrid<D>::border(int axis, int cell) const {
-  return box_[axis] * (static_cast<double>(cell) / counts_[axis]);
 }
 
 template <int D>
@@ -88,7 +83,7 @@ std::uint32_t CellGrid<D>::new_line() {
 template <int D>
 void CellGrid<D>::insert(std::uint32_t disk, const IntVec<D>& cell) {
   std::size_t at = index(cell);
-  while (lines_[at].count == lines_[at].disks.size()) {
+  while (lines_[at].count == Line::kCapacity) {
     if (lines_[at].next == kNone) {
       const std::uint32_t added = new_line();  // may move lines_
       lines_[at].next = added;

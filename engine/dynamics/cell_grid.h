@@ -11,8 +11,8 @@
 namespace clatter {
 
 /// Cells of at least one diameter that say which disks are near: two disks that touch lie in the
-/// same cell or in neighbouring ones. Each cell is one cache line of disk numbers; the clusters of
-/// a dissipative gas chain further lines to it.
+/// same cell or in neighbouring ones. Each cell is one cache line of disk numbers, to which the
+/// clusters of a dissipative gas chain further ones.
 template <int D>
 class CellGrid {
  public:
@@ -31,7 +31,9 @@ class CellGrid {
   /// The cell that holds a position inside the box.
   IntVec<D> cell_at(const Vec<D>& position) const;
   /// Place along an axis of the border below cell number `cell`; that of cell counts() is the box.
-  double border(int axis, int cell) const;
+  double border(int axis, int cell) const {
+    return cell == counts_[axis] ? box_[axis] : cell * widths_[axis];
+  }
 
   /// A box of cells about one: the offsets from `from` to `to` along each axis.
   struct Stencil {
@@ -39,103 +41,112 @@ class CellGrid {
     IntVec<D> to = IntVec<D>::Constant(1);
   };
 
-  /// Calls visit(disk, wrap) for each disk in the stencil about a cell; `wrap` holds the box lengths
-  /// by which the disk's cell lies round the periodic borders. A cell may come up several times,
-  /// with different wraps, where the box is only one or two cells wide.
+  /// Disks that lie together: some of one cell's.
+  struct alignas(64) Line {
+    static constexpr int kCapacity = 14;
+    std::array<std::uint32_t, kCapacity> disks;
+    std::uint32_t count = 0;
+    std::uint32_t next = kNone;  ///< line that continues the cell
+  };
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  /// Calls visit(line, wrap) for each line of the cells in the stencil about a cell. `wrap` points
+  /// to the box lengths by which the line's cell lies round the periodic borders, or is null where
+  /// no cell of the stencil does. A cell comes up several times, with different wraps, where the
+  /// box is only one or two cells wide.
   template <typename Visit>
   void visit(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
 
-  /// Calls visit(line) with the first cache line of each cell of the stencil, to fetch it early.
+  /// Calls visit(line) with the first line of each cell of the stencil, to fetch it early.
   template <typename Visit>
-  void visit_lines(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
+  void visit_first_lines(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-  struct alignas(64) Line {
-    std::uint32_t count = 0;
-    std::uint32_t next = kNone;  // line that continues this cell
-    std::array<std::uint32_t, 14> disks;
-  };
-
-  /// The cells of a stencil along one axis: where they begin in lines_, and their wraps.
-  struct Steps {
-    struct {
-      std::size_t offset;
-      double wrap;
-    } step[3];
-    int length = 0;
-  };
-
+  /// The cells of a stencil along the axes up to Axis, for given places along the others; kInside:
+  /// none of them lies beyond the box.
+  template <int Axis, bool kInside, typename VisitCell>
+  void visit_cells(const IntVec<D>& cell, const Stencil& stencil, int at, Vec<D>& wrap,
+                   const VisitCell& visit) const;
   template <typename VisitCell>
   void visit_cells(const IntVec<D>& cell, const Stencil& stencil, const VisitCell& visit) const;
-  template <int Axis, typename VisitCell>
-  static void descend(const std::array<Steps, D>& steps, std::size_t at, Vec<D>& wrap,
-                      const VisitCell& visit);
   std::size_t index(const IntVec<D>& cell) const;
   std::uint32_t new_line();
 
   IntVec<D> counts_;
   IntVec<D> strides_;
   Vec<D> box_;
-  Vec<D> per_width_;  // cells per length
+  Vec<D> widths_;
   std::array<bool, D> periodic_;
   std::vector<Line> lines_;           // the cells' own lines first, then the chained ones
   std::vector<std::uint32_t> spare_;  // chained lines not in use
 };
 
+// Inlined by force down to the caller's visit, so that what it needs stays in registers.
+template <int D>
+template <int Axis, bool kInside, typename VisitCell>
+[[gnu::always_inline]] inline void CellGrid<D>::visit_cells(const IntVec<D>& cell,
+                                                            const Stencil& stencil, int at,
+                                                            Vec<D>& wrap,
+                                                            const VisitCell& visit) const {
+  const int count = counts_[Axis];
+  const int stride = strides_[Axis];
+  const int last = stencil.to[Axis];
+  for (int offset = stencil.from[Axis]; offset <= last; ++offset) {
+    int k = cell[Axis] + offset;
+    if constexpr (!kInside) {
+      wrap[Axis] = 0.0;
+      if (static_cast<unsigned>(k) >= static_cast<unsigned>(count)) {
+        if (!periodic_[Axis]) continue;
+        wrap[Axis] = k < 0 ? -1.0 : 1.0;
+        k += k < 0 ? count : -count;
+      }
+    }
+    if constexpr (Axis == 0) {
+      visit(static_cast<std::size_t>(at + k), kInside ? nullptr : &wrap);
+    } else {
+      visit_cells<Axis - 1, kInside>(cell, stencil, at + k * stride, wrap, visit);
+    }
+  }
+}
+
 template <int D>
 template <typename VisitCell>
-void CellGrid<D>::visit_cells(const IntVec<D>& cell, const Stencil& stencil,
-                              const VisitCell& visit) const {
-  std::array<Steps, D> steps;
+[[gnu::always_inline]] inline void CellGrid<D>::visit_cells(const IntVec<D>& cell,
+                                                            const Stencil& stencil,
+                                                            const VisitCell& visit) const {
+  bool inside = true;
   for (int axis = 0; axis < D; ++axis) {
-    for (int offset = stencil.from[axis]; offset <= stencil.to[axis]; ++offset) {
-      int at = cell[axis] + offset;
-      double wrap = 0.0;
-      if (at < 0 || at >= counts_[axis]) {
-        if (!periodic_[axis]) continue;
-        wrap = at < 0 ? -1.0 : 1.0;
-        at -= static_cast<int>(wrap) * counts_[axis];
-      }
-      steps[axis].step[steps[axis].length++] = {static_cast<std::size_t>(at * strides_[axis]), wrap};
-    }
+    inside = inside && cell[axis] > 0 && cell[axis] < counts_[axis] - 1;
   }
-  Vec<D> wrap;
-  descend<D - 1>(steps, 0, wrap, visit);
-}
-
-template <int D>
-template <int Axis, typename VisitCell>
-void CellGrid<D>::descend(const std::array<Steps, D>& steps, std::size_t at, Vec<D>& wrap,
-                          const VisitCell& visit) {
-  for (int k = 0; k < steps[Axis].length; ++k) {
-    wrap[Axis] = steps[Axis].step[k].wrap;
-    if constexpr (Axis == 0) {
-      visit(at + steps[Axis].step[k].offset, wrap);
-    } else {
-      descend<Axis - 1>(steps, at + steps[Axis].step[k].offset, wrap, visit);
-    }
+  Vec<D> wrap = Vec<D>::Zero();
+  if (inside) {
+    visit_cells<D - 1, true>(cell, stencil, 0, wrap, visit);
+  } else {
+    visit_cells<D - 1, false>(cell, stencil, 0, wrap, visit);
   }
 }
 
 template <int D>
 template <typename Visit>
-void CellGrid<D>::visit(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const {
-  visit_cells(cell, stencil, [&](std::size_t at, const Vec<D>& wrap) {
-    const Line* line = &lines_[at];
-    for (;;) {
-      for (std::uint32_t k = 0; k < line->count; ++k) visit(line->disks[k], wrap);
-      if (line->next == kNone) return;
-      line = &lines_[line->next];
+[[gnu::always_inline]] inline void CellGrid<D>::visit(const IntVec<D>& cell, const Stencil& stencil,
+                                                      const Visit& visit) const {
+  const Line* const lines = lines_.data();
+  const auto visit_chain = [&](std::size_t at, const Vec<D>* wrap) [[gnu::always_inline]] {
+    const Line* line = &lines[at];
+    visit(*line, wrap);
+    while (line->next != kNone) {
+      line = &lines[line->next];
+      visit(*line, wrap);
     }
-  });
+  };
+  visit_cells(cell, stencil, visit_chain);
 }
 
 template <int D>
 template <typename Visit>
-void CellGrid<D>::visit_lines(const IntVec<D>& cell, const Stencil& stencil,
-                              const Visit& visit) const {
-  visit_cells(cell, stencil, [&](std::size_t at, const Vec<D>&) { visit(&lines_[at]); });
+void CellGrid<D>::visit_first_lines(const IntVec<D>& cell, const Stencil& stencil,
+                                    const Visit& visit) const {
+  visit_cells(cell, stencil, [&](std::size_t at, const Vec<D>*) { visit(lines_[at]); });
 }
 
 extern template class CellGrid<2>;

@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kCellBorder = 0xfffffffeu;
 
 /// An entry of the event queue: something that a disk does at a time.
 struct Event {
-  double time = 0.0;          ///< on the moving base
+  double time = 0.0;  ///< on the moving base
   std::uint32_t disk = 0;
   std::uint32_t partner = 0;  ///< a disk, kWall + side, or kCellBorder
 };

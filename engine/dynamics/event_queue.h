@@ -44,14 +44,14 @@ class EventQueue {
   void next_bucket();
   void spread_row();
 
-  double per_width_ = 1.0;           // buckets per time
-  double origin_ = 0.0;              // time at which bucket 0 starts
-  std::uint64_t bucket_ = 0;         // number of the bucket at hand
-  unsigned row_shift_ = 8;           // log2 of the buckets per row
-  std::vector<Event> current_;       // the bucket at hand, a heap with the earliest in front
+  double per_width_ = 1.0;      // buckets per time
+  double origin_ = 0.0;         // time at which bucket 0 starts
+  std::uint64_t bucket_ = 0;    // number of the bucket at hand
+  unsigned row_shift_ = 8;      // log2 of the buckets per row
+  std::vector<Event> current_;  // the bucket at hand, a heap with the earliest in front
   std::vector<std::vector<Event>> buckets_;  // [1 << row_shift_] of the row at hand
   std::vector<std::vector<Event>> rows_;     // [kRows], a ring over the coming rows
-  std::vector<Event> later_;         // beyond the last row
+  std::vector<Event> later_;                 // beyond the last row
   std::size_t in_buckets_ = 0;
   std::size_t in_rows_ = 0;
 };

@@ -13,7 +13,7 @@ namespace clatter {
 /// The laws of one run, constant while it lasts.
 template <int D>
 struct Model {
-  Vec<D> box = Vec<D>::Zero();  ///< edge lengths
+  Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
   std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
   double diameter = 1.0;
   double restitution = 1.0;  ///< alpha of disk-disk collisions
@@ -21,7 +21,8 @@ struct Model {
 
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// Where the centres of disks that touch a wall lie: `end` 0 is the near wall of the axis, 1 the far.
+  /// Where the centres of disks that touch a wall lie: `end` 0 is the near wall of the axis, 1 the
+  /// far.
   double wall_plane(int axis, int end) const {
     return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;
   }

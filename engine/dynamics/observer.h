@@ -13,8 +13,8 @@ template <int D>
 struct PairCollision {
   double time = 0.0;  ///< on the moving base
   std::array<std::uint32_t, 2> disks{};
-  std::array<Flight<D>, 2> before;    ///< flights that end here
-  std::array<Vec<D>, 2> position;     ///< centres, in the frames of those flights
+  std::array<Flight<D>, 2> before;     ///< flights that end here
+  std::array<Vec<D>, 2> position;      ///< centres, in the frames of those flights
   Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 at the image that touches
   Vec<D> impulse = Vec<D>::Zero();     ///< momentum that disk 0 gains, disk 1 loses
   std::array<double, 2> energy{};      ///< kinetic energy that each gains
@@ -25,8 +25,8 @@ template <int D>
 struct WallCollision {
   double time = 0.0;  ///< on the moving base
   std::uint32_t disk = 0;
-  int side = 0;                     ///< the Side
-  Flight<D> before;                 ///< flight that ends here
+  int side = 0;                      ///< the Side
+  Flight<D> before;                  ///< flight that ends here
   Vec<D> position = Vec<D>::Zero();  ///< centre, in the frame of that flight
   Vec<D> impulse = Vec<D>::Zero();   ///< momentum that the disk gains
   double energy = 0.0;               ///< kinetic energy that the disk gains

@@ -33,32 +33,77 @@ static bool image_before(const IntVec<D>& a, const IntVec<D>& b, bool swap) {
 
 template <int D>
 void Prediction<D>::offer(double time, std::uint32_t disk, std::uint32_t partner,
-                          const Vec<D>& image, Plan<D>& plan) const {
+                          const IntVec<D>& image, Plan<D>& plan) const {
   if (time > plan.contact || time == kNever) return;
-  const IntVec<D> whole = image.template cast<int>();
   if (time == plan.contact) {
-    const bool first = partner < plan.partner ||
-                       (partner == plan.partner && image_before<D>(whole, plan.image, partner < disk));
+    const bool first =
+        partner < plan.partner ||
+        (partner == plan.partner && image_before<D>(image, plan.image, partner < disk));
     if (!first) return;
   }
   plan.contact = time;
   plan.partner = partner;
   plan.partner_flight = partner < kWall ? disks_[partner].flight.number : 0;
-  plan.image = whole;
+  plan.image = image;
 }
 
 template <int D>
 void Prediction<D>::look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
                                   Plan<D>& plan) const {
+  using Line = typename CellGrid<D>::Line;
+  Neighbours<D> near;
+  const auto add = [&](const Line& line, const Vec<D>* wrap) [[gnu::always_inline]] {
+    // A fixed number is copied, for how many a cell holds cannot be foreseen and few hold more.
+    std::copy_n(line.disks.begin(), 8, near.disks + near.size);
+    if (line.count > 8)
+      std::copy_n(line.disks.begin() + 8, Line::kCapacity - 8, near.disks + near.size + 8);
+    if (wrap) std::fill_n(near.wraps + near.size, line.count, *wrap);
+    near.wrapped = wrap != nullptr;
+    near.size += static_cast<int>(line.count);
+    if (near.size > Neighbours<D>::kCapacity - Line::kCapacity) weigh(disk, near, plan);
+  };
+  grid_.visit(plan.cell, stencil, add);
+  weigh(disk, near, plan);
+}
+
+// The disk itself may be among its neighbours: it does not move against itself, so it never
+// touches.
+template <int D>
+void Prediction<D>::weigh(std::uint32_t disk, Neighbours<D>& near, Plan<D>& plan) const {
   const Disk<D>& self = disks_[disk];
-  grid_.visit(plan.cell, stencil, [&](std::uint32_t other, const Vec<D>& wrap) {
-    if (other == disk) return;
-    const Disk<D>& partner = disks_[other];
-    const Vec<D> image = partner.image - self.image - wrap;
+  Candidates<D> candidates;
+  for (int i = 0; i < near.size; ++i) {
+    const Disk<D>& other = disks_[near.disks[i]];
+    Vec<D> image = other.image - self.image;
+    if (near.wrapped) image -= near.wraps[i];
     const Vec<D> shift = image.cwiseProduct(model_.box);
-    const double time = contact_time<D>(self.flight, partner.flight, shift, model_.diameter);
-    offer(time, disk, other, image, plan);
-  });
+    for (int k = 0; k < D; ++k) {
+      candidates.r[k][i] = other.flight.r[k];
+      candidates.v[k][i] = other.flight.v[k];
+      candidates.shift[k][i] = shift[k];
+    }
+    candidates.time[i] = other.flight.time;
+  }
+  contact_times<D>(self.flight.r.data(), self.flight.v.data(), self.flight.time, model_.diameter,
+                   candidates, near.size);
+  double first = kNever;
+  for (int i = 0; i < near.size; ++i) first = std::min(first, candidates.contact[i]);
+  const bool touching = first == kTouching;
+  if (first <= plan.contact && first < kNever) {
+    for (int i = 0; i < near.size; ++i) {
+      double time = candidates.contact[i];
+      if (!touching && time != first) continue;
+      const std::uint32_t other = near.disks[i];
+      Vec<D> image = disks_[other].image - self.image;
+      if (near.wrapped) image -= near.wraps[i];
+      if (time == kTouching) {
+        time = contact_time<D>(self.flight, disks_[other].flight, image.cwiseProduct(model_.box),
+                               model_.diameter);
+      }
+      offer(time, disk, other, image.template cast<int>(), plan);
+    }
+  }
+  near.size = 0;
 }
 
 template <int D>
@@ -68,32 +113,34 @@ void Prediction<D>::look_at_walls(std::uint32_t disk, Plan<D>& plan) const {
     if (model_.periodic(axis)) continue;
     for (const int end : {0, 1}) {
       if (plan.cell[axis] != (end ? grid_.counts()[axis] - 1 : 0)) continue;
-      const double time = plane_contact_time<D>(flight, axis, model_.wall_plane(axis, end),
-                                                end ? -1.0 : 1.0);
-      offer(time, disk, kWall + static_cast<std::uint32_t>(2 * axis + end), Vec<D>::Zero(), plan);
+      const double time =
+          plane_contact_time<D>(flight, axis, model_.wall_plane(axis, end), end ? -1.0 : 1.0);
+      offer(time, disk, kWall + static_cast<std::uint32_t>(2 * axis + end), IntVec<D>::Zero(),
+            plan);
     }
   }
 }
 
+// Written without branches on the velocity's signs, which nothing foretells.
 template <int D>
 void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const {
   const Disk<D>& self = disks_[disk];
-  plan.crossing = kNever;
+  double first = kNever;
+  int first_axis = 0;
   for (int axis = 0; axis < D; ++axis) {
     const double v = self.flight.v[axis];
-    if (v == 0.0) continue;
-    const int step = v > 0.0 ? 1 : -1;
-    const int next = plan.cell[axis] + step;
-    if (!model_.periodic(axis) && (next < 0 || next >= grid_.counts()[axis])) continue;
-    const double border = grid_.border(axis, step > 0 ? next : plan.cell[axis]) +
-                          self.image[axis] * model_.box[axis];
-    const double time = std::max(now, self.flight.time + (border - self.flight.r[axis]) / v);
-    if (time < plan.crossing) {
-      plan.crossing = time;
-      plan.crossing_axis = static_cast<std::int8_t>(axis);
-      plan.crossing_step = static_cast<std::int8_t>(step);
-    }
+    const int border = plan.cell[axis] + (v > 0.0);
+    const bool outer = border == 0 || border == grid_.counts()[axis];
+    const double place = grid_.border(axis, border) + self.image[axis] * model_.box[axis];
+    const double time = self.flight.time + (place - self.flight.r[axis]) / v;
+    const bool leaves = v != 0.0 && !(outer && !model_.periodic(axis));
+    const double crossing = leaves ? std::max(now, time) : kNever;
+    first_axis = crossing < first ? axis : first_axis;
+    first = std::min(first, crossing);
   }
+  plan.crossing = first;
+  plan.crossing_axis = static_cast<std::int8_t>(first_axis);
+  plan.crossing_step = self.flight.v[first_axis] > 0.0 ? 1 : -1;
 }
 
 template class Prediction<2>;

@@ -8,16 +8,17 @@
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/model.h"
 #include "engine/physics/contact.h"
+#include "engine/physics/contact_kernel.h"
 
 namespace clatter {
 
 /// What a disk will do next: the first contact known of, and when it leaves its cell.
 template <int D>
 struct Plan {
-  double contact = kNever;           ///< time of the first contact; kNever: none known
-  double crossing = kNever;          ///< time at which it leaves its cell
-  std::uint32_t partner = 0;         ///< of the contact: a disk, or kWall + side
-  std::uint32_t partner_flight = 0;  ///< number of the partner's flight that the contact is with
+  double contact = kNever;              ///< time of the first contact; kNever: none known
+  double crossing = kNever;             ///< time at which it leaves its cell
+  std::uint32_t partner = 0;            ///< of the contact: a disk, or kWall + side
+  std::uint32_t partner_flight = 0;     ///< number of the partner's flight that the contact is with
   IntVec<D> image = IntVec<D>::Zero();  ///< box lengths to add to this disk's r minus the partner's
   IntVec<D> cell = IntVec<D>::Zero();
   std::int8_t crossing_axis = 0;
@@ -28,6 +29,17 @@ struct Plan {
     if (contact <= crossing) return {contact, disk, partner};
     return {crossing, disk, kCellBorder};
   }
+};
+
+/// Disks near one, as the grid's lines hand them over.
+template <int D>
+struct Neighbours {
+  static constexpr int kCapacity = Candidates<D>::kCapacity;
+
+  std::uint32_t disks[kCapacity];
+  Vec<D> wraps[kCapacity];  ///< see CellGrid::visit; set where `wrapped`
+  bool wrapped = false;
+  int size = 0;
 };
 
 /// Finds what a disk will do next, from stored states alone.
@@ -48,9 +60,10 @@ class Prediction {
  private:
   void look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
                      Plan<D>& plan) const;
+  void weigh(std::uint32_t disk, Neighbours<D>& near, Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, Plan<D>& plan) const;
   void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
-  void offer(double time, std::uint32_t disk, std::uint32_t partner, const Vec<D>& image,
+  void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
 
   const Model<D>& model_;

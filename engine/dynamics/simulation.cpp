@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/dynamics/fetch.h"
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
 #include "engine/physics/collision.h"
@@ -28,7 +29,9 @@ template <int D>
 static Vec<D> boxes_off(const Model<D>& model, const Vec<D>& position) {
   Vec<D> boxes = Vec<D>::Zero();
   for (int axis = 0; axis < D; ++axis) {
-    if (model.periodic(axis)) boxes[axis] = std::floor(position[axis] / model.box[axis]);
+    const bool inside = position[axis] >= 0.0 && position[axis] < model.box[axis];
+    if (inside || !model.periodic(axis)) continue;
+    boxes[axis] = std::floor(position[axis] / model.box[axis]);
   }
   return boxes;
 }
@@ -210,8 +213,7 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   const Vec<D> r_b = b.flight.at(now_);
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = a.flight.v - b.flight.v;
-  checks_.deepest_overlap =
-      std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
+  checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
   // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
   // event counts, so that it is not predicted again from the same states.
   Vec<D> impulse = Vec<D>::Zero();
@@ -279,8 +281,8 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   const Vec<D> r = disk.flight.at(now_);
   const Vec<D> v = velocity_after_wall(number, side);
   if (!observers_.empty()) {
-    const WallCollision<D> collision{now_, number, side, disk.flight, r, v - disk.flight.v,
-                                     energy_gain<D>(disk.flight.v, v)};
+    const WallCollision<D> collision{
+        now_, number, side, disk.flight, r, v - disk.flight.v, energy_gain<D>(disk.flight.v, v)};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   renew_flight(disk, r, v);
@@ -320,16 +322,20 @@ double Simulation<D>::deepest_overlap() const {
   double deepest = 0.0;
   for (std::uint32_t i = 0; i < disks_.size(); ++i) {
     const Vec<D> r = disks_[i].flight.at(now_);
-    grid_.visit(plans_[i].cell, {}, [&](std::uint32_t j, const Vec<D>& wrap) {
-      if (j <= i) return;
-      const Vec<D> image = disks_[j].image - disks_[i].image - wrap;
-      const Vec<D> x = r - disks_[j].flight.at(now_) + image.cwiseProduct(model_.box);
-      deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
+    grid_.visit(plans_[i].cell, {}, [&](const auto& line, const Vec<D>* wrap) {
+      for (std::uint32_t k = 0; k < line.count; ++k) {
+        const std::uint32_t j = line.disks[k];
+        if (j <= i) continue;
+        Vec<D> image = disks_[j].image - disks_[i].image;
+        if (wrap) image -= *wrap;
+        const Vec<D> x = r - disks_[j].flight.at(now_) + image.cwiseProduct(model_.box);
+        deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
+      }
     });
     for (int axis = 0; axis < D; ++axis) {
       if (model_.periodic(axis)) continue;
-      const double beyond = std::max(model_.wall_plane(axis, 0) - r[axis],
-                                     r[axis] - model_.wall_plane(axis, 1));
+      const double beyond =
+          std::max(model_.wall_plane(axis, 0) - r[axis], r[axis] - model_.wall_plane(axis, 1));
       deepest = std::max(deepest, beyond / model_.diameter);
     }
   }
@@ -341,7 +347,6 @@ double Simulation<D>::deepest_overlap() const {
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();
-  const auto fetch = [](const auto& object) { __builtin_prefetch(&object); };
   queue_.look_ahead(8, [&](const Event& event) {
     fetch(disks_[event.disk]);
     fetch(plans_[event.disk]);
@@ -351,11 +356,12 @@ void Simulation<D>::fetch_ahead() {
       fetch(disks_[event.partner]);
       fetch(plans_[event.partner]);
     }
-    grid_.visit_lines(plans_[event.disk].cell, {}, [](const auto* line) { __builtin_prefetch(line); });
+    grid_.visit_first_lines(plans_[event.disk].cell, {}, [](const auto& line) { fetch(line); });
   });
   queue_.look_ahead(3, [&](const Event& event) {
-    grid_.visit(plans_[event.disk].cell, {},
-                [&](std::uint32_t other, const Vec<D>&) { fetch(disks_[other]); });
+    grid_.visit_first_lines(plans_[event.disk].cell, {}, [&](const auto& line) {
+      for (std::uint32_t k = 0; k < line.count; ++k) fetch(disks_[line.disks[k]]);
+    });
   });
 }
 

@@ -19,12 +19,12 @@ struct FieldMap {
 
 /// The gas at one instant, evaluated exactly: all that the renderer knows of the engine.
 struct Snapshot {
-  double time = 0.0;      ///< simulation time
-  Vec2 box = {0.0, 0.0};  ///< Lx, Ly
-  double diameter = 1.0;  ///< of every disk
+  double time = 0.0;                         ///< simulation time
+  Vec2 box = {0.0, 0.0};                     ///< Lx, Ly
+  double diameter = 1.0;                     ///< of every disk
   std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
-  std::vector<Vec2> positions;   ///< [N] centres, wrapped into the box, in original order
-  std::vector<Vec2> velocities;  ///< [N]
+  std::vector<Vec2> positions;    ///< [N] centres, wrapped into the box, in original order
+  std::vector<Vec2> velocities;   ///< [N]
   std::optional<FieldMap> field;  ///< averaged over the view's window; absent: not asked for
   double temperature = 0.0;       ///< granular temperature T = (m/2N) sum v^2
   std::uint64_t collisions = 0;   ///< disk-disk collisions since time 0

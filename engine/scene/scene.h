@@ -20,7 +20,8 @@ enum class WallKind {
 struct Wall {
   WallKind kind = WallKind::Static;
   double restitution = 1.0;  ///< alpha_w >= 0 of static and driven walls
-  double drive_speed = 0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity, Eq. (2.17)
+  double drive_speed =
+      0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity, Eq. (2.17)
   double temperature = 1.0;  ///< T_w >= 0 of a thermal wall
 };
 
@@ -51,10 +52,10 @@ enum class Field { Density, VelocityX, VelocityY, Temperature, TemperatureX, Tem
 
 /// What `clatter measure` averages.
 struct Measure {
-  double burn_in = 100.0;        ///< time before averages start, >= 0
-  double duration = 1000.0;      ///< time averaged over, > 0
-  double series_interval = 1.0;  ///< spacing of temperature_series, > 0
-  std::vector<Field> fields;     ///< profiles asked for; empty: none
+  double burn_in = 100.0;               ///< time before averages start, >= 0
+  double duration = 1000.0;             ///< time averaged over, > 0
+  double series_interval = 1.0;         ///< spacing of temperature_series, > 0
+  std::vector<Field> fields;            ///< profiles asked for; empty: none
   std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
 };
 
@@ -67,10 +68,11 @@ enum class Palette { Viridis, Inferno };
 /// What is drawn.
 struct View {
   ColourBy colour_by = ColourBy::Speed;
-  std::optional<Field> field;  ///< the heatmap below the disks; absent: none, and nothing is averaged
-  double window = 5.0;         ///< averaging time of the live field, > 0
-  double speed = 1.0;          ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;  ///< of the disks
+  std::optional<Field>
+      field;            ///< the heatmap below the disks; absent: none, and nothing is averaged
+  double window = 5.0;  ///< averaging time of the live field, > 0
+  double speed = 1.0;   ///< simulation time per second of film, > 0
+  Palette palette = Palette::Viridis;          ///< of the disks
   std::optional<std::array<double, 2>> range;  ///< colour range of the disks; absent: automatic
   bool overlay = true;                         ///< time, title, colour bar, scale bar
 };

@@ -1,0 +1,66 @@
+#include "engine/physics/contact_kernel.h"
+
+#include "engine/physics/encounter.h"
+
+namespace clatter {
+
+// The loop runs over whole vectors: what lies beyond `size` is left from earlier and not looked at.
+template <int D>
+[[gnu::always_inline]] static inline void loop(const double* r, const double* v, double time,
+                                               double diameter, Candidates<D>& candidates,
+                                               int size) {
+  const int rounded_up = (size + 7) & ~7;
+  for (int i = 0; i < rounded_up; ++i) {
+    double r_i[D], v_i[D], shift_i[D];
+    for (int k = 0; k < D; ++k) {
+      r_i[k] = candidates.r[k][i];
+      v_i[k] = candidates.v[k][i];
+      shift_i[k] = candidates.shift[k][i];
+    }
+    candidates.contact[i] =
+        encounter_time<D>(r, v, time, r_i, v_i, candidates.time[i], shift_i, diameter);
+  }
+}
+
+#if defined(__x86_64__)
+template <int D>
+[[gnu::target("avx512f,avx512vl,prefer-vector-width=512")]] static void loop_avx512(
+    const double* r, const double* v, double time, double diameter, Candidates<D>& candidates,
+    int size) {
+  loop<D>(r, v, time, diameter, candidates, size);
+}
+
+template <int D>
+[[gnu::target("avx2")]] static void loop_avx2(const double* r, const double* v, double time,
+                                              double diameter, Candidates<D>& candidates,
+                                              int size) {
+  loop<D>(r, v, time, diameter, candidates, size);
+}
+#endif
+
+template <int D>
+static void loop_baseline(const double* r, const double* v, double time, double diameter,
+                          Candidates<D>& candidates, int size) {
+  loop<D>(r, v, time, diameter, candidates, size);
+}
+
+template <int D>
+static auto widest_loop() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+    return &loop_avx512<D>;
+  if (__builtin_cpu_supports("avx2")) return &loop_avx2<D>;
+#endif
+  return &loop_baseline<D>;
+}
+
+template <int D>
+void contact_times(const double* r, const double* v, double time, double diameter,
+                   Candidates<D>& candidates, int size) {
+  static const auto chosen = widest_loop<D>();
+  chosen(r, v, time, diameter, candidates, size);
+}
+
+template void contact_times<2>(const double*, const double*, double, double, Candidates<2>&, int);
+
+}  // namespace clatter
