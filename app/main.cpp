@@ -1,1 +1,5 @@
-int main() { return 0; }
+#include "app/commands.h"
+
+int main(int argc, char** argv) {
+  return clatter::run_program(argc, argv);
+}

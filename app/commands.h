@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/progress.h"
+#include "engine/scene/scene_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace clatter {
+
+/// What the program returns to the shell.
+enum ExitCode {
+  kOk = 0,
+  kFailed = 1,        ///< a run or a check failed
+  kWrongUse = 2,      ///< wrong use or a wrong scene
+  kPhysicalStop = 3,  ///< collapse, overlap
+  kInterrupted = 130  ///< after saving what there is
+};
+
+/// Flags that every command with a scene takes.
+struct CommonOptions {
+  std::string scene;                  ///< path or gallery name
+  std::vector<std::string> settings;  ///< "key=value" of each --set
+  std::uint64_t seed = 1;
+  std::optional<double> until;  ///< simulation time at which the run ends
+  int threads = 1;              ///< of picture encoders
+  bool quiet = false;           ///< nothing on stderr but errors
+  ProgressStyle progress = ProgressStyle::Auto;
+
+  /// The progress to show, given --quiet.
+  ProgressStyle shown_progress() const { return quiet ? ProgressStyle::None : progress; }
+};
+
+/// The scene with the flags' settings. Throws UserError.
+Scene load(const CommonOptions& options);
+
+/// Each adds its subcommand to the program; choosing it runs it and stores its exit code.
+void add_measure_command(CLI::App& program, int& exit_code);
+void add_render_command(CLI::App& program, int& exit_code);
+void add_check_command(CLI::App& program, int& exit_code);
+void add_scenes_command(CLI::App& program, int& exit_code);
+void add_bench_command(CLI::App& program, int& exit_code);
+
+/// Adds the flags of CommonOptions to a command; `options` outlives it.
+void add_common_flags(CLI::App& command, CommonOptions& options);
+
+/// Runs the program: parses the command line, runs the command, turns every error into a message on
+/// stderr and an exit code.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace clatter

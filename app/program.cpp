@@ -1,0 +1,85 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <map>
+
+#include "app/commands.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+Scene load(const CommonOptions& options) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : options.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UserError({"--set " + setting, 0, 0}, "no value is set",
+                      "write --set key=value, for instance --set disks.count=500");
+    }
+    overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  return load_scene(options.scene, overrides);
+}
+
+void add_common_flags(CLI::App& command, CommonOptions& options) {
+  command.add_option("scene", options.scene, "Scene file, or the name of a gallery scene")
+      ->required()
+      ->type_name("SCENE");
+  command
+      .add_option("--set", options.settings,
+                  "Change a key of the scene, e.g. --set disks.count=500 (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+  command.add_option("--until", options.until, "Simulation time at which the run ends")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--threads", options.threads, "Threads that encode pictures")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "Print nothing on stderr but errors");
+  command.add_option("--progress", options.progress, "How to show progress on stderr")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ProgressStyle>{
+          {"auto", ProgressStyle::Auto}, {"json", ProgressStyle::Json}, {"none", ProgressStyle::None}}))
+      ->type_name("auto|json|none");
+}
+
+static int report(const char* message, int code) {
+  std::fprintf(stderr, "clatter: %s\n", message);
+  return code;
+}
+
+int run_program(int argc, const char* const* argv) {
+  int exit_code = kOk;
+  try {
+    CLI::App program("Driven granular gases of hard disks: film and measure them.\n"
+                     "Start with:  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
+                     "clatter");
+    program.set_version_flag("--version", "clatter " CLATTER_VERSION);
+    program.require_subcommand(1);
+    program.failure_message(CLI::FailureMessage::simple);
+    add_render_command(program, exit_code);
+    add_measure_command(program, exit_code);
+    add_check_command(program, exit_code);
+    add_scenes_command(program, exit_code);
+    add_bench_command(program, exit_code);
+    if (argc < 2) {
+      std::fputs(program.help().c_str(), stderr);
+      return kWrongUse;
+    }
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return program.exit(error) == 0 ? kOk : kWrongUse;
+    }
+  } catch (const UserError& error) {
+    return report(error.what(), kWrongUse);
+  } catch (const PhysicalStop& error) {
+    return report(error.what(), kPhysicalStop);
+  } catch (const std::exception& error) {
+    return report(error.what(), kFailed);
+  }
+  return exit_code;
+}
+
+}  // namespace clatter

@@ -1,0 +1,22 @@
+#include "app/resources.h"
+
+#include <sys/resource.h>
+
+namespace clatter {
+
+static rusage usage() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage;
+}
+
+double cpu_seconds() {
+  const timeval time = usage().ru_utime;
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+std::uint64_t peak_memory_bytes() {
+  return static_cast<std::uint64_t>(usage().ru_maxrss) * 1024;
+}
+
+}  // namespace clatter

@@ -1,0 +1,133 @@
+#include "engine/dynamics/start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+
+#include "engine/dynamics/random_insertion.h"
+#include "engine/dynamics/simulation.h"
+#include "engine/physics/random.h"
+#include "engine/scene/lattice.h"
+
+namespace clatter {
+
+// Above, random insertion becomes slow; it jams at 0.547 (Feder 1980).
+static constexpr double kInsertionFraction = 0.5;
+// Above, the equilibrium fluid of hard disks ends (Bernard & Krauth 2011: 0.700).
+static constexpr double kFluidFraction = 0.7;
+
+static std::vector<Vec2> gaussian_velocities(std::size_t count, double temperature,
+                                             std::uint64_t seed) {
+  std::vector<Vec2> velocities(count);
+  Vec2 mean = Vec2::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(seed, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
+    const double x = random.normal();
+    velocities[i] = {x, random.normal()};
+    mean += velocities[i] / static_cast<double>(count);
+  }
+  double twice_energy = 0.0;
+  for (Vec2& v : velocities) {
+    if (count >= 2) v -= mean;
+    twice_energy += v.squaredNorm();
+  }
+  const double scale = std::sqrt(2.0 * static_cast<double>(count) * temperature / twice_energy);
+  for (Vec2& v : velocities) v = temperature > 0.0 ? Vec2(v * scale) : Vec2::Zero();
+  return velocities;
+}
+
+// A random choice of `count` of the sites.
+static void choose(std::vector<Vec2>& sites, std::size_t count, Random& random) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::swap(sites[i], sites[i + random.below(sites.size() - i)]);
+  }
+  sites.resize(count);
+}
+
+// |psi_m| = |<exp(i m theta)>| over all pairs closer than 1.5 diameters: the global bond order.
+static double bond_order(const Model<2>& model, const State<2>& state, int m) {
+  constexpr double kReach = 1.5;
+  Model<2> reach = model;
+  reach.diameter = kReach * model.diameter;
+  CellGrid<2> grid(reach, state.positions.size());
+  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
+    grid.insert(i, grid.cell_at(state.positions[i]));
+  }
+  std::complex<double> sum = 0.0;
+  double bonds = 0.0;
+  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
+    const Vec2& r = state.positions[i];
+    grid.visit(grid.cell_at(r), {}, [&](const auto& line, const Vec2* wrap) {
+      for (std::uint32_t k = 0; k < line.count; ++k) {
+        Vec2 x = state.positions[line.disks[k]] - r;
+        if (wrap) x += wrap->cwiseProduct(model.box);
+        if (line.disks[k] == i || x.norm() > reach.diameter) continue;
+        sum += std::polar(1.0, m * std::atan2(x.y(), x.x()));
+        bonds += 1.0;
+      }
+    });
+  }
+  return bonds > 0.0 ? std::abs(sum) / bonds : 0.0;
+}
+
+// Elastic motion from lattice sites until the bond order of the square and of the triangular lattice
+// is that of a fluid, or for long enough that it would have been.
+static std::vector<Vec2> melt(const Model<2>& model, std::vector<Vec2> sites, std::uint64_t seed) {
+  constexpr int kRounds = 10;
+  constexpr std::uint64_t kCollisionsPerRound = 20;  // per disk
+  const double count = static_cast<double>(sites.size());
+  const double square_order = std::max(0.1, 3.0 / std::sqrt(count));
+  const double triangular_order = std::max(0.3, 3.0 / std::sqrt(count));
+  Model<2> elastic = model;
+  elastic.restitution = 1.0;
+  for (auto& wall : elastic.walls) {
+    if (wall) wall = Wall{};
+  }
+  Simulation<2> simulation(elastic, {sites, gaussian_velocities(sites.size(), 1.0, ~seed)});
+  for (int round = 1; round <= kRounds; ++round) {
+    simulation.run_until_collisions(kCollisionsPerRound * round * sites.size() / 2);
+    const State<2> state = simulation.state();
+    if (bond_order(elastic, state, 4) < square_order &&
+        bond_order(elastic, state, 6) < triangular_order) {
+      break;
+    }
+  }
+  return simulation.state().positions;
+}
+
+static std::vector<Vec2> random_positions(const Scene& scene, const Model<2>& model,
+                                          const Room& room) {
+  const int count = scene.disks.count;
+  Random random(model.seed, Stream::Placement, 0, 0);
+  if (scene.area_fraction() <= kInsertionFraction) {
+    std::vector<Vec2> placed = random_insertion(room, count, random);
+    if (static_cast<int>(placed.size()) == count) return placed;
+  }
+  std::vector<Vec2> sites = square_lattice(room, count);
+  const bool square = !sites.empty();
+  if (!square) sites = hexagonal_lattice(room, count);
+  choose(sites, static_cast<std::size_t>(count), random);
+  if (!square || scene.area_fraction() > kFluidFraction) return sites;
+  return melt(model, std::move(sites), model.seed);
+}
+
+State<2> start_state(const Scene& scene, std::uint64_t seed) {
+  const Model<2> model = model_of(scene, seed);
+  const Room room{scene.box, {scene.periodic(0), scene.periodic(1)}, model.diameter};
+  const auto count = static_cast<std::size_t>(scene.disks.count);
+  State<2> state;
+  if (scene.disks.start.layout == Layout::Random) {
+    state.positions = random_positions(scene, model, room);
+  } else {
+    state.positions = hexagonal_lattice(room, scene.disks.count);
+    if (state.positions.empty()) state.positions = square_lattice(room, scene.disks.count);
+    Random random(seed, Stream::Placement, 0, 0);
+    choose(state.positions, count, random);
+  }
+  state.velocities = gaussian_velocities(count, scene.disks.start.temperature, seed);
+  return state;
+}
+
+}  // namespace clatter

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/measure/cell_integrals.h"
+#include "engine/measure/estimate.h"
+#include "engine/measure/totals.h"
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// Profiles across x, averaged over y and time; [columns] each.
+struct Profile {
+  std::vector<double> edges;  ///< [columns + 1] along x
+  std::vector<Estimate> density;
+  std::vector<Estimate> temperature_x;
+  std::vector<Estimate> temperature_y;
+};
+
+/// What a run measured, over the time after the burn-in. Parts that the scene does not have are
+/// absent.
+struct Measured {
+  double duration = 0.0;      ///< time averaged over
+  std::uint64_t disk_disk = 0;  ///< collisions in that time
+  std::uint64_t disk_wall = 0;
+  Estimate temperature, temperature_x, temperature_y;
+  Estimate kurtosis_excess_x, kurtosis_excess_y;  ///< <v^4>/(3 <v^2>^2) - 1
+  Estimate collision_rate;  ///< disk-disk collisions per disk and time; each counts for both
+  std::optional<Estimate> walls_in;  ///< energy per time that the walls give
+  Estimate dissipated;               ///< energy per time lost in disk-disk collisions, > 0
+  double ledger_residual = 0.0;      ///< see Totals::ledger_residual
+  std::array<std::optional<Estimate>, 4> pressure;  ///< on each Side: momentum per time and length
+  std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
+  std::optional<Profile> profile;
+  std::vector<double> series_time;         ///< 0, series_interval, ...; burn-in included
+  std::vector<double> series_temperature;  ///< T at those times
+};
+
+/// Observes a simulation as the scene's [measure] block asks.
+class Measurement {
+ public:
+  /// Averages from burn_in to `end`, simulation times; watches from now on.
+  Measurement(Simulation<2>& simulation, const Measure& measure, double end);
+
+  /// What has been measured up to the simulation's time.
+  Measured result();
+
+ private:
+  void start();
+  void close_window();
+
+  Simulation<2>& simulation_;
+  Measure measure_;
+  Totals<2> totals_;
+  std::optional<CellIntegrals<2>> cells_;
+  double window_ = 0.0;  // duration of each
+  bool started_ = false;
+  EventCounts counts_at_start_;
+  std::vector<WindowTotals<2>> windows_;
+  std::vector<std::vector<CellMoments<2>>> columns_;  // [windows][columns]
+  std::vector<double> series_time_;
+  std::vector<double> series_temperature_;
+};
+
+}  // namespace clatter
