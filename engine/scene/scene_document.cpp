@@ -1,6 +1,7 @@
 #include "engine/scene/scene_document.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "engine/scene/text.h"
 
@@ -90,7 +91,7 @@ static void replace(toml::table& into, toml::table& changes) {
       replace(*inner, *change);
     } else {
       into.erase(key);  // the key too, for it carries the place
-      value.visit([&](auto& node) { into.insert(key, std::move(node)); });
+      value.visit([&into, &key = key](auto& node) { into.insert(key, std::move(node)); });
     }
   }
 }

@@ -10,7 +10,8 @@
 // Every key of the scene file, in the order in which it is written, told once. A visitor passes
 // over the keys to list, read or write them (key_lister.h, key_reader.h, key_writer.h); it has
 //   value(key, variable, limits, presence)   for numbers, flags, text and arrays of numbers,
-//   choice(key, variable, names, presence)   for enumerations,
+//   value(key, optional, limits)             for a number that may be absent,
+//   choice(key, variable, names, presence)   for enumerations, optional ones, and lists of them,
 //   table(key, function)                     for a table whose keys the function passes over,
 //   table(key, optional, function)           for one that may be absent.
 

@@ -183,7 +183,11 @@ TEST_CASE("a scene as JSON has the keys of the file") {
 }
 
 TEST_CASE("mistakes are told with their place and what to do") {
-  const std::vector<std::pair<std::string, std::string>> cases = {
+  struct Case {
+    std::string text;
+    std::string message;
+  };
+  const std::vector<Case> cases = {
       // syntax
       {"title = \"a\"\nbox = = 3\n", "s.toml:2:7: "},
       {"title = \"\xff\"\n" + kDisks, "s.toml:1:9: Encountered invalid utf-8 sequence"},
@@ -266,12 +270,12 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {"[disks]\ncount = 2000000000\n",
        "s.toml:2:1: 2000000000 disks do not fit into the box; it holds at most "},
   };
-  for (const auto& [text, message] : cases) {
-    CAPTURE(text);
-    CAPTURE(message);
-    const std::string what = refusal(text);
+  for (const Case& mistake : cases) {
+    CAPTURE(mistake.text);
+    CAPTURE(mistake.message);
+    const std::string what = refusal(mistake.text);
     CAPTURE(what);
-    CHECK(what.starts_with(message));
+    CHECK(what.starts_with(mistake.message));
   }
 }
 
