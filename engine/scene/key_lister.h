@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clatter {
+
+/// Visitor that lists the keys which a scene file may have, tables among them, each with its whole
+/// dotted path.
+class KeyLister {
+ public:
+  template <class... Rest>
+  void value(std::string_view key, Rest&&...) {
+    keys_.push_back(prefix_ + std::string(key));
+  }
+
+  template <class... Rest>
+  void choice(std::string_view key, Rest&&...) {
+    value(key);
+  }
+
+  template <class Visit>
+  void table(std::string_view key, Visit visit) {
+    value(key);
+    const std::string outer = prefix_;
+    prefix_ = keys_.back() + '.';
+    visit(*this);
+    prefix_ = outer;
+  }
+
+  template <class T, class Visit>
+  void table(std::string_view key, const std::optional<T>&, Visit visit) {
+    T any;
+    table(key, [&](KeyLister& io) { visit(io, any); });
+  }
+
+  const std::vector<std::string>& keys() const { return keys_; }
+
+ private:
+  std::string prefix_;  // path of the table being visited and a dot; empty at the top
+  std::vector<std::string> keys_;
+};
+
+}  // namespace clatter

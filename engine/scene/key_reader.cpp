@@ -1,0 +1,146 @@
+#include "engine/scene/key_reader.h"
+
+#include "engine/scene/scene_document.h"
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+/// "numbers between 0 and 1", "a number greater than 0": what the limits allow.
+static std::string within(const std::string& what, Limits limits) {
+  if (limits.lowest == limits.highest) return number_text(limits.lowest);
+  if (limits.above) return what + " greater than " + number_text(limits.lowest);
+  if (limits.highest < Limits().highest) {
+    return what + " between " + number_text(limits.lowest) + " and " + number_text(limits.highest);
+  }
+  return limits.lowest > Limits().lowest ? what + " of at least " + number_text(limits.lowest)
+                                         : what;
+}
+
+/// The value as a person would write it; a table or a date by its type only.
+static std::string value_text(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return number_text(number->get());
+  if (const auto* number = node.as_integer()) return std::to_string(number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* array = node.as_array()) {
+    std::string list;
+    for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + value_text(item);
+    return '[' + list + ']';
+  }
+  return node.is_table() ? "this table" : "a date";
+}
+
+/// The value as a message quotes it.
+static std::string shown(const toml::node& node) {
+  constexpr std::size_t kLongest = 40;
+  const std::string text = value_text(node);
+  if (text.size() <= kLongest) return text;
+  return node.is_array() ? "this long array" : "this long text";
+}
+
+const toml::node* KeyReader::find(std::string_view key, Presence presence) const {
+  const toml::node* node = table_ ? table_->get(key) : nullptr;
+  const Place place = place_of(root_, path(key), file_);
+  if (node && presence == Presence::Forbidden) {
+    throw UserError(place, "'" + path(key) + "' has no meaning for this kind of wall",
+                    "remove it or choose another kind");
+  }
+  if (!node && presence == Presence::Required) {
+    throw UserError(place, "'" + path(key) + "' is missing", "give it a value");
+  }
+  return node;
+}
+
+void KeyReader::refuse(std::string_view key, const toml::node& node,
+                       const std::string& wanted) const {
+  throw UserError(place_of(root_, path(key), file_), "'" + path(key) + "' cannot be " + shown(node),
+                  "give " + wanted);
+}
+
+void KeyReader::refuse_name(std::string_view key, const toml::node& node,
+                            const std::vector<std::string>& names) const {
+  const std::string_view near = near_miss(node.value_or(std::string_view()), names);
+  std::string wanted;
+  for (const std::string& name : names) wanted += (wanted.empty() ? "" : ", ") + quoted(name);
+  if (!near.empty()) wanted += "; did you mean " + quoted(near) + "?";
+  refuse(key, node, (names.size() > 1 ? "one of " : "") + wanted);
+}
+
+/// Whole numbers count as numbers: a person writes 20 for 20.0.
+static std::optional<double> number_in(const toml::node& node, Limits limits) {
+  double number = 0.0;
+  if (const auto* whole = node.as_integer()) {
+    number = static_cast<double>(whole->get());
+  } else if (const auto* real = node.as_floating_point()) {
+    number = real->get();
+  } else {
+    return std::nullopt;
+  }
+  return limits.allow(number) ? std::optional(number) : std::nullopt;
+}
+
+/// The two numbers of an array; absent where it is anything else.
+static std::optional<std::array<double, 2>> pair_in(const toml::node& node, Limits limits) {
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != 2) return std::nullopt;
+  const auto first = number_in((*array)[0], limits);
+  const auto second = number_in((*array)[1], limits);
+  if (!first || !second) return std::nullopt;
+  return {{*first, *second}};
+}
+
+std::string KeyReader::read(const toml::node& node, Limits limits, double& value) {
+  const auto number = number_in(node, limits);
+  value = number.value_or(value);
+  return number ? "" : within("a number", limits);
+}
+
+std::string KeyReader::read(const toml::node& node, Limits limits, int& value) {
+  const auto number = number_in(node, limits);
+  if (!number || !node.is_integer()) return within("a whole number", limits);
+  value = static_cast<int>(*number);
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits, bool& value) {
+  if (!node.is_boolean()) return "true or false";
+  value = node.as_boolean()->get();
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits, std::string& value) {
+  if (!node.is_string()) return "a text between quotes";
+  value = node.as_string()->get();
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
+  const std::string wanted = "two numbers" + within("", limits) + ", along x and y";
+  const toml::array* array = node.as_array();
+  if (array && array->size() == 3) {
+    return wanted + ": a third asks for spheres, which are not available yet";
+  }
+  const auto pair = pair_in(node, limits);
+  if (!pair) return wanted;
+  value = {(*pair)[0], (*pair)[1]};
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits limits, std::array<int, 2>& value) {
+  const auto pair = pair_in(node, limits);
+  if (!pair || !node.as_array()->is_homogeneous(toml::node_type::integer)) {
+    return "two whole numbers" + within("", limits) + ", along x and y";
+  }
+  value = {static_cast<int>((*pair)[0]), static_cast<int>((*pair)[1])};
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits limits,
+                            std::optional<std::array<double, 2>>& range) {
+  const bool automatic = node.value<std::string_view>() == "auto";
+  range = pair_in(node, limits);
+  const bool ascends = range && (*range)[0] < (*range)[1];
+  return automatic || ascends ? "" : "\"auto\" or two numbers [low, high] with low < high";
+}
+
+}  // namespace clatter

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+/// Visitor that reads every key of a parsed scene file into its variable, which keeps its default
+/// where the key is absent. Throws UserError at what is missing, of the wrong type or out of range.
+class KeyReader {
+ public:
+  /// `file` is the name that errors about missing keys carry.
+  KeyReader(const toml::table& root, std::string file)
+      : root_(root), table_(&root), file_(std::move(file)) {}
+
+  template <class T>
+  void value(std::string_view key, T& value, Limits limits = {},
+             Presence presence = Presence::Optional) {
+    const toml::node* node = find(key, presence);
+    if (!node) return;
+    if (const std::string wanted = read(*node, limits, value); !wanted.empty()) {
+      refuse(key, *node, wanted);
+    }
+  }
+
+  /// A number that may be absent.
+  template <class T>
+  void value(std::string_view key, std::optional<T>& number, Limits limits) {
+    if (has(key)) value(key, number.emplace(), limits);
+  }
+
+  template <class E, std::size_t N>
+  void choice(std::string_view key, E& chosen, const std::array<Named<E>, N>& names,
+              Presence presence = Presence::Optional) {
+    const toml::node* node = find(key, presence);
+    if (!node) return;
+    const std::vector<E> values = named(key, *node, names);
+    chosen = values.front();
+  }
+
+  template <class E, std::size_t N>
+  void choice(std::string_view key, std::optional<E>& chosen,
+              const std::array<Named<E>, N>& names) {
+    if (has(key)) choice(key, chosen.emplace(), names);
+  }
+
+  template <class E, std::size_t N>
+  void choice(std::string_view key, std::vector<E>& chosen, const std::array<Named<E>, N>& names) {
+    const toml::node* node = find(key, Presence::Optional);
+    if (!node) return;
+    const toml::array* list = node->as_array();
+    if (!list) refuse(key, *node, "a list of names");
+    for (const toml::node& item : *list) {
+      for (const E one : named(key, item, names)) {
+        if (std::ranges::find(chosen, one) == chosen.end()) chosen.push_back(one);
+      }
+    }
+  }
+
+  template <class Visit>
+  void table(std::string_view key, Visit visit) {
+    const toml::node* node = find(key, Presence::Optional);
+    if (node && !node->is_table()) refuse(key, *node, "a table");
+    KeyReader inner(*this);
+    inner.table_ = node ? node->as_table() : nullptr;
+    inner.prefix_ = path(key) + '.';
+    visit(inner);
+  }
+
+  template <class T, class Visit>
+  void table(std::string_view key, std::optional<T>& content, Visit visit) {
+    if (has(key)) {
+      table(key, [&](KeyReader& io) { visit(io, content.emplace()); });
+    }
+  }
+
+ private:
+  bool has(std::string_view key) const { return table_ && table_->contains(key); }
+  /// The key's value; nullptr where it is absent and may be.
+  const toml::node* find(std::string_view key, Presence presence) const;
+  std::string path(std::string_view key) const { return prefix_ + std::string(key); }
+  [[noreturn]] void refuse(std::string_view key, const toml::node& node,
+                           const std::string& wanted) const;
+  [[noreturn]] void refuse_name(std::string_view key, const toml::node& node,
+                                const std::vector<std::string>& names) const;
+
+  /// The values that a name stands for, at least one.
+  template <class E, std::size_t N>
+  std::vector<E> named(std::string_view key, const toml::node& node,
+                       const std::array<Named<E>, N>& names) const {
+    std::vector<E> values;
+    std::vector<std::string> all;
+    for (const auto& [name, value] : names) {
+      if (node.value<std::string_view>() == name) values.push_back(value);
+      if (all.empty() || all.back() != name) all.emplace_back(name);
+    }
+    if (values.empty()) refuse_name(key, node, all);
+    return values;
+  }
+
+  // Each reads a node of its type that lies within the limits, and returns nothing, or else what
+  // the node should be.
+  static std::string read(const toml::node& node, Limits limits, double& value);
+  static std::string read(const toml::node& node, Limits limits, int& value);
+  static std::string read(const toml::node& node, Limits limits, bool& value);
+  static std::string read(const toml::node& node, Limits limits, std::string& value);
+  static std::string read(const toml::node& node, Limits limits, Vec2& value);
+  static std::string read(const toml::node& node, Limits limits, std::array<int, 2>& value);
+  static std::string read(const toml::node& node, Limits limits,
+                          std::optional<std::array<double, 2>>& range);
+
+  const toml::table& root_;
+  const toml::table* table_;  // the one being visited; nullptr: absent, all defaults
+  std::string prefix_;        // its path and a dot; empty at the top
+  std::string file_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,81 @@
+#include "engine/scene/key_writer.h"
+
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+std::string value_text(double number) {
+  const std::string text = number_text(number);
+  // Without a point a large number would read as an integer, and TOML's end at 2^63.
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string value_text(int number) {
+  return std::to_string(number);
+}
+
+std::string value_text(bool flag) {
+  return flag ? "true" : "false";
+}
+
+std::string value_text(const std::string& text) {
+  return quoted(text);
+}
+
+template <class T>
+static std::string pair_text(T first, T second) {
+  return '[' + value_text(first) + ", " + value_text(second) + ']';
+}
+
+std::string value_text(const Vec2& vector) {
+  return pair_text(vector.x(), vector.y());
+}
+
+std::string value_text(const std::array<int, 2>& numbers) {
+  return pair_text(numbers[0], numbers[1]);
+}
+
+std::string value_text(const std::optional<std::array<double, 2>>& range) {
+  return range ? pair_text((*range)[0], (*range)[1]) : quoted("auto");
+}
+
+void TomlWriter::write(std::string_view key, const std::string& value) {
+  if (header_due_) {
+    std::string header;
+    for (const std::string& part : path_) header += (header.empty() ? "" : ".") + part;
+    text_ += "\n[" + header + "]\n";
+    header_due_ = false;
+  }
+  text_ += std::string(key) + " = " + value + '\n';
+}
+
+void TomlWriter::open(std::string_view key) {
+  path_.emplace_back(key);
+  header_due_ = true;
+}
+
+void TomlWriter::close() {
+  path_.pop_back();
+  header_due_ = false;
+}
+
+void JsonWriter::begin(std::string_view key) {
+  if (!text_.empty() && text_.back() != '{') text_ += ", ";
+  text_ += quoted(key) + ": ";
+}
+
+void JsonWriter::write(std::string_view key, const std::string& value) {
+  begin(key);
+  text_ += value;
+}
+
+void JsonWriter::open(std::string_view key) {
+  begin(key);
+  text_ += '{';
+}
+
+void JsonWriter::close() {
+  text_ += '}';
+}
+
+}  // namespace clatter

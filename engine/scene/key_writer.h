@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+/// A value as both TOML and JSON write it.
+std::string value_text(double number);
+std::string value_text(int number);
+std::string value_text(bool flag);
+std::string value_text(const std::string& text);
+std::string value_text(const Vec2& vector);
+std::string value_text(const std::array<int, 2>& numbers);
+std::string value_text(const std::optional<std::array<double, 2>>& range);  ///< absent: "auto"
+
+/// Visitor that writes every key which a scene has; the subclasses know the syntax around them.
+class KeyWriter {
+ public:
+  template <class T>
+  void value(std::string_view key, const T& value, Limits = {},
+             Presence presence = Presence::Optional) {
+    if (presence != Presence::Forbidden) write(key, value_text(value));
+  }
+
+  /// A number that may be absent.
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& number, Limits) {
+    if (number) write(key, value_text(*number));
+  }
+
+  template <class E, std::size_t N>
+  void choice(std::string_view key, E chosen, const std::array<Named<E>, N>& names,
+              Presence = Presence::Optional) {
+    write(key, value_text(name_of(chosen, names)));
+  }
+
+  template <class E, std::size_t N>
+  void choice(std::string_view key, std::optional<E> chosen, const std::array<Named<E>, N>& names) {
+    if (chosen) choice(key, *chosen, names);
+  }
+
+  template <class E, std::size_t N>
+  void choice(std::string_view key, const std::vector<E>& chosen,
+              const std::array<Named<E>, N>& names) {
+    std::string list;
+    std::string last;
+    for (const E one : chosen) {
+      const std::string name = name_of(one, names);
+      if (name != last) list += (list.empty() ? "" : ", ") + value_text(name);
+      last = name;
+    }
+    write(key, '[' + list + ']');
+  }
+
+  template <class Visit>
+  void table(std::string_view key, Visit visit) {
+    open(key);
+    visit(*this);
+    close();
+  }
+
+  template <class T, class Visit>
+  void table(std::string_view key, std::optional<T>& content, Visit visit) {
+    if (content) table(key, [&](KeyWriter& io) { visit(io, *content); });
+  }
+
+ protected:
+  KeyWriter() = default;
+  ~KeyWriter() = default;
+
+ private:
+  virtual void write(std::string_view key, const std::string& value) = 0;
+  virtual void open(std::string_view key) = 0;
+  virtual void close() = 0;
+
+  template <class E, std::size_t N>
+  static std::string name_of(E chosen, const std::array<Named<E>, N>& names) {
+    for (const auto& [name, value] : names) {
+      if (value == chosen) return std::string(name);
+    }
+    return {};
+  }
+};
+
+/// Writes a scene file.
+class TomlWriter final : public KeyWriter {
+ public:
+  const std::string& text() const { return text_; }
+
+ private:
+  void write(std::string_view key, const std::string& value) override;
+  void open(std::string_view key) override;
+  void close() override;
+
+  std::string text_;
+  std::vector<std::string> path_;  // of the table being written
+  bool header_due_ = false;        // a table without values of its own gets no header
+};
+
+/// Writes a JSON object.
+class JsonWriter final : public KeyWriter {
+ public:
+  std::string text() const { return '{' + text_ + '}'; }
+
+ private:
+  void write(std::string_view key, const std::string& value) override;
+  void open(std::string_view key) override;
+  void close() override;
+  void begin(std::string_view key);
+
+  std::string text_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,167 @@
+#include "engine/scene/scene_document.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+constexpr std::string_view kOverrideFile = "--set ";  // and the key: the "file" of an override
+
+/// Index of the last byte of the string that opens at `start`, or of the line where it is left
+/// open.
+static std::size_t end_of_string(std::string_view text, std::size_t start) {
+  const char quote = text[start];
+  const std::string triple(3, quote);
+  const bool multiline = text.substr(start, 3) == triple;
+  const std::string_view delimiter = std::string_view(triple).substr(0, multiline ? 3 : 1);
+  for (std::size_t i = start + delimiter.size(); i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (text.substr(i, delimiter.size()) == delimiter) {
+      i += delimiter.size() - 1;
+      while (multiline && i + 1 < text.size() && text[i + 1] == quote) ++i;  // quotes at its end
+      return i;
+    } else if (!multiline && text[i] == '\n') {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// Throws at a dotted key of absurdly many parts. The parser limits the depth of arrays and inline
+/// tables but not of these, and frees the nested tables recursively, as deep as the stack lasts.
+static void refuse_deep_keys(std::string_view text, const std::string& file) {
+  constexpr int kMostDots = 16;
+  int dots = 0;
+  int line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t start = i;
+    if (text[i] == '#') {
+      i = std::min(text.find('\n', i), text.size() - 1);
+    } else if (text[i] == '"' || text[i] == '\'') {
+      i = std::min(end_of_string(text, i), text.size() - 1);
+    }
+    if (text[i] == '.' && ++dots > kMostDots) {
+      throw UserError({file, line, 0}, "a key has more than " + std::to_string(kMostDots) + " dots",
+                      "no key of a scene is that deep");
+    }
+    if (std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos) dots = 0;
+    line += static_cast<int>(std::count(&text[start], &text[i] + 1, '\n'));
+  }
+}
+
+toml::table parse_document(std::string_view text, const std::string& file) {
+  refuse_deep_keys(text, file);
+  try {
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw UserError({file, static_cast<int>(at.line), static_cast<int>(at.column)},
+                    std::string(error.description()),
+                    "a scene is a TOML file, see https://toml.io");
+  }
+}
+
+/// The override as a document of its own. What is no TOML value is a string, so that a shell user
+/// need not quote twice.
+static toml::table parse_override(const Override& change) {
+  const std::string file = std::string(kOverrideFile) + change.key;
+  const bool bare = std::ranges::all_of(change.key, [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-' || c == '.';
+  });
+  if (bare) {
+    for (const std::string& value : {change.value, quoted(change.value)}) {
+      try {
+        return parse_document(change.key + " = " + value, file);
+      } catch (const UserError&) {
+        // Another try as a string; a key at fault fails both.
+      }
+    }
+  }
+  throw UserError({file}, quoted(change.key) + " cannot be a key", "write, say, disks.count=500");
+}
+
+static void replace(toml::table& into, toml::table& changes) {
+  for (auto&& [key, value] : changes) {
+    toml::table* inner = into[key].as_table();
+    toml::table* change = value.as_table();
+    if (inner && change && !change->is_inline()) {
+      replace(*inner, *change);
+    } else {
+      into.erase(key);  // the key too, for it carries the place
+      value.visit([&into, &key = key](auto& node) { into.insert(key, std::move(node)); });
+    }
+  }
+}
+
+void apply_override(toml::table& root, const Override& change) {
+  toml::table changes = parse_override(change);
+  // Either resolves the number of disks, so each displaces the other.
+  if (toml::table* disks = root["disks"].as_table()) {
+    if (changes.at_path("disks.count")) disks->erase("area_fraction");
+    if (changes.at_path("disks.area_fraction")) disks->erase("count");
+  }
+  replace(root, changes);
+}
+
+/// What to do about an unknown key, given its path and the length of its table's part of it.
+static std::string advice_on(std::string_view path, std::size_t prefix,
+                             const std::vector<std::string>& known) {
+  const std::string_view key = path.substr(prefix);
+  std::vector<std::string> siblings;
+  std::string all;
+  for (const std::string& one : known) {
+    if (!one.starts_with(path.substr(0, prefix)) || one.find('.', prefix) != one.npos) continue;
+    siblings.push_back(one.substr(prefix));
+    all += (all.empty() ? "" : ", ") + siblings.back();
+  }
+  if (const auto near = near_miss(key, siblings); !near.empty()) {
+    return "did you mean '" + std::string(near) + "'?";
+  }
+  for (const std::string& one : known) {
+    if (one.ends_with('.' + std::string(key))) return "did you mean '" + one + "'?";
+  }
+  return "the keys here are " + all;
+}
+
+static void refuse_unknown_keys(const toml::table& table, const std::string& prefix,
+                                const std::vector<std::string>& known) {
+  for (auto&& [key, value] : table) {
+    const std::string path = prefix + std::string(key.str());
+    if (std::ranges::find(known, path) == known.end()) {
+      const std::string name = quoted(key.str());
+      throw UserError(place_of(key, value), "unknown key '" + name.substr(1, name.size() - 2) + "'",
+                      advice_on(path, prefix.size(), known));
+    }
+    if (const toml::table* inner = value.as_table()) refuse_unknown_keys(*inner, path + '.', known);
+  }
+}
+
+void refuse_unknown_keys(const toml::table& root, const std::vector<std::string>& known) {
+  refuse_unknown_keys(root, "", known);
+}
+
+Place place_of(const toml::key& key, const toml::node& value) {
+  const toml::source_region& source = value.is_table() ? value.source() : key.source();
+  const std::string file = source.path ? *source.path : "";
+  if (file.starts_with(kOverrideFile)) return {file};
+  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+Place place_of(const toml::table& root, std::string_view path, const std::string& file) {
+  Place place = {file};
+  const toml::table* table = &root;
+  while (table && !path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    const auto entry = table->find(path.substr(0, dot));
+    if (entry == table->end()) break;
+    place = place_of(entry->first, entry->second);
+    table = entry->second.as_table();
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return place;
+}
+
+}  // namespace clatter

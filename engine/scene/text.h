@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace clatter {
+
+/// The shortest decimal that reads back to exactly this number: "0.1", "20", "1e-07".
+std::string number_text(double number);
+
+/// The text between double quotes, escaped so that both TOML and JSON read it back.
+std::string quoted(std::string_view text);
+
+/// The candidate that `word` most likely misspells; empty where none is near.
+std::string_view near_miss(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace clatter
