@@ -106,6 +106,14 @@ void apply_override(toml::table& root, const Override& change) {
   replace(root, changes);
 }
 
+/// Where a key stands, or a table's header.
+static Place place_of(const toml::key& key, const toml::node& value) {
+  const toml::source_region& source = value.is_table() ? value.source() : key.source();
+  const std::string file = source.path ? *source.path : "";
+  if (file.starts_with(kOverrideFile)) return {file};
+  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
 /// What to do about an unknown key, given its path and the length of its table's part of it.
 static std::string advice_on(std::string_view path, std::size_t prefix,
                              const std::vector<std::string>& known) {
@@ -141,13 +149,6 @@ static void refuse_unknown_keys(const toml::table& table, const std::string& pre
 
 void refuse_unknown_keys(const toml::table& root, const std::vector<std::string>& known) {
   refuse_unknown_keys(root, "", known);
-}
-
-Place place_of(const toml::key& key, const toml::node& value) {
-  const toml::source_region& source = value.is_table() ? value.source() : key.source();
-  const std::string file = source.path ? *source.path : "";
-  if (file.starts_with(kOverrideFile)) return {file};
-  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
 Place place_of(const toml::table& root, std::string_view path, const std::string& file) {

@@ -329,6 +329,8 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
   CHECK(scene.disks.start.temperature == 4.0);
   CHECK(parse_scene(kDisks, "s.toml", {{"disks.area_fraction", "0.0078"}}).disks.count == 5);
 
+  CHECK(refusal(text, {{"walls.left", "{ kind = \"static\" }"}}) == "");
+
   CHECK(refusal(text, {{"disks.restitution", "2"}}) ==
         "--set disks.restitution: 'disks.restitution' cannot be 2; give a number between 0 and 1");
   CHECK(refusal(text, {{"disks.restitutoin", "1"}}) ==
