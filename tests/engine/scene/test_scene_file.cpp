@@ -203,6 +203,7 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "s.toml:3:1: unknown key 'friction'; the keys here are count, area_fraction, restitution, "
        "start"},
       {"\"a.b\\u001b\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'a.b\\u001b'; the keys here are"},
+      {"\"disks.count\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'disks.count'; "},
       // wrong types
       {"title = 3\n" + kDisks, "s.toml:1:1: 'title' cannot be 3; give a text between quotes"},
       {"[disks]\n  count = 10.5\n",
