@@ -75,13 +75,17 @@ int short_axis(const Room& room) {
   return room.box.x() <= room.box.y() ? 0 : 1;
 }
 
+/// A multiple that the points along the short axis of a grid that fits do not exceed.
+std::int64_t bound_along(const Room& room, bool chess) {
+  return bound_on_points(room, short_axis(room), chess, room.diameter * (chess ? 0.5 : 1.0));
+}
+
 /// The lattice that square_lattice and hexagonal_lattice look for; no points where there is none.
 Grid widest_grid(const Room& room, bool chess, int count) {
   const int along = short_axis(room);
   const int across = 1 - along;
   const std::int64_t needed = chess ? 2LL * count - 1 : count;  // points, taken or not
-  const std::int64_t most =
-      bound_on_points(room, along, chess, room.diameter * (chess ? 0.5 : 1.0));
+  const std::int64_t most = bound_along(room, chess);
   const std::int64_t unit = multiple(room, across, chess);
   const std::int64_t first = multiple(room, along, chess);
   Grid widest;
@@ -118,8 +122,7 @@ std::int64_t most_sites(const Room& room, bool chess, std::int64_t n) {
 int capacity(const Room& room, bool chess) {
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   const int along = short_axis(room);
-  const std::int64_t last =
-      bound_on_points(room, along, chess, room.diameter * (chess ? 0.5 : 1.0));
+  const std::int64_t last = bound_along(room, chess);
   const std::int64_t first = multiple(room, along, chess);
   std::int64_t most = 0;
   for (std::int64_t n = first; n <= last && most < kMost; n += first) {

@@ -106,6 +106,14 @@ void apply_override(toml::table& root, const Override& change) {
   replace(root, changes);
 }
 
+/// Where a key stands, or a table's header.
+static Place place_of(const toml::key& key, const toml::node& value) {
+  const toml::source_region& source = value.is_table() ? value.source() : key.source();
+  const std::string file = source.path ? *source.path : "";
+  if (file.starts_with(kOverrideFile)) return {file};
+  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
 /// What to do about an unknown key, given its path and the length of its table's part of it.
 static std::string advice_on(std::string_view path, std::size_t prefix,
                              const std::vector<std::string>& known) {
@@ -130,7 +138,8 @@ static void refuse_unknown_keys(const toml::table& table, const std::string& pre
                                 const std::vector<std::string>& known) {
   for (auto&& [key, value] : table) {
     const std::string path = prefix + std::string(key.str());
-    if (std::ranges::find(known, path) == known.end()) {
+    const bool dotted = key.str().find('.') != std::string_view::npos;  // one quoted key, no path
+    if (dotted || std::ranges::find(known, path) == known.end()) {
       const std::string name = quoted(key.str());
       throw UserError(place_of(key, value), "unknown key '" + name.substr(1, name.size() - 2) + "'",
                       advice_on(path, prefix.size(), known));
@@ -141,13 +150,6 @@ static void refuse_unknown_keys(const toml::table& table, const std::string& pre
 
 void refuse_unknown_keys(const toml::table& root, const std::vector<std::string>& known) {
   refuse_unknown_keys(root, "", known);
-}
-
-Place place_of(const toml::key& key, const toml::node& value) {
-  const toml::source_region& source = value.is_table() ? value.source() : key.source();
-  const std::string file = source.path ? *source.path : "";
-  if (file.starts_with(kOverrideFile)) return {file};
-  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
 Place place_of(const toml::table& root, std::string_view path, const std::string& file) {

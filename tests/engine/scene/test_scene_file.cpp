@@ -203,6 +203,7 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "s.toml:3:1: unknown key 'friction'; the keys here are count, area_fraction, restitution, "
        "start"},
       {"\"a.b\\u001b\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'a.b\\u001b'; the keys here are"},
+      {"\"disks.count\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'disks.count'; "},
       // wrong types
       {"title = 3\n" + kDisks, "s.toml:1:1: 'title' cannot be 3; give a text between quotes"},
       {"[disks]\n  count = 10.5\n",
@@ -328,6 +329,8 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
   CHECK(scene.title == "two words");
   CHECK(scene.disks.start.temperature == 4.0);
   CHECK(parse_scene(kDisks, "s.toml", {{"disks.area_fraction", "0.0078"}}).disks.count == 5);
+
+  CHECK(refusal(text, {{"walls.left", "{ kind = \"static\" }"}}) == "");
 
   CHECK(refusal(text, {{"disks.restitution", "2"}}) ==
         "--set disks.restitution: 'disks.restitution' cannot be 2; give a number between 0 and 1");
