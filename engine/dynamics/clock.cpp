@@ -1,5 +1,7 @@
 #include "engine/dynamics/clock.h"
 
+#include <cmath>
+
 namespace clatter {
 
 // Error-free sum (Knuth's TwoSum): high + low is exactly a + b.
@@ -33,6 +35,7 @@ double Clock::absolute(double relative) const {
 }
 
 double Clock::relative(double absolute) const {
+  if (std::isinf(absolute)) return absolute;
   const LongTime difference = two_sum(absolute, -base_.high);
   return difference.high + (difference.low - base_.low);
 }

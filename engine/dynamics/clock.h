@@ -22,7 +22,7 @@ class Clock {
 
   /// Simulation time of a time on the base.
   double absolute(double relative) const;
-  /// A simulation time on the base.
+  /// A simulation time on the base; infinite times stay so.
   double relative(double absolute) const;
   /// start + count * interval on the base: the product is exact, however large the count.
   double relative(double start, std::uint64_t count, double interval) const;

@@ -97,8 +97,7 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
   const bool fetch = disks_.size() >= kFetchAheadFrom;
   while (counts_.disk_disk < collisions) {
     const Event* next = queue_.top(live);
-    if (!next) return Halt::NoEvents;
-    if (next->time > stop) return Halt::Time;
+    if (!next || next->time > stop) return Halt::Time;
     const Event event = *next;
     queue_.pop();
     if (fetch && queue_.bucket() != fetched_bucket_) fetch_ahead();
@@ -112,28 +111,17 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
 }
 
 template <int D>
-void Simulation<D>::run_until(double time) {
+void Simulation<D>::run_until(double time, std::uint64_t disk_disk) {
   for (;;) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);
     const double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
-    if (advance(stop, std::numeric_limits<std::uint64_t>::max()) == Halt::BaseMoved) continue;
-    now_ = std::max(now_, stop);
-    if (!timer) return;
-    fire(*timer);
-  }
-}
-
-template <int D>
-void Simulation<D>::run_until_collisions(std::uint64_t disk_disk) {
-  for (;;) {
-    Timer* timer = due_timer(kNever);
-    const double stop =
-        timer ? clock_.relative(timer->start, timer->count, timer->interval) : kNever;
     const Halt halt = advance(stop, disk_disk);
     if (halt == Halt::BaseMoved) continue;
-    if (halt == Halt::Collisions || !timer) return;
+    if (halt == Halt::Collisions) return;
+    if (stop == kNever) return;
     now_ = std::max(now_, stop);
+    if (!timer) return;
     fire(*timer);
   }
 }

@@ -41,11 +41,9 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Processes every event up to and at a simulation time, timers included.
-  void run_until(double time);
-  /// Processes events until that many disk-disk collisions have happened since the start, or none
-  /// can happen any more.
-  void run_until_collisions(std::uint64_t disk_disk);
+  /// Processes every event up to and at a simulation time, timers included; halts before, right
+  /// after the collision, once `disk_disk` collisions have happened since the start.
+  void run_until(double time, std::uint64_t disk_disk = kNoLimit);
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... once run_until() gets
   /// there, after the physical events of the same time. interval = 0: once.
@@ -72,6 +70,8 @@ class Simulation {
   const EventCounts& counts() const { return counts_; }
   const RunChecks& checks() const { return checks_; }
 
+  static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
+
  private:
   struct Timer {
     double start;
@@ -81,7 +81,7 @@ class Simulation {
   };
 
   /// Why advance() came back.
-  enum class Halt { Time, Collisions, BaseMoved, NoEvents };
+  enum class Halt { Time, Collisions, BaseMoved };
 
   Halt advance(double stop, std::uint64_t collisions);
   Timer* due_timer(double stop);

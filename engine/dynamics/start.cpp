@@ -87,7 +87,7 @@ static std::vector<Vec2> melt(const Model<2>& model, std::vector<Vec2> sites, st
   }
   Simulation<2> simulation(elastic, {sites, gaussian_velocities(sites.size(), 1.0, ~seed)});
   for (int round = 1; round <= kRounds; ++round) {
-    simulation.run_until_collisions(kCollisionsPerRound * round * sites.size() / 2);
+    simulation.run_until(kNever, kCollisionsPerRound * round * sites.size() / 2);
     const State<2> state = simulation.state();
     if (bond_order(elastic, state, 4) < square_order &&
         bond_order(elastic, state, 6) < triangular_order) {

@@ -1,0 +1,41 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "app/commands.h"
+#include "engine/dynamics/disk.h"
+#include "engine/dynamics/prediction.h"
+#include "engine/physics/theory.h"
+
+namespace clatter {
+
+// Besides the disk and its plan: one line of a cell each, and two entries of the event queue with
+// room to grow.
+static constexpr double kBytesPerDisk =
+    sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
+
+static int check(const CommonOptions& options) {
+  const Scene scene = load(options);
+  std::printf("%s", scene_to_toml(scene).c_str());
+  const double count = scene.disks.count;
+  const double temperature = scene.disks.start.temperature;
+  const double end = options.until.value_or(scene.measure.burn_in + scene.measure.duration);
+  const double rate = 0.5 * count * enskog_rate(scene.area_fraction(), temperature);
+  std::fprintf(stderr,
+               "The scene is sound: %d disks, area fraction %.4f.\n"
+               "Memory: about %.3g MB (%.0f bytes a disk).\n"
+               "Events: about %.3g disk-disk collisions until t = %g at the start's temperature %g.\n",
+               scene.disks.count, scene.area_fraction(), 1e-6 * count * kBytesPerDisk, kBytesPerDisk,
+               rate * end, end, temperature);
+  return kOk;
+}
+
+void add_check_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* command = program.add_subcommand(
+      "check", "Read and validate a scene, print it with every default written out, run nothing");
+  add_common_flags(*command, *options);
+  command->callback([options, &exit_code] { exit_code = check(*options); });
+}
+
+}  // namespace clatter

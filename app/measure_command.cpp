@@ -1,0 +1,79 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/resources.h"
+#include "app/result_json.h"
+#include "app/run.h"
+#include "app/tables.h"
+#include "app/write_file.h"
+#include "engine/error.h"
+#include "engine/measure/measurement.h"
+
+namespace clatter {
+
+namespace {
+
+struct MeasureOptions {
+  CommonOptions common;
+  std::string out;  // result file; empty: stdout
+  std::string csv;  // folder for tables; empty: none
+};
+
+// Overlaps deeper than this, in diameters, mean that events were lost; rounding stays far below.
+constexpr double kLostEventOverlap = 1e-9;
+
+int measure(const MeasureOptions& options) {
+  const Scene scene = load(options.common);
+  const Measure& spec = scene.measure;
+  const double end = options.common.until.value_or(spec.burn_in + spec.duration);
+  if (!(end > spec.burn_in)) {
+    throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
+                    "go beyond measure.burn_in = " + std::to_string(spec.burn_in));
+  }
+  if (!options.out.empty()) require_folder_of(options.out, "--out");
+  if (!options.csv.empty()) require_folder_of(options.csv, "--csv");
+  catch_interrupts();
+
+  const double cpu_before = cpu_seconds();
+  const auto simulation = simulation_of(scene, options.common.seed);
+  Measurement measurement(*simulation, spec, end);
+  bool completed;
+  {
+    Progress progress(options.common.shown_progress(), "measuring", 0.0, end);
+    completed = run_until(*simulation, end, progress);
+  }
+  const Measured measured = measurement.result();
+  const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
+  const auto json =
+      result_json(scene, options.common.seed, *simulation, measured, performance);
+  if (options.out.empty()) {
+    std::printf("%s\n", json.dump(1).c_str());
+  } else {
+    write_file(options.out, json.dump(1) + "\n");
+  }
+  if (!options.csv.empty()) write_tables(options.csv, measured);
+  if (simulation->checks().deepest_overlap > kLostEventOverlap) {
+    throw PhysicalStop("disks overlapped by " +
+                       std::to_string(simulation->checks().deepest_overlap) +
+                       " diameters: events were lost; please report this scene and seed");
+  }
+  return completed ? kOk : kInterrupted;
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<MeasureOptions>();
+  CLI::App* command = program.add_subcommand(
+      "measure", "Run a scene without pictures and write what its [measure] block asks for");
+  add_common_flags(*command, options->common);
+  command->add_option("--out", options->out, "Result file (default: stdout)")->type_name("FILE.json");
+  command->add_option("--csv", options->csv, "Folder for tables of series and profiles")
+      ->type_name("DIR");
+  command->callback([options, &exit_code] { exit_code = measure(*options); });
+}
+
+}  // namespace clatter

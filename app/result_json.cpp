@@ -1,0 +1,114 @@
+#include "app/result_json.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "engine/physics/theory.h"
+#include "engine/scene/scene_file.h"
+
+namespace clatter {
+
+using Json = nlohmann::ordered_json;
+
+static Json estimate_json(const Estimate& estimate) {
+  return {{"mean", estimate.mean}, {"standard_error", estimate.standard_error}};
+}
+
+static Json pressure_json(const Measured& measured) {
+  Json json = Json::object();
+  for (int side = 0; side < 4; ++side) {
+    if (measured.pressure[side]) json[kSideNames[side]] = estimate_json(*measured.pressure[side]);
+  }
+  if (measured.compressibility) json["virial"] = estimate_json(*measured.compressibility);
+  return json;
+}
+
+static Json energy_json(const Measured& measured) {
+  Json json = Json::object();
+  if (measured.walls_in) json["walls_in"] = estimate_json(*measured.walls_in);
+  json["dissipated"] = estimate_json(measured.dissipated);
+  json["ledger_residual"] = measured.ledger_residual;
+  return json;
+}
+
+// Eqs. (3.6)-(3.14), as far as the scene is the system that they describe.
+static Json theory_json(const Scene& scene) {
+  Json json{{"chi", contact_correlation(scene.area_fraction())}};
+  const auto& left = scene.walls[kLeft];
+  const auto& right = scene.walls[kRight];
+  const bool alike = left && right && left->kind == WallKind::Driven &&
+                     right->kind == WallKind::Driven && left->restitution == right->restitution &&
+                     left->drive_speed == right->drive_speed;
+  if (!alike || !scene.periodic(1) || scene.disks.count == 0) return json;
+  const VibratedGas gas{static_cast<double>(scene.disks.count), scene.box.x(), scene.box.y(),
+                        scene.disks.restitution, left->restitution, left->drive_speed};
+  json["psi"] = gas.psi();
+  json["epsilon_effective"] = gas.epsilon_effective();
+  if (gas.epsilon_effective() > 0.0) {
+    json["temperature_simple"] = gas.temperature_simple();
+    json["temperature_refined"] = gas.temperature_refined();
+  }
+  return json;
+}
+
+static Json profile_json(const Profile& profile, const std::vector<Field>& fields) {
+  const auto asked = [&](Field field) {
+    for (const Field f : fields) {
+      if (f == field || (f == Field::Temperature && field != Field::Density)) return true;
+    }
+    return false;
+  };
+  Json json{{"axis", "x"}, {"edges", profile.edges}};
+  Json errors = Json::object();
+  const auto add = [&](const char* name, const std::vector<Estimate>& column) {
+    // A column that was never visited has no temperature: null.
+    for (const Estimate& e : column) {
+      json[name].push_back(std::isfinite(e.mean) ? Json(e.mean) : Json(nullptr));
+      errors[name].push_back(e.standard_error);
+    }
+  };
+  if (asked(Field::Density)) add("density", profile.density);
+  if (asked(Field::TemperatureX)) add("temperature_x", profile.temperature_x);
+  if (asked(Field::TemperatureY)) add("temperature_y", profile.temperature_y);
+  json["standard_error"] = errors;
+  return json;
+}
+
+Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,
+                 const Measured& measured, const Performance& performance) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(simulation.state_hash()));
+  Json json;
+  json["schema"] = 1;
+  json["scene"] = Json::parse(scene_to_json(scene));
+  json["seed"] = seed;
+  json["program"] = "clatter " CLATTER_VERSION;
+  json["state_hash"] = hash;
+  json["time"] = {{"burn_in", scene.measure.burn_in}, {"measured", measured.duration}};
+  json["events"] = {{"disk_disk", measured.disk_disk}, {"disk_wall", measured.disk_wall}};
+  json["temperature"] = estimate_json(measured.temperature);
+  json["temperature_x"] = estimate_json(measured.temperature_x);
+  json["temperature_y"] = estimate_json(measured.temperature_y);
+  json["temperature_series"] = {{"time", measured.series_time},
+                                {"translational", measured.series_temperature}};
+  json["kurtosis_excess_x"] = estimate_json(measured.kurtosis_excess_x);
+  json["kurtosis_excess_y"] = estimate_json(measured.kurtosis_excess_y);
+  json["collision_rate"] = estimate_json(measured.collision_rate);
+  json["energy"] = energy_json(measured);
+  if (Json pressure = pressure_json(measured); !pressure.empty()) json["pressure"] = pressure;
+  json["theory"] = theory_json(scene);
+  if (measured.profile) json["profile"] = profile_json(*measured.profile, scene.measure.fields);
+  json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
+                    {"clock_steps_back", simulation.checks().clock_steps_back}};
+  const double collisions = static_cast<double>(simulation.counts().disk_disk);
+  json["performance"] = {
+      {"cpu_seconds", performance.cpu_seconds},
+      {"collisions_per_second",
+       performance.cpu_seconds > 0.0 ? collisions / performance.cpu_seconds : 0.0},
+      {"peak_memory_bytes", performance.peak_memory_bytes}};
+  return json;
+}
+
+}  // namespace clatter

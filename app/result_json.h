@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/measure/measurement.h"
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// What a run cost.
+struct Performance {
+  double cpu_seconds = 0.0;
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+/// The result file of `clatter measure`: parts that the scene does not have are absent.
+nlohmann::ordered_json result_json(const Scene& scene, std::uint64_t seed,
+                                   const Simulation<2>& simulation, const Measured& measured,
+                                   const Performance& performance);
+
+}  // namespace clatter

@@ -1,0 +1,22 @@
+#include "engine/publish/publish.h"
+
+#include <utility>
+
+namespace clatter {
+
+Snapshot snapshot_of(const Simulation<2>& simulation) {
+  State<2> state = simulation.state();
+  Snapshot snapshot;
+  snapshot.time = simulation.time();
+  snapshot.box = simulation.model().box;
+  snapshot.diameter = simulation.model().diameter;
+  snapshot.walls = simulation.model().walls;
+  snapshot.positions = std::move(state.positions);
+  snapshot.velocities = std::move(state.velocities);
+  const auto count = static_cast<double>(snapshot.positions.size());
+  snapshot.temperature = count > 0.0 ? simulation.kinetic_energy() / count : 0.0;
+  snapshot.collisions = simulation.counts().disk_disk;
+  return snapshot;
+}
+
+}  // namespace clatter
