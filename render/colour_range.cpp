@@ -40,20 +40,18 @@ std::vector<double> round_ticks(double low, double high, int count) {
   std::vector<double> ticks;
   const double slack = 1e-9 * (high - low);
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
-    ticks.push_back(k * step);
+    ticks.push_back(k * step + 0.0);  // + 0: no -0
   }
   return ticks;
 }
 
 std::string tick_text(double value, double step) {
-  char text[32];
   const double digits = -std::floor(std::log10(step) + 1e-9);
-  if (digits > 4 || digits < -4) {
-    std::snprintf(text, sizeof text, "%.3g", value);
-  } else {
-    std::snprintf(text, sizeof text, "%.*f", static_cast<int>(std::max(0.0, digits)), value);
-  }
-  return text;
+  const bool plain = std::abs(digits) <= 4.0;
+  char text[32];
+  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e",
+                plain ? static_cast<int>(std::max(0.0, digits)) : 0, std::abs(value));
+  return value < 0.0 ? "−" + std::string(text) : text;
 }
 
 }  // namespace clatter

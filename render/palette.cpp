@@ -7,9 +7,10 @@ namespace clatter {
 
 namespace {
 
-constexpr std::array<Colour, 17> colours(const std::array<std::uint32_t, 17>& rgb) {
-  std::array<Colour, 17> result;
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
+template <std::size_t N>
+constexpr std::array<Colour, N> colours(const std::uint32_t (&rgb)[N]) {
+  std::array<Colour, N> result;
+  for (std::size_t i = 0; i < N; ++i) {
     result[i] = {static_cast<std::uint8_t>(rgb[i] >> 16), static_cast<std::uint8_t>(rgb[i] >> 8),
                  static_cast<std::uint8_t>(rgb[i])};
   }
@@ -31,6 +32,8 @@ constexpr auto kCoolWarm = colours({0x3b4cc0, 0x4e68d7, 0x6282ea, 0x779af7, 0x8d
                                     0xb8d0f9, 0xccd9ee, 0xdddddd, 0xecd3c6, 0xf5c4ad, 0xf7b194,
                                     0xf49a7b, 0xec7f63, 0xde614c, 0xcb3e38, 0xb40426});
 
+constexpr auto kSubdued = colours({0x12181e, 0x2c3e4c, 0x8399a8});
+
 }  // namespace
 
 Colour mix(Colour a, Colour b, double t) {
@@ -39,11 +42,6 @@ Colour mix(Colour a, Colour b, double t) {
   };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue),
           channel(a.alpha, b.alpha)};
-}
-
-Colour with_alpha(Colour colour, double alpha) {
-  colour.alpha = static_cast<std::uint8_t>(std::lround(255.0 * alpha));
-  return colour;
 }
 
 ColourMap colour_map(Palette palette) {
@@ -60,12 +58,15 @@ ColourMap diverging_map() {
   return kCoolWarm;
 }
 
+ColourMap subdued_map() {
+  return kSubdued;
+}
+
 Colour ColourScale::operator()(double value) const {
   const double steps = static_cast<double>(map.size() - 1);
   const double place = steps * std::clamp((value - low) / (high - low), 0.0, 1.0);
   const std::size_t index = std::min(static_cast<std::size_t>(place), map.size() - 2);
-  const Colour colour = mix(map[index], map[index + 1], place - static_cast<double>(index));
-  return with_alpha(colour, opacity);
+  return mix(map[index], map[index + 1], place - static_cast<double>(index));
 }
 
 }  // namespace clatter

@@ -21,9 +21,6 @@ struct Colour {
 /// The colour a share `t` in 0..1 of the way from `a` to `b`.
 Colour mix(Colour a, Colour b, double t);
 
-/// The same colour with `alpha` in 0..1.
-Colour with_alpha(Colour colour, double alpha);
-
 /// Colours at equal steps from the lowest to the highest value; linear between them.
 using ColourMap = std::span<const Colour>;
 
@@ -33,12 +30,14 @@ ColourMap colour_map(Palette palette);
 /// For signed values: blue below zero, grey at zero, red above.
 ColourMap diverging_map();
 
+/// From the background to a pale slate, below things of more colour.
+ColourMap subdued_map();
+
 /// From values to colours.
 struct ColourScale {
   ColourMap map;
-  double low = 0.0;      ///< the value at the map's first colour
-  double high = 1.0;     ///< the value at its last, > low
-  double opacity = 1.0;  ///< of every colour, 0..1
+  double low = 0.0;   ///< the value at the map's first colour
+  double high = 1.0;  ///< the value at its last, > low
 
   /// The colour of `value`; beyond the ends, that of the end.
   Colour operator()(double value) const;

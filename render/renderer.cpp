@@ -45,16 +45,21 @@ Quantity quantity_of(Field field) {
   return {""};
 }
 
-ColourScale scale_to(double extent, bool is_signed, ColourMap map) {
-  if (is_signed) return {diverging_map(), -extent, extent};
-  return {map, 0.0, extent};
+// Without its darkest eighth: slow disks would be lost against the background.
+ColourMap disk_map(const View& view) {
+  if (quantity_of(view.colour_by).is_signed) return diverging_map();
+  return colour_map(view.palette).subspan(2);
 }
 
-// The field lies below the disks: the other palette, subdued, keeps the two apart.
-constexpr double kFieldOpacity = 0.6;
+// Below coloured disks the field is subdued; where the disks' colour shows nothing it has the
+// palette.
+ColourMap field_map(Field field, const View& view) {
+  if (quantity_of(field).is_signed) return diverging_map();
+  return view.colour_by == ColourBy::None ? colour_map(view.palette) : subdued_map();
+}
 
-Palette other(Palette palette) {
-  return palette == Palette::Viridis ? Palette::Inferno : Palette::Viridis;
+ColourScale scale_to(double extent, bool is_signed, ColourMap map) {
+  return {map, is_signed ? -extent : 0.0, extent};
 }
 
 }  // namespace
@@ -69,8 +74,9 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
     if (!snapshot.walls[2 * axis]) overhang[axis] = 0.5 * snapshot.diameter;
   }
   const double wall = wall_thickness(size);
-  const Margins margins = view.overlay ? overlay_.margins(size, legends(snapshot, view), text)
-                                       : Margins{wall, wall, wall, wall};
+  const Margins margins = view.overlay
+                              ? overlay_.margins(snapshot.box, size, legends(snapshot, view), text)
+                              : Margins{wall, wall, wall, wall};
   return Camera::fit(-overhang, snapshot.box + overhang, size, margins);
 }
 
@@ -93,25 +99,18 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
 }
 
 ColourScale Renderer::disk_scale(const Snapshot& snapshot, const View& view) {
-  const bool is_signed = quantity_of(view.colour_by).is_signed;
-  if (view.range) {
-    const ColourMap map = is_signed ? diverging_map() : colour_map(view.palette);
-    return {map, (*view.range)[0], (*view.range)[1]};
-  }
+  if (view.range) return {disk_map(view), (*view.range)[0], (*view.range)[1]};
   std::vector<double> values(snapshot.positions.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = disk_value(snapshot, view.colour_by, i);
   }
   const double extent = disk_extent_.follow(robust_extent(std::move(values)));
-  return scale_to(extent, is_signed, colour_map(view.palette));
+  return scale_to(extent, quantity_of(view.colour_by).is_signed, disk_map(view));
 }
 
 ColourScale Renderer::field_scale(const FieldMap& field, const View& view) {
   const double extent = field_extent_.follow(robust_extent(field.values));
-  ColourScale scale =
-      scale_to(extent, quantity_of(field.field).is_signed, colour_map(other(view.palette)));
-  scale.opacity = kFieldOpacity;
-  return scale;
+  return scale_to(extent, quantity_of(field.field).is_signed, field_map(field.field, view));
 }
 
 std::vector<Legend> Renderer::legends(const Snapshot& snapshot, const View& view) {

@@ -30,6 +30,6 @@ void main() {
   alpha *= mix(kGhost, 1.0, coverage(min(inside.x, inside.y)));
 
   float rim = clamp(0.14 * u_radius, 0.0, 2.5);
-  float shade = mix(0.45, 1.0, coverage(distance - rim));
+  float shade = mix(0.55, 1.0, coverage(distance - rim));
   o_colour = vec4(mix(1.0, shade, min(rim, 1.0)) * v_colour.rgb, v_colour.a * alpha);
 }

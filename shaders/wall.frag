@@ -24,10 +24,9 @@ float stripes(float phase, float softness) {
 
 // The saw-tooth that a driven wall stands for: teeth that point, and move, into the box.
 float teeth() {
-  float across = abs(fract(v_place.x / u_thickness) - 0.5);
-  float period = 0.5 * u_thickness;
-  float slope = 0.6;
-  float phase = (v_place.y - slope * u_thickness * across) / period + u_advance;
+  float period = 0.75 * u_thickness;
+  float tooth = abs(fract(v_place.x / (2.0 * u_thickness)) - 0.5) * 2.0;
+  float phase = (v_place.y - 0.6 * u_thickness * tooth) / period + u_advance;
   return stripes(phase, 1.2 / period);
 }
 
@@ -38,11 +37,11 @@ void main() {
   if (u_pattern == kHatch) {
     alpha = 0.45 * stripes((v_place.x + v_place.y) / (0.6 * u_thickness), 2.4 / u_thickness);
   } else if (u_pattern == kTeeth) {
-    alpha = mix(0.25, 0.95, teeth()) * (1.0 - 0.6 * depth);
+    alpha = mix(0.15, 0.9, teeth()) * (1.0 - 0.5 * depth);
   } else if (u_pattern == kGlow) {
     alpha = pow(1.0 - depth, 1.5);
   } else if (u_pattern == kDashes) {
-    face = stripes(v_place.x / (8.0 * u_line), 1.0 / (8.0 * u_line));
+    face = 0.7 * stripes(v_place.x / (8.0 * u_line), 1.0 / (8.0 * u_line));
   }
   o_colour = vec4(u_colour.rgb, u_colour.a * max(alpha, face));
 }

@@ -1,6 +1,7 @@
 #include "render/layers/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -26,35 +27,64 @@ class CurrentContext {
   ImGuiContext* previous_;
 };
 
-// From the picture's edge to the texts, in units of the layout.
+// In units of a line of text: from the picture's edge to the texts, and the column's width.
 constexpr float kEdge = 1.2f;
+constexpr float kColumn = 16.0f;
+
+// Where heading and figures stand: a row above and one below the box, or a column left of it.
+enum class Arrangement { Rows, Column };
+
+struct Page {
+  Arrangement arrangement = Arrangement::Rows;
+  Fonts fonts;
+  Size size;             // of the picture
+  Margins margins;       // which the texts take
+  float edge = 0.0f;     // from the picture's edge to the texts, pixels
+  float wrap = 0.0f;     // longest line of the heading, pixels
+  float caption = 0.0f;  // from the upper edge to the caption, below the title, pixels
+};
 
 float unit_for(Size size) {
   return static_cast<float>(std::max(12.0, std::round(std::min(size.width, size.height) / 40.0)));
 }
 
-float wrap_width(Size size, const Fonts& fonts) {
-  return size.width - 2.0f * std::round(kEdge * fonts.unit());
-}
-
-// Where the caption begins below the title, and where both end, from the upper edge.
-struct Heading {
-  float caption = 0.0f;
-  float end = 0.0f;
-};
-
-Heading heading_of(const OverlayText& text, Size size, const Fonts& fonts) {
-  const float wrap = wrap_width(size, fonts);
-  const float edge = std::round(kEdge * fonts.unit());
-  Heading heading{edge, edge};
+Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
+               std::span<const Legend> legends, const OverlayText& text) {
+  const float unit = fonts.unit(), edge = std::round(kEdge * unit);
+  const bool column = arrangement == Arrangement::Column;
+  Page page{arrangement, fonts, size,
+                {},          edge,  column ? kColumn * unit : size.width - 2 * edge};
+  float end = page.caption = edge;
   if (!text.title.empty()) {
-    heading.end += text_extent(*fonts.title, text.title, wrap).y;
-    heading.caption = heading.end + std::round(0.35f * fonts.unit());
+    end += text_extent(*fonts.title, text.title, page.wrap).y;
+    page.caption = end + std::round(0.35f * unit);
   }
   if (!text.caption.empty()) {
-    heading.end = heading.caption + text_extent(*fonts.text, text.caption, wrap).y;
+    end = page.caption + text_extent(*fonts.text, text.caption, page.wrap).y;
   }
-  return heading;
+
+  float legend = 0.0f;
+  for (const Legend& each : legends) legend = std::max(legend, unit + legend_width(each, fonts));
+  const double frame = edge + wall_thickness(size);
+  page.margins = {frame, frame + legend, frame, frame};
+  if (column) {
+    page.margins.left += page.wrap + unit;
+  } else {
+    page.margins.top += end > edge ? end - edge + unit : 0.0f;
+    page.margins.bottom += 2.0f * unit;
+  }
+  return page;
+}
+
+// The arrangement that leaves the box the most room.
+Page arrange(const Vec2& box, const Fonts& fonts, Size size, std::span<const Legend> legends,
+               const OverlayText& text) {
+  auto shown_width = [&](const Page& page) {
+    return Camera::fit({0.0, 0.0}, box, size, page.margins).width;
+  };
+  const Page rows = arrange(Arrangement::Rows, fonts, size, legends, text);
+  const Page column = arrange(Arrangement::Column, fonts, size, legends, text);
+  return shown_width(column) < shown_width(rows) ? column : rows;
 }
 
 std::string formatted(const char* format, double value) {
@@ -79,80 +109,92 @@ double scale_bar_length(double longest) {
   return power;
 }
 
-void draw_heading(ImDrawList& list, const OverlayText& text, Size size, const Fonts& fonts) {
-  const float edge = std::round(kEdge * fonts.unit());
-  const float wrap = wrap_width(size, fonts);
-  draw_text(list, *fonts.title, ImVec2(edge, edge), theme::kText, text.title, wrap);
-  draw_text(list, *fonts.text, ImVec2(edge, heading_of(text, size, fonts).caption),
-            theme::kFaintText, text.caption, wrap);
+void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
+  draw_text(list, *page.fonts.title, ImVec2(page.edge, page.edge), theme::kText, text.title,
+            page.wrap);
+  draw_text(list, *page.fonts.text, ImVec2(page.edge, page.caption), theme::kFaintText,
+            text.caption, page.wrap);
 }
 
-// At the lower right corner; returns its left end.
-float draw_scale_bar(ImDrawList& list, double diameter, const Projection& projection,
-                     const Fonts& fonts) {
-  const float unit = fonts.unit(), edge = std::round(kEdge * unit);
-  const double pixels = diameter * projection.scale();
-  const double length = scale_bar_length(0.15 * projection.size.width / pixels);
-  const float right = projection.size.width - edge;
-  const float left = std::round(right - length * pixels);
-  const float bottom = projection.size.height - edge;
+// A line of a round length with its label above, and its lower left corner at `place`.
+void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels,
+                    const Fonts& fonts) {
+  const float line = std::max(1.0f, std::round(fonts.unit() / 12.0f));
+  const float cap = std::round(0.3f * fonts.unit()), right = std::round(place.x + pixels);
   const ImU32 colour = packed(theme::kFaintText);
-  const float line = std::max(1.0f, std::round(unit / 12.0f)), cap = std::round(0.3f * unit);
-  list.AddRectFilled(ImVec2(left, bottom - line), ImVec2(right, bottom), colour);
-  list.AddRectFilled(ImVec2(left, bottom - cap), ImVec2(left + line, bottom), colour);
-  list.AddRectFilled(ImVec2(right - line, bottom - cap), ImVec2(right, bottom), colour);
+  list.AddRectFilled(ImVec2(place.x, place.y - line), ImVec2(right, place.y), colour);
+  list.AddRectFilled(ImVec2(place.x, place.y - cap), ImVec2(place.x + line, place.y), colour);
+  list.AddRectFilled(ImVec2(right - line, place.y - cap), ImVec2(right, place.y), colour);
 
   const std::string label = formatted("%g d", length);
   const ImVec2 extent = text_extent(*fonts.small, label);
-  const float middle = 0.5f * (left + right);
-  const float label_left = std::round(std::min(middle - 0.5f * extent.x, right - extent.x));
-  draw_text(list, *fonts.small, ImVec2(label_left, bottom - cap - extent.y), theme::kFaintText,
-            label);
-  return std::min(left, label_left);
+  const float left = std::max(place.x, std::round(0.5f * (place.x + right - extent.x)));
+  draw_text(list, *fonts.small, ImVec2(left, place.y - cap - extent.y), theme::kFaintText, label);
 }
 
-// A row at the lower left corner; columns that would come beyond `right` are left out.
-void draw_figures(ImDrawList& list, const Snapshot& snapshot, Size size, const Fonts& fonts,
-                  float right) {
-  struct Figure {
-    std::string text;
-    std::string widest;  // keeps the next one from moving with every digit
-    Colour colour;
-  };
-  const Figure figures[] = {
-      {formatted("t = %.2f", snapshot.time), "t = 0000.00", theme::kText},
-      {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme::kFaintText},
-      {grouped(snapshot.collisions) + " collisions", "", theme::kFaintText},
-  };
-  const float unit = fonts.unit();
-  float x = std::round(kEdge * unit);
-  const float y = size.height - x - unit;
-  for (const Figure& figure : figures) {
-    const float width = text_extent(*fonts.text, figure.text).x;
+struct Figure {
+  std::string text;
+  std::string widest;  // keeps the next one in its row from moving with every digit
+  Colour colour;
+};
+
+std::array<Figure, 3> figures_of(const Snapshot& snapshot) {
+  return {{{formatted("t = %.2f", snapshot.time), "t = 0000.00", theme::kText},
+           {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme::kFaintText},
+           {grouped(snapshot.collisions) + " collisions", "", theme::kFaintText}}};
+}
+
+// Figures in a row from the lower left corner, as far as there is room, and the scale at its end.
+void draw_row(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
+  const float unit = page.fonts.unit(), bottom = page.size.height - page.edge;
+  const double length = scale_bar_length(0.15 * page.size.width / (snapshot.diameter * scale));
+  const float pixels = static_cast<float>(length * snapshot.diameter * scale);
+  const float right = std::round(page.size.width - page.edge - std::max(pixels, 2.0f * unit));
+  draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page.fonts);
+
+  float x = page.edge;
+  for (const Figure& figure : figures_of(snapshot)) {
+    const float width = text_extent(*page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
-    draw_text(list, *fonts.text, ImVec2(x, y), figure.colour, figure.text);
-    x += std::round(std::max(width, text_extent(*fonts.text, figure.widest).x) + 1.5f * unit);
+    draw_text(list, *page.fonts.text, ImVec2(x, bottom - unit), figure.colour, figure.text);
+    const float widest = text_extent(*page.fonts.text, figure.widest).x;
+    x += std::round(std::max(width, widest) + 1.5f * unit);
+  }
+}
+
+// Figures one above the other in the lower left corner, and the scale above them.
+void draw_column(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
+  const float unit = page.fonts.unit();
+  const auto figures = figures_of(snapshot);
+  float y =
+      page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
+  const double length = scale_bar_length(0.5 * page.wrap / (snapshot.diameter * scale));
+  draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
+                 static_cast<float>(length * snapshot.diameter * scale), page.fonts);
+  for (const Figure& figure : figures) {
+    draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.colour, figure.text);
+    y += std::round(1.5f * unit);
   }
 }
 
 // One below the other at the right of the box, or at the picture's edge where the box goes beyond.
 void draw_legends(ImDrawList& list, std::span<const Legend> legends, const Vec2& box,
-                  const Projection& projection, const Margins& margins, const Fonts& fonts) {
+                  const Projection& projection, const Page& page) {
   if (legends.empty()) return;
-  const float unit = fonts.unit();
+  const float unit = page.fonts.unit();
   const double height = projection.size.height;
-  const double top = std::max(margins.top, height - projection.pixels(box).y());
-  const double bottom = std::min(height - margins.bottom, height - projection.pixels({0, 0}).y());
-  const double beside_box = projection.pixels(box).x() + wall_thickness(projection.size) + unit;
-  const float x = std::round(std::min(
-      beside_box, projection.size.width - margins.right + wall_thickness(projection.size) + unit));
+  const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(box);
+  const double top = std::max(page.margins.top, height - high.y());
+  const double bottom = std::min(height - page.margins.bottom, height - low.y());
+  const double right = std::min(high.x(), projection.size.width - page.margins.right);
+  const float x = static_cast<float>(std::round(right + wall_thickness(projection.size) + unit));
 
   const float gap = 1.5f * unit;
-  const float each =
-      std::min(18.0f * unit, static_cast<float>(bottom - top + gap) / legends.size() - gap);
-  float y = std::round(top);
+  const float room = static_cast<float>(bottom - top + gap) / legends.size() - gap;
+  const float each = std::clamp(room, 4.0f * unit, 18.0f * unit);
+  float y = static_cast<float>(std::round(top));
   for (const Legend& legend : legends) {
-    draw_legend(list, legend, fonts, ImVec2(x, y), each);
+    draw_legend(list, legend, page.fonts, ImVec2(x, y), each);
     y = std::round(y + each + gap);
   }
 }
@@ -177,33 +219,30 @@ Fonts Overlay::fonts_for(Size size) {
   return fonts;
 }
 
-Margins Overlay::margins(Size size, std::span<const Legend> legends, const OverlayText& text) {
+Margins Overlay::margins(const Vec2& box, Size size, std::span<const Legend> legends,
+                         const OverlayText& text) {
   const CurrentContext current(context_.get());
-  const Fonts fonts = fonts_for(size);
-  const double unit = fonts.unit(), edge = std::round(kEdge * unit);
-  const double wall = wall_thickness(size);
-
-  double legend = 0.0;
-  for (const Legend& each : legends) {
-    legend = std::max<double>(legend, unit + legend_width(each, fonts));
-  }
-  const double heading = heading_of(text, size, fonts).end;
-  return {edge + wall, edge + wall + legend, (heading > edge ? heading + unit : edge) + wall,
-          edge + 2.0 * unit + wall};
+  return arrange(box, fonts_for(size), size, legends, text).margins;
 }
 
 void Overlay::draw(const Snapshot& snapshot, const Projection& projection,
                    std::span<const Legend> legends, const OverlayText& text) {
-  const Margins room = margins(projection.size, legends, text);
   const CurrentContext current(context_.get());
-  const Fonts fonts = fonts_for(projection.size);
-  ImGui::GetIO().DisplaySize = ImVec2(projection.size.width, projection.size.height);
+  const Size size = projection.size;
+  const Page page = arrange(snapshot.box, fonts_for(size), size, legends, text);
+  ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
-  draw_heading(list, text, projection.size, fonts);
-  draw_legends(list, legends, snapshot.box, projection, room, fonts);
-  const float left = draw_scale_bar(list, snapshot.diameter, projection, fonts);
-  draw_figures(list, snapshot, projection.size, fonts, left);
+  draw_heading(list, text, page);
+  draw_legends(list, legends, snapshot.box, projection, page);
+  switch (page.arrangement) {
+    case Arrangement::Rows:
+      draw_row(list, snapshot, projection.scale(), page);
+      break;
+    case Arrangement::Column:
+      draw_column(list, snapshot, projection.scale(), page);
+      break;
+  }
   ImGui::Render();
   gui_.draw(*ImGui::GetDrawData());
 }

@@ -25,8 +25,9 @@ class Overlay {
  public:
   explicit Overlay(const Gl& gl);
 
-  /// The space its texts take along the edges of a picture of `size`.
-  Margins margins(Size size, std::span<const Legend> legends, const OverlayText& text);
+  /// The space its texts take along the edges of a picture of `size` that shows `box`.
+  Margins margins(const Vec2& box, Size size, std::span<const Legend> legends,
+                  const OverlayText& text);
 
   /// Draws it over a picture of `snapshot`.
   void draw(const Snapshot& snapshot, const Projection& projection, std::span<const Legend> legends,

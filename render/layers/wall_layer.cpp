@@ -12,8 +12,9 @@ namespace clatter {
 
 namespace {
 
-// As in wall.frag.
+// As in wall.frag: the patterns, and the teeth's period in thicknesses of the band.
 enum Pattern { kHatch, kTeeth, kGlow, kDashes };
+constexpr double kToothPeriod = 0.75;
 
 struct Look {
   Pattern pattern;
@@ -71,13 +72,13 @@ std::array<Vertex, 4> band(Side side, const Snapshot& snapshot, const Projection
 }
 
 double line_width(Size size) {
-  return std::max(1.0, std::round(wall_thickness(size) / 8.0));
+  return std::max(1.0, std::round(wall_thickness(size) / 10.0));
 }
 
 }  // namespace
 
 double wall_thickness(Size size) {
-  return std::max(6.0, std::round(0.02 * std::min(size.width, size.height)));
+  return std::max(6.0, std::round(0.025 * std::min(size.width, size.height)));
 }
 
 WallLayer::WallLayer(const Gl& gl)
@@ -113,7 +114,7 @@ void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection&
                             is_line ? 0.5 * line : thickness);
   gl_->BufferData(GL_ARRAY_BUFFER, sizeof corners, corners.data(), GL_STREAM_DRAW);
 
-  const double periods = look.advance * projection.scale() / (0.5 * thickness);
+  const double periods = look.advance * projection.scale() / (kToothPeriod * thickness);
   gl_->Uniform1i(program_.uniform("u_pattern"), look.pattern);
   gl_->Uniform1f(program_.uniform("u_advance"), periods - std::floor(periods));
   gl_->Uniform4f(program_.uniform("u_colour"), look.colour.red / 255.0f, look.colour.green / 255.0f,
