@@ -2,8 +2,10 @@
 
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include "engine/embedded_file.h"
+#include "render/theme.h"
 
 namespace clatter {
 
@@ -41,8 +43,15 @@ ImU32 packed(Colour colour) {
 
 void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, Colour colour,
                const std::string& text, float wrap) {
-  list.AddText(&font, font.FontSize, place, packed(colour), text.data(), text.data() + text.size(),
-               wrap);
+  auto write = [&](float dx, float dy, ImU32 ink) {
+    list.AddText(&font, font.FontSize, ImVec2(place.x + dx, place.y + dy), ink, text.data(),
+                 text.data() + text.size(), wrap);
+  };
+  // A halo of the background keeps it legible where a close camera brings disks below it.
+  const Colour background = theme::kBackground;
+  const ImU32 halo = IM_COL32(background.red, background.green, background.blue, 120);
+  for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) write(dx, dy, halo);
+  write(0, 0, packed(colour));
 }
 
 }  // namespace clatter
