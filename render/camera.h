@@ -1,0 +1,44 @@
+#pragma once
+
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// A picture's extent in pixels.
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+
+/// Space along the edges of a picture, in pixels.
+struct Margins {
+  double left = 0.0;
+  double right = 0.0;
+  double top = 0.0;
+  double bottom = 0.0;
+};
+
+/// What part of the world a picture shows.
+struct Camera {
+  Vec2 centre = {0.0, 0.0};  ///< world point in the middle of the picture
+  double width = 1.0;        ///< world units across the whole picture
+
+  /// The camera that shows the rectangle from `low` to `high` as large as the margins of a picture
+  /// of `size` allow, in the middle of what they leave.
+  static Camera fit(const Vec2& low, const Vec2& high, Size size, const Margins& margins);
+};
+
+/// From the world to a picture's pixels: x to the right, y up, from the lower left corner.
+struct Projection {
+  Camera camera;
+  Size size;
+
+  /// How many pixels a world unit takes.
+  double scale() const { return size.width / camera.width; }
+  /// Exact in double, so that single precision does for the result.
+  Vec2 pixels(const Vec2& world) const {
+    return (world - camera.centre) * scale() + 0.5 * Vec2(size.width, size.height);
+  }
+};
+
+}  // namespace clatter

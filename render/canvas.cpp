@@ -1,0 +1,49 @@
+#include "render/canvas.h"
+
+#include <algorithm>
+#include <string>
+
+#include "engine/error.h"
+
+namespace clatter {
+
+Canvas::Canvas(const Gl& gl, Size size)
+    : gl_(&gl),
+      size_(size),
+      colour_(generate<Renderbuffer>(gl, gl.GenRenderbuffers)),
+      framebuffer_(generate<Framebuffer>(gl, gl.GenFramebuffers)) {
+  GLint largest = 0;
+  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  if (std::max(size.width, size.height) > largest) {
+    throw RunError("a picture of " + std::to_string(size.width) + "x" +
+                   std::to_string(size.height) + " pixels is too large: at most " +
+                   std::to_string(largest) + " a side");
+  }
+  gl.BindRenderbuffer(GL_RENDERBUFFER, colour_.id());
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
+  bind();
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    throw RunError("this OpenGL cannot draw into a picture of its own");
+  }
+}
+
+void Canvas::bind() const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+}
+
+Image Canvas::read() const {
+  const std::size_t row = 4 * static_cast<std::size_t>(size_.width);
+  Image image{size_, std::vector<unsigned char>(row * size_.height)};
+  bind();
+  gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl_->ReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+
+  // OpenGL's first row is the lowest.
+  auto top = image.rgba.begin();
+  auto bottom = image.rgba.end() - row;
+  for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);
+  return image;
+}
+
+}  // namespace clatter

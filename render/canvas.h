@@ -1,0 +1,28 @@
+#pragma once
+
+#include "render/gl_object.h"
+#include "render/output/image.h"
+
+namespace clatter {
+
+/// An off-screen picture that OpenGL draws into: RGBA, 8 bits each.
+class Canvas {
+ public:
+  /// Throws RunError where the picture is larger than this OpenGL allows.
+  Canvas(const Gl& gl, Size size);
+
+  /// The extent asked for.
+  Size size() const { return size_; }
+  /// Sends what is drawn from now on into this canvas.
+  void bind() const;
+  /// The picture as drawn so far.
+  Image read() const;
+
+ private:
+  const Gl* gl_;
+  Size size_;
+  Renderbuffer colour_;
+  Framebuffer framebuffer_;
+};
+
+}  // namespace clatter

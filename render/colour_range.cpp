@@ -1,0 +1,57 @@
+#include "render/colour_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace clatter {
+
+double robust_extent(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return 0.0;
+  const auto place = values.begin() + std::lround(0.98 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end(),
+                   [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return std::abs(*place);
+}
+
+double round_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    // The slack keeps rounding errors from lifting a value that is round already.
+    if (value <= step * power * (1.0 + 1e-9)) return step * power;
+  }
+  return 10.0 * power;
+}
+
+double SteadyExtent::follow(double extent) {
+  const bool fits = 0.5 * current_ <= extent && extent <= 1.05 * current_;
+  if (extent > 0.0 && !fits) current_ = round_up(extent);
+  return current_ > 0.0 ? current_ : 1.0;
+}
+
+std::vector<double> round_ticks(double low, double high, int count) {
+  const double rough = (high - low) / count;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (double candidate : {5.0, 2.0, 1.0}) {
+    if (rough <= candidate * power * (1.0 + 1e-9)) step = candidate * power;
+  }
+  std::vector<double> ticks;
+  const double slack = 1e-9 * (high - low);
+  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
+    ticks.push_back(k * step + 0.0);  // + 0: no -0
+  }
+  return ticks;
+}
+
+std::string tick_text(double value, double step) {
+  const double digits = -std::floor(std::log10(step) + 1e-9);
+  const bool plain = std::abs(digits) <= 4.0;
+  char text[32];
+  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e",
+                plain ? static_cast<int>(std::max(0.0, digits)) : 0, std::abs(value));
+  return value < 0.0 ? "−" + std::string(text) : text;
+}
+
+}  // namespace clatter

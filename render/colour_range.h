@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace clatter {
+
+/// The 98th percentile of the magnitudes of `values`, without the few that would drown the rest;
+/// NaNs do not count; 0 where there is none.
+double robust_extent(std::vector<double> values);
+
+/// The next round number at or above `value` > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten.
+double round_up(double value);
+
+/// The end of an automatic colour range. It moves in round steps and only when it must, so that
+/// over a film a colour keeps its meaning as long as it can.
+class SteadyExtent {
+ public:
+  /// The end to use for values of this robust extent.
+  double follow(double extent);
+
+ private:
+  double current_ = 0.0;  ///< 0: nothing seen yet
+};
+
+/// Round values in [low, high], about `count` of them, in rising order.
+std::vector<double> round_ticks(double low, double high, int count);
+
+/// A tick's value, with as many digits as ticks `step` apart need.
+std::string tick_text(double value, double step);
+
+}  // namespace clatter

@@ -1,0 +1,43 @@
+#include "render/context/context.h"
+
+#include "engine/error.h"
+#include "render/context/egl_context.h"
+#include "render/context/osmesa_context.h"
+
+namespace clatter {
+
+namespace {
+
+// EGL first: it finds a GPU where there is one, and is no slower than OSMesa where there is none.
+std::unique_ptr<GlContext> open_first_that_works() {
+  std::string reasons;
+  for (Backend backend : {Backend::Egl, Backend::Osmesa}) {
+    try {
+      return open_context(backend);
+    } catch (const RunError& error) {
+      reasons += std::string("\n  ") + error.what();
+    }
+  }
+  throw RunError("no way to draw on this machine:" + reasons);
+}
+
+}  // namespace
+
+std::string GlContext::description() const {
+  auto text = [this](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
+  return std::string(text(GL_RENDERER)) + ", OpenGL " + text(GL_VERSION);
+}
+
+std::unique_ptr<GlContext> open_context(Backend backend) {
+  switch (backend) {
+    case Backend::Auto:
+      return open_first_that_works();
+    case Backend::Egl:
+      return std::make_unique<EglContext>();
+    case Backend::Osmesa:
+      return std::make_unique<OsmesaContext>();
+  }
+  return nullptr;
+}
+
+}  // namespace clatter

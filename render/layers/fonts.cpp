@@ -1,0 +1,57 @@
+#include "render/layers/fonts.h"
+
+#include <cfloat>
+#include <cmath>
+#include <utility>
+
+#include "engine/embedded_file.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+namespace {
+
+// Latin, Greek, Cyrillic, punctuation, sub- and superscripts, arrows, mathematics.
+constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2009, 0x2027, 0x2070, 0x209c,
+                               0x2190, 0x2199, 0x2200, 0x226b, 0x27e8, 0x27e9, 0};
+
+}  // namespace
+
+Fonts add_fonts(ImFontAtlas& atlas, float unit) {
+  const std::string_view file = embedded_fonts().front().bytes;
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  for (float size : {std::round(1.5f * unit), unit, std::round(0.85f * unit)}) {
+    // The atlas takes the bytes as its own to change, but leaves them as they are.
+    atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()), size,
+                               &config, kGlyphs);
+  }
+  return loaded_fonts(atlas);
+}
+
+Fonts loaded_fonts(const ImFontAtlas& atlas) {
+  return {atlas.Fonts[0], atlas.Fonts[1], atlas.Fonts[2]};
+}
+
+ImVec2 text_extent(const ImFont& font, const std::string& text, float wrap) {
+  return font.CalcTextSizeA(font.FontSize, FLT_MAX, wrap, text.data(), text.data() + text.size());
+}
+
+ImU32 packed(Colour colour) {
+  return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
+}
+
+void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, Colour colour,
+               const std::string& text, float wrap) {
+  auto write = [&](float dx, float dy, ImU32 ink) {
+    list.AddText(&font, font.FontSize, ImVec2(place.x + dx, place.y + dy), ink, text.data(),
+                 text.data() + text.size(), wrap);
+  };
+  // A halo of the background keeps it legible where a close camera brings disks below it.
+  const Colour background = theme::kBackground;
+  const ImU32 halo = IM_COL32(background.red, background.green, background.blue, 120);
+  for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) write(dx, dy, halo);
+  write(0, 0, packed(colour));
+}
+
+}  // namespace clatter

@@ -1,0 +1,250 @@
+#include "render/layers/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "render/layers/wall_layer.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+namespace {
+
+// Dear ImGui's functions act on a context that is global: ours is current only while we work, so
+// that the window's own is left alone.
+class CurrentContext {
+ public:
+  explicit CurrentContext(ImGuiContext* context) : previous_(ImGui::GetCurrentContext()) {
+    ImGui::SetCurrentContext(context);
+  }
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+  ~CurrentContext() { ImGui::SetCurrentContext(previous_); }
+
+ private:
+  ImGuiContext* previous_;
+};
+
+// In units of a line of text: from the picture's edge to the texts, and the column's width.
+constexpr float kEdge = 1.2f;
+constexpr float kColumn = 16.0f;
+
+// Where heading and figures stand: a row above and one below the box, or a column left of it.
+enum class Arrangement { Rows, Column };
+
+struct Page {
+  Arrangement arrangement = Arrangement::Rows;
+  Fonts fonts;
+  Size size;             // of the picture
+  Margins margins;       // which the texts take
+  float edge = 0.0f;     // from the picture's edge to the texts, pixels
+  float wrap = 0.0f;     // longest line of the heading, pixels
+  float caption = 0.0f;  // from the upper edge to the caption, below the title, pixels
+};
+
+float unit_for(Size size) {
+  return static_cast<float>(std::max(12.0, std::round(std::min(size.width, size.height) / 40.0)));
+}
+
+Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
+               std::span<const Legend> legends, const OverlayText& text) {
+  const float unit = fonts.unit(), edge = std::round(kEdge * unit);
+  const bool column = arrangement == Arrangement::Column;
+  Page page{arrangement, fonts, size,
+                {},          edge,  column ? kColumn * unit : size.width - 2 * edge};
+  float end = page.caption = edge;
+  if (!text.title.empty()) {
+    end += text_extent(*fonts.title, text.title, page.wrap).y;
+    page.caption = end + std::round(0.35f * unit);
+  }
+  if (!text.caption.empty()) {
+    end = page.caption + text_extent(*fonts.text, text.caption, page.wrap).y;
+  }
+
+  float legend = 0.0f;
+  for (const Legend& each : legends) legend = std::max(legend, unit + legend_width(each, fonts));
+  const double frame = edge + wall_thickness(size);
+  page.margins = {frame, frame + legend, frame, frame};
+  if (column) {
+    page.margins.left += page.wrap + unit;
+  } else {
+    page.margins.top += end > edge ? end - edge + unit : 0.0f;
+    page.margins.bottom += 2.0f * unit;
+  }
+  return page;
+}
+
+// The arrangement that leaves the box the most room.
+Page arrange(const Vec2& box, const Fonts& fonts, Size size, std::span<const Legend> legends,
+               const OverlayText& text) {
+  auto shown_width = [&](const Page& page) {
+    return Camera::fit({0.0, 0.0}, box, size, page.margins).width;
+  };
+  const Page rows = arrange(Arrangement::Rows, fonts, size, legends, text);
+  const Page column = arrange(Arrangement::Column, fonts, size, legends, text);
+  return shown_width(column) < shown_width(rows) ? column : rows;
+}
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// With a thin space between groups of three digits.
+std::string grouped(std::uint64_t value) {
+  std::string digits = std::to_string(value);
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, "\u2009");
+  return digits;
+}
+
+// The round number of diameters, at most `longest`: 1, 2 or 5 times a power of ten.
+double scale_bar_length(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (double step : {5.0, 2.0}) {
+    if (step * power <= longest) return step * power;
+  }
+  return power;
+}
+
+void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
+  draw_text(list, *page.fonts.title, ImVec2(page.edge, page.edge), theme::kText, text.title,
+            page.wrap);
+  draw_text(list, *page.fonts.text, ImVec2(page.edge, page.caption), theme::kFaintText,
+            text.caption, page.wrap);
+}
+
+// A line of a round length with its label above, and its lower left corner at `place`.
+void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels,
+                    const Fonts& fonts) {
+  const float line = std::max(1.0f, std::round(fonts.unit() / 12.0f));
+  const float cap = std::round(0.3f * fonts.unit()), right = std::round(place.x + pixels);
+  const ImU32 colour = packed(theme::kFaintText);
+  list.AddRectFilled(ImVec2(place.x, place.y - line), ImVec2(right, place.y), colour);
+  list.AddRectFilled(ImVec2(place.x, place.y - cap), ImVec2(place.x + line, place.y), colour);
+  list.AddRectFilled(ImVec2(right - line, place.y - cap), ImVec2(right, place.y), colour);
+
+  const std::string label = formatted("%g d", length);
+  const ImVec2 extent = text_extent(*fonts.small, label);
+  const float left = std::max(place.x, std::round(0.5f * (place.x + right - extent.x)));
+  draw_text(list, *fonts.small, ImVec2(left, place.y - cap - extent.y), theme::kFaintText, label);
+}
+
+struct Figure {
+  std::string text;
+  std::string widest;  // keeps the next one in its row from moving with every digit
+  Colour colour;
+};
+
+std::array<Figure, 3> figures_of(const Snapshot& snapshot) {
+  return {{{formatted("t = %.2f", snapshot.time), "t = 0000.00", theme::kText},
+           {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme::kFaintText},
+           {grouped(snapshot.collisions) + " collisions", "", theme::kFaintText}}};
+}
+
+// Figures in a row from the lower left corner, as far as there is room, and the scale at its end.
+void draw_row(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
+  const float unit = page.fonts.unit(), bottom = page.size.height - page.edge;
+  const double length = scale_bar_length(0.15 * page.size.width / (snapshot.diameter * scale));
+  const float pixels = static_cast<float>(length * snapshot.diameter * scale);
+  const float right = std::round(page.size.width - page.edge - std::max(pixels, 2.0f * unit));
+  draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page.fonts);
+
+  float x = page.edge;
+  for (const Figure& figure : figures_of(snapshot)) {
+    const float width = text_extent(*page.fonts.text, figure.text).x;
+    if (x + width > right - unit) return;
+    draw_text(list, *page.fonts.text, ImVec2(x, bottom - unit), figure.colour, figure.text);
+    const float widest = text_extent(*page.fonts.text, figure.widest).x;
+    x += std::round(std::max(width, widest) + 1.5f * unit);
+  }
+}
+
+// Figures one above the other in the lower left corner, and the scale above them.
+void draw_column(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
+  const float unit = page.fonts.unit();
+  const auto figures = figures_of(snapshot);
+  float y =
+      page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
+  const double length = scale_bar_length(0.5 * page.wrap / (snapshot.diameter * scale));
+  draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
+                 static_cast<float>(length * snapshot.diameter * scale), page.fonts);
+  for (const Figure& figure : figures) {
+    draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.colour, figure.text);
+    y += std::round(1.5f * unit);
+  }
+}
+
+// One below the other at the right of the box, or at the picture's edge where the box goes beyond.
+void draw_legends(ImDrawList& list, std::span<const Legend> legends, const Vec2& box,
+                  const Projection& projection, const Page& page) {
+  if (legends.empty()) return;
+  const float unit = page.fonts.unit();
+  const double height = projection.size.height;
+  const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(box);
+  const double top = std::max(page.margins.top, height - high.y());
+  const double bottom = std::min(height - page.margins.bottom, height - low.y());
+  const double right = std::min(high.x(), projection.size.width - page.margins.right);
+  const float x = static_cast<float>(std::round(right + wall_thickness(projection.size) + unit));
+
+  const float gap = 1.5f * unit;
+  const float room = static_cast<float>(bottom - top + gap) / legends.size() - gap;
+  const float each = std::clamp(room, 4.0f * unit, 18.0f * unit);
+  float y = static_cast<float>(std::round(top));
+  for (const Legend& legend : legends) {
+    draw_legend(list, legend, page.fonts, ImVec2(x, y), each);
+    y = std::round(y + each + gap);
+  }
+}
+
+}  // namespace
+
+Overlay::Overlay(const Gl& gl) : gui_(gl) {
+  const CurrentContext restored(ImGui::GetCurrentContext());
+  context_.reset(ImGui::CreateContext());
+  ImGui::SetCurrentContext(context_.get());
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+}
+
+Fonts Overlay::fonts_for(Size size) {
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  if (unit_for(size) == loaded_size_) return loaded_fonts(atlas);
+  atlas.Clear();
+  loaded_size_ = unit_for(size);
+  const Fonts fonts = add_fonts(atlas, loaded_size_);
+  gui_.upload(atlas);
+  return fonts;
+}
+
+Margins Overlay::margins(const Vec2& box, Size size, std::span<const Legend> legends,
+                         const OverlayText& text) {
+  const CurrentContext current(context_.get());
+  return arrange(box, fonts_for(size), size, legends, text).margins;
+}
+
+void Overlay::draw(const Snapshot& snapshot, const Projection& projection,
+                   std::span<const Legend> legends, const OverlayText& text) {
+  const CurrentContext current(context_.get());
+  const Size size = projection.size;
+  const Page page = arrange(snapshot.box, fonts_for(size), size, legends, text);
+  ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
+  ImGui::NewFrame();
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  draw_heading(list, text, page);
+  draw_legends(list, legends, snapshot.box, projection, page);
+  switch (page.arrangement) {
+    case Arrangement::Rows:
+      draw_row(list, snapshot, projection.scale(), page);
+      break;
+    case Arrangement::Column:
+      draw_column(list, snapshot, projection.scale(), page);
+      break;
+  }
+  ImGui::Render();
+  gui_.draw(*ImGui::GetDrawData());
+}
+
+}  // namespace clatter

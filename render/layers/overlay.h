@@ -1,0 +1,49 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "engine/publish/snapshot.h"
+#include "render/camera.h"
+#include "render/layers/gui_layer.h"
+#include "render/layers/legend.h"
+
+namespace clatter {
+
+/// What the app wants said above the picture; empty: nothing.
+struct OverlayText {
+  std::string title;
+  std::string caption;
+};
+
+/// Writes on the picture: title, time, temperature, collisions, colour bars and a scale bar, in the
+/// margins that it asks for.
+class Overlay {
+ public:
+  explicit Overlay(const Gl& gl);
+
+  /// The space its texts take along the edges of a picture of `size` that shows `box`.
+  Margins margins(const Vec2& box, Size size, std::span<const Legend> legends,
+                  const OverlayText& text);
+
+  /// Draws it over a picture of `snapshot`.
+  void draw(const Snapshot& snapshot, const Projection& projection, std::span<const Legend> legends,
+            const OverlayText& text);
+
+ private:
+  struct DestroyContext {
+    void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
+  };
+
+  /// Loads the fonts for a picture of `size`; the context must be current.
+  Fonts fonts_for(Size size);
+
+  GuiLayer gui_;
+  std::unique_ptr<ImGuiContext, DestroyContext> context_;
+  float loaded_size_ = 0.0f;  ///< of the text of the loaded fonts, pixels; 0: none yet
+};
+
+}  // namespace clatter

@@ -1,0 +1,21 @@
+#include "render/output/frame_sink.h"
+
+#include "engine/error.h"
+#include "render/output/movie.h"
+#include "render/output/png_sink.h"
+
+namespace clatter {
+
+std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path,
+                                     const SinkOptions& options) {
+  const std::string extension = path.extension();
+  if (extension == ".png") return std::make_unique<PngFile>(path, options);
+  if (Movie::knows(extension)) return std::make_unique<Movie>(path, options);
+  if (extension.empty() || std::filesystem::is_directory(path)) {
+    return std::make_unique<PngSequence>(path, options);
+  }
+  throw UserError({path.string()}, "no such kind of output: " + extension,
+                  "use .mp4, .webm, .gif or .png, or a folder for a sequence of pictures");
+}
+
+}  // namespace clatter

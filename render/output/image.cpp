@@ -1,0 +1,98 @@
+#include "render/output/image.h"
+
+#include <fcntl.h>
+#include <libdeflate.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "engine/error.h"
+#include "render/output/file_descriptor.h"
+
+namespace {
+
+// stb's own compressor is several times slower than libdeflate. The result is stb's to free().
+unsigned char* compress_for_stb(unsigned char* data, int size, int* compressed_size, int) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(1), libdeflate_free_compressor);
+  const size_t bound = libdeflate_zlib_compress_bound(compressor.get(), size);
+  auto* compressed = static_cast<unsigned char*>(std::malloc(bound));
+  *compressed_size =
+      static_cast<int>(libdeflate_zlib_compress(compressor.get(), data, size, compressed, bound));
+  return compressed;
+}
+
+}  // namespace
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBIW_ZLIB_COMPRESS compress_for_stb
+#include <stb_image_write.h>
+
+namespace clatter {
+
+namespace {
+
+// Signature (8 bytes) and IHDR (4 + 4 + 13 + 4): iTXt may follow, and must precede nothing else.
+constexpr std::size_t kHeaderSize = 33;
+
+void append_big_endian(std::vector<unsigned char>& bytes, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back((value >> shift) & 0xff);
+}
+
+// PNG specification, 11.3.3.4: keyword, 0, compression flag and method, language, 0, keyword in
+// that language, 0, text.
+void append_text_chunk(std::vector<unsigned char>& bytes, const PngText& text) {
+  std::string chunk = "iTXt" + text.keyword;
+  chunk.append(5, '\0');
+  chunk += text.text;
+  append_big_endian(bytes, static_cast<std::uint32_t>(chunk.size() - 4));
+  bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+  append_big_endian(bytes, libdeflate_crc32(0, chunk.data(), chunk.size()));
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+}
+
+void write_bytes(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
+  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!file || !file.write_all(bytes) || !file.close()) fail(path);
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts) {
+  // No filter: the pictures are flat areas, which compress best and fastest as they are.
+  stbi_write_force_png_filter = 0;
+  int size = 0;
+  const std::unique_ptr<unsigned char, decltype(&std::free)> png(
+      stbi_write_png_to_mem(image.rgba.data(), 4 * image.size.width, image.size.width,
+                            image.size.height, 4, &size),
+      std::free);
+  if (!png) throw RunError("no memory for a PNG picture");
+
+  std::vector<unsigned char> bytes(png.get(), png.get() + kHeaderSize);
+  for (const PngText& text : texts) append_text_chunk(bytes, text);
+  bytes.insert(bytes.end(), png.get() + kHeaderSize, png.get() + size);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image,
+               std::span<const PngText> texts) {
+  const std::vector<unsigned char> bytes = encode_png(image, texts);
+  std::filesystem::path part = path;
+  part += ".part";
+  try {
+    write_bytes(part, bytes);
+    if (rename(part.c_str(), path.c_str()) != 0) fail(path);
+  } catch (const RunError&) {
+    unlink(part.c_str());
+    throw;
+  }
+}
+
+}  // namespace clatter

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+
+namespace clatter {
+
+/// A picture in memory.
+struct Image {
+  Size size;
+  std::vector<unsigned char> rgba;  ///< [height][width][4], top row first
+};
+
+/// A note inside a PNG file, as an iTXt chunk.
+struct PngText {
+  std::string keyword;  ///< 1..79 Latin-1 characters, e.g. "Title"
+  std::string text;     ///< UTF-8
+};
+
+/// The bytes of a PNG file.
+std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts = {});
+
+/// Writes a PNG file under a temporary name and renames it when it is whole; throws RunError where
+/// that fails and then leaves nothing behind.
+void write_png(const std::filesystem::path& path, const Image& image,
+               std::span<const PngText> texts = {});
+
+}  // namespace clatter

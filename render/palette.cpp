@@ -1,0 +1,72 @@
+#include "render/palette.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+
+namespace {
+
+template <std::size_t N>
+constexpr std::array<Colour, N> colours(const std::uint32_t (&rgb)[N]) {
+  std::array<Colour, N> result;
+  for (std::size_t i = 0; i < N; ++i) {
+    result[i] = {static_cast<std::uint8_t>(rgb[i] >> 16), static_cast<std::uint8_t>(rgb[i] >> 8),
+                 static_cast<std::uint8_t>(rgb[i])};
+  }
+  return result;
+}
+
+// Viridis and inferno of N. J. Smith, S. van der Walt and E. Firing, dedicated to the public domain
+// (https://bids.github.io/colormap), sampled at 17 equal steps.
+constexpr auto kViridis = colours({0x440154, 0x48186a, 0x472d7b, 0x424086, 0x3b528b, 0x33638d,
+                                   0x2c728e, 0x26818e, 0x21908c, 0x1f9f88, 0x28ae80, 0x3ebc74,
+                                   0x5dc963, 0x82d34c, 0xabdc32, 0xd5e21a, 0xfde725});
+constexpr auto kInferno = colours({0x000004, 0x0b0724, 0x210c4a, 0x3c0965, 0x57106d, 0x70196e,
+                                   0x89226a, 0xa32b61, 0xbb3755, 0xd14644, 0xe35932, 0xf1711e,
+                                   0xf98d0a, 0xfcab0f, 0xf9ca32, 0xf2e865, 0xfcffa4});
+
+// K. Moreland, "Diverging Color Maps for Scientific Visualization" (2009): Msh interpolation from
+// (59, 76, 192) to (180, 4, 38), evaluated at 17 equal steps.
+constexpr auto kCoolWarm = colours({0x3b4cc0, 0x4e68d7, 0x6282ea, 0x779af7, 0x8db0fe, 0xa3c2fe,
+                                    0xb8d0f9, 0xccd9ee, 0xdddddd, 0xecd3c6, 0xf5c4ad, 0xf7b194,
+                                    0xf49a7b, 0xec7f63, 0xde614c, 0xcb3e38, 0xb40426});
+
+constexpr auto kSubdued = colours({0x12181e, 0x2c3e4c, 0x8399a8});
+
+}  // namespace
+
+Colour mix(Colour a, Colour b, double t) {
+  auto channel = [t](int from, int to) {
+    return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
+  };
+  return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue),
+          channel(a.alpha, b.alpha)};
+}
+
+ColourMap colour_map(Palette palette) {
+  switch (palette) {
+    case Palette::Viridis:
+      return kViridis;
+    case Palette::Inferno:
+      return kInferno;
+  }
+  return {};
+}
+
+ColourMap diverging_map() {
+  return kCoolWarm;
+}
+
+ColourMap subdued_map() {
+  return kSubdued;
+}
+
+Colour ColourScale::operator()(double value) const {
+  const double steps = static_cast<double>(map.size() - 1);
+  const double place = steps * std::clamp((value - low) / (high - low), 0.0, 1.0);
+  const std::size_t index = std::min(static_cast<std::size_t>(place), map.size() - 2);
+  return mix(map[index], map[index + 1], place - static_cast<double>(index));
+}
+
+}  // namespace clatter

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// A colour in sRGB, in the byte order of GL_RGBA and of Image.
+struct Colour {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+  std::uint8_t alpha = 255;
+
+  bool operator==(const Colour&) const = default;
+};
+
+/// The colour a share `t` in 0..1 of the way from `a` to `b`.
+Colour mix(Colour a, Colour b, double t);
+
+/// Colours at equal steps from the lowest to the highest value; linear between them.
+using ColourMap = std::span<const Colour>;
+
+/// The map of a palette: viridis or inferno.
+ColourMap colour_map(Palette palette);
+
+/// For signed values: blue below zero, grey at zero, red above.
+ColourMap diverging_map();
+
+/// From the background to a pale slate, below things of more colour.
+ColourMap subdued_map();
+
+/// From values to colours.
+struct ColourScale {
+  ColourMap map;
+  double low = 0.0;   ///< the value at the map's first colour
+  double high = 1.0;  ///< the value at its last, > low
+
+  /// The colour of `value`; beyond the ends, that of the end.
+  Colour operator()(double value) const;
+};
+
+}  // namespace clatter

@@ -1,0 +1,20 @@
+#version 330 core
+// A disk as an instance of a square, for disks larger than the driver's largest point.
+
+layout(location = 0) in vec2 a_centre;  // pixels
+layout(location = 1) in vec4 a_colour;
+
+uniform vec2 u_origin;  // lower left corner and extent of the viewport, pixels
+uniform vec2 u_extent;
+uniform float u_reach;  // from the centre to the outermost pixel touched
+
+flat out vec2 v_centre;
+flat out vec4 v_colour;
+
+void main() {
+  v_centre = a_centre;
+  v_colour = a_colour;
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  vec2 position = a_centre + u_reach * corner;
+  gl_Position = vec4(2.0 * (position - u_origin) / u_extent - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,11 @@
+#version 330 core
+// Dear ImGui's triangles: a colour times a texture, mostly the font.
+
+in vec2 v_texture_place;
+in vec4 v_colour;
+
+uniform sampler2D u_texture;
+
+out vec4 o_colour;
+
+void main() { o_colour = v_colour * texture(u_texture, v_texture_place); }

@@ -1,0 +1,19 @@
+#version 330 core
+// Dear ImGui's triangles; its pixels count from the upper left corner.
+
+layout(location = 0) in vec2 a_position;
+layout(location = 1) in vec2 a_texture_place;
+layout(location = 2) in vec4 a_colour;
+
+uniform vec2 u_origin;  // of the part of the plane that fills the picture
+uniform vec2 u_size;
+
+out vec2 v_texture_place;
+out vec4 v_colour;
+
+void main() {
+  v_texture_place = a_texture_place;
+  v_colour = a_colour;
+  vec2 place = (a_position - u_origin) / u_size;
+  gl_Position = vec4(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0);
+}

@@ -1,0 +1,47 @@
+#version 330 core
+// What a wall does, as a pattern on its band.
+
+in vec2 v_place;  // along the wall and outward from its face, pixels
+
+uniform int u_pattern;      // the enum Pattern of wall_layer.cpp
+uniform vec4 u_colour;
+uniform float u_thickness;  // of the band, pixels
+uniform float u_advance;    // how far a driven wall's teeth have moved inward, in periods
+uniform float u_line;       // width of lines, pixels
+
+out vec4 o_colour;
+
+const int kHatch = 0, kTeeth = 1, kGlow = 2, kDashes = 3;
+
+// The share of a pixel inside an edge, at a distance (positive: inside) in pixels.
+float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
+
+// Stripes that fill half of each period: 1 inside, 0 outside; `softness` is a pixel in periods.
+float stripes(float phase, float softness) {
+  float distance = 0.25 - abs(fract(phase) - 0.5);
+  return clamp(distance / softness + 0.5, 0.0, 1.0);
+}
+
+// The saw-tooth that a driven wall stands for: teeth that point, and move, into the box.
+float teeth() {
+  float period = 0.75 * u_thickness;
+  float tooth = abs(fract(v_place.x / (2.0 * u_thickness)) - 0.5) * 2.0;
+  float phase = (v_place.y - 0.6 * u_thickness * tooth) / period + u_advance;
+  return stripes(phase, 1.2 / period);
+}
+
+void main() {
+  float face = coverage(u_line - v_place.y);
+  float depth = clamp(v_place.y / u_thickness, 0.0, 1.0);
+  float alpha = 0.0;
+  if (u_pattern == kHatch) {
+    alpha = 0.45 * stripes((v_place.x + v_place.y) / (0.6 * u_thickness), 2.4 / u_thickness);
+  } else if (u_pattern == kTeeth) {
+    alpha = mix(0.15, 0.9, teeth()) * (1.0 - 0.5 * depth);
+  } else if (u_pattern == kGlow) {
+    alpha = pow(1.0 - depth, 1.5);
+  } else if (u_pattern == kDashes) {
+    face = 0.7 * stripes(v_place.x / (8.0 * u_line), 1.0 / (8.0 * u_line));
+  }
+  o_colour = vec4(u_colour.rgb, u_colour.a * max(alpha, face));
+}

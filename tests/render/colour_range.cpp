@@ -1,0 +1,46 @@
+#include "render/colour_range.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+namespace clatter {
+
+TEST_CASE("A robust extent ignores outliers, signs and NaNs") {
+  std::vector<double> values(100, -1.0);
+  values[7] = 1000.0;
+  values[8] = std::nan("");
+  CHECK(robust_extent(values) == 1.0);
+  CHECK(robust_extent({}) == 0.0);
+  CHECK(robust_extent({std::nan("")}) == 0.0);
+}
+
+TEST_CASE("Ranges end at round numbers") {
+  CHECK(round_up(1.0) == doctest::Approx(1.0));
+  CHECK(round_up(2.1) == doctest::Approx(3.0));
+  CHECK(round_up(0.0083) == doctest::Approx(0.01));
+  CHECK(round_up(130.0) == doctest::Approx(150.0));
+}
+
+TEST_CASE("A steady extent moves only when it must") {
+  SteadyExtent extent;
+  CHECK(extent.follow(0.0) == 1.0);
+  CHECK(extent.follow(1.9) == 2.0);
+  CHECK(extent.follow(1.2) == 2.0);
+  CHECK(extent.follow(2.05) == 2.0);
+  CHECK(extent.follow(2.2) == 3.0);
+  CHECK(extent.follow(1.6) == 3.0);
+  CHECK(extent.follow(0.7) == doctest::Approx(0.8));
+  CHECK(extent.follow(0.0) == doctest::Approx(0.8));
+}
+
+TEST_CASE("Ticks are round and say no more digits than they need") {
+  CHECK(round_ticks(0.0, 3.0, 4) == std::vector<double>{0, 1, 2, 3});
+  CHECK(round_ticks(-2.0, 2.0, 5) == std::vector<double>{-2, -1, 0, 1, 2});
+  CHECK_FALSE(std::signbit(round_ticks(0.0, 3.0, 4).front()));
+  CHECK(tick_text(0.4, 0.2) == "0.4");
+  CHECK(tick_text(-2.0, 1.0) == "−2");
+  CHECK(tick_text(3e-7, 1e-7) == "3e-07");
+}
+
+}  // namespace clatter

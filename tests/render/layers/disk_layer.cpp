@@ -1,0 +1,147 @@
+#include "render/layers/disk_layer.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Size kSize{200, 120};
+
+// One disk in a walled box that fills the picture: a world unit is a pixel.
+Snapshot one_disk(Vec2 centre, double diameter) {
+  Snapshot snapshot;
+  snapshot.box = {kSize.width, kSize.height};
+  snapshot.diameter = diameter;
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = {centre};
+  snapshot.velocities = {{0.0, 0.0}};
+  return snapshot;
+}
+
+const Projection kUnitProjection{{{100.0, 60.0}, 200.0}, kSize};
+constexpr double kAlwaysPoints = 1e9, kAlwaysSquares = 0.0;
+
+Image draw(const Gl& gl, const Snapshot& snapshot, double largest_point,
+           ColourBy colour_by = ColourBy::None) {
+  const Canvas canvas = blank_canvas(gl, kSize);
+  DiskLayer(gl, largest_point)
+      .draw(snapshot, kUnitProjection, colour_by, {colour_map(Palette::Viridis)});
+  return canvas.read();
+}
+
+struct Circle {
+  double x = 0.0, y = 0.0;  // centre, pixels from the lower left corner
+  double radius = 0.0;
+};
+
+// From the moments of what differs from the background. The rim is darker than the disk, but all of
+// it counts: a pixel's weight is its coverage, which only the outermost pixels have below 1.
+Circle measure(const Image& image) {
+  double area = 0.0, x_sum = 0.0, y_sum = 0.0;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) {
+      const double weight = pixel(image, x, y) == theme::kBackground ? 0.0 : 1.0;
+      area += weight;
+      x_sum += weight * (x + 0.5);
+      y_sum += weight * (image.size.height - y - 0.5);
+    }
+  }
+  return {x_sum / area, y_sum / area, std::sqrt(area / M_PI)};
+}
+
+}  // namespace
+
+TEST_CASE("A disk is drawn where it is and as large as it is") {
+  const auto context = open_context(Backend::Osmesa);
+  for (double largest_point : {kAlwaysPoints, kAlwaysSquares}) {
+    CAPTURE(largest_point);
+    for (Vec2 centre : {Vec2(60.0, 50.0), Vec2(61.0, 50.0), Vec2(77.3, 41.8)}) {
+      const Circle circle = measure(draw(context->gl(), one_disk(centre, 40.0), largest_point));
+      CHECK(std::abs(circle.x - centre.x()) < 0.1);
+      CHECK(std::abs(circle.y - centre.y()) < 0.1);
+      CHECK(circle.radius > 20.0);  // every pixel touched counts in full
+      CHECK(circle.radius < 20.6);
+    }
+  }
+}
+
+TEST_CASE("Points and squares give the same picture") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = one_disk({60.2, 50.7}, 31.0);
+  for (double x : {0.0, 15.6, 120.0, 190.1}) {
+    snapshot.positions.push_back({x, 0.4 * x + 3.3});
+    snapshot.velocities.push_back({0.005 * x, 0.0});
+  }
+  for (double diameter : {0.3, 1.0, 7.7, 40.0}) {
+    snapshot.diameter = diameter;
+    const Image points = draw(context->gl(), snapshot, kAlwaysPoints, ColourBy::Speed);
+    const Image squares = draw(context->gl(), snapshot, kAlwaysSquares, ColourBy::Speed);
+    CHECK(difference(points, squares) <= 1);
+  }
+}
+
+TEST_CASE("Disks beyond the largest point of the driver are drawn as well") {
+  const auto context = open_context(Backend::Osmesa);
+  const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
+  Snapshot snapshot = one_disk({0.0, 0.0}, 1.0);
+  const Projection close{{{0.0, 0.0}, 1.2}, {1200, 1200}};
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{0.2, 0.2}};
+  DiskLayer(context->gl()).draw(snapshot, close, ColourBy::None, {colour_map(Palette::Viridis)});
+  const Image image = canvas.read();
+  CHECK(pixel(image, 800, 400) == theme::kDisk);
+  CHECK(pixel(image, 1195, 1195) == theme::kBackground);
+}
+
+TEST_CASE("A disk whose centre lies outside the picture shows its part inside") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
+  const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
+  CHECK(pixel(image, 1, 60) == theme::kDisk);
+  CHECK(pixel(image, 6, 60) == theme::kBackground);
+}
+
+TEST_CASE("A disk on a periodic border is drawn on both sides of the box") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = one_disk({2.0, 60.0}, 20.0);
+  CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == theme::kBackground);
+  snapshot.walls[kLeft].reset();
+  snapshot.walls[kRight].reset();
+  CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == theme::kDisk);
+
+  snapshot.walls.fill({});
+  snapshot.positions = {{199.0, 119.0}};
+  const Image corners = draw(context->gl(), snapshot, kAlwaysPoints);
+  for (int x : {2, 197}) {
+    for (int y : {2, 117}) CHECK(pixel(corners, x, y) == theme::kDisk);
+  }
+}
+
+TEST_CASE("A disk's colour shows its velocity") {
+  const auto context = open_context(Backend::Osmesa);
+  const ColourScale scale{colour_map(Palette::Viridis)};
+  Snapshot snapshot = one_disk({60.0, 60.0}, 40.0);
+  snapshot.velocities = {{0.3, 0.4}};
+  auto centre = [&](ColourBy by) {
+    return pixel(draw(context->gl(), snapshot, kAlwaysPoints, by), 60, 60);
+  };
+  CHECK(centre(ColourBy::None) == theme::kDisk);
+  CHECK(difference(centre(ColourBy::Speed), scale(0.5)) <= 1);
+  CHECK(difference(centre(ColourBy::VelocityX), scale(0.3)) <= 1);
+  CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
+}
+
+TEST_CASE("Disks smaller than a pixel keep the brightness of their area") {
+  const auto context = open_context(Backend::Osmesa);
+  const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
+  // The pixel's centre is the disk's: full coverage times (0.25 / 0.5)^2.
+  const Colour expected = mix(theme::kBackground, theme::kDisk, 0.25);
+  CHECK(difference(pixel(image, 60, 59), expected) <= 2);
+}
+
+}  // namespace clatter

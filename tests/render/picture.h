@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "engine/publish/snapshot.h"
+#include "render/canvas.h"
+#include "render/context/context.h"
+#include "render/palette.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+/// The pixel in column `x` from the left and row `y` from the top.
+inline Colour pixel(const Image& image, int x, int y) {
+  const unsigned char* p = &image.rgba[4 * (static_cast<std::size_t>(y) * image.size.width + x)];
+  return {p[0], p[1], p[2], p[3]};
+}
+
+/// The largest difference of a channel between two colours.
+inline int difference(Colour a, Colour b) {
+  return std::max({std::abs(a.red - b.red), std::abs(a.green - b.green), std::abs(a.blue - b.blue),
+                   std::abs(a.alpha - b.alpha)});
+}
+
+/// The largest difference of a channel between two pictures of one size.
+inline int difference(const Image& a, const Image& b) {
+  int largest = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+    largest = std::max(largest, std::abs(a.rgba[i] - b.rgba[i]));
+  }
+  return largest;
+}
+
+/// A canvas cleared to the background, with the blending of Renderer.
+inline Canvas blank_canvas(const Gl& gl, Size size) {
+  Canvas canvas(gl, size);
+  gl.Viewport(0, 0, size.width, size.height);
+  gl.ClearColor(theme::kBackground.red / 255.0f, theme::kBackground.green / 255.0f,
+                theme::kBackground.blue / 255.0f, 1.0f);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  return canvas;
+}
+
+/// A 20 x 25 box driven from left and right and periodic in y, with a lattice of moving disks and a
+/// density field.
+inline Snapshot driven_box() {
+  Snapshot snapshot;
+  snapshot.box = {20.0, 25.0};
+  snapshot.time = 12.34;
+  snapshot.temperature = 0.98;
+  snapshot.collisions = 1234567;
+  snapshot.walls[kLeft] = snapshot.walls[kRight] = Wall{WallKind::Driven, 1.0, 1.0, 1.0};
+  for (int i = 0; i < 14 * 16; ++i) {
+    snapshot.positions.push_back({1.0 + 1.35 * (i % 14), 0.3 + 1.55 * (i / 14)});
+    snapshot.velocities.push_back({0.01 * (i % 97), 0.02 * (i % 31)});
+  }
+  FieldMap density{Field::Density, {4, 5}, {}};
+  for (int i = 0; i < 20; ++i) density.values.push_back(0.05 * i);
+  snapshot.field = density;
+  return snapshot;
+}
+
+}  // namespace clatter

@@ -1,0 +1,99 @@
+#include "render/renderer.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+const OverlayText kText{"Vibrated box", "Watch the cold dense band form between the hot walls."};
+
+Image draw(Renderer& renderer, const Gl& gl, const Snapshot& snapshot, const Camera& camera,
+           Size size, const View& view) {
+  const Canvas canvas(gl, size);
+  canvas.bind();
+  renderer.draw(snapshot, camera, size, view, kText);
+  return canvas.read();
+}
+
+View view_with_field() {
+  View view;
+  view.field = Field::Density;
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("The overlay writes on every size of picture, and neither on the box nor at the edge") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  for (Size size : {Size{1280, 720}, {1920, 1080}, {720, 720}, {640, 360}, {360, 640}}) {
+    for (Vec2 box : {Vec2(20.0, 25.0), Vec2(60.0, 12.0), Vec2(20.0, 20.0)}) {
+      CAPTURE(size.width);
+      CAPTURE(box.x());
+      Snapshot snapshot = driven_box();
+      snapshot.box = box;
+      View view = view_with_field();
+      const Camera camera = renderer.fit(snapshot, size, view, kText);
+      const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+      view.overlay = false;
+      const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+
+      const Projection projection{camera, size};
+      const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(box);
+      int written = 0, on_box = 0, at_edge = 0;
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          if (pixel(with, x, y) == pixel(without, x, y)) continue;
+          ++written;
+          const int up = size.height - 1 - y;
+          on_box += x > low.x() && x < high.x() && up > low.y() && up < high.y();
+          at_edge += std::min({x, y, size.width - 1 - x, size.height - 1 - y}) < 4;
+        }
+      }
+      CHECK(written > 1000);
+      CHECK(on_box == 0);
+      CHECK(at_edge == 0);
+    }
+  }
+}
+
+TEST_CASE("The same snapshot gives the same picture") {
+  const auto context = open_context(Backend::Osmesa);
+  const Snapshot snapshot = driven_box();
+  const Size size{640, 360};
+  const View view = view_with_field();
+  Renderer first(context->gl()), second(context->gl());
+  const Camera camera = first.fit(snapshot, size, view, kText);
+  CHECK(difference(draw(first, context->gl(), snapshot, camera, size, view),
+                   draw(second, context->gl(), snapshot, camera, size, view)) == 0);
+}
+
+TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{5.0, 5.0}};
+  snapshot.velocities = {{2.0, 0.0}};
+  View view;
+  view.overlay = false;
+  view.range = {1.0, 2.0};
+  const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
+  CHECK(pixel(image, 50, 50) == Colour{0xfd, 0xe7, 0x25});
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
+}
+
+TEST_CASE("An empty box is drawn too") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  const Size size{320, 200};
+  CHECK_NOTHROW(draw(renderer, context->gl(), snapshot, renderer.fit(snapshot, size, View{}, kText),
+                     size, View{}));
+}
+
+}  // namespace clatter
