@@ -58,7 +58,7 @@ int run_program(int argc, const char* const* argv) {
     program.set_version_flag("--version", "clatter " CLATTER_VERSION);
     program.require_subcommand(1);
     program.failure_message(CLI::FailureMessage::simple);
-//R
+    add_render_command(program, exit_code);
     add_measure_command(program, exit_code);
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);

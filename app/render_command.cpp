@@ -1,0 +1,166 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/run.h"
+#include "app/write_file.h"
+#include "engine/error.h"
+#include "engine/measure/fields.h"
+#include "engine/publish/publish.h"
+#include "render/canvas.h"
+#include "render/context/context.h"
+#include "render/output/frame_sink.h"
+#include "render/renderer.h"
+
+namespace clatter {
+
+namespace {
+
+struct RenderOptions {
+  CommonOptions common;
+  std::string out;
+  std::string size = "1280x720";
+  double fps = 30.0;
+  double from = 0.0;
+  std::optional<double> to;
+  std::optional<double> speed;
+  bool no_overlay = false;
+  bool overwrite = false;
+  Backend backend = Backend::Auto;
+};
+
+// When the frames are: k-th at from + k interval.
+struct FrameTimes {
+  double from;
+  double interval;
+  long count;
+
+  double last() const { return from + static_cast<double>(count - 1) * interval; }
+};
+
+Size parse_size(const std::string& text) {
+  Size size;
+  char after;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &after) == 2 &&
+      size.width >= 16 && size.height >= 16 && size.width <= 16384 && size.height <= 16384) {
+    return size;
+  }
+  throw UserError({"--size", 0, 0}, "'" + text + "' is no picture size",
+                  "write WIDTHxHEIGHT, each from 16 to 16384, for instance 1280x720");
+}
+
+FrameTimes frame_times(const RenderOptions& options, double speed) {
+  constexpr double kFilmSeconds = 20.0;
+  constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
+  const bool one_picture = std::filesystem::path(options.out).extension() == ".png";
+  const std::optional<double> to = options.to ? options.to : options.common.until;
+  if (to && *to < options.from) {
+    throw UserError({"--to", 0, 0}, "the film would end before it begins",
+                    "give a time after --from " + std::to_string(options.from));
+  }
+  if (one_picture) return {to.value_or(options.from + kPictureSeconds * speed), 0.0, 1};
+  const double interval = speed / options.fps;
+  const double span = to ? *to - options.from : kFilmSeconds * speed;
+  constexpr double kMostFrames = 1e7;
+  const double frames = std::max(1.0, std::round(span / interval));
+  if (frames > kMostFrames) {
+    throw UserError({"--to", 0, 0}, "the film would have " + std::to_string(frames) + " frames",
+                    "choose a larger --speed, or an earlier --to");
+  }
+  return {options.from, interval, static_cast<long>(frames)};
+}
+
+// Draws one frame after the other; false where it was interrupted.
+bool film(Simulation<2>& simulation, const View& view, const OverlayText& text,
+          const FrameTimes& times, GlContext& context, Size size, FrameSink& sink,
+          Progress& progress) {
+  Canvas canvas(context.gl(), size);
+  canvas.bind();
+  Renderer renderer(context.gl());
+  std::optional<LiveField> field;
+  if (view.field) field.emplace(simulation, view);
+  std::optional<Camera> camera;
+  for (long k = 0; k < times.count; ++k) {
+    const double time = times.from + static_cast<double>(k) * times.interval;
+    if (!run_until(simulation, time, progress)) return false;
+    Snapshot snapshot = snapshot_of(simulation);
+    if (field) snapshot.field = field->map();
+    if (!camera) camera = renderer.fit(snapshot, size, view, text);
+    renderer.draw(snapshot, *camera, size, view, text);
+    sink.add(canvas.read(), time);
+    progress.update(time);
+  }
+  return true;
+}
+
+int render(const RenderOptions& options) {
+  const Scene scene = load(options.common);
+  View view = scene.view;
+  if (options.speed) view.speed = *options.speed;
+  view.overlay = view.overlay && !options.no_overlay;
+  const FrameTimes times = frame_times(options, view.speed);
+  const Size size = parse_size(options.size);
+  require_folder_of(options.out, "--out");
+  catch_interrupts();
+
+  const auto simulation = simulation_of(scene, options.common.seed);
+  const auto context = open_context(options.backend);
+  SinkOptions sink_options;
+  sink_options.size = size;
+  sink_options.fps = options.fps;
+  sink_options.title = scene.title;
+  sink_options.comment = "clatter " CLATTER_VERSION ", seed " +
+                         std::to_string(options.common.seed) + "\n" + scene_to_toml(scene);
+  sink_options.overwrite = options.overwrite;
+  const auto sink = open_sink(options.out, sink_options);
+  bool completed;
+  {
+    Progress progress(options.common.shown_progress(), "filming", 0.0, times.last());
+    completed = film(*simulation, view, {scene.title, scene.caption}, times, *context, size, *sink,
+                     progress);
+  }
+  sink->finish();
+  if (!options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
+  return completed ? kOk : kInterrupted;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
+  add_common_flags(*command, options->common);
+  command
+      ->add_option("--out", options->out,
+                   "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
+      ->required();
+  command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
+  command->add_option("--fps", options->fps, "Frames per second of film")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("--from", options->from, "Simulation time of the first frame")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--to", options->to,
+                   "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
+                   "10 s for a picture)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--speed", options->speed,
+                   "Simulation time per second of film (default: the scene's view.speed)")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-overlay", options->no_overlay, "Draw no title, time, colour bar, scale bar");
+  command->add_flag("--overwrite", options->overwrite, "Replace frames that a folder holds already");
+  command->add_option("--backend", options->backend, "Where OpenGL comes from")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
+          {"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
+      ->type_name("auto|egl|osmesa");
+  command->callback([options, &exit_code] { exit_code = render(*options); });
+}
+
+}  // namespace clatter
