@@ -14,8 +14,9 @@ static bool after(const Event& a, const Event& b) {
 void EventQueue::rebuild(std::vector<Event>& events) {
   current_.clear();
   later_.clear();
-  rows_.resize(kRows);
-  for (auto& row : rows_) row.clear();
+  rows_.assign(kRows, kNone);
+  chunks_.clear();
+  spare_chunks_.clear();
   for (auto& bucket : buckets_) bucket.clear();
   in_buckets_ = in_rows_ = 0;
   bucket_ = 0;
@@ -55,11 +56,29 @@ void EventQueue::push(const Event& event) {
     buckets_[number & (buckets_.size() - 1)].push_back(event);
     ++in_buckets_;
   } else if (rows_ahead < kRows) {
-    rows_[(number >> row_shift_) & (kRows - 1)].push_back(event);
-    ++in_rows_;
+    add_to_row(event, number);
   } else {
     later_.push_back(event);
   }
+}
+
+void EventQueue::add_to_row(const Event& event, std::uint64_t bucket) {
+  std::uint32_t& newest = rows_[(bucket >> row_shift_) & (kRows - 1)];
+  if (newest == kNone || chunks_[newest].size == chunks_[newest].events.size()) {
+    std::uint32_t added = static_cast<std::uint32_t>(chunks_.size());
+    if (spare_chunks_.empty()) {
+      chunks_.emplace_back();
+    } else {
+      added = spare_chunks_.back();
+      spare_chunks_.pop_back();
+    }
+    chunks_[added].size = 0;
+    chunks_[added].next = newest;
+    newest = added;
+  }
+  Chunk& chunk = chunks_[newest];
+  chunk.events[chunk.size++] = event;
+  ++in_rows_;
 }
 
 void EventQueue::pop() {
@@ -92,18 +111,22 @@ void EventQueue::spread_row() {
     };
     const auto near = std::partition(later_.begin(), later_.end(), far);
     for (auto event = near; event != later_.end(); ++event) {
-      rows_[(bucket_of(event->time) >> row_shift_) & (kRows - 1)].push_back(*event);
+      add_to_row(*event, bucket_of(event->time));
     }
-    in_rows_ += static_cast<std::size_t>(later_.end() - near);
     later_.erase(near, later_.end());
   }
-  auto& row = rows_[row_number & (kRows - 1)];
-  for (const Event& event : row) {
-    buckets_[bucket_of(event.time) & (buckets_.size() - 1)].push_back(event);
+  std::uint32_t& newest = rows_[row_number & (kRows - 1)];
+  while (newest != kNone) {
+    const Chunk& chunk = chunks_[newest];
+    for (std::uint32_t k = 0; k < chunk.size; ++k) {
+      const Event& event = chunk.events[k];
+      buckets_[bucket_of(event.time) & (buckets_.size() - 1)].push_back(event);
+    }
+    in_rows_ -= chunk.size;
+    in_buckets_ += chunk.size;
+    spare_chunks_.push_back(newest);
+    newest = chunk.next;
   }
-  in_rows_ -= row.size();
-  in_buckets_ += row.size();
-  row.clear();
 }
 
 }  // namespace clatter

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "engine/dynamics/event.h"
@@ -38,11 +40,20 @@ class EventQueue {
 
  private:
   static constexpr std::size_t kRows = 1024;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  // Rows grow by chunks from a common store, so that memory follows what is planned and not what
+  // each row once held.
+  struct Chunk {
+    std::uint32_t size = 0;
+    std::uint32_t next = kNone;
+    std::array<Event, 63> events;
+  };
 
   std::uint64_t bucket_of(double time) const;
   void push_current(const Event& event);
   void next_bucket();
   void spread_row();
+  void add_to_row(const Event& event, std::uint64_t bucket);
 
   double per_width_ = 1.0;      // buckets per time
   double origin_ = 0.0;         // time at which bucket 0 starts
@@ -50,7 +61,9 @@ class EventQueue {
   unsigned row_shift_ = 8;      // log2 of the buckets per row
   std::vector<Event> current_;  // the bucket at hand, a heap with the earliest in front
   std::vector<std::vector<Event>> buckets_;  // [1 << row_shift_] of the row at hand
-  std::vector<std::vector<Event>> rows_;     // [kRows], a ring over the coming rows
+  std::vector<std::uint32_t> rows_;  // [kRows], a ring over the coming rows: their newest chunks
+  std::deque<Chunk> chunks_;         // of all rows
+  std::vector<std::uint32_t> spare_chunks_;
   std::vector<Event> later_;                 // beyond the last row
   std::size_t in_buckets_ = 0;
   std::size_t in_rows_ = 0;

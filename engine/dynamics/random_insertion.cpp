@@ -1,6 +1,7 @@
 #include "engine/dynamics/random_insertion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -8,70 +9,95 @@ namespace clatter {
 
 namespace {
 
-// The room cut into cells that hold one centre at most: their diagonal is one diameter at most.
+// The room cut into cells that hold one centre at most, for their diagonal is one diameter at most,
+// and the open voxels: parts of cells in which a centre may still find room. Tries go to open voxels
+// only; after as many tries as there are voxels, each is split into four and those that one disk
+// covers are dropped, so that tries keep succeeding up to the density at which the process jams.
 class Insertion {
  public:
   explicit Insertion(const Room& room) : room_(room) {
     for (int axis = 0; axis < 2; ++axis) {
       low_[axis] = room.periodic[axis] ? 0.0 : 0.5 * room.diameter;
       const double extent = room.box[axis] - 2.0 * low_[axis];
-      counts_[axis] = std::max(1, static_cast<int>(std::ceil(extent / room.diameter * std::sqrt(2.0))));
+      const double count = std::ceil(extent / room.diameter * std::sqrt(2.0));
+      counts_[axis] = std::max(1, static_cast<int>(count));
       widths_[axis] = extent / counts_[axis];
     }
     centres_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1], kEmpty);
-    open_.resize(centres_.size());
-    for (std::size_t cell = 0; cell < open_.size(); ++cell) open_[cell] = static_cast<std::uint32_t>(cell);
+    open_.reserve(centres_.size());
+    for (int y = 0; y < counts_[1]; ++y) {
+      for (int x = 0; x < counts_[0]; ++x) open_.push_back({x, y});
+    }
   }
 
-  // Tries one place in a random open cell; cells in which no place is left are closed for good.
-  bool try_once(std::vector<Vec2>& placed, Random& random) {
-    const std::size_t pick = random.below(open_.size());
-    const std::uint32_t cell = open_[pick];
-    const int column = static_cast<int>(cell % counts_[0]);
-    const int row = static_cast<int>(cell / counts_[0]);
-    const Vec2 corner = {low_[0] + column * widths_[0], low_[1] + row * widths_[1]};
-    const Vec2 place = corner + Vec2(random.uniform() * widths_[0], random.uniform() * widths_[1]);
-    const Blocked blocked = look(placed, column, row, corner, place);
-    if (!blocked.place) {
-      centres_[cell] = static_cast<std::uint32_t>(placed.size());
-      placed.push_back(place);
+  // Places disks until there are `count`, or no voxel is open or can be split any more.
+  void place(std::size_t count, Random& random) {
+    placed_.reserve(count);
+    for (int level = 0; level < kLevels && !open_.empty(); ++level) {
+      const std::size_t tries = open_.size();
+      for (std::size_t k = 0; k < tries; ++k) {
+        if (placed_.size() == count) return;
+        try_once(open_[random.below(open_.size())], random);
+      }
+      split_voxels();
     }
-    if (!blocked.place || blocked.cell) {
-      open_[pick] = open_.back();
-      open_.pop_back();
-    }
-    return !blocked.place;
   }
 
-  bool full() const { return open_.empty(); }
+  std::vector<Vec2>& placed() { return placed_; }
 
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
-  struct Blocked {
-    bool place = false;  // the place overlaps a disk
-    bool cell = false;   // one disk leaves no place in the whole cell
-  };
+  static constexpr int kLevels = 12;
+  using Voxel = std::array<std::int32_t, 2>;  // its number along each axis at the present level
 
-  Blocked look(const std::vector<Vec2>& placed, int column, int row, const Vec2& corner,
-               const Vec2& place) const {
+  void try_once(const Voxel& voxel, Random& random) {
+    Vec2 point;
+    for (int axis = 0; axis < 2; ++axis) {
+      point[axis] = low_[axis] + (voxel[axis] + random.uniform()) * widths_[axis];
+    }
+    if (any_disk_within(voxel, [&](const Vec2& centre) { return (centre - point).cwiseAbs(); })) return;
+    centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
+    placed_.push_back(point);
+  }
+
+  void split_voxels() {
+    ++level_;
+    for (double& width : widths_) width *= 0.5;
+    std::vector<Voxel> split;
+    for (const Voxel& parent : open_) {
+      for (int child = 0; child < 4; ++child) {
+        const Voxel voxel = {2 * parent[0] + child % 2, 2 * parent[1] + child / 2};
+        const Vec2 half(0.5 * widths_[0], 0.5 * widths_[1]);
+        const Vec2 middle(low_[0] + (voxel[0] + 0.5) * widths_[0], low_[1] + (voxel[1] + 0.5) * widths_[1]);
+        // The corner that is farthest from a centre says whether that disk covers the voxel.
+        const auto farthest = [&](const Vec2& centre) { return Vec2((centre - middle).cwiseAbs() + half); };
+        if (!any_disk_within(voxel, farthest)) split.push_back(voxel);
+      }
+    }
+    open_ = std::move(split);
+  }
+
+  // Whether a disk about the voxel lies less than a diameter off, by the given offset of its centre.
+  template <typename Offset>
+  bool any_disk_within(const Voxel& voxel, const Offset& offset) const {
     const double closest = room_.diameter * room_.diameter;
-    Blocked blocked;
+    if (centres_[cell_of(voxel)] != kEmpty) return true;
     for (int dy = -2; dy <= 2; ++dy) {
       for (int dx = -2; dx <= 2; ++dx) {
         Vec2 wrap = Vec2::Zero();
-        const int x = wrapped(column + dx, 0, wrap);
-        const int y = wrapped(row + dy, 1, wrap);
+        const int x = wrapped((voxel[0] >> level_) + dx, 0, wrap);
+        const int y = wrapped((voxel[1] >> level_) + dy, 1, wrap);
         if (x < 0 || y < 0) continue;
         const std::uint32_t disk = centres_[static_cast<std::size_t>(y) * counts_[0] + x];
-        if (disk == kEmpty) continue;
-        const Vec2 centre = placed[disk] + wrap;
-        blocked.place = blocked.place || (centre - place).squaredNorm() < closest;
-        const Vec2 low = (centre - corner).cwiseAbs();
-        const Vec2 high = (centre - corner - Vec2(widths_[0], widths_[1])).cwiseAbs();
-        blocked.cell = blocked.cell || low.cwiseMax(high).squaredNorm() < closest;
+        if (disk != kEmpty && offset(placed_[disk] + wrap).squaredNorm() < closest) return true;
       }
     }
-    return blocked;
+    return false;
+  }
+
+  std::size_t cell_of(const Voxel& voxel) const {
+    return static_cast<std::size_t>(voxel[1] >> level_) * counts_[0] +
+           static_cast<std::size_t>(voxel[0] >> level_);
   }
 
   // The cell number in range, its box lengths added to `wrap`; -1 beyond a wall.
@@ -87,24 +113,20 @@ class Insertion {
   Room room_;
   double low_[2];
   int counts_[2];
-  double widths_[2];
+  double widths_[2];                    // of a voxel
+  int level_ = 0;                       // voxels are 2^-level_ of a cell
+  std::vector<Vec2> placed_;
   std::vector<std::uint32_t> centres_;  // disk in each cell, or kEmpty
-  std::vector<std::uint32_t> open_;     // cells that may still have room
+  std::vector<Voxel> open_;
 };
 
 }  // namespace
 
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random) {
-  constexpr int kTriesPerDisk = 10000;
-  std::vector<Vec2> placed;
-  placed.reserve(static_cast<std::size_t>(count));
   Insertion insertion(room);
-  int tries = 0;
-  while (static_cast<int>(placed.size()) < count) {
-    if (insertion.full() || ++tries > kTriesPerDisk) return {};
-    if (insertion.try_once(placed, random)) tries = 0;
-  }
-  return placed;
+  insertion.place(static_cast<std::size_t>(count), random);
+  if (static_cast<int>(insertion.placed().size()) < count) return {};
+  return std::move(insertion.placed());
 }
 
 }  // namespace clatter
