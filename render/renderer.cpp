@@ -62,9 +62,49 @@ ColourScale scale_to(double extent, bool is_signed, ColourMap map) {
   return {map, is_signed ? -extent : 0.0, extent};
 }
 
+double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
+  std::vector<double> values(snapshot.positions.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = disk_value(snapshot, colour_by, i);
+  return robust_extent(std::move(values));
+}
+
+bool shows_field(const Snapshot& snapshot, const View& view) {
+  return view.field && snapshot.field;
+}
+
 }  // namespace
 
 Renderer::Renderer(const Gl& gl) : gl_(&gl), field_(gl), walls_(gl), disks_(gl), overlay_(gl) {}
+
+Renderer::Scales Renderer::scales_for(const Snapshot& snapshot, const View& view) {
+  Scales scales;
+  if (view.range) {
+    scales.disks = {disk_map(view), (*view.range)[0], (*view.range)[1]};
+  } else if (view.colour_by != ColourBy::None) {
+    scales.disks = scale_to(disk_extent_.follow(disk_extent(snapshot, view.colour_by)),
+                            quantity_of(view.colour_by).is_signed, disk_map(view));
+  }
+  if (shows_field(snapshot, view)) {
+    const Field field = snapshot.field->field;
+    scales.field = scale_to(field_extent_.follow(robust_extent(snapshot.field->values)),
+                            quantity_of(field).is_signed, field_map(field, view));
+  }
+  return scales;
+}
+
+std::vector<Legend> Renderer::legends(const Snapshot& snapshot, const View& view,
+                                      const Scales& scales) {
+  std::vector<Legend> result;
+  if (view.colour_by != ColourBy::None) {
+    const Quantity quantity = quantity_of(view.colour_by);
+    result.push_back({quantity.name, quantity.subscript, scales.disks});
+  }
+  if (shows_field(snapshot, view)) {
+    const Quantity quantity = quantity_of(snapshot.field->field);
+    result.push_back({quantity.name, quantity.subscript, scales.field});
+  }
+  return result;
+}
 
 Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
                      const OverlayText& text) {
@@ -74,15 +114,18 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
     if (!snapshot.walls[2 * axis]) overhang[axis] = 0.5 * snapshot.diameter;
   }
   const double wall = wall_thickness(size);
-  const Margins margins = view.overlay
-                              ? overlay_.margins(snapshot.box, size, legends(snapshot, view), text)
-                              : Margins{wall, wall, wall, wall};
+  Margins margins{wall, wall, wall, wall};
+  if (view.overlay) {
+    // How much room a legend takes does not depend on its values.
+    margins = overlay_.margins(snapshot.box, size, legends(snapshot, view, {}), text);
+  }
   return Camera::fit(-overhang, snapshot.box + overhang, size, margins);
 }
 
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
                     const OverlayText& text) {
   const Projection projection{camera, size};
+  const Scales scales = scales_for(snapshot, view);
   gl_->Viewport(0, 0, size.width, size.height);
   gl_->ClearColor(theme::kBackground.red / 255.0f, theme::kBackground.green / 255.0f,
                   theme::kBackground.blue / 255.0f, 1.0f);
@@ -90,40 +133,12 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   gl_->Enable(GL_BLEND);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
-  if (view.field && snapshot.field) {
-    field_.draw(*snapshot.field, snapshot.box, projection, field_scale(*snapshot.field, view));
+  if (shows_field(snapshot, view)) {
+    field_.draw(*snapshot.field, snapshot.box, projection, scales.field);
   }
   walls_.draw(snapshot, projection);
-  disks_.draw(snapshot, projection, view.colour_by, disk_scale(snapshot, view));
-  if (view.overlay) overlay_.draw(snapshot, projection, legends(snapshot, view), text);
-}
-
-ColourScale Renderer::disk_scale(const Snapshot& snapshot, const View& view) {
-  if (view.range) return {disk_map(view), (*view.range)[0], (*view.range)[1]};
-  std::vector<double> values(snapshot.positions.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = disk_value(snapshot, view.colour_by, i);
-  }
-  const double extent = disk_extent_.follow(robust_extent(std::move(values)));
-  return scale_to(extent, quantity_of(view.colour_by).is_signed, disk_map(view));
-}
-
-ColourScale Renderer::field_scale(const FieldMap& field, const View& view) {
-  const double extent = field_extent_.follow(robust_extent(field.values));
-  return scale_to(extent, quantity_of(field.field).is_signed, field_map(field.field, view));
-}
-
-std::vector<Legend> Renderer::legends(const Snapshot& snapshot, const View& view) {
-  std::vector<Legend> result;
-  if (view.colour_by != ColourBy::None) {
-    const Quantity quantity = quantity_of(view.colour_by);
-    result.push_back({quantity.name, quantity.subscript, disk_scale(snapshot, view)});
-  }
-  if (view.field && snapshot.field) {
-    const Quantity quantity = quantity_of(snapshot.field->field);
-    result.push_back({quantity.name, quantity.subscript, field_scale(*snapshot.field, view)});
-  }
-  return result;
+  disks_.draw(snapshot, projection, view.colour_by, scales.disks);
+  if (view.overlay) overlay_.draw(snapshot, projection, legends(snapshot, view, scales), text);
 }
 
 }  // namespace clatter

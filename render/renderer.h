@@ -25,9 +25,12 @@ class Renderer {
             const OverlayText& text);
 
  private:
-  ColourScale disk_scale(const Snapshot& snapshot, const View& view);
-  ColourScale field_scale(const FieldMap& field, const View& view);
-  std::vector<Legend> legends(const Snapshot& snapshot, const View& view);
+  struct Scales {
+    ColourScale disks, field;
+  };
+  Scales scales_for(const Snapshot& snapshot, const View& view);
+  static std::vector<Legend> legends(const Snapshot& snapshot, const View& view,
+                                     const Scales& scales);
 
   const Gl* gl_;
   FieldLayer field_;

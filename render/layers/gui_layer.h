@@ -17,7 +17,8 @@ class GuiLayer {
   /// Builds the atlas, copies it to the GPU and names the texture in it; anew after each change.
   void upload(ImFontAtlas& atlas);
 
-  /// Draws over the whole viewport, whose extent is DisplaySize times FramebufferScale.
+  /// Draws over the whole viewport, whose extent is DisplaySize times FramebufferScale, blended as
+  /// Renderer::draw leaves it.
   void draw(const ImDrawData& data) const;
 
  private:

@@ -49,11 +49,10 @@ float unit_for(Size size) {
 }
 
 Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
-               std::span<const Legend> legends, const OverlayText& text) {
+             std::span<const Legend> legends, const OverlayText& text) {
   const float unit = fonts.unit(), edge = std::round(kEdge * unit);
   const bool column = arrangement == Arrangement::Column;
-  Page page{arrangement, fonts, size,
-                {},          edge,  column ? kColumn * unit : size.width - 2 * edge};
+  Page page{arrangement, fonts, size, {}, edge, column ? kColumn * unit : size.width - 2 * edge};
   float end = page.caption = edge;
   if (!text.title.empty()) {
     end += text_extent(*fonts.title, text.title, page.wrap).y;
@@ -78,7 +77,7 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
 
 // The arrangement that leaves the box the most room.
 Page arrange(const Vec2& box, const Fonts& fonts, Size size, std::span<const Legend> legends,
-               const OverlayText& text) {
+             const OverlayText& text) {
   auto shown_width = [&](const Page& page) {
     return Camera::fit({0.0, 0.0}, box, size, page.margins).width;
   };
@@ -166,8 +165,7 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, double scale, const Pa
 void draw_column(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
   const float unit = page.fonts.unit();
   const auto figures = figures_of(snapshot);
-  float y =
-      page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
+  float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
   const double length = scale_bar_length(0.5 * page.wrap / (snapshot.diameter * scale));
   draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
                  static_cast<float>(length * snapshot.diameter * scale), page.fonts);

@@ -36,6 +36,10 @@ namespace clatter {
 
 namespace {
 
+// No filter: the pictures are flat areas, which compress best and fastest as they are. stb keeps
+// the choice in a variable of its own, which is set here once, before any thread encodes.
+[[maybe_unused]] const int kFilter = stbi_write_force_png_filter = 0;
+
 // Signature (8 bytes) and IHDR (4 + 4 + 13 + 4): iTXt may follow, and must precede nothing else.
 constexpr std::size_t kHeaderSize = 33;
 
@@ -66,8 +70,6 @@ void write_bytes(const std::filesystem::path& path, std::span<const unsigned cha
 }  // namespace
 
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts) {
-  // No filter: the pictures are flat areas, which compress best and fastest as they are.
-  stbi_write_force_png_filter = 0;
   int size = 0;
   const std::unique_ptr<unsigned char, decltype(&std::free)> png(
       stbi_write_png_to_mem(image.rgba.data(), 4 * image.size.width, image.size.width,

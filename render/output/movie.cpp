@@ -36,14 +36,16 @@ std::vector<std::string> video(std::vector<std::string> codec) {
   return all;
 }
 
-// A palette for each frame: one for the whole film would have ffmpeg keep every frame in memory.
+// VP9's "realtime" is five times as fast as "good" for a fifth more bytes at the same quality.
+// A GIF has a palette for each frame: one for the whole film would have ffmpeg keep every frame in
+// memory.
 const std::array<Format, 3>& formats() {
   static const std::array<Format, 3> all = {{
       {".mp4", "mp4",
        video({"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-movflags", "+faststart"})},
       {".webm", "webm",
-       video({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used",
-              "5", "-row-mt", "1"})},
+       video({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used",
+              "5", "-row-mt", "1", "-tile-columns", "2"})},
       {".gif",
        "gif",
        {"-filter_complex",

@@ -30,17 +30,17 @@ std::string frame_name(int number) {
   return name;
 }
 
-bool is_frame(const std::filesystem::path& path) {
-  return path.extension() == ".png" && path.filename().string().starts_with("frame_");
+bool is_frame(const std::filesystem::directory_entry& entry) {
+  const std::filesystem::path name = entry.path().filename();
+  return name.extension() == ".png" && name.string().starts_with("frame_");
 }
 
 void make_folder(const std::filesystem::path& folder, bool overwrite) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
-  if (overwrite) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (!is_frame(entry.path())) continue;
+  const std::filesystem::directory_iterator files(folder, error);
+  if (error) throw RunError("cannot write to " + folder.string() + ": " + error.message());
+  if (!overwrite && std::any_of(begin(files), end(files), is_frame)) {
     throw UserError({folder.string()}, "holds frames already",
                     "give another folder, or --overwrite to replace them");
   }

@@ -42,7 +42,9 @@ TEST_CASE("The overlay writes on every size of picture, and neither on the box n
       const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
 
       const Projection projection{camera, size};
-      const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(box);
+      // The box with its walls.
+      const Vec2 wall = Vec2::Constant(wall_thickness(size));
+      const Vec2 low = projection.pixels({0.0, 0.0}) - wall, high = projection.pixels(box) + wall;
       int written = 0, on_box = 0, at_edge = 0;
       for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
@@ -80,9 +82,9 @@ TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
   snapshot.velocities = {{2.0, 0.0}};
   View view;
   view.overlay = false;
-  view.range = {1.0, 2.0};
+  view.range = {0.0, 2000.0};
   const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
-  CHECK(pixel(image, 50, 50) == Colour{0xfd, 0xe7, 0x25});
+  CHECK(difference(pixel(image, 50, 50), Colour{0x47, 0x2d, 0x7b}) <= 1);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
 }
 

@@ -88,14 +88,15 @@ TEST_CASE("Points and squares give the same picture") {
 TEST_CASE("Disks beyond the largest point of the driver are drawn as well") {
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
-  Snapshot snapshot = one_disk({0.0, 0.0}, 1.0);
-  const Projection close{{{0.0, 0.0}, 1.2}, {1200, 1200}};
+  Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
   snapshot.box = {10.0, 10.0};
-  snapshot.positions = {{0.2, 0.2}};
+  const Projection close{{{0.6, 0.6}, 1.2}, {1200, 1200}};  // centre (500, 700), radius 500 pixels
   DiskLayer(context->gl()).draw(snapshot, close, ColourBy::None, {colour_map(Palette::Viridis)});
   const Image image = canvas.read();
-  CHECK(pixel(image, 800, 400) == theme::kDisk);
-  CHECK(pixel(image, 1195, 1195) == theme::kBackground);
+  CHECK(pixel(image, 500, 700) == theme::kDisk);
+  CHECK(pixel(image, 20, 700) == theme::kDisk);
+  CHECK(pixel(image, 980, 700) == theme::kDisk);
+  CHECK(pixel(image, 1010, 700) == theme::kBackground);
 }
 
 TEST_CASE("A disk whose centre lies outside the picture shows its part inside") {

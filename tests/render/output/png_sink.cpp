@@ -41,6 +41,12 @@ TEST_CASE("A sequence replaces frames only where it may") {
   CHECK_NOTHROW(write_frames(folder / "sequence", overwrite, 2));
 }
 
+TEST_CASE("A sequence cannot be where a file is") {
+  const TemporaryFolder folder;
+  write_frames(folder / "one.png", kOptions, 1);
+  CHECK_THROWS_AS(PngSequence(folder / "one.png", kOptions), RunError);
+}
+
 TEST_CASE("A folder that vanishes fails the sequence") {
   const TemporaryFolder folder;
   const auto sink = open_sink(folder / "sequence", kOptions);
