@@ -8,8 +8,7 @@
 namespace clatter {
 
 /// `count` centres placed one after the other, each uniformly where it overlaps none before; empty
-/// where no place was found for one. Reaches phi = 0.5 in about one second per million disks; the
-/// process itself jams at phi = 0.547 (Feder 1980).
+/// where no place was found for one. The process itself jams at phi = 0.547 (Feder 1980).
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random);
 
 }  // namespace clatter

@@ -13,8 +13,8 @@
 
 namespace clatter {
 
-// Above, random insertion becomes slow; it jams at 0.547 (Feder 1980).
-static constexpr double kInsertionFraction = 0.5;
+// Random insertion jams at 0.547 (Feder 1980).
+static constexpr double kInsertionFraction = 0.54;
 // Above, the equilibrium fluid of hard disks ends (Bernard & Krauth 2011: 0.700).
 static constexpr double kFluidFraction = 0.7;
 

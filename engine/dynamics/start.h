@@ -10,7 +10,7 @@ namespace clatter {
 /// The state at time 0 that a scene asks for, a pure function of scene and seed: no disks overlap,
 /// and the velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature.
 ///
-/// A random layout is made by random insertion up to phi = 0.5, by melting a square lattice up to
+/// A random layout is made by random insertion up to phi = 0.54, by melting a square lattice up to
 /// the density at which hard disks freeze, and is a triangular lattice with random vacancies beyond.
 /// The scene has been validated: its count fits one of the lattices.
 State<2> start_state(const Scene& scene, std::uint64_t seed);
