@@ -47,8 +47,7 @@ int measure(const MeasureOptions& options) {
   }
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  const auto json =
-      result_json(scene, options.common.seed, *simulation, measured, performance);
+  const auto json = result_json(scene, options.common.seed, *simulation, measured, performance);
   if (options.out.empty()) {
     std::printf("%s\n", json.dump(1).c_str());
   } else {
@@ -70,7 +69,8 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "measure", "Run a scene without pictures and write what its [measure] block asks for");
   add_common_flags(*command, options->common);
-  command->add_option("--out", options->out, "Result file (default: stdout)")->type_name("FILE.json");
+  command->add_option("--out", options->out, "Result file (default: stdout)")
+      ->type_name("FILE.json");
   command->add_option("--csv", options->csv, "Folder for tables of series and profiles")
       ->type_name("DIR");
   command->callback([options, &exit_code] { exit_code = measure(*options); });

@@ -39,8 +39,10 @@ void add_common_flags(CLI::App& command, CommonOptions& options) {
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "Print nothing on stderr but errors");
   command.add_option("--progress", options.progress, "How to show progress on stderr")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ProgressStyle>{
-          {"auto", ProgressStyle::Auto}, {"json", ProgressStyle::Json}, {"none", ProgressStyle::None}}))
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, ProgressStyle>{{"auto", ProgressStyle::Auto},
+                                               {"json", ProgressStyle::Json},
+                                               {"none", ProgressStyle::None}}))
       ->type_name("auto|json|none");
 }
 
@@ -52,9 +54,10 @@ static int report(const char* message, int code) {
 int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
-    CLI::App program("Driven granular gases of hard disks: film and measure them.\n"
-                     "Start with:  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
-                     "clatter");
+    CLI::App program(
+        "Driven granular gases of hard disks: film and measure them.\n"
+        "Start with:  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
+        "clatter");
     program.set_version_flag("--version", "clatter " CLATTER_VERSION);
     program.require_subcommand(1);
     program.failure_message(CLI::FailureMessage::simple);

@@ -135,8 +135,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
   add_common_flags(*command, options->common);
   command
-      ->add_option("--out", options->out,
-                   "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
+      ->add_option(
+          "--out", options->out,
+          "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
       ->required();
   command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   command->add_option("--fps", options->fps, "Frames per second of film")
@@ -146,16 +147,19 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
-      ->add_option("--to", options->to,
-                   "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
-                   "10 s for a picture)")
+      ->add_option(
+          "--to", options->to,
+          "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
+          "10 s for a picture)")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--speed", options->speed,
                    "Simulation time per second of film (default: the scene's view.speed)")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--no-overlay", options->no_overlay, "Draw no title, time, colour bar, scale bar");
-  command->add_flag("--overwrite", options->overwrite, "Replace frames that a folder holds already");
+  command->add_flag("--no-overlay", options->no_overlay,
+                    "Draw no title, time, colour bar, scale bar");
+  command->add_flag("--overwrite", options->overwrite,
+                    "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
       ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
           {"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))

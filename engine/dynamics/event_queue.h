@@ -64,7 +64,7 @@ class EventQueue {
   std::vector<std::uint32_t> rows_;  // [kRows], a ring over the coming rows: their newest chunks
   std::deque<Chunk> chunks_;         // of all rows
   std::vector<std::uint32_t> spare_chunks_;
-  std::vector<Event> later_;                 // beyond the last row
+  std::vector<Event> later_;  // beyond the last row
   std::size_t in_buckets_ = 0;
   std::size_t in_rows_ = 0;
 };

@@ -52,31 +52,36 @@ void Prediction<D>::look_at_disks(std::uint32_t disk, const typename CellGrid<D>
                                   Plan<D>& plan) const {
   using Line = typename CellGrid<D>::Line;
   Neighbours<D> near;
+  int size = 0;
   const auto add = [&](const Line& line, const Vec<D>* wrap) [[gnu::always_inline]] {
     // A fixed number is copied, for how many a cell holds cannot be foreseen and few hold more.
-    std::copy_n(line.disks.begin(), 8, near.disks + near.size);
-    if (line.count > 8)
-      std::copy_n(line.disks.begin() + 8, Line::kCapacity - 8, near.disks + near.size + 8);
-    if (wrap) std::fill_n(near.wraps + near.size, line.count, *wrap);
-    near.wrapped = wrap != nullptr;
-    near.size += static_cast<int>(line.count);
-    if (near.size > Neighbours<D>::kCapacity - Line::kCapacity) weigh(disk, near, plan);
+    std::copy_n(line.disks.begin(), 8, near.disks + size);
+    if (line.count > 8) {
+      std::copy_n(line.disks.begin() + 8, Line::kCapacity - 8, near.disks + size + 8);
+    }
+    if (wrap) {
+      std::fill_n(near.wraps + size, line.count, *wrap);
+      near.wrapped = true;
+    }
+    size += static_cast<int>(line.count);
+    if (size > Neighbours<D>::kCapacity - Line::kCapacity) {
+      weigh(disk, near, size, plan);
+      size = 0;
+    }
   };
   grid_.visit(plan.cell, stencil, add);
-  weigh(disk, near, plan);
+  weigh(disk, near, size, plan);
 }
 
-// The disk itself may be among its neighbours: it does not move against itself, so it never
-// touches.
-template <int D>
-void Prediction<D>::weigh(std::uint32_t disk, Neighbours<D>& near, Plan<D>& plan) const {
-  const Disk<D>& self = disks_[disk];
-  Candidates<D> candidates;
-  for (int i = 0; i < near.size; ++i) {
-    const Disk<D>& other = disks_[near.disks[i]];
-    Vec<D> image = other.image - self.image;
-    if (near.wrapped) image -= near.wraps[i];
-    const Vec<D> shift = image.cwiseProduct(model_.box);
+// Copies the neighbours' flights, seen from a disk, component by component.
+template <int D, bool kWrapped>
+static void gather(const Disk<D>* disks, const Neighbours<D>& near, int size,
+                   const Vec<D> own_image, const Vec<D> box, Candidates<D>& candidates) {
+  for (int i = 0; i < size; ++i) {
+    const Disk<D>& other = disks[near.disks[i]];
+    Vec<D> image = other.image - own_image;
+    if constexpr (kWrapped) image -= near.wraps[i];
+    const Vec<D> shift = image.cwiseProduct(box);
     for (int k = 0; k < D; ++k) {
       candidates.r[k][i] = other.flight.r[k];
       candidates.v[k][i] = other.flight.v[k];
@@ -84,26 +89,43 @@ void Prediction<D>::weigh(std::uint32_t disk, Neighbours<D>& near, Plan<D>& plan
     }
     candidates.time[i] = other.flight.time;
   }
-  contact_times<D>(self.flight.r.data(), self.flight.v.data(), self.flight.time, model_.diameter,
-                   candidates, near.size);
-  double first = kNever;
-  for (int i = 0; i < near.size; ++i) first = std::min(first, candidates.contact[i]);
-  const bool touching = first == kTouching;
+}
+
+// The disk itself may be among its neighbours: it does not move against itself, so it never
+// touches.
+template <int D>
+void Prediction<D>::weigh(std::uint32_t disk, const Neighbours<D>& near, int size,
+                          Plan<D>& plan) const {
+  const Disk<D>& self = disks_[disk];
+  Candidates<D> candidates;
+  if (near.wrapped) {
+    gather<D, true>(disks_.data(), near, size, self.image, model_.box, candidates);
+  } else {
+    gather<D, false>(disks_.data(), near, size, self.image, model_.box, candidates);
+  }
+  const double first = contact_times<D>(self.flight.r.data(), self.flight.v.data(),
+                                        self.flight.time, model_.diameter, candidates, size);
   if (first <= plan.contact && first < kNever) {
-    for (int i = 0; i < near.size; ++i) {
-      double time = candidates.contact[i];
-      if (!touching && time != first) continue;
-      const std::uint32_t other = near.disks[i];
-      Vec<D> image = disks_[other].image - self.image;
-      if (near.wrapped) image -= near.wraps[i];
-      if (time == kTouching) {
-        time = contact_time<D>(self.flight, disks_[other].flight, image.cwiseProduct(model_.box),
-                               model_.diameter);
-      }
-      offer(time, disk, other, image.template cast<int>(), plan);
+    // All that share the earliest time are compared; and all at all, where some touch already.
+    const double last = first == kTouching ? kNever : first;
+    for (int i = 0; i < size; ++i) {
+      if (candidates.contact[i] <= last) offer_disk(disk, near, i, candidates.contact[i], plan);
     }
   }
-  near.size = 0;
+}
+
+template <int D>
+void Prediction<D>::offer_disk(std::uint32_t disk, const Neighbours<D>& near, int i, double time,
+                               Plan<D>& plan) const {
+  const Disk<D>& self = disks_[disk];
+  const Disk<D>& other = disks_[near.disks[i]];
+  Vec<D> image = other.image - self.image;
+  if (near.wrapped) image -= near.wraps[i];
+  if (time == kTouching) {
+    const Vec<D> shift = image.cwiseProduct(model_.box);
+    time = contact_time<D>(self.flight, other.flight, shift, model_.diameter);
+  }
+  offer(time, disk, near.disks[i], image.template cast<int>(), plan);
 }
 
 template <int D>

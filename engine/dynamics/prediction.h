@@ -39,7 +39,6 @@ struct Neighbours {
   std::uint32_t disks[kCapacity];
   Vec<D> wraps[kCapacity];  ///< see CellGrid::visit; set where `wrapped`
   bool wrapped = false;
-  int size = 0;
 };
 
 /// Finds what a disk will do next, from stored states alone.
@@ -60,7 +59,9 @@ class Prediction {
  private:
   void look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
                      Plan<D>& plan) const;
-  void weigh(std::uint32_t disk, Neighbours<D>& near, Plan<D>& plan) const;
+  void weigh(std::uint32_t disk, const Neighbours<D>& near, int size, Plan<D>& plan) const;
+  void offer_disk(std::uint32_t disk, const Neighbours<D>& near, int i, double time,
+                  Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, Plan<D>& plan) const;
   void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
   void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,

@@ -10,9 +10,10 @@ namespace clatter {
 namespace {
 
 // The room cut into cells that hold one centre at most, for their diagonal is one diameter at most,
-// and the open voxels: parts of cells in which a centre may still find room. Tries go to open voxels
-// only; after as many tries as there are voxels, each is split into four and those that one disk
-// covers are dropped, so that tries keep succeeding up to the density at which the process jams.
+// and the open voxels: parts of cells in which a centre may still find room. Tries go to open
+// voxels only; after as many tries as there are voxels, each is split into four and those that one
+// disk covers are dropped, so that tries keep succeeding up to the density at which the process
+// jams.
 class Insertion {
  public:
   explicit Insertion(const Room& room) : room_(room) {
@@ -55,7 +56,8 @@ class Insertion {
     for (int axis = 0; axis < 2; ++axis) {
       point[axis] = low_[axis] + (voxel[axis] + random.uniform()) * widths_[axis];
     }
-    if (any_disk_within(voxel, [&](const Vec2& centre) { return (centre - point).cwiseAbs(); })) return;
+    if (any_disk_within(voxel, [&](const Vec2& centre) { return (centre - point).cwiseAbs(); }))
+      return;
     centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
     placed_.push_back(point);
   }
@@ -68,16 +70,20 @@ class Insertion {
       for (int child = 0; child < 4; ++child) {
         const Voxel voxel = {2 * parent[0] + child % 2, 2 * parent[1] + child / 2};
         const Vec2 half(0.5 * widths_[0], 0.5 * widths_[1]);
-        const Vec2 middle(low_[0] + (voxel[0] + 0.5) * widths_[0], low_[1] + (voxel[1] + 0.5) * widths_[1]);
+        const Vec2 middle(low_[0] + (voxel[0] + 0.5) * widths_[0],
+                          low_[1] + (voxel[1] + 0.5) * widths_[1]);
         // The corner that is farthest from a centre says whether that disk covers the voxel.
-        const auto farthest = [&](const Vec2& centre) { return Vec2((centre - middle).cwiseAbs() + half); };
+        const auto farthest = [&](const Vec2& centre) {
+          return Vec2((centre - middle).cwiseAbs() + half);
+        };
         if (!any_disk_within(voxel, farthest)) split.push_back(voxel);
       }
     }
     open_ = std::move(split);
   }
 
-  // Whether a disk about the voxel lies less than a diameter off, by the given offset of its centre.
+  // Whether a disk about the voxel lies less than a diameter off, by the given offset of its
+  // centre.
   template <typename Offset>
   bool any_disk_within(const Voxel& voxel, const Offset& offset) const {
     const double closest = room_.diameter * room_.diameter;
@@ -113,8 +119,8 @@ class Insertion {
   Room room_;
   double low_[2];
   int counts_[2];
-  double widths_[2];                    // of a voxel
-  int level_ = 0;                       // voxels are 2^-level_ of a cell
+  double widths_[2];  // of a voxel
+  int level_ = 0;     // voxels are 2^-level_ of a cell
   std::vector<Vec2> placed_;
   std::vector<std::uint32_t> centres_;  // disk in each cell, or kEmpty
   std::vector<Voxel> open_;

@@ -72,8 +72,8 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   return bonds > 0.0 ? std::abs(sum) / bonds : 0.0;
 }
 
-// Elastic motion from lattice sites until the bond order of the square and of the triangular lattice
-// is that of a fluid, or for long enough that it would have been.
+// Elastic motion from lattice sites until the bond order of the square and of the triangular
+// lattice is that of a fluid, or for long enough that it would have been.
 static std::vector<Vec2> melt(const Model<2>& model, std::vector<Vec2> sites, std::uint64_t seed) {
   constexpr int kRounds = 10;
   constexpr std::uint64_t kCollisionsPerRound = 20;  // per disk

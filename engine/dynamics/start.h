@@ -11,8 +11,8 @@ namespace clatter {
 /// and the velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature.
 ///
 /// A random layout is made by random insertion up to phi = 0.54, by melting a square lattice up to
-/// the density at which hard disks freeze, and is a triangular lattice with random vacancies beyond.
-/// The scene has been validated: its count fits one of the lattices.
+/// the density at which hard disks freeze, and is a triangular lattice with random vacancies
+/// beyond. The scene has been validated: its count fits one of the lattices.
 State<2> start_state(const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

@@ -13,9 +13,9 @@ namespace clatter {
 /// estimator). With a window Dt and cell area A, density is count/(Dt A).
 template <int D>
 struct CellMoments {
-  double count = 0.0;                         ///< integral of the number of disks
-  Vec<D> velocity = Vec<D>::Zero();           ///< integral of sum v_k
-  Vec<D> velocity_squared = Vec<D>::Zero();   ///< integral of sum v_k^2
+  double count = 0.0;                        ///< integral of the number of disks
+  Vec<D> velocity = Vec<D>::Zero();          ///< integral of sum v_k
+  Vec<D> velocity_squared = Vec<D>::Zero();  ///< integral of sum v_k^2
 
   CellMoments& operator+=(const CellMoments& other);
 };

@@ -12,12 +12,18 @@ double field_value(Field field, const CellMoments<2>& moments, double measure) {
   const Vec2 mean = moments.velocity / moments.count;
   const Vec2 temperature = moments.velocity_squared / moments.count - mean.cwiseAbs2();
   switch (field) {
-    case Field::VelocityX: return mean.x();
-    case Field::VelocityY: return mean.y();
-    case Field::TemperatureX: return temperature.x();
-    case Field::TemperatureY: return temperature.y();
-    case Field::Temperature: return 0.5 * temperature.sum();
-    case Field::Density: break;
+    case Field::VelocityX:
+      return mean.x();
+    case Field::VelocityY:
+      return mean.y();
+    case Field::TemperatureX:
+      return temperature.x();
+    case Field::TemperatureY:
+      return temperature.y();
+    case Field::Temperature:
+      return 0.5 * temperature.sum();
+    case Field::Density:
+      break;
   }
   return moments.count / measure;
 }
@@ -26,8 +32,8 @@ static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
   constexpr double kMostCells = 512.0;
   IntVec<2> cells;
   for (int axis = 0; axis < 2; ++axis) {
-    cells[axis] = static_cast<int>(
-        std::clamp(std::round(model.box[axis] / model.diameter), 1.0, kMostCells));
+    cells[axis] =
+        static_cast<int>(std::clamp(std::round(model.box[axis] / model.diameter), 1.0, kMostCells));
   }
   return cells;
 }

@@ -34,7 +34,7 @@ class LiveField {
   const Simulation<2>& simulation_;
   Field field_;
   CellIntegrals<2> integrals_;
-  std::deque<Grid> parts_;  // closed parts, oldest first
+  std::deque<Grid> parts_;    // closed parts, oldest first
   std::deque<double> spans_;  // their durations
   Grid open_;                 // the part under way, up to open_until_
   double open_span_ = 0.0;

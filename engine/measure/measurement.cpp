@@ -5,7 +5,8 @@
 
 namespace clatter {
 
-// Enough windows for the blocking to see correlations; more where the scene asks for a finer series.
+// Enough windows for the blocking to see correlations; more where the scene asks for a finer
+// series.
 static constexpr double kLeastWindows = 512.0;
 static constexpr double kMostWindows = 65536.0;
 
@@ -13,7 +14,8 @@ Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, doub
     : simulation_(simulation), measure_(measure), totals_(simulation) {
   simulation.add_observer(totals_);
   const double span = end - measure.burn_in;
-  window_ = span / std::clamp(std::ceil(span / measure.series_interval), kLeastWindows, kMostWindows);
+  window_ =
+      span / std::clamp(std::ceil(span / measure.series_interval), kLeastWindows, kMostWindows);
   simulation.every(0.0, measure.series_interval, [this](double time) {
     const auto count = static_cast<double>(simulation_.disks().size());
     series_time_.push_back(time);
@@ -96,8 +98,8 @@ static Profile profile_of(const std::vector<std::vector<CellMoments<2>>>& window
     profile.edges.push_back(box.x() * static_cast<double>(i) / static_cast<double>(columns));
   }
   for (std::size_t i = 0; i < columns; ++i) {
-    profile.density.push_back(mean_estimate(
-        series_of(windows, [&](const auto& c) { return c[i].count / measure; })));
+    profile.density.push_back(
+        mean_estimate(series_of(windows, [&](const auto& c) { return c[i].count / measure; })));
     profile.temperature_x.push_back(column_temperature(windows, i, 0));
     profile.temperature_y.push_back(column_temperature(windows, i, 1));
   }

@@ -23,7 +23,7 @@ struct Profile {
 /// What a run measured, over the time after the burn-in. Parts that the scene does not have are
 /// absent.
 struct Measured {
-  double duration = 0.0;      ///< time averaged over
+  double duration = 0.0;        ///< time averaged over
   std::uint64_t disk_disk = 0;  ///< collisions in that time
   std::uint64_t disk_wall = 0;
   Estimate temperature, temperature_x, temperature_y;

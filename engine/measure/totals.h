@@ -13,7 +13,7 @@ namespace clatter {
 template <int D>
 struct WindowTotals {
   double duration = 0.0;
-  Vec<D> temperature = Vec<D>::Zero();  ///< T_x, T_y: exact time averages of m <v_k^2>
+  Vec<D> temperature = Vec<D>::Zero();    ///< T_x, T_y: exact time averages of m <v_k^2>
   Vec<D> second_moment = Vec<D>::Zero();  ///< <v_k^2> over the disks at the window's end
   Vec<D> fourth_moment = Vec<D>::Zero();  ///< <v_k^4> there
   double collisions = 0.0;                ///< disk-disk
@@ -23,8 +23,8 @@ struct WindowTotals {
   std::array<double, 2 * D> wall_impulse{};  ///< momentum that each wall took up, along its normal
 };
 
-/// Books energy and momentum of every event, and averages the temperature exactly over time: between
-/// events it does not change.
+/// Books energy and momentum of every event, and averages the temperature exactly over time:
+/// between events it does not change.
 template <int D>
 class Totals : public Observer<D> {
  public:
@@ -48,10 +48,10 @@ class Totals : public Observer<D> {
 
   const Simulation<D>& simulation_;
   double energy_at_start_;
-  double booked_ = 0.0;       // energy gained since the start
+  double booked_ = 0.0;        // energy gained since the start
   double booked_sizes_ = 0.0;  // sum of |bookings|
-  Vec<D> squares_;            // sum of v_k^2 now
-  double integrated_to_;      // time on the base up to which integral_ reaches
+  Vec<D> squares_;             // sum of v_k^2 now
+  double integrated_to_;       // time on the base up to which integral_ reaches
   double window_start_;
   Vec<D> integral_ = Vec<D>::Zero();  // of squares_ over time, in this window
   WindowTotals<D> window_;

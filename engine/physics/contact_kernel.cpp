@@ -6,9 +6,9 @@ namespace clatter {
 
 // The loop runs over whole vectors: what lies beyond `size` is left from earlier and not looked at.
 template <int D>
-[[gnu::always_inline]] static inline void loop(const double* r, const double* v, double time,
-                                               double diameter, Candidates<D>& candidates,
-                                               int size) {
+[[gnu::always_inline]] static inline double loop(const double* r, const double* v, double time,
+                                                 double diameter, Candidates<D>& candidates,
+                                                 int size) {
   const int rounded_up = (size + 7) & ~7;
   for (int i = 0; i < rounded_up; ++i) {
     double r_i[D], v_i[D], shift_i[D];
@@ -20,28 +20,33 @@ template <int D>
     candidates.contact[i] =
         encounter_time<D>(r, v, time, r_i, v_i, candidates.time[i], shift_i, diameter);
   }
+  double first = kNever;
+  for (int i = 0; i < size; ++i) {
+    first = candidates.contact[i] < first ? candidates.contact[i] : first;
+  }
+  return first;
 }
 
 #if defined(__x86_64__)
 template <int D>
-[[gnu::target("avx512f,avx512vl,prefer-vector-width=512")]] static void loop_avx512(
+[[gnu::target("avx512f,avx512vl,prefer-vector-width=512")]] static double loop_avx512(
     const double* r, const double* v, double time, double diameter, Candidates<D>& candidates,
     int size) {
-  loop<D>(r, v, time, diameter, candidates, size);
+  return loop<D>(r, v, time, diameter, candidates, size);
 }
 
 template <int D>
-[[gnu::target("avx2")]] static void loop_avx2(const double* r, const double* v, double time,
-                                              double diameter, Candidates<D>& candidates,
-                                              int size) {
-  loop<D>(r, v, time, diameter, candidates, size);
+[[gnu::target("avx2")]] static double loop_avx2(const double* r, const double* v, double time,
+                                                double diameter, Candidates<D>& candidates,
+                                                int size) {
+  return loop<D>(r, v, time, diameter, candidates, size);
 }
 #endif
 
 template <int D>
-static void loop_baseline(const double* r, const double* v, double time, double diameter,
-                          Candidates<D>& candidates, int size) {
-  loop<D>(r, v, time, diameter, candidates, size);
+static double loop_baseline(const double* r, const double* v, double time, double diameter,
+                            Candidates<D>& candidates, int size) {
+  return loop<D>(r, v, time, diameter, candidates, size);
 }
 
 template <int D>
@@ -55,12 +60,12 @@ static auto widest_loop() {
 }
 
 template <int D>
-void contact_times(const double* r, const double* v, double time, double diameter,
-                   Candidates<D>& candidates, int size) {
+double contact_times(const double* r, const double* v, double time, double diameter,
+                     Candidates<D>& candidates, int size) {
   static const auto chosen = widest_loop<D>();
-  chosen(r, v, time, diameter, candidates, size);
+  return chosen(r, v, time, diameter, candidates, size);
 }
 
-template void contact_times<2>(const double*, const double*, double, double, Candidates<2>&, int);
+template double contact_times<2>(const double*, const double*, double, double, Candidates<2>&, int);
 
 }  // namespace clatter

@@ -17,9 +17,10 @@ struct Candidates {
 };
 
 /// Fills the first `size` of candidates.contact for the flight (r, v, time), with the widest
-/// vectors that the processor has; the bits are those of encounter_time on any.
+/// vectors that the processor has, and returns the earliest, kNever or kTouching included; the bits
+/// are those of encounter_time on any.
 template <int D>
-void contact_times(const double* r, const double* v, double time, double diameter,
-                   Candidates<D>& candidates, int size);
+double contact_times(const double* r, const double* v, double time, double diameter,
+                     Candidates<D>& candidates, int size);
 
 }  // namespace clatter

@@ -20,7 +20,8 @@ struct VibratedGas {
   double epsilon_effective() const;
   /// Stationary temperature of the simple theory, Eq. (3.12); infinite where nothing dissipates.
   double temperature_simple() const;
-  /// Stationary temperature of the refined theory, Eq. (3.14): averages over the disks that collide.
+  /// Stationary temperature of the refined theory, Eq. (3.14): averages over the disks that
+  /// collide.
   double temperature_refined() const;
 };
 
