@@ -14,7 +14,6 @@ static bool after(const Event& a, const Event& b) {
 void EventQueue::rebuild(std::vector<Event>& events) {
   current_.clear();
   later_.clear();
-  rows_.resize(kRows);
   for (auto& row : rows_) row.clear();
   for (auto& bucket : buckets_) bucket.clear();
   in_buckets_ = in_rows_ = 0;
