@@ -8,7 +8,8 @@ namespace clatter::testing {
 
 /// Pearson's chi^2 of observed against expected counts, as its distance from the mean k of the
 /// chi^2 distribution of k = bins - 1 degrees of freedom in standard deviations sqrt(2 k). With
-/// fixed seeds a test that asks for |excess| < 5 fails by chance about once in 10^6 choices of seed.
+/// fixed seeds a test that asks for |excess| < 5 fails by chance about once in 10^6 choices of
+/// seed.
 inline double chi_squared_excess(std::span<const double> observed,
                                  std::span<const double> expected) {
   double sum = 0.0;
