@@ -60,9 +60,11 @@ class EventQueue {
   std::uint64_t bucket_ = 0;    // number of the bucket at hand
   unsigned row_shift_ = 8;      // log2 of the buckets per row
   std::vector<Event> current_;  // the bucket at hand, a heap with the earliest in front
-  std::vector<std::vector<Event>> buckets_;  // [1 << row_shift_] of the row at hand
-  std::vector<std::uint32_t> rows_;  // [kRows], a ring over the coming rows: their newest chunks
-  std::deque<Chunk> chunks_;         // of all rows
+  // [1 << row_shift_] of the row at hand
+  std::vector<std::vector<Event>> buckets_ = std::vector<std::vector<Event>>(1u << row_shift_);
+  // [kRows], a ring over the coming rows: their newest chunks
+  std::vector<std::uint32_t> rows_ = std::vector<std::uint32_t>(kRows, kNone);
+  std::deque<Chunk> chunks_;  // of all rows
   std::vector<std::uint32_t> spare_chunks_;
   std::vector<Event> later_;  // beyond the last row
   std::size_t in_buckets_ = 0;

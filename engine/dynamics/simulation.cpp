@@ -18,7 +18,7 @@ namespace clatter {
 // The base moves after this many physical events per disk: rarely enough to cost little (each move
 // plans every disk anew), often enough that times stay below some ten mean free times.
 static constexpr std::uint64_t kEventsPerBase = 32;
-static constexpr std::uint64_t kLeastEventsPerBase = 1024;
+static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Fetching ahead pays once the disks no longer fit the cache.
 static constexpr std::size_t kFetchAheadFrom = 20000;
 // Overlap that a start state may have from the rounding of its positions, in diameters.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <vector>
 
@@ -111,7 +112,7 @@ class Simulation {
   std::uint64_t until_base_moves_;  // physical events left
   std::uint64_t fetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
-  std::vector<Timer> timers_;
+  std::deque<Timer> timers_;  // stay where they are while an action adds others
   EventCounts counts_;
   RunChecks checks_;
 };

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <chrono>
+
+namespace clatter::bench {
+
+/// Seconds that work() takes: the least of three tries, which others on the machine disturb least.
+template <typename Work>
+double seconds(const Work& work) {
+  double least = 1e300;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    if (taken.count() < least) least = taken.count();
+  }
+  return least;
+}
+
+}  // namespace clatter::bench

@@ -1,0 +1,91 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/dynamics/simulation.h"
+#include "tests/engine/support/gas.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+// N = 1000 elastic disks at phi = .5: nothing may be lost over the collisions asked for. Energy and
+// momentum are of order 1000; each collision rounds them by some 1e-16, with either sign.
+static void conserve(std::uint64_t collisions, double start_time, double bound) {
+  constexpr int kCount = 1000;
+  const double edge = std::sqrt(kCount * std::numbers::pi / (4.0 * 0.5));
+  const Model<2> model = periodic_box(edge, edge);
+  const State<2> start = random_gas(model, kCount, 91);
+  Simulation<2> simulation(model, start, start_time);
+  const double energy = simulation.kinetic_energy();
+  simulation.run_until(kNever, collisions);
+  CHECK(simulation.counts().disk_disk == collisions);
+  CHECK(std::fabs(simulation.kinetic_energy() / energy - 1.0) < bound);
+  CHECK((momentum(simulation.state()) - momentum(start)).norm() / kCount < bound);
+  CHECK(simulation.checks().deepest_overlap < 1e-12);
+  CHECK(simulation.checks().clock_steps_back == 0.0);
+  CHECK(brute_force_overlap(model, simulation.state()) < 1e-12);
+}
+
+TEST_CASE("conservation: 10^6 elastic collisions") {
+  conserve(1000000, 0.0, 1e-12);
+}
+
+TEST_CASE("conservation: 3 10^5 elastic collisions from t = 1e9 on") {
+  conserve(300000, 1e9, 1e-12);
+}
+
+TEST_CASE("conservation: 10^7 elastic collisions" * doctest::test_suite("slow")) {
+  conserve(10000000, 1e9, 1e-12);
+}
+
+// Eq. (2.8): an inelastic collision takes (1/4)(1 - alpha^2) g_n^2; the books must balance.
+TEST_CASE("conservation: what collisions take is what is lost") {
+  class Ledger : public Observer<2> {
+   public:
+    double taken = 0.0;
+    double booked = 0.0;
+    void on_collision(const PairCollision<2>& c) override {
+      const double g_n = c.separation.dot(c.before[0].v - c.before[1].v) / c.separation.norm();
+      taken += 0.25 * (1.0 - 0.9 * 0.9) * g_n * g_n;
+      booked += c.energy[0] + c.energy[1];
+    }
+  } ledger;
+  Model<2> model = periodic_box(20.0, 15.0);
+  model.restitution = 0.9;
+  Simulation<2> simulation(model, random_gas(model, 100, 92));
+  simulation.add_observer(ledger);
+  const double before = simulation.kinetic_energy();
+  simulation.run_until(kNever, 5000);
+  const double after = simulation.kinetic_energy();
+  CHECK(after < 0.2 * before);
+  CHECK(std::fabs((before - ledger.taken) - after) < 1e-12 * before);
+  CHECK(std::fabs((before + ledger.booked) - after) < 1e-12 * before);
+  check_sound(simulation);
+}
+
+// A collision that is missed lets two disks pass through each other, which takes them a time of
+// order 1: looking every .1 finds them.
+TEST_CASE("conservation: disks never overlap, by brute force over all images") {
+  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
+  const Wall thermal{.kind = WallKind::Thermal, .temperature = 2.0};
+  const Model<2> models[] = {
+      periodic_box(14.0, 13.0), with_walls(periodic_box(14.0, 13.0), 0, driven),
+      with_walls(with_walls(periodic_box(14.0, 13.0), 0, driven), 1, thermal),
+      periodic_box(90.0, 2.05), periodic_box(150.0, 1.2)};
+  for (Model<2> model : models) {
+    CAPTURE(model.box);
+    model.restitution = 0.95;
+    Simulation<2> simulation(model, random_gas(model, 100, 93));
+    double deepest = 0.0;
+    for (int i = 1; i <= 1000; ++i) {
+      simulation.run_until(0.1 * i);
+      const State<2> state = simulation.state();
+      deepest = std::max(deepest, brute_force_overlap(model, state));
+      REQUIRE(finite_and_inside(model, state));
+    }
+    CHECK(deepest < 1e-12);
+    CHECK(simulation.counts().disk_disk > 2000);
+    check_sound(simulation);
+  }
+}

@@ -1,0 +1,139 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/dynamics/state_hash.h"
+#include "tests/engine/support/gas.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
+const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
+
+std::vector<Model<2>> models() {
+  std::vector<Model<2>> models = {
+      periodic_box(20.0, 25.0), with_walls(periodic_box(20.0, 25.0), 0, kDriven),
+      with_walls(with_walls(periodic_box(20.0, 25.0), 0, kDriven), 1, kThermal)};
+  for (Model<2>& model : models) model.restitution = 0.95;
+  return models;
+}
+
+// Every disk on a square lattice, many moving alike: hundreds of collisions at the same times.
+State<2> symmetric_start() {
+  State<2> start;
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 directions[] = {{1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}, {1.0, -1.0}};
+    start.positions.push_back({1.0 + 2.0 * (i % 10), 1.25 + 2.5 * (i / 10)});
+    start.velocities.push_back(directions[(i + i / 10) % 4]);
+  }
+  return start;
+}
+
+std::uint64_t hash_with_frames(const Model<2>& model, const State<2>& start, int frames_per_time) {
+  constexpr double kEnd = 50.0;
+  Simulation<2> simulation(model, start);
+  for (int i = 1; i <= frames_per_time * kEnd; ++i) {
+    simulation.run_until(static_cast<double>(i) / frames_per_time);
+    REQUIRE(simulation.state().positions.size() == start.positions.size());
+  }
+  simulation.run_until(kEnd);
+  check_sound(simulation);
+  return simulation.state_hash();
+}
+
+}  // namespace
+
+TEST_CASE("hash: the same at 0, 30 and 240 frames per unit of time") {
+  for (const Model<2>& model : models()) {
+    for (const State<2>& start : {random_gas(model, 150, 101), symmetric_start()}) {
+      const std::uint64_t plain = hash_with_frames(model, start, 0);
+      CHECK(hash_with_frames(model, start, 30) == plain);
+      CHECK(hash_with_frames(model, start, 240) == plain);
+    }
+  }
+}
+
+TEST_CASE("hash: the same with timers, observers and halts at every collision") {
+  for (const Model<2>& model : models()) {
+    const State<2> start = random_gas(model, 150, 102);
+    const std::uint64_t plain = hash_with_frames(model, start, 0);
+    Simulation<2> watched(model, start);
+    Observer<2> observer;
+    watched.add_observer(observer);
+    double energy = 0.0;
+    watched.every(0.01, 0.013, [&](double) { energy += watched.kinetic_energy(); });
+    for (std::uint64_t i = 1; i <= 500; ++i) watched.run_until(kNever, i);
+    REQUIRE(watched.time() < 50.0);
+    watched.run_until(50.0);
+    CHECK(watched.state_hash() == plain);
+  }
+}
+
+// All that depends on the absolute time is the base; 1e9 + 50 is a double.
+TEST_CASE("hash: the same from t = 0 and from t = 1e9") {
+  for (const Model<2>& model : models()) {
+    const State<2> start = random_gas(model, 150, 103);
+    Simulation<2> late(model, start, 1e9);
+    late.run_until(kNever, 5000);
+    Simulation<2> early(model, start);
+    early.run_until(kNever, 5000);
+    CHECK(late.state_hash() == early.state_hash());
+    CHECK(late.time() - 1e9 == doctest::Approx(early.time()).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("hash: powers of two scale a run without a bit's change") {
+  for (const int length : {-40, 40}) {
+    for (const int speed : {-30, 30}) {
+      const double l = std::ldexp(1.0, length), s = std::ldexp(1.0, speed);
+      for (const Model<2>& model : models()) {
+        const State<2> start = random_gas(model, 150, 104);
+        Model<2> scaled_model = model;
+        scaled_model.box *= l;
+        scaled_model.diameter *= l;
+        for (auto& wall : scaled_model.walls) {
+          if (!wall) continue;
+          wall->drive_speed *= s;
+          wall->temperature *= s * s;
+        }
+        State<2> scaled_start = start;
+        for (Vec2& r : scaled_start.positions) r *= l;
+        for (Vec2& v : scaled_start.velocities) v *= s;
+        Simulation<2> scaled(scaled_model, scaled_start);
+        scaled.run_until(kNever, 5000);
+        State<2> state = scaled.state();
+        for (Vec2& r : state.positions) r /= l;
+        for (Vec2& v : state.velocities) v /= s;
+        Simulation<2> plain(model, start);
+        plain.run_until(kNever, 5000);
+        CHECK(state_hash<2>(state) == plain.state_hash());
+        check_sound(scaled);
+      }
+    }
+  }
+}
+
+TEST_CASE("hash: it tells any change of any number, and 0 from -0 it does not") {
+  const Model<2> model = periodic_box(20.0, 25.0);
+  const State<2> state = random_gas(model, 20, 105);
+  const std::uint64_t hash = state_hash<2>(state);
+  for (std::size_t i = 0; i < 20; ++i) {
+    for (int k = 0; k < 2; ++k) {
+      State<2> moved = state, pushed = state;
+      moved.positions[i][k] = std::nextafter(moved.positions[i][k], 0.0);
+      pushed.velocities[i][k] = -pushed.velocities[i][k];
+      CHECK(state_hash<2>(moved) != hash);
+      CHECK(state_hash<2>(pushed) != hash);
+    }
+  }
+  State<2> exchanged = state;
+  std::swap(exchanged.positions[3], exchanged.positions[4]);
+  CHECK(state_hash<2>(exchanged) != hash);
+  State<2> zero{{{0.0, 1.0}}, {{0.0, 0.0}}}, negative{{{-0.0, 1.0}}, {{0.0, -0.0}}};
+  CHECK(state_hash<2>(zero) == state_hash<2>(negative));
+}

@@ -1,0 +1,109 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "tests/engine/support/gas.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+struct BaseMoves : Observer<2> {
+  int count = 0;
+  void on_base_moved(double) override { ++count; }
+};
+
+Model<2> driven_box() {
+  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
+  return with_walls(periodic_box(9.0, 8.0), 0, driven);
+}
+
+}  // namespace
+
+TEST_CASE("timers: they fire at start + count * interval, all of them, across base moves") {
+  for (const double from : {0.0, 1e9}) {
+    CAPTURE(from);
+    Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 111), from);
+    BaseMoves moves;
+    simulation.add_observer(moves);
+    std::vector<double> times;
+    int late = 0;
+    const double start = from + 0.25;
+    simulation.every(start, 0.1, [&](double time) {
+      times.push_back(time);
+      // The clock's own reading may round once more.
+      late += std::fabs(simulation.time() - time) > 0x1p-52 * time;
+    });
+    simulation.run_until(from + 200.25 - 1e-5);
+    REQUIRE(times.size() == 2000);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      REQUIRE(times[k] == start + static_cast<double>(k) * 0.1);
+    }
+    CHECK(late == 0);
+    CHECK(moves.count >= 10);
+    check_sound(simulation);
+  }
+}
+
+TEST_CASE("timers: all fire in the order of time, and in that of registration at the same time") {
+  Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 112));
+  std::vector<std::pair<double, int>> log;
+  const auto note = [&](int who) { return [&log, who](double t) { log.push_back({t, who}); }; };
+  simulation.every(0.0, 0.5, note(0));
+  simulation.every(7.0, 0.0, note(1));  // once
+  simulation.every(1.0, 0.25, note(2));
+  for (const double halt : {0.3, 0.5, 0.5, 6.9, 7.0, 31.7, 40.0}) simulation.run_until(halt);
+  std::vector<std::pair<double, int>> expected;
+  for (int quarter = 0; quarter <= 160; ++quarter) {
+    const double t = 0.25 * quarter;
+    if (quarter % 2 == 0) expected.push_back({t, 0});
+    if (quarter == 28) expected.push_back({t, 1});
+    if (quarter >= 4) expected.push_back({t, 2});
+  }
+  CHECK(log == expected);
+}
+
+TEST_CASE("timers: physical events of the same time come first") {
+  State<2> start;
+  start.positions = {{2.0, 2.0}, {7.0, 2.0}};
+  start.velocities = {{1.0, 0.0}, {-1.0, 0.0}};  // a gap of 4, closed at speed 2
+  Simulation<2> simulation(periodic_box(20.0, 20.0), start);
+  std::vector<std::uint64_t> seen;
+  for (const double at : {std::nextafter(2.0, 0.0), 2.0}) {
+    simulation.every(at, 0.0, [&](double) { seen.push_back(simulation.counts().disk_disk); });
+  }
+  simulation.run_until(2.0);
+  CHECK(seen == std::vector<std::uint64_t>{0, 1});
+  CHECK(simulation.time() == 2.0);
+}
+
+TEST_CASE("timers: run_until_collisions fires what comes before") {
+  Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 113));
+  std::vector<double> times;
+  simulation.every(0.1, 0.1, [&](double time) { times.push_back(time); });
+  simulation.run_until(kNever, 2000);
+  REQUIRE(!times.empty());
+  CHECK(times.back() <= simulation.time());
+  CHECK(times.back() > simulation.time() - 0.1);
+  CHECK(std::fabs(times.back() - 0.1 * static_cast<double>(times.size())) < 1e-9);
+}
+
+TEST_CASE("timers: an action may start others") {
+  Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 114));
+  std::vector<double> times;
+  simulation.every(1.0, 0.0, [&simulation, &times](double time) {
+    for (int i = 0; i < 20; ++i) {
+      simulation.every(2.0 + i, 0.0, [&times](double t) { times.push_back(t); });
+    }
+    times.push_back(time);  // through what the action holds, which must still be there
+  });
+  simulation.run_until(30.0);
+  REQUIRE(times.size() == 21);
+  CHECK(times.front() == 1.0);
+  for (int i = 0; i < 20; ++i) CHECK(times[static_cast<std::size_t>(i) + 1] == 2.0 + i);
+}

@@ -1,0 +1,185 @@
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/physics/contact_kernel.h"
+#include "engine/physics/encounter.h"
+#include "engine/physics/flight.h"
+#include "engine/physics/random.h"
+
+using namespace clatter;
+
+namespace {
+
+struct Pair {
+  Flight<2> a, b;
+  Vec2 shift;
+};
+
+double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, double diameter = 1.0) {
+  return encounter_time<2>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time,
+                           shift.data(), diameter);
+}
+
+// Two disks of a box of 10 x 8, a few collision times old and one image apart at most.
+Pair random_pair(std::uint32_t number) {
+  Random random(11, Stream::Placement, number, 0);
+  const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
+  Pair pair;
+  for (Flight<2>* flight : {&pair.a, &pair.b}) {
+    flight->r = {10.0 * random.uniform(), 8.0 * random.uniform()};
+    flight->v = {random.normal(), random.normal()};
+    flight->time = random.below(4) == 0 ? 0.0 : 3.0 * random.uniform();
+  }
+  pair.shift = {10.0 * image(), 8.0 * image()};
+  return pair;
+}
+
+double later_start(const Pair& p) {
+  return std::max(p.a.time, p.b.time);
+}
+
+double distance(const Pair& p, double time) {
+  return (p.a.at(time) - p.b.at(time) + p.shift).norm();
+}
+
+std::uint64_t bits(double x) {
+  return std::bit_cast<std::uint64_t>(x);
+}
+
+}  // namespace
+
+TEST_CASE("encounter: the same bits whoever asks") {
+  int different = 0, meetings = 0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Pair p = random_pair(i);
+    const double one = encounter(p.a, p.b, p.shift);
+    const double other = encounter(p.b, p.a, -p.shift);
+    different += bits(one) != bits(other);
+    meetings += std::isfinite(one);
+  }
+  CHECK(different == 0);
+  CHECK(meetings > 3000);
+}
+
+// Distances are below 50 here, so the rounding of positions is below 1e-14 and that of a distance
+// at contact some times as much.
+TEST_CASE("encounter: disks are one diameter apart at contact, and farther before") {
+  double worst = 0.0, missed = 0.0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Pair p = random_pair(i);
+    const double time = encounter(p.a, p.b, p.shift);
+    const double start = later_start(p);
+    if (!std::isfinite(time)) continue;
+    REQUIRE(time > start);
+    worst = std::max(worst, std::fabs(distance(p, time) - 1.0));
+    for (int k = 0; k < 8; ++k) {
+      missed = std::max(missed, 1.0 - distance(p, start + k / 8.0 * (time - start)));
+    }
+  }
+  CHECK(worst < 1e-13);
+  CHECK(missed < 1e-13);
+}
+
+TEST_CASE("encounter: disks that never meet stay apart, and touching ones are told") {
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Pair p = random_pair(i);
+    const double time = encounter(p.a, p.b, p.shift);
+    if (std::isfinite(time)) continue;
+    const double start = later_start(p);
+    const Vec2 x = p.a.at(start) - p.b.at(start) + p.shift;
+    const Vec2 g = p.a.v - p.b.v;
+    if (time == kTouching) {
+      REQUIRE(x.norm() <= 1.0);
+      continue;
+    }
+    const double closest = start - std::min(0.0, x.dot(g)) / g.squaredNorm();
+    REQUIRE((x.dot(g) >= 0.0 || distance(p, closest) > 1.0 - 1e-13));
+  }
+}
+
+TEST_CASE("encounter: a grazing pass is met, a near miss is not") {
+  const Flight<2> still;
+  for (const double below : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+    Pair p{.a = {{-5.0, 1.0 - below}, {1.0, 0.0}, 0.0, 0}, .b = still, .shift = Vec2::Zero()};
+    const double time = encounter(p.a, p.b, p.shift);
+    REQUIRE(std::isfinite(time));
+    CHECK(std::fabs(distance(p, time) - 1.0) < 1e-14);
+    p.a.r.y() = 1.0 + below;
+    CHECK(encounter(p.a, p.b, p.shift) == kNever);
+  }
+}
+
+// The bound is a few times the rounding of the start, 1000 * 1.1e-16: what the discriminant
+// (x.g)^2 - g^2 (x^2 - a^2) leaves is 100 times as much.
+TEST_CASE("encounter: a start from far away costs no more than its rounding") {
+  double worst = 0.0;
+  int meetings = 0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    Random random(12, Stream::Placement, i, 0);
+    const double angle = 7.0 * random.uniform();
+    const Vec2 from = {std::cos(angle), std::sin(angle)};
+    Pair p;
+    p.a.v = {random.normal(), random.normal()};
+    p.b.v = p.a.v + from * (0.1 + random.uniform());
+    p.a.r = 1000.0 * from + Vec2(-from.y(), from.x()) * (2.0 * random.uniform() - 1.0);
+    p.shift = Vec2::Zero();
+    const double time = encounter(p.a, p.b, p.shift);
+    if (time == kNever) continue;
+    ++meetings;
+    // Along the line of approach alone: the positions themselves grow large on the way.
+    const Vec2 x = p.a.r + (p.a.v - p.b.v) * time;
+    worst = std::max(worst, std::fabs(x.norm() - 1.0));
+  }
+  CHECK(meetings > 99000);
+  CHECK(worst < 2e-12);
+}
+
+TEST_CASE("encounter: powers of two scale lengths and velocities without a bit's change") {
+  int different = 0;
+  for (const int length : {-40, -3, 40}) {
+    for (const int speed : {-30, 5, 30}) {
+      const double l = std::ldexp(1.0, length), s = std::ldexp(1.0, speed);
+      for (std::uint32_t i = 0; i < 10000; ++i) {
+        const Pair p = random_pair(i);
+        Pair q = p;
+        for (Flight<2>* flight : {&q.a, &q.b}) {
+          flight->r *= l;
+          flight->v *= s;
+          flight->time *= l / s;
+        }
+        q.shift *= l;
+        different +=
+            bits(encounter(q.a, q.b, q.shift, l)) != bits(encounter(p.a, p.b, p.shift) * (l / s));
+      }
+    }
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("contact kernel: the bits of encounter_time for every number of candidates") {
+  int different = 0;
+  std::uint32_t number = 0;
+  for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      const Flight<2> self = random_pair(++number).a;
+      Candidates<2> candidates{};
+      double expected[Candidates<2>::kCapacity];
+      for (int i = 0; i < size; ++i) {
+        const Pair p = random_pair(++number);
+        for (int k = 0; k < 2; ++k) {
+          candidates.r[k][i] = p.b.r[k];
+          candidates.v[k][i] = p.b.v[k];
+          candidates.shift[k][i] = p.shift[k];
+        }
+        candidates.time[i] = p.b.time;
+        expected[i] = encounter(self, p.b, p.shift);
+      }
+      contact_times<2>(self.r.data(), self.v.data(), self.time, 1.0, candidates, size);
+      for (int i = 0; i < size; ++i) different += bits(candidates.contact[i]) != bits(expected[i]);
+    }
+  }
+  CHECK(different == 0);
+}

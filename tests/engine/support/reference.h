@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/event.h"
+#include "engine/dynamics/model.h"
+#include "engine/physics/flight.h"
+
+namespace clatter::testing {
+
+/// What Simulation does, by brute force: before every event all pairs, all images and all walls are
+/// looked at, and the earliest event happens. No cells, no queue, nothing remembered between
+/// events. It uses the same pure functions of physics/, so that equal runs are equal to the last
+/// bit.
+class Reference {
+ public:
+  Reference(const Model<2>& model, const State<2>& state);
+
+  /// Runs until that many disk-disk collisions have happened, or no event is left.
+  void run_until(kNever, std::uint64_t disk_disk);
+
+  std::uint64_t collisions() const { return disk_disk_; }
+  std::uint64_t wall_hits() const { return disk_wall_; }
+  State<2> state() const;
+
+ private:
+  struct Next {
+    Event event{kNeverAgain, 0, 0};
+    IntVec<2> image = IntVec<2>::Zero();  // added to disk's r minus partner's, event.disk lower
+  };
+  static constexpr double kNeverAgain = 1e300;
+
+  Next first_before(double horizon) const;
+  void weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const;
+  void weigh_walls(std::uint32_t i, Next& first) const;
+  bool step();
+  void collide(const Next& next);
+  void hit_wall(const Event& event);
+  void renew(Flight<2>& flight, const Vec2& r, const Vec2& v);
+  Vec2 wrapped(const Vec2& r) const;
+  void move_base();
+
+  Model<2> model_;
+  std::vector<Flight<2>> flights_;
+  double now_ = 0.0;
+  std::uint64_t disk_disk_ = 0, disk_wall_ = 0;
+  std::uint64_t until_base_moves_;
+};
+
+}  // namespace clatter::testing
