@@ -104,6 +104,16 @@ TEST_CASE("Measurement: at least 512 windows, more where the series is finer") {
   }
 }
 
+TEST_CASE("Measurement: the last window counts, also where rounding puts its end after the run's") {
+  for (int k = 1; k <= 200; ++k) {
+    const auto simulation = simulation_of(gas(10.0, 10.0, 1, 1.0), 42);
+    Measure measure = measure_for(0.1 * k, 0.7 * k);
+    measure.series_interval = measure.duration / 700.0;  // no power of two
+    CAPTURE(k);
+    CHECK(measured(*simulation, measure).duration == doctest::Approx(0.7 * k).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
   const auto simulation = simulation_of(gas(10.0, 10.0, 10, 0.8), 43);
   Measure measure = measure_for(2.0, 4.0);
@@ -191,6 +201,29 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
     mean_density += result.profile->density[i].mean / 6.0;
   }
   CHECK(mean_density == doctest::Approx(20.0 / 72.0).epsilon(1e-10));
+}
+
+TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") {
+  // Columns along x do not see a flow along y. The gas is so thin that its few collisions cannot let
+  // the rounding of the two runs grow.
+  Measure measure = measure_for(0.0, 50.0);
+  measure.fields = {Field::Temperature};
+  measure.cells = {3, 1};
+  const Scene scene = gas(30.0, 30.0, 12, 1.0);
+  State<2> start = start_state(scene, 49);
+  Simulation<2> at_rest(model_of(scene, 49), start);
+  for (Vec2& v : start.velocities) v.y() += 3.0;
+  Simulation<2> flowing(model_of(scene, 49), start);
+  const Measured expected = measured(at_rest, measure);
+  const Measured result = measured(flowing, measure);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CAPTURE(i);
+    const Estimate& still = expected.profile->temperature_y[i];
+    const Estimate& moved = result.profile->temperature_y[i];
+    CHECK(moved.mean == doctest::Approx(still.mean).epsilon(1e-6));
+    CHECK(moved.standard_error == doctest::Approx(still.standard_error).epsilon(1e-6));
+    CHECK(moved.standard_error < 0.5 * moved.mean);
+  }
 }
 
 TEST_CASE("Measurement: no profile where no field was asked for") {
