@@ -94,6 +94,20 @@ TEST_CASE("random_insertion: a single disk is anywhere alike, up to walls and co
   }
 }
 
+TEST_CASE("random_insertion: no gaps between the cells that it works with") {
+  // 20,000 disks along each axis in 200 bins of 100: a gap as wide as a bin would empty one.
+  const Room room{{5.3, 3.7}, {true, false}};
+  const Vec2 low = {0.0, 0.5}, extent = {5.3, 2.7};
+  std::array<std::vector<double>, 2> counts = {std::vector(200, 0.0), std::vector(200, 0.0)};
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    Random random = placement(seed);
+    const Vec2 share = (random_insertion(room, 1, random)[0] - low).cwiseQuotient(extent);
+    for (int k = 0; k < 2; ++k) counts[k][static_cast<std::size_t>(200.0 * share[k])] += 1.0;
+  }
+  check_uniform(counts[0]);
+  check_uniform(counts[1]);
+}
+
 TEST_CASE("random_insertion: a periodic room has no place of its own, however full") {
   // phi = .44 in a box in which a disk feels its images: 9 disks, 2000 seeds, 36 cells of 500 each.
   check_uniform(pooled_counts({{4.0, 4.0}, {true, true}}, 9, 2000, 6));

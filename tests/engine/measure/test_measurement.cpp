@@ -204,8 +204,8 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
 }
 
 TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") {
-  // Columns along x do not see a flow along y. The gas is so thin that its few collisions cannot let
-  // the rounding of the two runs grow.
+  // Columns along x do not see a flow along y. The gas is so thin that its few collisions cannot
+  // let the rounding of the two runs grow.
   Measure measure = measure_for(0.0, 50.0);
   measure.fields = {Field::Temperature};
   measure.cells = {3, 1};
