@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/dynamics/start.h"
+
+namespace clatter::testing {
+
+/// The same wall at both ends of an axis (0: x, 1: y).
+inline void wall_in(Scene& scene, int axis, const Wall& wall) {
+  scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;
+}
+
+/// A gas in a periodic box, random start, T = 1.
+inline Scene gas(double lx, double ly, int count, double restitution) {
+  Scene scene;
+  scene.box = {lx, ly};
+  scene.disks.count = count;
+  scene.disks.restitution = restitution;
+  return scene;
+}
+
+/// Everything at once: inelastic, a driven wall against a lossy one along x, thermal walls of two
+/// temperatures along y.
+inline Scene rough_mixture(int count) {
+  Scene scene = gas(9.0, 8.0, count, 0.8);
+  scene.walls[kLeft] = {.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.5};
+  scene.walls[kRight] = {.kind = WallKind::Static, .restitution = 0.7};
+  scene.walls[kBottom] = {.kind = WallKind::Thermal, .temperature = 0.5};
+  scene.walls[kTop] = {.kind = WallKind::Thermal, .temperature = 2.0};
+  return scene;
+}
+
+inline std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed) {
+  return std::make_unique<Simulation<2>>(model_of(scene, seed), start_state(scene, seed));
+}
+
+/// One disk in a box, alone: what it does is known at any time.
+inline std::unique_ptr<Simulation<2>> lone_disk(const Scene& scene, const Vec2& r, const Vec2& v) {
+  return std::make_unique<Simulation<2>>(model_of(scene, 1), State<2>{{r}, {v}});
+}
+
+/// Total momentum.
+inline Vec2 momentum(const Simulation<2>& simulation) {
+  Vec2 sum = Vec2::Zero();
+  for (const Disk<2>& disk : simulation.disks()) sum += disk.flight.v;
+  return sum;
+}
+
+/// Sum of v_k^2 over the disks.
+inline Vec2 squares(const Simulation<2>& simulation) {
+  Vec2 sum = Vec2::Zero();
+  for (const Disk<2>& disk : simulation.disks()) sum += disk.flight.v.cwiseAbs2();
+  return sum;
+}
+
+/// Notes the simulation time of every event.
+class EventTimes : public Observer<2> {
+ public:
+  std::vector<double> times;
+  int base_moves = 0;
+
+  void on_collision(const PairCollision<2>& collision) override { note(collision.time); }
+  void on_wall(const WallCollision<2>& collision) override { note(collision.time); }
+  void on_base_moved(double shift) override {
+    base_ += shift;
+    ++base_moves;
+  }
+
+ private:
+  void note(double time) { times.push_back(base_ + time); }
+
+  double base_ = 0.0;
+};
+
+}  // namespace clatter::testing

@@ -1,0 +1,126 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/measure/estimate.h"
+#include "engine/physics/random.h"
+
+using namespace clatter;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20240501;
+
+/// Normal variates of variance 1 in which neighbours have the correlation `rho`.
+std::vector<double> autoregressive(std::size_t count, double rho, std::uint32_t series) {
+  Random random(kSeed, Stream::Velocity, series, 0);
+  std::vector<double> values(count);
+  double x = random.normal();
+  for (double& value : values) {
+    value = x;
+    x = rho * x + std::sqrt(1.0 - rho * rho) * random.normal();
+  }
+  return values;
+}
+
+/// Errors of many series in units of the true one, sorted.
+std::vector<double> relative_errors(int sample, std::size_t count, double rho) {
+  // The variance of the mean is (1 + rho)/((1 - rho) n) up to O(1/n^2).
+  const double truth = std::sqrt((1.0 + rho) / ((1.0 - rho) * static_cast<double>(count)));
+  std::vector<double> errors;
+  for (int k = 0; k < sample; ++k) {
+    const auto series = autoregressive(count, rho, static_cast<std::uint32_t>(k));
+    errors.push_back(blocked_error(series) / truth);
+  }
+  std::ranges::sort(errors);
+  return errors;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+TEST_CASE("blocked_error: white noise has the error sigma/sqrt(n)") {
+  // Not below: the level without blocking is known to 1/sqrt(2 n) = 1.1 %. Above by up to the
+  // uncertainty of the last level, 1/sqrt(62) = 13 %, since the largest of the levels is taken.
+  const auto errors = relative_errors(100, 4096, 0.0);
+  CHECK(errors.front() > 1.0 - 5.0 * 0.011);
+  CHECK(errors.back() < 1.0 + 5.0 * 0.127);
+  CHECK(mean(errors) > 1.0);
+  CHECK(mean(errors) < 1.13);
+}
+
+TEST_CASE("blocked_error: finds the error of a correlated series within 20 %") {
+  // rho = 0.9: the mean of 65,536 values is as uncertain as that of 65,536/19 independent ones. The
+  // last level has blocks of 2048 values, 200 correlation times. Mean of 32 series: known to 2 %.
+  const auto errors = relative_errors(32, 65536, 0.9);
+  CHECK(mean(errors) == doctest::Approx(1.0).epsilon(0.2));
+  CHECK(errors.front() > 1.0 - 5.0 * 0.127);
+  CHECK(errors.back() < 1.0 + 5.0 * 0.127);
+}
+
+TEST_CASE("blocked_error: negative correlations do not make the error small") {
+  // x, -x, x, -x: blocks of two are all zero, and the level without blocking is kept.
+  std::vector<double> series;
+  for (int k = 0; k < 64; ++k) series.push_back(k % 2 ? -1.0 : 1.0);
+  CHECK(blocked_error(series) == doctest::Approx(1.0 / std::sqrt(63.0)));
+}
+
+TEST_CASE("mean_estimate: constants, and series too short for an error") {
+  CHECK(mean_estimate({}).mean == 0.0);
+  CHECK(mean_estimate({}).standard_error == 0.0);
+
+  const Estimate one = mean_estimate(std::vector{3.0});
+  CHECK(one.mean == 3.0);
+  CHECK(one.standard_error == 0.0);
+
+  const Estimate two = mean_estimate(std::vector{1.0, 3.0});
+  CHECK(two.mean == 2.0);
+  CHECK(two.standard_error == 1.0);  // sqrt(sum (x - mean)^2 / (n (n - 1)))
+
+  const Estimate constant = mean_estimate(std::vector(1000, 0.1));
+  CHECK(constant.mean == doctest::Approx(0.1).epsilon(1e-13));
+  CHECK(constant.standard_error < 1e-15);
+}
+
+TEST_CASE("mean_estimate: three values by hand") {
+  // Mean 3, squares 4 + 1 + 9 = 14, error sqrt(14/(3*2)); two blocks are too few to be asked.
+  const Estimate three = mean_estimate(std::vector{1.0, 2.0, 6.0});
+  CHECK(three.mean == 3.0);
+  CHECK(three.standard_error == doctest::Approx(std::sqrt(14.0 / 6.0)));
+}
+
+TEST_CASE("ratio_estimate: a fixed ratio has no error however both vary") {
+  const auto denominator = std::vector{1.0, 5.0, 2.0, 8.0};
+  const auto numerator = std::vector{2.5, 12.5, 5.0, 20.0};
+  const Estimate ratio = ratio_estimate(numerator, denominator);
+  CHECK(ratio.mean == doctest::Approx(2.5).epsilon(1e-15));
+  CHECK(ratio.standard_error < 1e-15);
+}
+
+TEST_CASE("ratio_estimate: independent errors add up as in the textbook") {
+  // a = 2 + 0.1 x, b = 1 + 0.1 y: the error of a/b is sqrt(0.1^2 + (2*0.1)^2)/sqrt(n).
+  constexpr std::size_t kCount = 4096;
+  auto numerator = autoregressive(kCount, 0.0, 1001);
+  auto denominator = autoregressive(kCount, 0.0, 1002);
+  for (double& a : numerator) a = 2.0 + 0.1 * a;
+  for (double& b : denominator) b = 1.0 + 0.1 * b;
+  const Estimate ratio = ratio_estimate(numerator, denominator);
+  const double error = std::sqrt(0.05 / kCount);
+  CHECK(std::fabs(ratio.mean - 2.0) < 5.0 * error);
+  CHECK(ratio.standard_error > error * (1.0 - 5.0 * 0.011));
+  CHECK(ratio.standard_error < error * (1.0 + 5.0 * 0.127));
+}
+
+TEST_CASE("ratio_estimate: nothing below the line gives nothing") {
+  CHECK(ratio_estimate({}, {}).mean == 0.0);
+  const Estimate ratio = ratio_estimate(std::vector{1.0, 2.0}, std::vector{0.0, 0.0});
+  CHECK(ratio.mean == 0.0);
+  CHECK(ratio.standard_error == 0.0);
+}

@@ -1,0 +1,280 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "engine/measure/measurement.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+/// A measurement of the whole box for `duration` after `burn_in`.
+Measure measure_for(double burn_in, double duration) {
+  Measure measure;
+  measure.burn_in = burn_in;
+  measure.duration = duration;
+  return measure;
+}
+
+Measured measured(Simulation<2>& simulation, const Measure& measure) {
+  const double end = measure.burn_in + measure.duration;
+  Measurement measurement(simulation, measure, end);
+  simulation.run_until(end);
+  return measurement.result();
+}
+
+bool finite(const Estimate& estimate) {
+  return std::isfinite(estimate.mean) && std::isfinite(estimate.standard_error);
+}
+
+/// Whether every number is one.
+bool finite(const Measured& result) {
+  bool all = std::isfinite(result.duration) && std::isfinite(result.ledger_residual);
+  for (const Estimate& e :
+       {result.temperature, result.temperature_x, result.temperature_y, result.kurtosis_excess_x,
+        result.kurtosis_excess_y, result.collision_rate, result.dissipated}) {
+    all = all && finite(e);
+  }
+  for (const auto& e : {result.walls_in, result.compressibility, result.pressure[0],
+                        result.pressure[1], result.pressure[2], result.pressure[3]}) {
+    all = all && (!e || finite(*e));
+  }
+  for (const double t : result.series_temperature) all = all && std::isfinite(t);
+  if (result.profile) {
+    for (const auto* part : {&result.profile->density, &result.profile->temperature_x,
+                             &result.profile->temperature_y}) {
+      for (const Estimate& e : *part) all = all && finite(e);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("Measurement: averages over the time after the burn-in, all of it and nothing else") {
+  const Scene scene = rough_mixture(20);
+  const auto simulation = simulation_of(scene, 41);
+  const Measured result = measured(*simulation, measure_for(7.3, 31.9));
+  CHECK(result.duration == doctest::Approx(31.9).epsilon(1e-12));
+  CHECK(result.ledger_residual < 1e-13);
+
+  // The same with one window of a Totals of its own.
+  const auto again = simulation_of(scene, 41);
+  again->run_until(7.3);
+  const EventCounts at_start = again->counts();
+  Totals<2> totals(*again);
+  again->add_observer(totals);
+  again->run_until(7.3 + 31.9);
+  const WindowTotals<2> window = totals.close_window();
+  CHECK(again->state_hash() == simulation->state_hash());
+  CHECK(result.disk_disk == again->counts().disk_disk - at_start.disk_disk);
+  CHECK(result.disk_wall == again->counts().disk_wall - at_start.disk_wall);
+  CHECK(result.temperature_x.mean == doctest::Approx(window.temperature.x()).epsilon(1e-9));
+  CHECK(result.temperature_y.mean == doctest::Approx(window.temperature.y()).epsilon(1e-9));
+  CHECK(result.temperature.mean == doctest::Approx(0.5 * window.temperature.sum()).epsilon(1e-9));
+  CHECK(result.dissipated.mean == doctest::Approx(window.dissipated / 31.9).epsilon(1e-9));
+  CHECK(result.collision_rate.mean ==
+        doctest::Approx(2.0 * window.collisions / (20.0 * 31.9)).epsilon(1e-9));
+  REQUIRE(result.walls_in);
+  CHECK(result.walls_in->mean == doctest::Approx(window.walls_in / 31.9).epsilon(1e-9));
+  for (int side = 0; side < 4; ++side) {
+    const double length = side < 2 ? 8.0 : 9.0;
+    REQUIRE(result.pressure[side]);
+    CHECK(result.pressure[side]->mean ==
+          doctest::Approx(window.wall_impulse[side] / (31.9 * length)).epsilon(1e-9));
+  }
+  CHECK_FALSE(result.compressibility);
+}
+
+TEST_CASE("Measurement: at least 512 windows, more where the series is finer") {
+  // With windows of 1/512 of the span and of the series' interval; a run cut at 1/4 has a quarter.
+  for (const double interval : {1.0, 0.01}) {
+    const auto simulation = simulation_of(gas(10.0, 10.0, 5, 1.0), 42);
+    Measure measure = measure_for(1.0, 64.0);
+    measure.series_interval = interval;
+    Measurement measurement(*simulation, measure, 65.0);
+    const double window = interval == 1.0 ? 64.0 / 512.0 : 0.01;
+    simulation->run_until(1.0 + 16.0 + 0.5 * window);
+    CHECK(measurement.result().duration == doctest::Approx(16.0).epsilon(1e-9));
+    simulation->run_until(1.0 + 16.0 + 1.5 * window);
+    CHECK(measurement.result().duration == doctest::Approx(16.0 + window).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Measurement: the last window counts, also where rounding puts its end after the run's") {
+  for (int k = 1; k <= 200; ++k) {
+    const auto simulation = simulation_of(gas(10.0, 10.0, 1, 1.0), 42);
+    Measure measure = measure_for(0.1 * k, 0.7 * k);
+    measure.series_interval = measure.duration / 700.0;  // no power of two
+    CAPTURE(k);
+    CHECK(measured(*simulation, measure).duration == doctest::Approx(0.7 * k).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
+  const auto simulation = simulation_of(gas(10.0, 10.0, 10, 0.8), 43);
+  Measure measure = measure_for(2.0, 4.0);
+  measure.series_interval = 0.75;
+  const Measured result = measured(*simulation, measure);
+  REQUIRE(result.series_time.size() == 9);  // 0 to 6
+  REQUIRE(result.series_temperature.size() == 9);
+  const auto again = simulation_of(gas(10.0, 10.0, 10, 0.8), 43);
+  for (std::size_t k = 0; k < 9; ++k) {
+    CHECK(result.series_time[k] == 0.75 * static_cast<double>(k));
+    again->run_until(result.series_time[k]);
+    CHECK(result.series_temperature[k] == again->kinetic_energy() / 10.0);
+  }
+  CHECK(result.series_temperature.front() == doctest::Approx(1.0).epsilon(1e-14));
+}
+
+TEST_CASE("Measurement: an interrupted run has what it had come to") {
+  Measure measure = measure_for(10.0, 100.0);
+  measure.fields = {Field::Density};
+  const Scene scene = rough_mixture(15);
+  const auto simulation = simulation_of(scene, 44);
+  Measurement measurement(*simulation, measure, 110.0);
+  CHECK(finite(measurement.result()));  // nothing has happened
+
+  simulation->run_until(5.0);
+  const Measured burning = measurement.result();
+  CHECK(finite(burning));
+  CHECK(burning.duration == 0.0);
+  CHECK(burning.series_time.size() == 6);
+  CHECK_FALSE(burning.profile);
+
+  simulation->run_until(60.0, simulation->counts().disk_disk + 100);  // halts at a collision
+  const double time = simulation->time();
+  REQUIRE(time > 10.2);
+  REQUIRE(time < 60.0);
+  const Measured halted = measurement.result();
+  CHECK(finite(halted));
+  CHECK(halted.duration <= time - 10.0);
+  CHECK(halted.duration > time - 10.0 - 100.0 / 512.0);
+  CHECK(halted.profile);
+
+  simulation->run_until(110.0);  // and going on is as if it had not been asked
+  const auto again = simulation_of(scene, 44);
+  const Measured whole = measured(*again, measure);
+  const Measured resumed = measurement.result();
+  CHECK(resumed.duration == doctest::Approx(100.0).epsilon(1e-12));
+  CHECK(resumed.temperature.mean == whole.temperature.mean);
+  CHECK(resumed.temperature.standard_error == whole.temperature.standard_error);
+  CHECK(measurement.result().temperature.mean == whole.temperature.mean);  // nor asked twice
+}
+
+TEST_CASE("Measurement: profiles across x, averaged over y") {
+  Measure measure = measure_for(3.0, 40.0);
+  measure.fields = {Field::Density, Field::Temperature};
+  measure.cells = {6, 4};
+  const Scene scene = rough_mixture(20);
+  const auto simulation = simulation_of(scene, 45);
+  const Measured result = measured(*simulation, measure);
+  REQUIRE(result.profile);
+  REQUIRE(result.profile->edges.size() == 7);
+  CHECK(result.profile->edges.front() == 0.0);
+  CHECK(result.profile->edges[3] == 4.5);
+  CHECK(result.profile->edges.back() == 9.0);
+  REQUIRE(result.profile->density.size() == 6);
+
+  // The same from one window of six columns.
+  const auto again = simulation_of(scene, 45);
+  again->run_until(3.0);
+  CellIntegrals<2> columns(*again, {6, 1});
+  again->add_observer(columns);
+  again->run_until(43.0);
+  const auto integrals = columns.close_window();
+  double mean_density = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    CAPTURE(i);
+    const CellMoments<2>& column = integrals[i];
+    const Vec2 mean = column.velocity / column.count;
+    const Vec2 temperature = column.velocity_squared / column.count - mean.cwiseAbs2();
+    CHECK(result.profile->density[i].mean ==
+          doctest::Approx(column.count / (40.0 * 9.0 * 8.0 / 6.0)).epsilon(1e-9));
+    CHECK(result.profile->temperature_x[i].mean == doctest::Approx(temperature.x()).epsilon(1e-9));
+    CHECK(result.profile->temperature_y[i].mean == doctest::Approx(temperature.y()).epsilon(1e-9));
+    CHECK(result.profile->density[i].standard_error > 0.0);
+    CHECK(result.profile->temperature_x[i].standard_error > 0.0);
+    mean_density += result.profile->density[i].mean / 6.0;
+  }
+  CHECK(mean_density == doctest::Approx(20.0 / 72.0).epsilon(1e-10));
+}
+
+TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") {
+  // Columns along x do not see a flow along y. The gas is so thin that its few collisions cannot
+  // let the rounding of the two runs grow.
+  Measure measure = measure_for(0.0, 50.0);
+  measure.fields = {Field::Temperature};
+  measure.cells = {3, 1};
+  const Scene scene = gas(30.0, 30.0, 12, 1.0);
+  State<2> start = start_state(scene, 49);
+  Simulation<2> at_rest(model_of(scene, 49), start);
+  for (Vec2& v : start.velocities) v.y() += 3.0;
+  Simulation<2> flowing(model_of(scene, 49), start);
+  const Measured expected = measured(at_rest, measure);
+  const Measured result = measured(flowing, measure);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CAPTURE(i);
+    const Estimate& still = expected.profile->temperature_y[i];
+    const Estimate& moved = result.profile->temperature_y[i];
+    CHECK(moved.mean == doctest::Approx(still.mean).epsilon(1e-6));
+    CHECK(moved.standard_error == doctest::Approx(still.standard_error).epsilon(1e-6));
+    CHECK(moved.standard_error < 0.5 * moved.mean);
+  }
+}
+
+TEST_CASE("Measurement: no profile where no field was asked for") {
+  const auto simulation = simulation_of(gas(8.0, 8.0, 10, 1.0), 46);
+  CHECK_FALSE(measured(*simulation, measure_for(0.0, 5.0)).profile);
+}
+
+TEST_CASE("Measurement: the pressure of one disk between two walls") {
+  // 10 from wall to wall at speed 2: each wall takes up 2 * 2 every 10 time units, on a length
+  // of 8.
+  Scene scene = gas(11.0, 8.0, 1, 1.0);
+  wall_in(scene, 0, Wall{});
+  const auto simulation = lone_disk(scene, {5.5, 4.0}, {2.0, 0.0});
+  const Measured result = measured(*simulation, measure_for(0.0, 1000.0));
+  CHECK(result.disk_wall == 200);
+  for (const int side : {kLeft, kRight}) {
+    REQUIRE(result.pressure[side]);
+    CHECK(result.pressure[side]->mean == doctest::Approx(4.0 / (10.0 * 8.0)).epsilon(1e-12));
+  }
+  CHECK_FALSE(result.pressure[kBottom]);
+  CHECK(result.walls_in->mean == 0.0);
+}
+
+TEST_CASE("Measurement: a gas of none, and of one") {
+  for (const bool walled : {false, true}) {
+    for (const int count : {0, 1}) {
+      CAPTURE(walled);
+      CAPTURE(count);
+      Scene scene = gas(8.0, 8.0, count, 0.9);
+      if (walled) wall_in(scene, 0, {.kind = WallKind::Driven, .drive_speed = 0.01});
+      Measure measure = measure_for(2.0, 20.0);
+      measure.fields = {Field::Density, Field::Temperature};
+      const auto simulation = simulation_of(scene, 47);
+      const Measured result = measured(*simulation, measure);
+      CHECK(finite(result));
+      CHECK(result.disk_disk == 0);
+      CHECK(result.series_temperature.size() == 23);
+      CHECK(result.collision_rate.mean == 0.0);
+      CHECK_FALSE(result.compressibility);
+      if (count == 1 && !walled) CHECK(result.temperature.mean == doctest::Approx(1.0));
+    }
+  }
+}
+
+TEST_CASE("Measurement: a gas at rest") {
+  Scene scene = gas(8.0, 8.0, 10, 0.9);
+  scene.disks.start.temperature = 0.0;
+  Measure measure = measure_for(2.0, 20.0);
+  measure.fields = {Field::Density, Field::Temperature};
+  const auto simulation = simulation_of(scene, 48);
+  const Measured result = measured(*simulation, measure);
+  CHECK(finite(result));
+  CHECK(result.temperature.mean == 0.0);
+}

@@ -1,0 +1,161 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "engine/measure/totals.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+struct TimedRun {
+  std::vector<WindowTotals<2>> windows;
+  EventTimes events;
+};
+
+/// Runs to each of the ends in turn and closes a window there.
+TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vector<double>& ends) {
+  TimedRun run;
+  const auto simulation = simulation_of(scene, seed);
+  Totals<2> totals(*simulation);
+  simulation->add_observer(totals);
+  simulation->add_observer(run.events);
+  for (const double end : ends) {
+    simulation->run_until(end);
+    run.windows.push_back(totals.close_window());
+  }
+  return run;
+}
+
+/// Integral of sum v_k^2 from `begin` to `end` by asking a second run, without observers, half-way
+/// between any two events.
+Vec2 brute_force_integral(Simulation<2>& simulation, const std::vector<double>& events,
+                          double begin, double end) {
+  Vec2 integral = Vec2::Zero();
+  double time = begin;
+  const auto add_until = [&](double until) {
+    simulation.run_until(0.5 * (time + until));
+    integral += squares(simulation) * (until - time);
+    time = until;
+  };
+  for (const double event : events) {
+    if (event > begin && event < end) add_until(event);
+  }
+  add_until(end);
+  return integral;
+}
+
+}  // namespace
+
+TEST_CASE("Totals: the temperature is the exact time average, across base moves") {
+  const Scene scene = rough_mixture(20);
+  const std::vector<double> ends = {0.3, 40.0, 40.0001, 300.0};
+  const TimedRun run = run_in_windows(scene, 7, ends);
+  REQUIRE(run.events.base_moves >= 2);  // the first comes after 1024 events
+
+  const auto again = simulation_of(scene, 7);
+  double begin = 0.0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const Vec2 integral = brute_force_integral(*again, run.events.times, begin, ends[k]);
+    const Vec2 expected = integral / (20.0 * (ends[k] - begin));
+    CAPTURE(k);
+    // Durations and event times have the rounding of times about 300.
+    CHECK(run.windows[k].duration == doctest::Approx(ends[k] - begin).epsilon(1e-9));
+    CHECK(run.windows[k].temperature.x() == doctest::Approx(expected.x()).epsilon(1e-9));
+    CHECK(run.windows[k].temperature.y() == doctest::Approx(expected.y()).epsilon(1e-9));
+    begin = ends[k];
+  }
+}
+
+TEST_CASE("Totals: what every window booked is the change of the energy") {
+  const Scene scene = rough_mixture(30);
+  const auto simulation = simulation_of(scene, 8);
+  Totals<2> totals(*simulation);
+  simulation->add_observer(totals);
+  double energy = simulation->kinetic_energy();
+  std::uint64_t collisions = 0;
+  for (int k = 1; k <= 20; ++k) {
+    simulation->run_until(5.0 * k);
+    const WindowTotals<2> window = totals.close_window();
+    const double gained = simulation->kinetic_energy() - energy;
+    const double turnover = std::fabs(window.walls_in) + window.dissipated + energy;
+    CHECK(std::fabs(window.walls_in - window.dissipated - gained) < 1e-12 * turnover);
+    CHECK(window.dissipated > 0.0);
+    CHECK(window.collisions == static_cast<double>(simulation->counts().disk_disk - collisions));
+    energy += gained;
+    collisions = simulation->counts().disk_disk;
+    CHECK(totals.ledger_residual() < 1e-13);
+  }
+}
+
+TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {
+  const auto simulation = simulation_of(gas(10.0, 10.0, 20, 0.7), 9);
+  Totals<2> totals(*simulation);
+  simulation->add_observer(totals);
+  simulation->run_until(1e4, 3000);
+  REQUIRE(simulation->kinetic_energy() < 1e-3);
+  CHECK(totals.ledger_residual() < 1e-13);
+}
+
+TEST_CASE("Totals: the ledger notices what was not booked") {
+  // An observer that comes too late for some events cannot close the balance.
+  const auto simulation = simulation_of(gas(10.0, 10.0, 20, 0.7), 9);
+  Totals<2> totals(*simulation);
+  simulation->run_until(1e4, 10);
+  CHECK(totals.ledger_residual() > 1e-3);
+}
+
+TEST_CASE("Totals: what the walls took up is what the gas lost") {
+  // Static and driven walls act along their normals only.
+  Scene scene = rough_mixture(25);
+  scene.walls[kBottom] = Wall{.kind = WallKind::Static, .restitution = 0.95};
+  scene.walls[kTop] = Wall{.kind = WallKind::Driven, .restitution = 0.8, .drive_speed = 0.7};
+  const auto simulation = simulation_of(scene, 10);
+  Totals<2> totals(*simulation);
+  simulation->add_observer(totals);
+  Vec2 before = momentum(*simulation);
+  for (int k = 1; k <= 10; ++k) {
+    simulation->run_until(10.0 * k);
+    const auto impulse = totals.close_window().wall_impulse;
+    const Vec2 gained = momentum(*simulation) - before;
+    const double turnover = impulse[0] + impulse[1] + impulse[2] + impulse[3];
+    CHECK(std::fabs(impulse[kLeft] - impulse[kRight] - gained.x()) < 1e-12 * turnover);
+    CHECK(std::fabs(impulse[kBottom] - impulse[kTop] - gained.y()) < 1e-12 * turnover);
+    before += gained;
+  }
+}
+
+TEST_CASE("Totals: a head-on collision by hand") {
+  // g_n = -2, alpha = 1/2: each changes by (1 + alpha)/2 * 2 = 1.5, Eq. (2.4); the energy lost is
+  // (1 - alpha^2) g_n^2 / 4 = 0.75, Eq. (2.8); impulse and separation are parallel, one diameter.
+  const Scene scene = gas(20.0, 20.0, 2, 0.5);
+  const State<2> start{{{5.0, 5.0}, {8.0, 5.0}}, {{1.0, 0.0}, {-1.0, 0.0}}};
+  Simulation<2> simulation(model_of(scene, 1), start);
+  Totals<2> totals(simulation);
+  simulation.add_observer(totals);
+  simulation.run_until(2.0);  // they meet at time 1
+  const WindowTotals<2> window = totals.close_window();
+  CHECK(window.collisions == 1.0);
+  CHECK(window.virial == doctest::Approx(1.5));
+  CHECK(window.dissipated == doctest::Approx(0.75));
+  CHECK(window.walls_in == 0.0);
+  CHECK(window.temperature.x() == doctest::Approx(0.5 * (1.0 + 0.25)));  // 1 for half the time
+  CHECK(window.temperature.y() == 0.0);
+  CHECK(window.second_moment.x() == doctest::Approx(0.25));
+  CHECK(window.fourth_moment.x() == doctest::Approx(0.0625));
+}
+
+TEST_CASE("Totals: an empty gas has nothing, and no NaN") {
+  const auto simulation = simulation_of(gas(10.0, 10.0, 0, 0.9), 1);
+  Totals<2> totals(*simulation);
+  simulation->add_observer(totals);
+  simulation->run_until(5.0);
+  const WindowTotals<2> window = totals.close_window();
+  CHECK(window.duration == 5.0);
+  CHECK(window.temperature == Vec2(0.0, 0.0));
+  CHECK(window.second_moment == Vec2(0.0, 0.0));
+  CHECK(totals.ledger_residual() == 0.0);
+}

@@ -1,0 +1,59 @@
+#include <doctest/doctest.h>
+
+#include "engine/publish/publish.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+TEST_CASE("snapshot_of: the state itself, to the last bit") {
+  const Scene scene = rough_mixture(20);
+  const auto simulation = simulation_of(scene, 51);
+  for (int frame = 0; frame < 50; ++frame) {
+    simulation->run_until(0.37 * frame);
+    const Snapshot snapshot = snapshot_of(*simulation);
+    const State<2> state = simulation->state();
+    CHECK(snapshot.time == 0.37 * frame);
+    CHECK(snapshot.positions == state.positions);
+    CHECK(snapshot.velocities == state.velocities);
+    CHECK(snapshot.temperature == simulation->kinetic_energy() / 20.0);
+    CHECK(snapshot.collisions == simulation->counts().disk_disk);
+    CHECK_FALSE(snapshot.field);
+  }
+}
+
+TEST_CASE("snapshot_of: what the renderer draws the box from") {
+  const Snapshot snapshot = snapshot_of(*simulation_of(rough_mixture(3), 52));
+  CHECK(snapshot.box == Vec2(9.0, 8.0));
+  CHECK(snapshot.diameter == 1.0);
+  REQUIRE(snapshot.walls[kLeft]);
+  CHECK(snapshot.walls[kLeft]->kind == WallKind::Driven);
+  REQUIRE(snapshot.walls[kTop]);
+  CHECK(snapshot.walls[kTop]->temperature == 2.0);
+  CHECK_FALSE(snapshot_of(*simulation_of(gas(9.0, 8.0, 3, 1.0), 52)).walls[kLeft]);
+}
+
+TEST_CASE("snapshot_of: centres lie in the box, wherever their flights began") {
+  const auto simulation = lone_disk(gas(5.0, 4.0, 1, 1.0), {0.5, 3.5}, {-3.0, 7.0});
+  simulation->run_until(1.25);  // at (-3.25, 12.25): one box back, three boxes up
+  const Snapshot snapshot = snapshot_of(*simulation);
+  CHECK(snapshot.positions[0] == Vec2(1.75, 0.25));
+}
+
+TEST_CASE("snapshot_of: drawing changes nothing") {
+  const Scene scene = rough_mixture(20);
+  const auto alone = simulation_of(scene, 53);
+  alone->run_until(40.0);
+  const auto drawn = simulation_of(scene, 53);
+  for (int frame = 0; frame <= 1200; ++frame) {
+    drawn->run_until(frame / 30.0);
+    snapshot_of(*drawn);
+  }
+  CHECK(drawn->state_hash() == alone->state_hash());
+}
+
+TEST_CASE("snapshot_of: an empty gas") {
+  const Snapshot snapshot = snapshot_of(*simulation_of(gas(5.0, 5.0, 0, 1.0), 1));
+  CHECK(snapshot.positions.empty());
+  CHECK(snapshot.temperature == 0.0);
+}

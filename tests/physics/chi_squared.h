@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace clatter::testing {
+
+/// Probability that a chi^2 of `freedom` degrees of freedom is at least as large, after Wilson &
+/// Hilferty 1931: its cube root is nearly normal. Good to a few per cent of p where p > 1e-4 and
+/// freedom >= 5.
+inline double chi_squared_p(double chi_squared, double freedom) {
+  const double width = 2.0 / (9.0 * freedom);
+  const double z = (std::cbrt(chi_squared / freedom) - (1.0 - width)) / std::sqrt(width);
+  return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+/// The same for counts against what was expected; the total is fixed, which takes one degree of
+/// freedom.
+inline double counts_p(std::span<const double> observed, std::span<const double> expected) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    const double miss = observed[i] - expected[i];
+    sum += miss * miss / expected[i];
+  }
+  return chi_squared_p(sum, static_cast<double>(observed.size()) - 1.0);
+}
+
+/// The probability below which a statistical test of many numbers at once fails.
+inline constexpr double kLeastProbability = 1e-3;
+
+}  // namespace clatter::testing

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "engine/measure/measurement.h"
+#include "engine/scene/scene.h"
+
+namespace clatter::testing {
+
+/// A random start at T = 1 in a periodic box.
+Scene gas(double lx, double ly, int count, double restitution);
+
+/// The same of the given area fraction, in a square box.
+Scene gas_of_fraction(double area_fraction, int count, double restitution);
+
+/// The same wall at both ends of an axis (0: x, 1: y).
+void wall_in(Scene& scene, int axis, const Wall& wall);
+
+/// The gas of the thesis' figures, N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
+Scene vibrated_gas(double restitution, double wall_restitution);
+
+/// Runs a scene through its [measure] block, which is `burn_in` and `duration` here.
+Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
+
+/// Deviation from an expected value, relative to it.
+inline double relative(const Estimate& estimate, double expected) {
+  return estimate.mean / expected - 1.0;
+}
+
+/// Standard error relative to the mean.
+inline double relative_error(const Estimate& estimate) {
+  return estimate.standard_error / std::fabs(estimate.mean);
+}
+
+}  // namespace clatter::testing
