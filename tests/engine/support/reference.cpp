@@ -19,7 +19,7 @@ Reference::Reference(const Model<2>& model, const State<2>& state)
   }
 }
 
-void Reference::run_until(kNever, std::uint64_t disk_disk) {
+void Reference::run_until_collisions(std::uint64_t disk_disk) {
   while (disk_disk_ < disk_disk && step()) continue;
 }
 

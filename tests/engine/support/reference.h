@@ -18,7 +18,7 @@ class Reference {
   Reference(const Model<2>& model, const State<2>& state);
 
   /// Runs until that many disk-disk collisions have happened, or no event is left.
-  void run_until(kNever, std::uint64_t disk_disk);
+  void run_until_collisions(std::uint64_t disk_disk);
 
   std::uint64_t collisions() const { return disk_disk_; }
   std::uint64_t wall_hits() const { return disk_wall_; }
