@@ -29,7 +29,7 @@ struct CommonOptions {
   std::vector<std::string> settings;  ///< "key=value" of each --set
   std::uint64_t seed = 1;
   std::optional<double> until;  ///< simulation time at which the run ends
-  int threads = 1;              ///< of picture encoders
+  int threads = 2;              ///< of picture encoders
   bool quiet = false;           ///< nothing on stderr but errors
   ProgressStyle progress = ProgressStyle::Auto;
 

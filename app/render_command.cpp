@@ -111,9 +111,11 @@ int render(const RenderOptions& options) {
   SinkOptions sink_options;
   sink_options.size = size;
   sink_options.fps = options.fps;
-  sink_options.title = scene.title;
-  sink_options.comment = "clatter " CLATTER_VERSION ", seed " +
-                         std::to_string(options.common.seed) + "\n" + scene_to_toml(scene);
+  sink_options.texts = {{"Title", scene.title},
+                        {"Software", "clatter " CLATTER_VERSION},
+                        {"Seed", std::to_string(options.common.seed)},
+                        {"Scene", scene_to_toml(scene)}};
+  sink_options.threads = options.common.threads;
   sink_options.overwrite = options.overwrite;
   const auto sink = open_sink(options.out, sink_options);
   bool completed;

@@ -131,7 +131,7 @@ template <typename Visit>
 [[gnu::always_inline]] inline void CellGrid<D>::visit(const IntVec<D>& cell, const Stencil& stencil,
                                                       const Visit& visit) const {
   const Line* const lines = lines_.data();
-  const auto visit_chain = [&](std::size_t at, const Vec<D>* wrap) [[gnu::always_inline]] {
+  const auto visit_chain = [&](std::size_t at, const Vec<D>* wrap) __attribute__((always_inline)) {
     const Line* line = &lines[at];
     visit(*line, wrap);
     while (line->next != kNone) {

@@ -53,7 +53,7 @@ void Prediction<D>::look_at_disks(std::uint32_t disk, const typename CellGrid<D>
   using Line = typename CellGrid<D>::Line;
   Neighbours<D> near;
   int size = 0;
-  const auto add = [&](const Line& line, const Vec<D>* wrap) [[gnu::always_inline]] {
+  const auto add = [&](const Line& line, const Vec<D>* wrap) __attribute__((always_inline)) {
     // A fixed number is copied, for how many a cell holds cannot be foreseen and few hold more.
     std::copy_n(line.disks.begin(), 8, near.disks + size);
     if (line.count > 8) {

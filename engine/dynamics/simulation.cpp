@@ -286,8 +286,13 @@ State<D> Simulation<D>::state() const {
   state.positions.reserve(disks_.size());
   state.velocities.reserve(disks_.size());
   for (const Disk<D>& disk : disks_) {
-    const Vec<D> r = disk.flight.at(now_);
-    state.positions.push_back(r - boxes_off<D>(model_, r).cwiseProduct(model_.box));
+    Vec<D> r = disk.flight.at(now_);
+    r -= boxes_off<D>(model_, r).cwiseProduct(model_.box);
+    for (int axis = 0; axis < D; ++axis) {
+      // What lies a rounding error below 0 comes out at the far end, which is 0 again.
+      if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
+    }
+    state.positions.push_back(r);
     state.velocities.push_back(disk.flight.v);
   }
   return state;

@@ -26,8 +26,9 @@ struct EventCounts {
 /// What a run checks of itself at every event.
 struct RunChecks {
   double deepest_overlap = 0.0;  ///< of colliding disks at contact, as a share of the diameter
-  double clock_steps_back =
-      0.0;  ///< largest time by which an event came before the one processed last
+  /// Largest time by which an event came before the one processed last: 0 but for the rounding with
+  /// which a move of the base may exchange events that coincide.
+  double clock_steps_back = 0.0;
 };
 
 /// Disks in a box, moved from collision to collision. A disk's stored state changes only in its own

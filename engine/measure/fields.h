@@ -18,7 +18,8 @@ double field_value(Field field, const CellMoments<2>& moments, double measure);
 class LiveField {
  public:
   /// Watches the simulation through `view.field`, which the view must have, on cells of about one
-  /// diameter (at most 512 along an axis); the average reaches back by view.window.
+  /// diameter (at most 512 along an axis); the average reaches back by view.window, or by up to an
+  /// eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
 
   /// The field averaged over the window up to the simulation's time, or since the start where that

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clatter {
 
@@ -81,6 +82,7 @@ static Estimate column_temperature(const std::vector<std::vector<CellMoments<2>>
   const auto count = of([](const CellMoments<2>& m) { return m.count; });
   const auto first = of([&](const CellMoments<2>& m) { return m.velocity[axis]; });
   auto second = of([&](const CellMoments<2>& m) { return m.velocity_squared[axis]; });
+  if (mean_estimate(count).mean == 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   const double velocity = ratio_estimate(first, count).mean;
   const double square = ratio_estimate(second, count).mean;
   for (std::size_t k = 0; k < second.size(); ++k) {

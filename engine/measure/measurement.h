@@ -12,7 +12,8 @@
 
 namespace clatter {
 
-/// Profiles across x, averaged over y and time; [columns] each.
+/// Profiles across x, averaged over y and time; [columns] each. The temperature of a column that
+/// was never visited is NaN.
 struct Profile {
   std::vector<double> edges;  ///< [columns + 1] along x
   std::vector<Estimate> density;

@@ -30,9 +30,9 @@ class FrameSink {
 struct SinkOptions {
   Size size;               ///< of every picture
   double fps = 30.0;       ///< pictures per second of a film
-  std::string title;       ///< kept in the file; empty: none
-  std::string comment;     ///< likewise
+  std::vector<PngText> texts;  ///< kept in the file; a film has a title, and the rest as its comment
   bool overwrite = false;  ///< whether a sequence may replace pictures that exist
+  int threads = 2;         ///< that encode a sequence's pictures
 };
 
 /// The sink that a path asks for: a film (.mp4, .webm, .gif), one picture (.png), or else a folder

@@ -72,8 +72,15 @@ std::vector<std::string> arguments_for(const std::string& encoder, const Format&
                                   "-f",    "rawvideo",   "-pix_fmt", "rgba",     "-video_size",
                                   size,    "-framerate", fps,        "-i",       "pipe:0"};
   all.insert(all.end(), format.encoding.begin(), format.encoding.end());
-  if (!options.title.empty()) all.insert(all.end(), {"-metadata", "title=" + options.title});
-  if (!options.comment.empty()) all.insert(all.end(), {"-metadata", "comment=" + options.comment});
+  std::string comment;
+  for (const PngText& text : options.texts) {
+    if (text.keyword == "Title") {
+      all.insert(all.end(), {"-metadata", "title=" + text.text});
+    } else {
+      comment += text.keyword + ": " + text.text + "\n";
+    }
+  }
+  if (!comment.empty()) all.insert(all.end(), {"-metadata", "comment=" + comment});
   // "file:" keeps a colon in the name from being taken for a protocol.
   all.insert(all.end(), {"-f", format.muxer, "file:" + part.string()});
   return all;

@@ -1,21 +1,12 @@
 #include "render/output/png_sink.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <thread>
 
 #include "engine/error.h"
 
 namespace clatter {
 
 namespace {
-
-std::vector<PngText> texts_of(const SinkOptions& options) {
-  std::vector<PngText> texts;
-  if (!options.title.empty()) texts.push_back({"Title", options.title});
-  if (!options.comment.empty()) texts.push_back({"Comment", options.comment});
-  return texts;
-}
 
 std::vector<PngText> with_time(std::vector<PngText> texts, double time) {
   char text[32];
@@ -46,15 +37,10 @@ void make_folder(const std::filesystem::path& folder, bool overwrite) {
   }
 }
 
-// Encoding a frame takes about as long as drawing it, so a few threads keep up with any gas.
-int encoder_threads() {
-  return std::clamp<int>(std::thread::hardware_concurrency(), 1, 4);
-}
-
 }  // namespace
 
 PngFile::PngFile(std::filesystem::path path, const SinkOptions& options)
-    : path_(std::move(path)), texts_(texts_of(options)) {}
+    : path_(std::move(path)), texts_(options.texts) {}
 
 void PngFile::add(Image image, double time) {
   write_png(path_, image, with_time(texts_, time));
@@ -62,8 +48,8 @@ void PngFile::add(Image image, double time) {
 
 PngSequence::PngSequence(std::filesystem::path folder, const SinkOptions& options)
     : folder_(std::move(folder)),
-      texts_(texts_of(options)),
-      queue_(encoder_threads(), encoder_threads()) {
+      texts_(options.texts),
+      queue_(options.threads, static_cast<std::size_t>(options.threads)) {
   make_folder(folder_, options.overwrite);
 }
 

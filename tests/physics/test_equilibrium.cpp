@@ -6,7 +6,7 @@
 
 #include "engine/dynamics/start.h"
 #include "engine/physics/theory.h"
-#include "tests/physics/chi_squared.h"
+#include "tests/support/statistics.h"
 #include "tests/physics/experiment.h"
 
 using namespace clatter;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/dynamics/random_insertion.h"
-#include "tests/physics/chi_squared.h"
+#include "tests/support/statistics.h"
 
 using namespace clatter;
 using namespace clatter::testing;

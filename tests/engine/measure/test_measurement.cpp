@@ -30,7 +30,7 @@ bool finite(const Estimate& estimate) {
   return std::isfinite(estimate.mean) && std::isfinite(estimate.standard_error);
 }
 
-/// Whether every number is one.
+/// Whether every number that there is is one.
 bool finite(const Measured& result) {
   bool all = std::isfinite(result.duration) && std::isfinite(result.ledger_residual);
   for (const Estimate& e :
@@ -44,9 +44,12 @@ bool finite(const Measured& result) {
   }
   for (const double t : result.series_temperature) all = all && std::isfinite(t);
   if (result.profile) {
-    for (const auto* part : {&result.profile->density, &result.profile->temperature_x,
-                             &result.profile->temperature_y}) {
-      for (const Estimate& e : *part) all = all && finite(e);
+    // Columns that no disk visited have a density, but no temperature.
+    for (std::size_t k = 0; k < result.profile->density.size(); ++k) {
+      const bool visited = result.profile->density[k].mean > 0.0;
+      all = all && finite(result.profile->density[k]) &&
+            finite(result.profile->temperature_x[k]) == visited &&
+            finite(result.profile->temperature_y[k]) == visited;
     }
   }
   return all;

@@ -13,7 +13,7 @@ namespace clatter {
 namespace {
 
 SinkOptions options() {
-  return {{101, 75}, 25.0, "Gas ρ", "a \"comment\"", false};
+  return {{101, 75}, 25.0, {{"Title", "Gas ρ"}, {"Scene", "a \"comment\""}}, false, 2};
 }
 
 Image frame(int number) {

@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-const SinkOptions kOptions{{64, 48}, 30.0, "title", "comment", false};
+const SinkOptions kOptions{{64, 48}, 30.0, {{"Title", "title"}, {"Seed", "1"}}, false, 2};
 
 Image frame() {
   return {kOptions.size, std::vector<unsigned char>(64 * 48 * 4, 100)};

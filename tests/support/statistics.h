@@ -29,4 +29,9 @@ inline double counts_p(std::span<const double> observed, std::span<const double>
 /// The probability below which a statistical test of many numbers at once fails.
 inline constexpr double kLeastProbability = 1e-3;
 
+/// Mean of a sample, as its distance from the mean expected in standard errors.
+inline double standard_errors_off(double sum, double samples, double mean, double variance) {
+  return (sum / samples - mean) / std::sqrt(variance / samples);
+}
+
 }  // namespace clatter::testing
