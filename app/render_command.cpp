@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "app/commands.h"
+#include "app/flag_checks.h"
 #include "app/interrupt.h"
 #include "app/run.h"
 #include "app/write_file.h"
@@ -140,25 +140,25 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   command->add_option("--fps", options->fps, "Frames per second of film")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(number_between(1.0, 1000.0))
       ->capture_default_str();
   command->add_option("--from", options->from, "Simulation time of the first frame")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->capture_default_str();
   command
       ->add_option("--to", options->to,
                    "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
                    "10 s for a picture)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command
       ->add_option("--speed", options->speed,
                    "Simulation time per second of film (default: the scene's view.speed)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_flag("--no-overlay", options->no_overlay, "Draw no title, time, colour bar, scale bar");
   command->add_flag("--overwrite", options->overwrite, "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
-          {"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
+      ->transform(one_of<Backend>(
+          {{"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
       ->type_name("auto|egl|osmesa");
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }
