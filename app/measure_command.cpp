@@ -33,8 +33,9 @@ int measure(const MeasureOptions& options) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
                     "go beyond measure.burn_in = " + std::to_string(spec.burn_in));
   }
-  if (!options.out.empty()) require_folder_of(options.out, "--out");
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.csv.empty()) require_folder_of(options.csv, "--csv");
+  if (!options.csv.empty()) make_folder(options.csv);
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
