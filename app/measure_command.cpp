@@ -51,7 +51,7 @@ int measure(const MeasureOptions& options) {
   const auto json =
       result_json(scene, options.common.seed, *simulation, measured, performance);
   if (options.out.empty()) {
-    std::printf("%s\n", json.dump(1).c_str());
+    print(json.dump(1) + "\n");
   } else {
     write_file(options.out, json.dump(1) + "\n");
   }

@@ -27,6 +27,12 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   throw_unwritable(path);
 }
 
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw_unwritable("stdout");
+  }
+}
+
 void require_folder_of(const std::filesystem::path& path, const char* flag) {
   if (path.empty()) throw UserError({flag, 0, 0}, "the name is empty", "name a file or folder");
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";

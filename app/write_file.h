@@ -9,6 +9,9 @@ namespace clatter {
 /// it. Throws RunError where that fails.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Writes to stdout at once. Throws RunError where that fails, say because it is closed.
+void print(std::string_view text);
+
 /// Throws UserError unless a file or folder of that name has a folder to be in; `flag` gave it.
 void require_folder_of(const std::filesystem::path& path, const char* flag);
 
