@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "app/commands.h"
 #include "app/flag_checks.h"
@@ -98,6 +99,8 @@ int run_program(int argc, const char* const* argv) {
     return report(error.what(), kWrongUse);
   } catch (const PhysicalStop& error) {
     return report(error.what(), kPhysicalStop);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory; give the scene fewer disks or cells", kFailed);
   } catch (const std::exception& error) {
     return report(error.what(), kFailed);
   }
