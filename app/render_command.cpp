@@ -104,6 +104,11 @@ int render(const RenderOptions& options) {
   view.overlay = view.overlay && !options.no_overlay;
   const FrameTimes times = frame_times(options, view.speed);
   const Size size = parse_size(options.size);
+  constexpr double kMostWindows = 1e7;
+  if (view.field && times.last() / view.window > kMostWindows) {
+    throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
+                    "choose at least " + number_text(times.last() / kMostWindows));
+  }
   require_folder_of(options.out, "--out");
   catch_interrupts();
 
