@@ -35,7 +35,9 @@ void print(std::string_view text) {
 
 void require_folder_of(const std::filesystem::path& path, const char* flag) {
   if (path.empty()) throw UserError({flag, 0, 0}, "the name is empty", "name a file or folder");
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  // "frames/" names the folder frames.
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
   if (std::filesystem::is_directory(folder)) return;
   throw UserError({flag, 0, 0}, "there is no folder " + folder.string(),
                   "make it first, or name a file elsewhere");
