@@ -1,5 +1,5 @@
-// Prints the state hash of every gallery scene after some thousand collisions, for .ci/run to compare
-// between compilers and optimisation levels.
+// Prints the state hash of every gallery scene after some thousand collisions, for .ci/run to
+// compare between compilers and optimisation levels.
 
 #include <cinttypes>
 #include <cstdio>
