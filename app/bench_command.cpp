@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/flag_checks.h"
 #include "app/resources.h"
 #include "app/run.h"
 #include "app/write_file.h"
@@ -93,7 +94,7 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   command->add_option("--count", options->count, "One cell of the table: number of disks")
       ->check(CLI::Range(2, 100'000'000));
   command->add_option("--area-fraction", options->area_fraction, "One cell of the table: phi")
-      ->check(CLI::Range(1e-6, 0.9))
+      ->check(number_between(1e-6, 0.9))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = bench_engine(*options); });
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/commands.h"
+#include "app/write_file.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/prediction.h"
 #include "engine/physics/theory.h"
@@ -16,7 +17,7 @@ static constexpr double kBytesPerDisk =
 
 static int check(const CommonOptions& options) {
   const Scene scene = load(options);
-  std::printf("%s", scene_to_toml(scene).c_str());
+  print(scene_to_toml(scene));
   const double count = scene.disks.count;
   const double temperature = scene.disks.start.temperature;
   const double end = options.until.value_or(scene.measure.burn_in + scene.measure.duration);

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
+#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -22,6 +24,9 @@ struct MeasureOptions {
   std::string csv;  // folder for tables; empty: none
 };
 
+// Samples of a series: some GB of result file.
+constexpr double kMostSamples = 1e7;
+
 // Overlaps deeper than this, in diameters, mean that events were lost; rounding stays far below.
 constexpr double kLostEventOverlap = 1e-9;
 
@@ -31,10 +36,17 @@ int measure(const MeasureOptions& options) {
   const double end = options.common.until.value_or(spec.burn_in + spec.duration);
   if (!(end > spec.burn_in)) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
-                    "go beyond measure.burn_in = " + std::to_string(spec.burn_in));
+                    "go beyond measure.burn_in = " + number_text(spec.burn_in));
   }
-  if (!options.out.empty()) require_folder_of(options.out, "--out");
+  if (end / spec.series_interval > kMostSamples) {
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMostSamples));
+  }
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.csv.empty()) require_folder_of(options.csv, "--csv");
+  if (!options.csv.empty()) make_folder(options.csv);
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
@@ -49,7 +61,7 @@ int measure(const MeasureOptions& options) {
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
   const auto json = result_json(scene, options.common.seed, *simulation, measured, performance);
   if (options.out.empty()) {
-    std::printf("%s\n", json.dump(1).c_str());
+    print(json.dump(1) + "\n");
   } else {
     write_file(options.out, json.dump(1) + "\n");
   }

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <map>
+#include <new>
 
 #include "app/commands.h"
+#include "app/flag_checks.h"
 #include "engine/error.h"
+#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -31,24 +33,40 @@ void add_common_flags(CLI::App& command, CommonOptions& options) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of all random numbers")
+      ->check(seed_number())
+      ->capture_default_str();
   command.add_option("--until", options.until, "Simulation time at which the run ends")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--threads", options.threads, "Threads that encode pictures")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "Print nothing on stderr but errors");
   command.add_option("--progress", options.progress, "How to show progress on stderr")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, ProgressStyle>{{"auto", ProgressStyle::Auto},
-                                               {"json", ProgressStyle::Json},
-                                               {"none", ProgressStyle::None}}))
+      ->transform(one_of<ProgressStyle>({{"auto", ProgressStyle::Auto},
+                                         {"json", ProgressStyle::Json},
+                                         {"none", ProgressStyle::None}}))
       ->type_name("auto|json|none");
 }
 
 static int report(const char* message, int code) {
   std::fprintf(stderr, "clatter: %s\n", message);
   return code;
+}
+
+// CLI11 itself would only say that a command is missing.
+static void require_command(const CLI::App& program, const std::string& word) {
+  if (word.starts_with('-')) return;
+  std::vector<std::string> names;
+  std::string all;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == word) return;
+    names.push_back(command->get_name());
+    all += (all.empty() ? "" : ", ") + names.back();
+  }
+  const std::string near(near_miss(word, names));
+  throw UserError({}, "there is no command '" + word + "'",
+                  near.empty() ? "the commands are " + all : "did you mean '" + near + "'?");
 }
 
 int run_program(int argc, const char* const* argv) {
@@ -60,7 +78,9 @@ int run_program(int argc, const char* const* argv) {
         "clatter");
     program.set_version_flag("--version", "clatter " CLATTER_VERSION);
     program.require_subcommand(1);
-    program.failure_message(CLI::FailureMessage::simple);
+    program.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return std::string("clatter: ") + error.what() + "; --help after a command lists its flags\n";
+    });
     add_render_command(program, exit_code);
     add_measure_command(program, exit_code);
     add_check_command(program, exit_code);
@@ -70,6 +90,7 @@ int run_program(int argc, const char* const* argv) {
       std::fputs(program.help().c_str(), stderr);
       return kWrongUse;
     }
+    require_command(program, argv[1]);
     try {
       program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -79,6 +100,8 @@ int run_program(int argc, const char* const* argv) {
     return report(error.what(), kWrongUse);
   } catch (const PhysicalStop& error) {
     return report(error.what(), kPhysicalStop);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory; give the scene fewer disks or cells", kFailed);
   } catch (const std::exception& error) {
     return report(error.what(), kFailed);
   }

@@ -22,6 +22,8 @@ Progress::~Progress() {
 }
 
 static std::string spell_seconds(double seconds) {
+  constexpr double kLongest = 1e9;  // some thirty years
+  if (!(seconds < kLongest)) return "ages";
   char text[32];
   const auto whole = static_cast<long>(seconds + 0.5);
   if (whole < 3600) {

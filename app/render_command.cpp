@@ -1,15 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "app/commands.h"
+#include "app/flag_checks.h"
 #include "app/interrupt.h"
 #include "app/run.h"
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/fields.h"
 #include "engine/publish/publish.h"
+#include "engine/scene/text.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
 #include "render/output/frame_sink.h"
@@ -59,7 +60,7 @@ FrameTimes frame_times(const RenderOptions& options, double speed) {
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to && *to < options.from) {
     throw UserError({"--to", 0, 0}, "the film would end before it begins",
-                    "give a time after --from " + std::to_string(options.from));
+                    "give a time after --from " + number_text(options.from));
   }
   if (one_picture) return {to.value_or(options.from + kPictureSeconds * speed), 0.0, 1};
   const double interval = speed / options.fps;
@@ -67,14 +68,14 @@ FrameTimes frame_times(const RenderOptions& options, double speed) {
   constexpr double kMostFrames = 1e7;
   const double frames = std::max(1.0, std::round(span / interval));
   if (frames > kMostFrames) {
-    throw UserError({"--to", 0, 0}, "the film would have " + std::to_string(frames) + " frames",
+    throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
                     "choose a larger --speed, or an earlier --to");
   }
   return {options.from, interval, static_cast<long>(frames)};
 }
 
-// Draws one frame after the other; false where it was interrupted.
-bool film(Simulation<2>& simulation, const View& view, const OverlayText& text,
+// Draws one frame after the other; fewer than there are times where it was interrupted.
+long film(Simulation<2>& simulation, const View& view, const OverlayText& text,
           const FrameTimes& times, GlContext& context, Size size, FrameSink& sink,
           Progress& progress) {
   Canvas canvas(context.gl(), size);
@@ -85,7 +86,7 @@ bool film(Simulation<2>& simulation, const View& view, const OverlayText& text,
   std::optional<Camera> camera;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
-    if (!run_until(simulation, time, progress)) return false;
+    if (!run_until(simulation, time, progress)) return k;
     Snapshot snapshot = snapshot_of(simulation);
     if (field) snapshot.field = field->map();
     if (!camera) camera = renderer.fit(snapshot, size, view, text);
@@ -93,7 +94,7 @@ bool film(Simulation<2>& simulation, const View& view, const OverlayText& text,
     sink.add(canvas.read(), time);
     progress.update(time);
   }
-  return true;
+  return times.count;
 }
 
 int render(const RenderOptions& options) {
@@ -103,6 +104,11 @@ int render(const RenderOptions& options) {
   view.overlay = view.overlay && !options.no_overlay;
   const FrameTimes times = frame_times(options, view.speed);
   const Size size = parse_size(options.size);
+  constexpr double kMostWindows = 1e7;
+  if (view.field && times.last() / view.window > kMostWindows) {
+    throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
+                    "choose at least " + number_text(times.last() / kMostWindows));
+  }
   require_folder_of(options.out, "--out");
   catch_interrupts();
 
@@ -118,15 +124,16 @@ int render(const RenderOptions& options) {
   sink_options.threads = options.common.threads;
   sink_options.overwrite = options.overwrite;
   const auto sink = open_sink(options.out, sink_options);
-  bool completed;
+  long frames;
   {
     Progress progress(options.common.shown_progress(), "filming", 0.0, times.last());
-    completed = film(*simulation, view, {scene.title, scene.caption}, times, *context, size, *sink,
-                     progress);
+    frames = film(*simulation, view, {scene.title, scene.caption}, times, *context, size, *sink,
+                  progress);
   }
+  if (frames == 0) return kInterrupted;
   sink->finish();
   if (!options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
-  return completed ? kOk : kInterrupted;
+  return frames == times.count ? kOk : kInterrupted;
 }
 
 }  // namespace
@@ -143,28 +150,28 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   command->add_option("--fps", options->fps, "Frames per second of film")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(number_between(1.0, 1000.0))
       ->capture_default_str();
   command->add_option("--from", options->from, "Simulation time of the first frame")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->capture_default_str();
   command
       ->add_option(
           "--to", options->to,
           "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
           "10 s for a picture)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command
       ->add_option("--speed", options->speed,
                    "Simulation time per second of film (default: the scene's view.speed)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--overwrite", options->overwrite,
                     "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
-          {"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
+      ->transform(one_of<Backend>(
+          {{"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
       ->type_name("auto|egl|osmesa");
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }

@@ -92,15 +92,21 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   json["state_hash"] = hash;
   json["time"] = {{"burn_in", scene.measure.burn_in}, {"measured", measured.duration}};
   json["events"] = {{"disk_disk", measured.disk_disk}, {"disk_wall", measured.disk_wall}};
-  json["temperature"] = estimate_json(measured.temperature);
-  json["temperature_x"] = estimate_json(measured.temperature_x);
-  json["temperature_y"] = estimate_json(measured.temperature_y);
+  // A run that was interrupted in its burn-in has no averages, and nor have no disks.
+  const bool averaged = measured.duration > 0.0;
+  if (averaged) {
+    json["temperature"] = estimate_json(measured.temperature);
+    json["temperature_x"] = estimate_json(measured.temperature_x);
+    json["temperature_y"] = estimate_json(measured.temperature_y);
+  }
   json["temperature_series"] = {{"time", measured.series_time},
                                 {"translational", measured.series_temperature}};
-  json["kurtosis_excess_x"] = estimate_json(measured.kurtosis_excess_x);
-  json["kurtosis_excess_y"] = estimate_json(measured.kurtosis_excess_y);
-  json["collision_rate"] = estimate_json(measured.collision_rate);
-  json["energy"] = energy_json(measured);
+  if (averaged) {
+    json["kurtosis_excess_x"] = estimate_json(measured.kurtosis_excess_x);
+    json["kurtosis_excess_y"] = estimate_json(measured.kurtosis_excess_y);
+    json["collision_rate"] = estimate_json(measured.collision_rate);
+    json["energy"] = energy_json(measured);
+  }
   if (Json pressure = pressure_json(measured); !pressure.empty()) json["pressure"] = pressure;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile, scene.measure.fields);

@@ -1,7 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <algorithm>
 
 #include "app/commands.h"
+#include "app/write_file.h"
 #include "engine/embedded_file.h"
 
 namespace clatter {
@@ -9,11 +10,14 @@ namespace clatter {
 void add_scenes_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("scenes", "List the gallery, one line each");
   command->callback([&exit_code] {
+    std::string list;
     for (const EmbeddedFile& file : embedded_scenes()) {
       const std::string name(file.name.substr(0, file.name.rfind('.')));
       const Scene scene = parse_scene(file.bytes, name);
-      std::printf("%-14s %s: %s\n", name.c_str(), scene.title.c_str(), scene.caption.c_str());
+      list += name + std::string(std::max(1, 15 - static_cast<int>(name.size())), ' ') +
+              scene.title + ": " + scene.caption + "\n";
     }
+    print(list);
     exit_code = kOk;
   });
 }

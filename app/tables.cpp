@@ -5,7 +5,6 @@
 #include <string>
 
 #include "app/write_file.h"
-#include "engine/error.h"
 
 namespace clatter {
 
@@ -19,10 +18,6 @@ namespace clatter {
 }
 
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
-  std::error_code error;
-  std::filesystem::create_directory(folder, error);
-  if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
-
   std::string series =
       "# units: disk diameter, disk mass and the scene's velocity unit are 1\n"
       "time,temperature\n";

@@ -1,5 +1,7 @@
 #include "app/write_file.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -9,22 +11,51 @@
 
 namespace clatter {
 
+[[noreturn]] static void throw_unwritable(const std::filesystem::path& path) {
+  throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+}
+
 void write_file(const std::filesystem::path& path, std::string_view text) {
   const std::filesystem::path part = path.string() + ".part";
   std::FILE* file = std::fopen(part.c_str(), "wb");
   bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (file) written = std::fclose(file) == 0 && written;
   if (written && std::rename(part.c_str(), path.c_str()) == 0) return;
-  const std::string reason = std::strerror(errno);
+  const int error = errno;
   std::remove(part.c_str());
-  throw RunError("cannot write " + path.string() + ": " + reason);
+  errno = error;
+  throw_unwritable(path);
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw_unwritable("stdout");
+  }
 }
 
 void require_folder_of(const std::filesystem::path& path, const char* flag) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (path.empty()) throw UserError({flag, 0, 0}, "the name is empty", "name a file or folder");
+  // "frames/" names the folder frames.
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
   if (std::filesystem::is_directory(folder)) return;
   throw UserError({flag, 0, 0}, "there is no folder " + folder.string(),
                   "make it first, or name a file elsewhere");
+}
+
+void require_writable_file(const std::filesystem::path& path, const char* flag) {
+  require_folder_of(path, flag);
+  if (!path.has_filename() || std::filesystem::is_directory(path)) {
+    throw UserError({flag, 0, 0}, path.string() + " is a folder", "name a file in it");
+  }
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(path);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
 }
 
 }  // namespace clatter

@@ -9,7 +9,16 @@ namespace clatter {
 /// it. Throws RunError where that fails.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-/// Throws UserError unless a file of that name can be made: its folder exists and is one.
+/// Writes to stdout at once. Throws RunError where that fails, say because it is closed.
+void print(std::string_view text);
+
+/// Throws UserError unless a file or folder of that name has a folder to be in; `flag` gave it.
 void require_folder_of(const std::filesystem::path& path, const char* flag);
+
+/// Throws what would keep write_file() from writing there, so that one knows before a long run.
+void require_writable_file(const std::filesystem::path& path, const char* flag);
+
+/// Makes a folder where there is none; throws RunError.
+void make_folder(const std::filesystem::path& folder);
 
 }  // namespace clatter

@@ -1,0 +1,52 @@
+#include "app/flag_checks.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+namespace clatter {
+
+// The whole of a text as a finite number; NaN where it is none.
+static double number_in(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(number) ? number : NAN;
+}
+
+template <class Allows>
+static CLI::Validator number_check(Allows allows, const std::string& wanted) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        return allows(number_in(text)) ? "" : "'" + text + "' is wrong; give " + wanted;
+      },
+      "");
+}
+
+CLI::Validator positive_number() {
+  return number_check([](double x) { return x > 0.0; }, "a number greater than 0");
+}
+
+CLI::Validator non_negative_number() {
+  return number_check([](double x) { return x >= 0.0; }, "a number of at least 0");
+}
+
+CLI::Validator number_between(double low, double high) {
+  char wanted[80];
+  std::snprintf(wanted, sizeof wanted, "a number between %g and %g", low, high);
+  return number_check([=](double x) { return x >= low && x <= high; }, wanted);
+}
+
+CLI::Validator seed_number() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        std::uint64_t seed = 0;
+        const char* end = text.data() + text.size();
+        const auto [stopped, error] = std::from_chars(text.data(), end, seed);
+        if (error == std::errc() && stopped == end) return "";
+        return "'" + text + "' is wrong; give a whole number between 0 and 18446744073709551615";
+      },
+      "");
+}
+
+}  // namespace clatter

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clatter {
+
+/// What a command line left: its exit code and what it wrote.
+struct Outcome {
+  int code = 0;
+  std::string out;
+  std::string err;
+};
+
+/// A folder of its own, gone afterwards, in which command lines run as a person types them; the
+/// program just built is `clatter` there.
+class Shell {
+ public:
+  Shell();
+  Shell(const Shell&) = delete;
+  Shell& operator=(const Shell&) = delete;
+  ~Shell();
+
+  /// Runs a line of POSIX shell, for a minute at most (exit code 124).
+  Outcome run(const std::string& line) const;
+
+  /// Writes a file into the folder.
+  void write(const std::string& name, const std::string& text) const;
+  /// The bytes of a file in the folder.
+  std::string read(const std::string& name) const;
+  /// The names in the folder, sorted.
+  std::vector<std::string> files() const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,107 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+TEST_CASE("The gallery is listed, one scene a line, each of which is sound") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter scenes");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(std::ranges::count(outcome.out, '\n') == 5);
+  for (const std::string name : {"conduction", "cooling", "dense", "equilibrium", "vibrated"}) {
+    CAPTURE(name);
+    CHECK(("\n" + outcome.out).find("\n" + name + " ") != std::string::npos);
+    CHECK(shell.run("clatter check " + name).code == 0);
+  }
+}
+
+TEST_CASE("What check prints is a scene that checks to the same") {
+  const Shell shell;
+  for (const std::string scene :
+       {"vibrated", "cooling --set 'title=\"a \\\"b\\\" \\\\ ü\"'", "conduction", "dense"}) {
+    CAPTURE(scene);
+    const Outcome outcome = shell.run("clatter check " + scene + " > a.toml; clatter check a.toml");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == shell.read("a.toml"));
+    CHECK(outcome.out.size() > 100);
+  }
+}
+
+TEST_CASE("A flag wins over the scene") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "clatter check vibrated --set disks.count=50 --set view.overlay=false --set title=Mine "
+      "--set box.size=[30,40] --set disks.start.layout=lattice");
+  CHECK(outcome.code == 0);
+  for (const char* line :
+       {"count = 50\n", "overlay = false\n", "title = \"Mine\"\n", "layout = \"lattice\"\n"}) {
+    CAPTURE(line);
+    CHECK(outcome.out.find(line) != std::string::npos);
+  }
+}
+
+TEST_CASE("Scenes with a title of any script and lines of any ending are read") {
+  const Shell shell;
+  shell.write("s.toml", "title = \"气体 ρ\"\r\ncaption = \"\"\r\n[disks]\r\ncount = 3\r\n");
+  const Outcome outcome = shell.run("clatter check s.toml");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("title = \"气体 ρ\"\n") != std::string::npos);
+  CHECK(outcome.out.find("caption = \"\"\n") != std::string::npos);
+}
+
+TEST_CASE("Output that is not taken is a failure") {
+  const Shell shell;
+  for (const std::string line : {"clatter scenes >/dev/full", "clatter check vibrated >&-",
+                                 "clatter measure vibrated --until 501 >/dev/full"}) {
+    CAPTURE(line);
+    const Outcome outcome = shell.run(line);
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("cannot write stdout") != std::string::npos);
+  }
+}
+
+TEST_CASE("The version is told") {
+  const Outcome outcome = Shell().run("clatter --version");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == "clatter " CLATTER_VERSION "\n");
+}
+
+TEST_CASE("Every command explains each of its flags") {
+  const Shell shell;
+  const std::vector<std::string> common = {"SCENE",     "--set",   "--seed",    "--until",
+                                           "--threads", "--quiet", "--progress"};
+  struct Command {
+    std::string name;
+    bool has_scene;
+    std::vector<std::string> flags;
+  };
+  for (const Command& command : {
+           Command{"render",
+                   true,
+                   {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
+                    "--overwrite", "--backend"}},
+           Command{"measure", true, {"--out", "--csv"}},
+           Command{"check", true, {}},
+           Command{"scenes", false, {}},
+           Command{"bench", false, {"--json", "--count", "--area-fraction"}},
+       }) {
+    const Outcome outcome = shell.run("clatter " + command.name + " --help");
+    CAPTURE(command.name);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    std::vector<std::string> flags = command.flags;
+    if (command.has_scene) flags.insert(flags.end(), common.begin(), common.end());
+    for (const std::string& flag : flags) {
+      CAPTURE(flag);
+      CHECK(outcome.out.find(flag) != std::string::npos);
+    }
+    CHECK(shell.run("clatter --help").out.find("\n  " + command.name + " ") != std::string::npos);
+  }
+}
+
+}  // namespace clatter

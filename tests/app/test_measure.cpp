@@ -1,0 +1,184 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+// Some 10,000 collisions: half a second.
+static const std::string kMeasure =
+    "clatter measure vibrated --set measure.burn_in=20 --until 120 ";
+
+static double mean(const json& estimate) {
+  CHECK(std::isfinite(estimate.at("mean").get<double>()));
+  CHECK(estimate.at("standard_error").get<double>() > 0.0);
+  return estimate.at("mean");
+}
+
+TEST_CASE("A measurement prints one JSON object with what the scene has, and nothing else") {
+  const Shell shell;
+  const Outcome outcome = shell.run(kMeasure + "--seed 7");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json result = json::parse(outcome.out);
+
+  CHECK(result.at("schema") == 1);
+  CHECK(result.at("seed") == 7);
+  CHECK(result.at("program").get<std::string>().starts_with("clatter "));
+  CHECK(result.at("scene").at("disks").at("count") == 200);
+  CHECK(result.at("scene").at("measure").at("burn_in") == 20.0);
+  CHECK(result.at("state_hash").get<std::string>().size() == 16);
+  CHECK(result.at("time").at("burn_in") == 20.0);
+  CHECK(result.at("time").at("measured").get<double>() == doctest::Approx(100.0));
+  CHECK(result.at("events").at("disk_disk") > 1000);
+  CHECK(result.at("events").at("disk_wall") > 100);
+
+  const double t_x = mean(result.at("temperature_x")), t_y = mean(result.at("temperature_y"));
+  CHECK(mean(result.at("temperature")) == doctest::Approx(0.5 * (t_x + t_y)));
+  CHECK(t_x > t_y);  // the walls feed x
+  CHECK(mean(result.at("kurtosis_excess_x")) > -1.0);
+  CHECK(mean(result.at("kurtosis_excess_y")) > -1.0);
+  CHECK(mean(result.at("collision_rate")) ==
+        doctest::Approx(result.at("events").at("disk_disk").get<double>() * 2 / 200 / 100));
+
+  const json& energy = result.at("energy");
+  CHECK(mean(energy.at("walls_in")) > 0.0);
+  CHECK(mean(energy.at("dissipated")) > 0.0);
+  CHECK(std::abs(energy.at("ledger_residual").get<double>()) < 1e-12);
+  CHECK(mean(result.at("pressure").at("left")) > 0.0);
+  CHECK(mean(result.at("pressure").at("right")) > 0.0);
+  // (1 - 7 phi/16)/(1 - phi)^2 with phi = pi/10.
+  CHECK(result.at("theory").at("chi").get<double>() == doctest::Approx(1.8338).epsilon(1e-4));
+  CHECK(result.at("theory").at("temperature_simple") > 0.0);
+  CHECK(result.at("theory").at("temperature_refined") > 0.0);
+
+  const json& series = result.at("temperature_series");
+  REQUIRE(series.at("time").size() == 121);
+  CHECK(series.at("translational").size() == 121);
+  CHECK(series.at("time")[0] == 0.0);
+  CHECK(series.at("time")[120] == 120.0);
+  CHECK(series.at("translational")[0].get<double>() == doctest::Approx(1.0));
+
+  const json& profile = result.at("profile");
+  CHECK(profile.at("axis") == "x");
+  REQUIRE(profile.at("edges").size() == 21);
+  CHECK(profile.at("edges")[20] == 20.0);
+  double disks = 0.0;
+  for (const json& density : profile.at("density")) disks += density.get<double>() * 25.0;
+  CHECK(disks == doctest::Approx(200.0));
+  for (const char* key : {"density", "temperature_x", "temperature_y"}) {
+    CAPTURE(key);
+    CHECK(profile.at(key).size() == 20);
+    CHECK(profile.at("standard_error").at(key).size() == 20);
+  }
+
+  CHECK(result.at("checks").at("deepest_overlap") < 1e-9);
+  CHECK(result.at("checks").at("clock_steps_back") < 1e-9);
+  CHECK(result.at("performance").at("cpu_seconds") > 0.0);
+  CHECK(result.at("performance").at("collisions_per_second") > 0.0);
+  CHECK(result.at("performance").at("peak_memory_bytes") > 1'000'000);
+}
+
+TEST_CASE("A result has only what its scene has") {
+  const Shell shell;
+  const json cooling =
+      json::parse(shell.run("clatter measure cooling --until 5 --set measure.fields=[]").out);
+  CHECK_FALSE(cooling.at("energy").contains("walls_in"));
+  CHECK_FALSE(cooling.at("pressure").contains("left"));
+  CHECK(cooling.at("pressure").contains("virial"));
+  CHECK_FALSE(cooling.contains("profile"));
+  CHECK_FALSE(cooling.at("theory").contains("psi"));
+  CHECK_FALSE(cooling.contains("spin_temperature"));
+}
+
+TEST_CASE("The same seed gives the same run, another seed another") {
+  const Shell shell;
+  const auto run = [&](const std::string& flags) {
+    json result = json::parse(shell.run(kMeasure + flags).out);
+    result.erase("performance");
+    return result;
+  };
+  const json first = run("--seed 1");
+  CHECK(run("--seed 1") == first);
+  CHECK(run("") == first);
+  CHECK(run("--seed 2").at("state_hash") != first.at("state_hash"));
+  CHECK(run("--set measure.fields=[] --set measure.series_interval=7").at("state_hash") ==
+        first.at("state_hash"));
+}
+
+TEST_CASE("Results and tables go into the files asked for") {
+  const Shell shell;
+  const Outcome outcome = shell.run(kMeasure + "--quiet --out r.json --csv tables");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.empty());
+  CHECK(shell.files() == std::vector<std::string>{"r.json", "tables"});
+  const json result = json::parse(shell.read("r.json"));
+
+  std::istringstream series(shell.read("tables/temperature_series.csv"));
+  std::string line;
+  std::getline(series, line);
+  CHECK(line.starts_with("# units"));
+  std::getline(series, line);
+  CHECK(line == "time,temperature");
+  for (std::size_t k = 0; k < 121; ++k) {
+    double time = -1.0, temperature = -1.0;
+    char comma = 0;
+    REQUIRE(std::getline(series, line));
+    std::istringstream(line) >> time >> comma >> temperature;
+    CHECK(comma == ',');
+    CHECK(time == result.at("temperature_series").at("time")[k]);
+    CHECK(temperature == result.at("temperature_series").at("translational")[k]);
+  }
+  CHECK_FALSE(std::getline(series, line));
+
+  const std::string profile = shell.read("tables/profile.csv");
+  CHECK(profile.find("\nx_low,x_high,density,density_error,") != std::string::npos);
+  CHECK(std::ranges::count(profile, '\n') == 22);
+}
+
+TEST_CASE("An interrupted measurement keeps what it has") {
+  const Shell shell;
+  const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";
+  SUBCASE("while it averages") {
+    const Outcome outcome =
+        shell.run(interrupted + "--set measure.burn_in=1 --set measure.duration=1e6 --out r.json");
+    CHECK(outcome.code == 130);
+    const json result = json::parse(shell.read("r.json"));
+    const double measured = result.at("time").at("measured");
+    CHECK(measured > 0.0);
+    CHECK(measured < 1e6);
+    CHECK(mean(result.at("temperature")) > 0.0);
+  }
+  SUBCASE("during the burn-in: no averages") {
+    const Outcome outcome = shell.run(interrupted + "--set measure.burn_in=1e6 --out r.json");
+    CHECK(outcome.code == 130);
+    const json result = json::parse(shell.read("r.json"));
+    CHECK(result.at("time").at("measured") == 0.0);
+    CHECK(result.at("temperature_series").at("time").size() > 1);
+    CHECK_FALSE(result.contains("temperature"));
+    CHECK_FALSE(result.contains("energy"));
+  }
+  CHECK(shell.files() == std::vector<std::string>{"r.json"});
+}
+
+TEST_CASE("Progress is told on stderr as asked") {
+  const Shell shell;
+  const std::string interrupted =
+      "timeout --preserve-status -s INT 8 clatter measure vibrated --until 1e6 ";
+  const Outcome outcome = shell.run(interrupted + "--progress json");
+  const json progress = json::parse(outcome.err.substr(0, outcome.err.find('\n')));
+  CHECK(progress.at("until") == 1e6);
+  CHECK(progress.at("time") > 0.0);
+  CHECK(progress.at("done") < 1.0);
+  CHECK(progress.at("seconds_left") > 0.0);
+  CHECK(json::accept(outcome.out));
+}
+
+}  // namespace clatter

@@ -1,0 +1,118 @@
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+using Files = std::vector<std::string>;
+
+static const std::string kRender = "clatter render vibrated --size 160x120 --quiet ";
+
+// Width, height and number of decoded pictures, as ffprobe sees them.
+static std::string probe(const Shell& shell, const std::string& file) {
+  return shell
+      .run(
+          "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+          "stream=width,height,nb_read_frames -of csv=p=0 " +
+          file)
+      .out;
+}
+
+TEST_CASE("A film has the frames, the rate and the size asked for") {
+  const Shell shell;
+  const Outcome outcome = shell.run(kRender + "--from 1 --to 2 --speed 2 --fps 20 --out film.mp4");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.empty());
+  CHECK(probe(shell, "film.mp4") == "160,120,10\n");
+  CHECK(shell.files() == Files{"film.mp4"});
+}
+
+TEST_CASE("A picture has the size asked for and says which scene and seed it shows") {
+  const Shell shell;
+  CHECK(shell.run(kRender + "--to 1 --seed 42 --out picture.png").code == 0);
+  CHECK(probe(shell, "picture.png") == "160,120,1\n");
+  const std::string bytes = shell.read("picture.png");
+  CHECK(bytes.find("seed 42") != std::string::npos);
+  CHECK(bytes.find("drive_speed = 1") != std::string::npos);
+  CHECK(shell.files() == Files{"picture.png"});
+}
+
+TEST_CASE("A picture is the same whenever it is drawn, another seed draws another") {
+  const Shell shell;
+  shell.run(kRender + "--to 1 --out a.png && " + kRender + "--to 1 --out b.png && " + kRender +
+            "--to 1 --seed 2 --out c.png");
+  REQUIRE_FALSE(shell.read("a.png").empty());
+  CHECK(shell.read("a.png") == shell.read("b.png"));
+  CHECK(shell.read("a.png") != shell.read("c.png"));
+}
+
+TEST_CASE("A folder takes a picture for each frame, and keeps what it has unless told otherwise") {
+  const Shell shell;
+  const std::string line = kRender + "--to 1 --speed 1 --fps 4 --out frames/";
+  CHECK(shell.run(line).code == 0);
+  const std::string listed =
+      "frame_000000.png\nframe_000001.png\nframe_000002.png\nframe_000003.png\n";
+  CHECK(shell.run("ls frames").out == listed);
+
+  const std::string before = shell.run("ls -l --full-time frames").out;
+  const Outcome refused = shell.run(line);
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("--overwrite") != std::string::npos);
+  CHECK(shell.run("ls -l --full-time frames").out == before);
+
+  CHECK(shell.run(line + " --overwrite --seed 2").code == 0);
+  CHECK(shell.run("ls frames").out == listed);
+  CHECK(shell.run("ls -l --full-time frames").out != before);
+}
+
+TEST_CASE("Without ffmpeg a film fails, says what to install and leaves nothing") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "program=$(command -v clatter); PATH=/nowhere\n"
+      "\"$program\" render vibrated --to 1 --out film.mp4");
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("apt install ffmpeg") != std::string::npos);
+  CHECK(shell.files().empty());
+}
+
+TEST_CASE("On a full disk rendering fails, says so and leaves nothing") {
+  const Shell shell;
+  // In a namespace of its own, so that the mount goes with the command.
+  const std::string small_disk =
+      "mkdir -p small; exec unshare --mount sh -c 'mount -t tmpfs -o size=64k none small || exit "
+      "77; ";
+  if (shell.run(small_disk + "'").code != 0) {
+    MESSAGE("skipped: only root may mount a small disk");
+    return;
+  }
+  for (const std::string name : {"film.mp4", "picture.png", "frames"}) {
+    CAPTURE(name);
+    const Outcome outcome = shell.run(
+        small_disk + "clatter render vibrated --to 20 --size 1280x720 --quiet --out small/" + name +
+        "; code=$?; find small -type f; exit $code'");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("space") != std::string::npos);
+    CHECK(outcome.err.find("small/" + name) != std::string::npos);
+    if (name != "frames") CHECK(outcome.out.empty());
+    CHECK(outcome.out.find(".part") == std::string::npos);
+  }
+}
+
+TEST_CASE("An interrupted film plays up to where it got") {
+  const Shell shell;
+  const Outcome outcome =
+      shell.run("timeout --preserve-status -s INT 4 " + kRender + "--to 1e5 --out film.mp4");
+  CHECK(outcome.code == 130);
+  CHECK(shell.files() == Files{"film.mp4"});
+  int width = 0, height = 0, frames = 0;
+  char comma;
+  std::istringstream(probe(shell, "film.mp4")) >> width >> comma >> height >> comma >> frames;
+  CHECK(frames > 0);
+}
+
+}  // namespace clatter

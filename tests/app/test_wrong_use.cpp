@@ -1,0 +1,131 @@
+// Whatever a person gets wrong is refused with exit code 2, a message that says where, what and
+// what to do, and nothing written.
+
+#include <doctest/doctest.h>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+namespace {
+
+// Runs a line that must be refused with a message that holds all of `parts`.
+void check_refused(const Shell& shell, const std::string& line,
+                   const std::vector<std::string>& parts) {
+  CAPTURE(line);
+  const std::vector<std::string> before = shell.files();
+  const Outcome outcome = shell.run(line);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  for (const std::string& part : parts) {
+    CAPTURE(part);
+    CHECK(outcome.err.find(part) != std::string::npos);
+  }
+  CHECK(shell.files() == before);
+}
+
+// A scene that is right: a mistake is put in by writing another line 4 or 5.
+std::string scene(const std::string& line_4 = "count = 10",
+                  const std::string& line_5 = "restitution = 0.9") {
+  return "[box]\nsize = [20, 20]\n[disks]\n" + line_4 + "\n" + line_5 + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("Mistakes in a scene are refused at their line and column") {
+  const Shell shell;
+  struct Mistake {
+    std::string scene;
+    std::vector<std::string> parts;
+  };
+  for (const Mistake& mistake : {
+           Mistake{scene("count = 10", "restituton = 0.9"),
+                   {"s.toml:5:1: ", "restituton", "did you mean 'restitution'?"}},
+           Mistake{scene("count = -3"), {"s.toml:4:1: ", "-3", "between 0 and"}},
+           Mistake{scene("count = 10", "restitution = 1.5"),
+                   {"s.toml:5:1: ", "1.5", "between 0 and 1"}},
+           Mistake{scene("count = 10", "restitution = nan"), {"s.toml:5:1: ", "nan"}},
+           // A triangular lattice on a square box: 23 rows of 20.
+           Mistake{scene("count = 100000"), {"s.toml:4:1: ", "100000", "at most 4"}},
+           Mistake{scene() + "[walls.left]\nkind = 'static'\n",
+                   {"s.toml:6:1: ", "no wall opposite", "add [walls.right]"}},
+           Mistake{scene("count = "), {"s.toml:4:"}},
+           Mistake{"a = " + std::string(100'000, '[') + std::string(100'000, ']'), {"s.toml:1:"}},
+           Mistake{"#" + std::string(10'000'000, ' '), {"s.toml: ", "larger than 1 MB"}},
+       }) {
+    shell.write("s.toml", mistake.scene);
+    check_refused(shell, "clatter check s.toml", mistake.parts);
+    check_refused(shell, "clatter measure s.toml --out r.json --csv tables", mistake.parts);
+    check_refused(shell, "clatter render s.toml --out film.mp4", mistake.parts);
+  }
+}
+
+TEST_CASE("What is no scene is refused") {
+  const Shell shell;
+  check_refused(shell, "clatter check nowhere.toml", {"nowhere.toml: ", "clatter scenes"});
+  check_refused(shell, "clatter check vibratd", {"did you mean the gallery scene 'vibrated'?"});
+  check_refused(shell, "clatter check .", {".: ", "directory"});
+  check_refused(shell, "clatter check ''", {"there is no such scene"});
+}
+
+TEST_CASE("Wrong flags are refused") {
+  const Shell shell;
+  check_refused(shell, "clatter check vibrated --set disks.count", {"--set key=value"});
+  check_refused(shell, "clatter check vibrated --set =5", {"--set key=value"});
+  check_refused(shell, "clatter check vibrated --set disks.cuont=5",
+                {"--set disks.cuont", "did you mean 'count'?"});
+  check_refused(shell, "clatter check vibrated --colour", {"--colour"});
+  check_refused(shell, "clatter check vibrated --seed -1", {"--seed"});
+  check_refused(shell, "clatter measure vibrated --until 0", {"--until"});
+  check_refused(shell, "clatter measure vibrated --until nan", {"--until"});
+  check_refused(shell, "clatter measure vibrated --until 400", {"--until", "burn-in", "500"});
+  check_refused(shell, "clatter measure vibrated --progress loud", {"--progress"});
+  check_refused(shell, "clatter check", {"scene is required"});
+}
+
+TEST_CASE("What would fill the memory or never end is refused") {
+  const Shell shell;
+  check_refused(shell, "clatter measure vibrated --set measure.series_interval=1e-300",
+                {"measure.series_interval", "samples", "choose at least"});
+  check_refused(shell, "clatter measure vibrated --set measure.duration=1e308", {"samples"});
+  check_refused(shell, "clatter render vibrated --out x.png --set view.window=1e-300",
+                {"view.window", "choose at least"});
+}
+
+TEST_CASE("Where nothing can be written, nothing is run") {
+  const Shell shell;
+  shell.run("mkdir folder");
+  for (const std::string out : {"missing/x", "folder", "folder/"}) {
+    CAPTURE(out);
+    check_refused(shell, "clatter measure vibrated --until 1e6 --out " + out, {"--out", "folder"});
+  }
+  check_refused(shell, "clatter measure vibrated --until 1e6 --csv missing/x",
+                {"--csv", "missing"});
+  check_refused(shell, "clatter render vibrated --to 1e5 --out missing/x.mp4",
+                {"--out", "missing"});
+  check_refused(shell, "clatter render vibrated --to 1e5 --out x.avi", {"x.avi", ".mp4"});
+}
+
+TEST_CASE("A picture or film that cannot be is refused") {
+  const Shell shell;
+  for (const std::string size : {"nonsense", "1280", "1280x", "x720", "0x0", "-64x64", "64x64x64",
+                                 "1e3x1e3", "99999x99999", "640x480px"}) {
+    check_refused(shell, "clatter render vibrated --out x.png --size=" + size,
+                  {"--size", size, "1280x720"});
+  }
+  check_refused(shell, "clatter render vibrated --out x.mp4 --fps 0", {"--fps"});
+  check_refused(shell, "clatter render vibrated --out x.mp4 --speed 0", {"--speed"});
+  check_refused(shell, "clatter render vibrated --out x.mp4 --from 9 --to 8", {"--to", "--from"});
+  check_refused(shell, "clatter render vibrated --out x.mp4 --to 1e300", {"--to", "frames"});
+  check_refused(shell, "clatter render vibrated", {"--out"});
+}
+
+TEST_CASE("A command that is none is refused, and so is none") {
+  const Shell shell;
+  check_refused(shell, "clatter mesure vibrated", {"mesure", "measure"});
+  check_refused(shell, "clatter", {"render", "measure", "check", "scenes"});
+  check_refused(shell, "clatter bench nonsense", {"nonsense", "engine"});
+}
+
+}  // namespace clatter
