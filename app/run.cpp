@@ -15,14 +15,14 @@ std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t s
 bool run_until(Simulation<2>& simulation, double time, Progress& progress) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kSlice{100};
-  std::uint64_t collisions = 1024;  // per slice, found while running
-  while (simulation.time() < time) {
+  double slice = 1e-6 * (time - simulation.time());  // simulation time, found while running
+  for (double now = simulation.time(); now < time;) {
     if (interrupted()) return false;
     const auto began = Clock::now();
-    simulation.run_until(time, simulation.counts().disk_disk + collisions);
-    collisions =
-        Clock::now() - began < kSlice ? 2 * collisions : std::max<std::uint64_t>(1, collisions / 2);
-    progress.update(simulation.time());
+    now = std::min(now + slice, time);
+    simulation.run_until(now);
+    slice *= Clock::now() - began < kSlice ? 2.0 : 0.5;
+    progress.update(now);
   }
   return !interrupted();
 }

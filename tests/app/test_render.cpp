@@ -36,7 +36,7 @@ TEST_CASE("A picture has the size asked for and says which scene and seed it sho
   CHECK(shell.run(kRender + "--to 1 --seed 42 --out picture.png").code == 0);
   CHECK(probe(shell, "picture.png") == "160,120,1\n");
   const std::string bytes = shell.read("picture.png");
-  CHECK(bytes.find("seed 42") != std::string::npos);
+  CHECK(bytes.find(std::string("Seed\0\0\0\0\0", 9) + "42") != std::string::npos);
   CHECK(bytes.find("drive_speed = 1") != std::string::npos);
   CHECK(shell.files() == Files{"picture.png"});
 }
