@@ -63,13 +63,14 @@ int bench_engine(const BenchOptions& options) {
       for (const int count : {1'000, 10'000, 100'000}) cells.emplace_back(count, area_fraction);
     }
   }
-  std::fprintf(stderr, "elastic disks, periodic box; Mcoll/s: 10^6 disk-disk collisions per CPU second\n");
+  std::fprintf(stderr,
+               "elastic disks, periodic box; Mcoll/s: 10^6 disk-disk collisions per CPU second\n");
   std::printf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s", "bytes/disk");
   auto json = nlohmann::ordered_json::array();
   for (const auto& [count, area_fraction] : cells) {
     const EngineRate r = measure_engine(count, area_fraction);
-    std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.area_fraction, r.rate, r.setup_seconds,
-                r.bytes_per_disk);
+    std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.area_fraction, r.rate,
+                r.setup_seconds, r.bytes_per_disk);
     std::fflush(stdout);
     json.push_back({{"count", r.count},
                     {"area_fraction", r.area_fraction},

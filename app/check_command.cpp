@@ -22,12 +22,13 @@ static int check(const CommonOptions& options) {
   const double temperature = scene.disks.start.temperature;
   const double end = options.until.value_or(scene.measure.burn_in + scene.measure.duration);
   const double rate = 0.5 * count * enskog_rate(scene.area_fraction(), temperature);
-  std::fprintf(stderr,
-               "The scene is sound: %d disks, area fraction %.4f.\n"
-               "Memory: about %.3g MB (%.0f bytes a disk).\n"
-               "Events: about %.3g disk-disk collisions until t = %g at the start's temperature %g.\n",
-               scene.disks.count, scene.area_fraction(), 1e-6 * count * kBytesPerDisk, kBytesPerDisk,
-               rate * end, end, temperature);
+  std::fprintf(
+      stderr,
+      "The scene is sound: %d disks, area fraction %.4f.\n"
+      "Memory: about %.3g MB (%.0f bytes a disk).\n"
+      "Events: about %.3g disk-disk collisions until t = %g at the start's temperature %g.\n",
+      scene.disks.count, scene.area_fraction(), 1e-6 * count * kBytesPerDisk, kBytesPerDisk,
+      rate * end, end, temperature);
   return kOk;
 }
 

@@ -39,14 +39,16 @@ int measure(const MeasureOptions& options) {
                     "go beyond measure.burn_in = " + number_text(spec.burn_in));
   }
   if (end / spec.series_interval > kMostSamples) {
-    throw UserError({"measure.series_interval", 0, 0},
-                    "the series would have " + number_text(std::floor(end / spec.series_interval)) +
-                        " samples",
-                    "choose at least " + number_text(end / kMostSamples));
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMostSamples));
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
-  if (!options.csv.empty()) require_folder_of(options.csv, "--csv");
-  if (!options.csv.empty()) make_folder(options.csv);
+  if (!options.csv.empty()) {
+    require_folder_of(options.csv, "--csv");
+    make_folder(options.csv);
+  }
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
@@ -59,8 +61,7 @@ int measure(const MeasureOptions& options) {
   }
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  const auto json =
-      result_json(scene, options.common.seed, *simulation, measured, performance);
+  const auto json = result_json(scene, options.common.seed, *simulation, measured, performance);
   if (options.out.empty()) {
     print(json.dump(1) + "\n");
   } else {
@@ -82,7 +83,8 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "measure", "Run a scene without pictures and write what its [measure] block asks for");
   add_common_flags(*command, options->common);
-  command->add_option("--out", options->out, "Result file (default: stdout)")->type_name("FILE.json");
+  command->add_option("--out", options->out, "Result file (default: stdout)")
+      ->type_name("FILE.json");
   command->add_option("--csv", options->csv, "Folder for tables of series and profiles")
       ->type_name("DIR");
   command->callback([options, &exit_code] { exit_code = measure(*options); });

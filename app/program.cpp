@@ -72,9 +72,10 @@ static void require_command(const CLI::App& program, const std::string& word) {
 int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
-    CLI::App program("Driven granular gases of hard disks: film and measure them.\n"
-                     "Start with:  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
-                     "clatter");
+    CLI::App program(
+        "Driven granular gases of hard disks: film and measure them.\n"
+        "Start with:  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
+        "clatter");
     program.set_version_flag("--version", "clatter " CLATTER_VERSION);
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {

@@ -45,8 +45,8 @@ void Progress::update(double time) {
   const double elapsed = std::chrono::duration<double>(now - began_).count();
   const double left = done > 0.0 ? elapsed * (1.0 - done) / done : 0.0;
   if (style_ == ProgressStyle::Json) {
-    std::fprintf(stderr, "{\"time\":%.17g,\"until\":%.17g,\"done\":%.6f,\"seconds_left\":%.1f}\n", time,
-                 end_, done, left);
+    std::fprintf(stderr, "{\"time\":%.17g,\"until\":%.17g,\"done\":%.6f,\"seconds_left\":%.1f}\n",
+                 time, end_, done, left);
   } else if (terminal_) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(done * kWidth);

@@ -126,7 +126,7 @@ int render(const RenderOptions& options) {
   {
     Progress progress(options.common.shown_progress(), "filming", 0.0, times.last());
     frames = film(*simulation, view, {scene.title, scene.caption}, times, *context, size, *sink,
-                     progress);
+                  progress);
   }
   if (frames == 0) return kInterrupted;
   sink->finish();
@@ -142,8 +142,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
   add_common_flags(*command, options->common);
   command
-      ->add_option("--out", options->out,
-                   "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
+      ->add_option(
+          "--out", options->out,
+          "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
       ->required();
   command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   command->add_option("--fps", options->fps, "Frames per second of film")
@@ -153,16 +154,19 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->check(non_negative_number())
       ->capture_default_str();
   command
-      ->add_option("--to", options->to,
-                   "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
-                   "10 s for a picture)")
+      ->add_option(
+          "--to", options->to,
+          "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
+          "10 s for a picture)")
       ->check(non_negative_number());
   command
       ->add_option("--speed", options->speed,
                    "Simulation time per second of film (default: the scene's view.speed)")
       ->check(positive_number());
-  command->add_flag("--no-overlay", options->no_overlay, "Draw no title, time, colour bar, scale bar");
-  command->add_flag("--overwrite", options->overwrite, "Replace frames that a folder holds already");
+  command->add_flag("--no-overlay", options->no_overlay,
+                    "Draw no title, time, colour bar, scale bar");
+  command->add_flag("--overwrite", options->overwrite,
+                    "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
       ->transform(one_of<Backend>(
           {{"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))

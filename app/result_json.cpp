@@ -41,8 +41,12 @@ static Json theory_json(const Scene& scene) {
                      right->kind == WallKind::Driven && left->restitution == right->restitution &&
                      left->drive_speed == right->drive_speed;
   if (!alike || !scene.periodic(1) || scene.disks.count == 0) return json;
-  const VibratedGas gas{static_cast<double>(scene.disks.count), scene.box.x(), scene.box.y(),
-                        scene.disks.restitution, left->restitution, left->drive_speed};
+  const VibratedGas gas{static_cast<double>(scene.disks.count),
+                        scene.box.x(),
+                        scene.box.y(),
+                        scene.disks.restitution,
+                        left->restitution,
+                        left->drive_speed};
   json["psi"] = gas.psi();
   json["epsilon_effective"] = gas.epsilon_effective();
   if (gas.epsilon_effective() > 0.0) {

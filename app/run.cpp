@@ -20,8 +20,8 @@ bool run_until(Simulation<2>& simulation, double time, Progress& progress) {
     if (interrupted()) return false;
     const auto began = Clock::now();
     simulation.run_until(time, simulation.counts().disk_disk + collisions);
-    collisions = Clock::now() - began < kSlice ? 2 * collisions
-                                               : std::max<std::uint64_t>(1, collisions / 2);
+    collisions =
+        Clock::now() - began < kSlice ? 2 * collisions : std::max<std::uint64_t>(1, collisions / 2);
     progress.update(simulation.time());
   }
   return !interrupted();

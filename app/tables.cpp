@@ -18,8 +18,9 @@ namespace clatter {
 }
 
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
-  std::string series = "# units: disk diameter, disk mass and the scene's velocity unit are 1\n"
-                       "time,temperature\n";
+  std::string series =
+      "# units: disk diameter, disk mass and the scene's velocity unit are 1\n"
+      "time,temperature\n";
   for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
     append(series, "%.17g,%.17g\n", measured.series_time[k], measured.series_temperature[k]);
   }
@@ -28,7 +29,8 @@ void write_tables(const std::filesystem::path& folder, const Measured& measured)
   if (!measured.profile) return;
   const Profile& profile = *measured.profile;
   std::string table =
-      "# units: disk diameter, disk mass and the scene's velocity unit are 1; density: disks per area\n"
+      "# units: disk diameter, disk mass and the scene's velocity unit are 1; density: disks per "
+      "area\n"
       "x_low,x_high,density,density_error,temperature_x,temperature_x_error,temperature_y,"
       "temperature_y_error\n";
   for (std::size_t i = 0; i < profile.density.size(); ++i) {
