@@ -45,8 +45,10 @@ int measure(const MeasureOptions& options) {
         "choose at least " + number_text(end / kMostSamples));
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
-  if (!options.csv.empty()) require_folder_of(options.csv, "--csv");
-  if (!options.csv.empty()) make_folder(options.csv);
+  if (!options.csv.empty()) {
+    require_folder_of(options.csv, "--csv");
+    make_folder(options.csv);
+  }
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
