@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "app/commands.h"
 #include "app/flag_checks.h"
@@ -35,7 +36,8 @@ EngineRate measure_engine(int count, double area_fraction) {
   constexpr int kRepetitions = 3;
   Scene scene;
   scene.disks.count = count;
-  scene.box.setConstant(std::sqrt(count * 0.25 * 3.14159265358979323846 / area_fraction));
+  scene.box.setConstant(std::sqrt(count * 0.25 * std::numbers::pi / area_fraction));
+  restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
   const auto simulation = simulation_of(scene, 1);
@@ -60,7 +62,7 @@ int bench_engine(const BenchOptions& options) {
     cells = {{options.count, options.area_fraction}};
   } else {
     for (const double area_fraction : {0.1, 0.3, 0.5, 0.7}) {
-      for (const int count : {1'000, 10'000, 100'000}) cells.emplace_back(count, area_fraction);
+      for (const int count : {1'000, 10'000, 100'000, 1'000'000}) cells.emplace_back(count, area_fraction);
     }
   }
   std::fprintf(stderr,

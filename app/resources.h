@@ -7,7 +7,10 @@ namespace clatter {
 /// User CPU time of this process so far, seconds.
 double cpu_seconds();
 
-/// Largest resident size of this process so far, bytes.
+/// Largest resident size of this process so far, or since restart_peak_memory(), bytes.
 std::uint64_t peak_memory_bytes();
+
+/// Takes the resident size of now as the largest so far, where the system can (Linux).
+void restart_peak_memory();
 
 }  // namespace clatter
