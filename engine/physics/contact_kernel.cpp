@@ -29,9 +29,9 @@ template <int D>
 
 #if defined(__x86_64__)
 template <int D>
-[[gnu::target("avx512f,avx512vl,prefer-vector-width=512")]] static double loop_avx512(
-    const double* r, const double* v, double time, double diameter, Candidates<D>& candidates,
-    int size) {
+[[gnu::target("avx512f,avx512vl")]] static double loop_avx512(const double* r, const double* v,
+                                                              double time, double diameter,
+                                                              Candidates<D>& candidates, int size) {
   return loop<D>(r, v, time, diameter, candidates, size);
 }
 
