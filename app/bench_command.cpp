@@ -62,7 +62,8 @@ int bench_engine(const BenchOptions& options) {
     cells = {{options.count, options.area_fraction}};
   } else {
     for (const double area_fraction : {0.1, 0.3, 0.5, 0.7}) {
-      for (const int count : {1'000, 10'000, 100'000, 1'000'000}) cells.emplace_back(count, area_fraction);
+      for (const int count : {1'000, 10'000, 100'000, 1'000'000})
+        cells.emplace_back(count, area_fraction);
     }
   }
   std::fprintf(stderr,

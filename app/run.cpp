@@ -15,14 +15,12 @@ std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t s
 bool run_until(Simulation<2>& simulation, double time, Progress& progress) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kSlice{100};
-  double slice = 1e-6 * (time - simulation.time());  // simulation time, found while running
-  for (double now = simulation.time(); now < time;) {
+  std::uint64_t slice = 1024;  // collisions, found while running
+  for (bool arrived = false; !arrived; progress.update(simulation.time())) {
     if (interrupted()) return false;
     const auto began = Clock::now();
-    now = std::min(now + slice, time);
-    simulation.run_until(now);
-    slice *= Clock::now() - began < kSlice ? 2.0 : 0.5;
-    progress.update(now);
+    arrived = simulation.run_until(time, simulation.counts().collisions() + slice);
+    slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
   }
   return !interrupted();
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/dynamics/cell_grid.h"
+
 namespace clatter {
 
 namespace {
@@ -126,9 +128,45 @@ class Insertion {
   std::vector<Voxel> open_;
 };
 
+// The same for a few disks in a large room, where almost every try succeeds: memory follows the
+// disks and not the room.
+std::vector<Vec2> sparse_insertion(const Room& room, std::size_t count, Random& random) {
+  Model<2> model;
+  model.box = room.box;
+  model.diameter = room.diameter;
+  for (int side = 0; side < 4; ++side) {
+    if (!room.periodic[side / 2]) model.walls[side] = Wall{};
+  }
+  CellGrid<2> grid(model, count);
+  std::vector<Vec2> placed;
+  while (placed.size() < count) {
+    Vec2 point;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double low = model.periodic(axis) ? 0.0 : model.wall_plane(axis, 0);
+      point[axis] = low + random.uniform() * (room.box[axis] - 2.0 * low);
+    }
+    bool overlaps = false;
+    grid.visit(grid.cell_at(point), {}, [&](const auto& line, const Vec2* wrap) {
+      for (std::uint32_t k = 0; k < line.count; ++k) {
+        Vec2 x = placed[line.disks[k]] - point;
+        if (wrap) x += wrap->cwiseProduct(room.box);
+        overlaps = overlaps || x.norm() < room.diameter;
+      }
+    });
+    if (overlaps) continue;
+    grid.insert(static_cast<std::uint32_t>(placed.size()), grid.cell_at(point));
+    placed.push_back(point);
+  }
+  return placed;
+}
+
 }  // namespace
 
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random) {
+  constexpr double kSparse = 50.0;  // squares of the diameter per disk: phi below 0.016
+  if (room.box.prod() > kSparse * room.diameter * room.diameter * count) {
+    return sparse_insertion(room, static_cast<std::size_t>(count), random);
+  }
   Insertion insertion(room);
   insertion.place(static_cast<std::size_t>(count), random);
   if (static_cast<int>(insertion.placed().size()) < count) return {};

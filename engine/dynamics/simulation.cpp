@@ -95,7 +95,7 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     return planned.time == event.time && planned.partner == event.partner;
   };
   const bool fetch = disks_.size() >= kFetchAheadFrom;
-  while (counts_.disk_disk < collisions) {
+  while (counts_.collisions() < collisions) {
     const Event* next = queue_.top(live);
     if (!next || next->time > stop) return Halt::Time;
     const Event event = *next;
@@ -111,17 +111,17 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
 }
 
 template <int D>
-void Simulation<D>::run_until(double time, std::uint64_t disk_disk) {
+bool Simulation<D>::run_until(double time, std::uint64_t collisions) {
   for (;;) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);
     const double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
-    const Halt halt = advance(stop, disk_disk);
+    const Halt halt = advance(stop, collisions);
     if (halt == Halt::BaseMoved) continue;
-    if (halt == Halt::Collisions) return;
-    if (stop == kNever) return;
+    if (halt == Halt::Collisions) return false;
+    if (stop == kNever) return true;
     now_ = std::max(now_, stop);
-    if (!timer) return;
+    if (!timer) return true;
     fire(*timer);
   }
 }

@@ -21,6 +21,9 @@ struct EventCounts {
   std::uint64_t disk_wall = 0;
   std::uint64_t cell_crossings = 0;
   std::uint64_t stale = 0;  ///< predictions found out of date because the partner met another first
+
+  /// Collisions with disks and with walls.
+  std::uint64_t collisions() const { return disk_disk + disk_wall; }
 };
 
 /// What a run checks of itself at every event.
@@ -43,9 +46,10 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Processes every event up to and at a simulation time, timers included; halts before, right
-  /// after the collision, once `disk_disk` collisions have happened since the start.
-  void run_until(double time, std::uint64_t disk_disk = kNoLimit);
+  /// Processes every event up to and at a simulation time, timers included, and returns true; or
+  /// halts before, right after the collision, once `collisions` with disks and walls have happened
+  /// since the start, and returns false.
+  bool run_until(double time, std::uint64_t collisions = kNoLimit);
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... once run_until() gets
   /// there, after the physical events of the same time. interval = 0: once.

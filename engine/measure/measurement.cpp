@@ -9,7 +9,7 @@ namespace clatter {
 // Enough windows for the blocking to see correlations; more where the scene asks for a finer
 // series.
 static constexpr double kLeastWindows = 512.0;
-static constexpr double kMostWindows = 65536.0;
+static constexpr double kMostWindows = 8192.0;
 
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, double end)
     : simulation_(simulation), measure_(measure), totals_(simulation) {

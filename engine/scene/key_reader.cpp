@@ -8,7 +8,11 @@ namespace clatter {
 /// "numbers between 0 and 1", "a number greater than 0": what the limits allow.
 static std::string within(const std::string& what, Limits limits) {
   if (limits.lowest == limits.highest) return number_text(limits.lowest);
-  if (limits.above) return what + " greater than " + number_text(limits.lowest);
+  if (limits.above) {
+    const bool bounded = limits.highest < Limits{}.highest;
+    return what + " greater than " + number_text(limits.lowest) +
+           (bounded ? " and at most " + number_text(limits.highest) : "");
+  }
   if (limits.highest < Limits().highest) {
     return what + " between " + number_text(limits.lowest) + " and " + number_text(limits.highest);
   }

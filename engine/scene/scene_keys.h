@@ -40,6 +40,12 @@ constexpr Limits above(double lowest) {
   return {.lowest = lowest, .above = true};
 }
 
+/// Speeds and temperatures stop where their squares and the times between collisions still are
+/// ordinary numbers; box sides where a position still has a rounding error of 1e-10 diameters.
+inline constexpr double kMostSpeed = 1e15;
+inline constexpr double kMostTemperature = 1e30;
+inline constexpr double kMostLength = 1e6;
+
 /// Whether a table must, may or must not have a key.
 enum class Presence { Required, Optional, Forbidden };
 
@@ -97,8 +103,10 @@ void visit_wall(Visitor& io, Wall& wall) {
   const bool driven = wall.kind == WallKind::Driven;
   const bool thermal = wall.kind == WallKind::Thermal;
   io.value("restitution", wall.restitution, between(0.0, 1.0), thermal ? Forbidden : Optional);
-  io.value("drive_speed", wall.drive_speed, at_least(0.0), driven ? Required : Forbidden);
-  io.value("temperature", wall.temperature, at_least(0.0), thermal ? Required : Forbidden);
+  io.value("drive_speed", wall.drive_speed, between(0.0, kMostSpeed),
+           driven ? Required : Forbidden);
+  io.value("temperature", wall.temperature, between(0.0, kMostTemperature),
+           thermal ? Required : Forbidden);
 }
 
 template <class Visitor>
@@ -110,7 +118,7 @@ void visit_disks(Visitor& io, SceneInput& input) {
   io.value("restitution", disks.restitution, between(0.0, 1.0));
   io.table("start", [&disks](auto& io) {
     io.choice("layout", disks.start.layout, kLayouts);
-    io.value("temperature", disks.start.temperature, at_least(0.0));
+    io.value("temperature", disks.start.temperature, between(0.0, kMostTemperature));
   });
 }
 
@@ -120,7 +128,7 @@ void visit_measure(Visitor& io, Measure& measure) {
   io.value("duration", measure.duration, above(0.0));
   io.value("series_interval", measure.series_interval, above(0.0));
   io.choice("fields", measure.fields, kProfiles);
-  io.value("cells", measure.cells, between(1, 10'000));
+  io.value("cells", measure.cells, between(1, 2000));
 }
 
 template <class Visitor>
@@ -143,7 +151,9 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.value("caption", scene.caption);
   // A side of one diameter leaves a disk between walls no room to move, and across a periodic
   // side the disk touches its own image.
-  io.table("box", [&](auto& io) { io.value("size", scene.box, above(1.0)); });
+  io.table("box", [&](auto& io) {
+    io.value("size", scene.box, Limits{.lowest = 1.0, .highest = kMostLength, .above = true});
+  });
   io.table("disks", [&](auto& io) { visit_disks(io, input); });
   io.table("walls", [&](auto& io) {
     for (int side = 0; side < 4; ++side) {

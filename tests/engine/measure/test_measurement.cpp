@@ -148,7 +148,7 @@ TEST_CASE("Measurement: an interrupted run has what it had come to") {
   CHECK(burning.series_time.size() == 6);
   CHECK_FALSE(burning.profile);
 
-  simulation->run_until(60.0, simulation->counts().disk_disk + 100);  // halts at a collision
+  simulation->run_until(60.0, simulation->counts().collisions() + 150);  // halts at a collision
   const double time = simulation->time();
   REQUIRE(time > 10.2);
   REQUIRE(time < 60.0);

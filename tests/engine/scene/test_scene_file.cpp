@@ -85,7 +85,7 @@ Scene unusual_scene() {
   Scene scene;
   scene.title = "quotes \" ' \\ and \x7f, tab\t, line\n, é ∞";
   scene.caption = "\x1b[31m #not a comment = {}";
-  scene.box = {1e22, 0.1 + 0.2 + 1.0};
+  scene.box = {123456.7, 0.1 + 0.2 + 1.0};
   scene.disks = {.count = 17, .restitution = 1.0 / 3.0, .start = {Layout::Lattice, 1e-300}};
   scene.walls[kLeft] = Wall{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 2.5};
   scene.walls[kRight] = Wall{.kind = WallKind::Thermal, .temperature = 12345678901234567890.0};
@@ -224,16 +224,17 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {kDisks + "[view]\nspeed = inf\n",
        "s.toml:4:1: 'view.speed' cannot be inf; give a number greater than 0"},
       {kDisks + "[disks.start]\ntemperature = -1\n",
-       "s.toml:4:1: 'disks.start.temperature' cannot be -1; give a number of at least 0"},
+       "s.toml:4:1: 'disks.start.temperature' cannot be -1; give a number between 0 and"},
       {"[disks]\ncount = -1\n", "s.toml:2:1: 'disks.count' cannot be -1; give a whole number"},
       {"[box]\nsize = [1, 5]\n" + kDisks,
-       "s.toml:2:1: 'box.size' cannot be [1, 5]; give two numbers greater than 1, along x and y"},
+       "s.toml:2:1: 'box.size' cannot be [1, 5]; give two numbers greater than 1 and at most "
+       "1e+06"},
       {"[box]\nsize = [20, 20, 20]\n" + kDisks,
-       "s.toml:2:1: 'box.size' cannot be [20, 20, 20]; give two numbers greater than 1, along x "
-       "and y: a third asks for spheres, which are not available yet"},
+       "s.toml:2:1: 'box.size' cannot be [20, 20, 20]; give two numbers greater than 1 and at most "
+       "1e+06, along x and y: a third asks for spheres, which are not available yet"},
       {kDisks + "[measure]\ncells = [0, 3]\n",
        "s.toml:4:1: 'measure.cells' cannot be [0, 3]; give two whole numbers between 1 and "
-       "10000"},
+       "2000"},
       {kDisks + "[measure]\ncells = [2.0, 3]\n", "s.toml:4:1: 'measure.cells' cannot be"},
       {kDisks + "[view]\nrange = [3, 3]\n",
        "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\" or two numbers [low, high] with "
@@ -284,7 +285,7 @@ TEST_CASE("huge boxes overflow nothing and huge counts allocate nothing") {
   const std::string box = "box.size = [1e6, 1e6]\n";
   CHECK(parse_scene(box + "disks.count = 2000000000\n", "s.toml").disks.count == 2'000'000'000);
   CHECK(has(refusal("box.size = [1e300, 1e300]\ndisks.area_fraction = 0.3\n"),
-            "inf disks do not fit"));
+            "give two numbers greater than 1 and at most 1e+06"));
 }
 
 TEST_CASE("hostile nesting is refused, quickly and without a crash") {

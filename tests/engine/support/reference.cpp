@@ -19,8 +19,8 @@ Reference::Reference(const Model<2>& model, const State<2>& state)
   }
 }
 
-void Reference::run_until_collisions(std::uint64_t disk_disk) {
-  while (disk_disk_ < disk_disk && step()) continue;
+void Reference::run_until_collisions(std::uint64_t collisions) {
+  while (disk_disk_ + disk_wall_ < collisions && step()) continue;
 }
 
 // Looks farther and farther ahead until something happens; 10^9 times the first look is never.

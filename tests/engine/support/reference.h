@@ -17,8 +17,8 @@ class Reference {
  public:
   Reference(const Model<2>& model, const State<2>& state);
 
-  /// Runs until that many disk-disk collisions have happened, or no event is left.
-  void run_until_collisions(std::uint64_t disk_disk);
+  /// Runs until that many collisions with disks and walls have happened, or no event is left.
+  void run_until_collisions(std::uint64_t collisions);
 
   std::uint64_t collisions() const { return disk_disk_; }
   std::uint64_t wall_hits() const { return disk_wall_; }
