@@ -258,7 +258,7 @@ Vec<D> Simulation<D>::velocity_after_wall(std::uint32_t number, int side) const 
   }
   Random random(model_.seed, Stream::ThermalWall, number, disk.flight.number);
   const double uniform = random.uniform();
-  std::array<double, D> normals;
+  std::array<double, D - 1> normals;
   for (double& normal : normals) normal = random.normal();
   return emit<D>(axis, inward, wall.temperature, uniform, normals.data());
 }
