@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/vec.h"
 
@@ -77,7 +78,7 @@ class CellGrid {
   Vec<D> box_;
   Vec<D> widths_;
   std::array<bool, D> periodic_;
-  std::vector<Line> lines_;           // the cells' own lines first, then the chained ones
+  LargeArray<Line> lines_;            // the cells' own lines first, then the chained ones
   std::vector<std::uint32_t> spare_;  // chained lines not in use
 };
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/event.h"
+#include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/physics/contact.h"
 #include "engine/physics/contact_kernel.h"
@@ -46,7 +46,7 @@ template <int D>
 class Prediction {
  public:
   /// Looks at the model, the disks and the grid of a simulation, which outlive it.
-  Prediction(const Model<D>& model, const std::vector<Disk<D>>& disks, const CellGrid<D>& grid)
+  Prediction(const Model<D>& model, const LargeArray<Disk<D>>& disks, const CellGrid<D>& grid)
       : model_(model), disks_(disks), grid_(grid) {}
 
   /// The first contact with any disk or wall about the disk's cell, and its way out of the cell.
@@ -68,7 +68,7 @@ class Prediction {
              Plan<D>& plan) const;
 
   const Model<D>& model_;
-  const std::vector<Disk<D>>& disks_;
+  const LargeArray<Disk<D>>& disks_;
   const CellGrid<D>& grid_;
 };
 

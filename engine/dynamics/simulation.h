@@ -9,6 +9,7 @@
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/event_queue.h"
+#include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/prediction.h"
@@ -72,7 +73,7 @@ class Simulation {
   double deepest_overlap() const;
 
   const Model<D>& model() const { return model_; }
-  const std::vector<Disk<D>>& disks() const { return disks_; }
+  const LargeArray<Disk<D>>& disks() const { return disks_; }
   const EventCounts& counts() const { return counts_; }
   const RunChecks& checks() const { return checks_; }
 
@@ -109,8 +110,8 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   double now_ = 0.0;  // on the clock's base
-  std::vector<Disk<D>> disks_;
-  std::vector<Plan<D>> plans_;
+  LargeArray<Disk<D>> disks_;
+  LargeArray<Plan<D>> plans_;
   CellGrid<D> grid_;
   Prediction<D> prediction_;
   EventQueue queue_;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace clatter {
+
+/// Allocates large arrays on huge pages where the system has them: disks are visited in no order,
+/// and with small pages most visits at N >= 10^5 would also miss the table of pages.
+template <typename T>
+struct LargeArrayAllocator {
+  using value_type = T;
+
+  LargeArrayAllocator() = default;
+  template <typename U>
+  LargeArrayAllocator(const LargeArrayAllocator<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    void* const memory = ::operator new(bytes, alignment(bytes));
+    if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) {
+    ::operator delete(memory, alignment(count * sizeof(T)));
+  }
+  friend bool operator==(LargeArrayAllocator, LargeArrayAllocator) { return true; }
+
+ private:
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21;
+  static std::align_val_t alignment(std::size_t bytes) {
+    return std::align_val_t{bytes >= kHugePage ? kHugePage : std::size_t{64}};
+  }
+};
+
+/// An array that may be large and is visited in no order.
+template <typename T>
+using LargeArray = std::vector<T, LargeArrayAllocator<T>>;
+
+}  // namespace clatter
