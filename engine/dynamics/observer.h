@@ -38,7 +38,9 @@ template <int D>
 class Observer {
  public:
   virtual ~Observer() = default;
+  /// Two disks have collided; the simulation still holds the flights before.
   virtual void on_collision(const PairCollision<D>&) {}
+  /// A disk has hit a wall; likewise.
   virtual void on_wall(const WallCollision<D>&) {}
   /// All times on the moving base have become smaller by `shift`.
   virtual void on_base_moved(double /*shift*/) {}

@@ -72,11 +72,16 @@ class Simulation {
   /// diameter; 0: none. Looks at all of them.
   double deepest_overlap() const;
 
+  /// The laws of the run.
   const Model<D>& model() const { return model_; }
+  /// [N] stored states, in original order; each since the disk's last physical event.
   const LargeArray<Disk<D>>& disks() const { return disks_; }
+  /// Events since the start.
   const EventCounts& counts() const { return counts_; }
+  /// What the run has checked of itself since the start.
   const RunChecks& checks() const { return checks_; }
 
+  /// For run_until: however many collisions there are.
   static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
  private:
