@@ -23,6 +23,8 @@ Quantity quantity_of(ColourBy colour_by) {
       return {"velocity v", "x", true};
     case ColourBy::VelocityY:
       return {"velocity v", "y", true};
+    case ColourBy::Spin:
+      return {"spin ω", "", true};
   }
   return {""};
 }

@@ -7,6 +7,12 @@ Model<2> model_of(const Scene& scene, std::uint64_t seed) {
   model.box = scene.box;
   model.walls = scene.walls;
   model.restitution = scene.disks.restitution;
+  model.roughness = scene.disks.roughness;
+  model.inertia = scene.disks.inertia;
+  model.spins = scene.spins();
+  model.gravity = scene.gravity.value_or(Vec2::Zero());
+  model.bulk_drive = scene.bulk_drive;
+  model.contact_time = scene.contact_time;
   model.seed = seed;
   return model;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/physics/spin.h"
 #include "engine/scene/scene.h"
 #include "engine/vec.h"
 
@@ -16,8 +17,14 @@ struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
   std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
   double diameter = 1.0;
-  double restitution = 1.0;  ///< alpha of disk-disk collisions
-  std::uint64_t seed = 1;    ///< of every random number of the run
+  double restitution = 1.0;         ///< alpha of disk-disk collisions
+  Roughness roughness;              ///< of the disks
+  double inertia = 0.5;             ///< q = 4I/(m a^2)
+  bool spins = false;               ///< whether disks or walls are rough, so that spins are carried
+  Vec<D> gravity = Vec<D>::Zero();  ///< acceleration of every disk
+  std::optional<BulkDrive> bulk_drive;  ///< absent: none
+  std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
+  std::uint64_t seed = 1;               ///< of every random number of the run
 
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
@@ -28,11 +35,12 @@ struct Model {
   }
 };
 
-/// Positions and velocities of all disks at one time, in original order.
+/// Positions, velocities and spins of all disks at one time, in original order.
 template <int D>
 struct State {
-  std::vector<Vec<D>> positions;   ///< [N] centres inside the box
-  std::vector<Vec<D>> velocities;  ///< [N]
+  std::vector<Vec<D>> positions;    ///< [N] centres inside the box
+  std::vector<Vec<D>> velocities;   ///< [N]
+  std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
 };
 
 /// The laws that a scene asks for.

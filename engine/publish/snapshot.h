@@ -19,12 +19,14 @@ struct FieldMap {
 
 /// The gas at one instant, evaluated exactly: all that the renderer knows of the engine.
 struct Snapshot {
-  double time = 0.0;                         ///< simulation time
-  Vec2 box = {0.0, 0.0};                     ///< Lx, Ly
-  double diameter = 1.0;                     ///< of every disk
-  std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
+  double time = 0.0;                          ///< simulation time
+  Vec2 box = {0.0, 0.0};                      ///< Lx, Ly
+  double diameter = 1.0;                      ///< of every disk
+  std::array<std::optional<Wall>, 4> walls;   ///< indexed by Side; a pair absent: periodic
+  std::array<double, 4> wall_displacement{};  ///< of each wall into the box at this time
   std::vector<Vec2> positions;    ///< [N] centres, wrapped into the box, in original order
   std::vector<Vec2> velocities;   ///< [N]
+  std::vector<double> spins;      ///< [N] angular velocities; empty where none are carried
   std::optional<FieldMap> field;  ///< averaged over the view's window; absent: not asked for
   double temperature = 0.0;       ///< granular temperature T = (m/2N) sum v^2
   std::uint64_t collisions = 0;   ///< disk-disk collisions since time 0

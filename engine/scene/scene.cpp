@@ -1,11 +1,46 @@
 #include "engine/scene/scene.h"
 
+#include <limits>
 #include <numbers>
 
 namespace clatter {
 
+double Roughness::friction_in_force() const {
+  const bool smooth = !friction && !tangential_restitution;
+  return smooth ? 0.0 : friction.value_or(std::numeric_limits<double>::infinity());
+}
+
+double Roughness::tangential_restitution_in_force() const {
+  const bool smooth = !friction && !tangential_restitution;
+  return smooth ? -1.0 : tangential_restitution.value_or(1.0);
+}
+
+bool Roughness::any() const {
+  return friction_in_force() > 0.0 && tangential_restitution_in_force() > -1.0;
+}
+
+double Wall::innermost_travel() const {
+  switch (kind) {
+    case WallKind::Sawtooth:
+      return stroke;
+    case WallKind::Sinusoidal:
+      return 0.5 * stroke;
+    case WallKind::Static:
+    case WallKind::Driven:
+    case WallKind::Thermal:
+      break;
+  }
+  return 0.0;
+}
+
 double Scene::area_fraction() const {
   return disks.count * std::numbers::pi / (4.0 * box.x() * box.y());
+}
+
+bool Scene::spins() const {
+  bool any = disks.roughness.any();
+  for (const auto& wall : walls) any = any || (wall && wall->roughness.any());
+  return any;
 }
 
 }  // namespace clatter

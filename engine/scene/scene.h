@@ -9,20 +9,43 @@
 
 namespace clatter {
 
+/// How rough a partner in a collision is, Sec. 2; smooth where both are absent.
+struct Roughness {
+  std::optional<double> friction;  ///< mu >= 0, may be infinite; absent beside the other: infinite
+  std::optional<double> tangential_restitution;  ///< beta_0, -1..1; absent beside the other: 1
+
+  /// Mu and beta_0 in force; 0 and -1 where both are absent.
+  double friction_in_force() const;
+  double tangential_restitution_in_force() const;
+  /// Whether a touch can change a spin: mu > 0 and beta_0 > -1.
+  bool any() const;
+};
+
 /// What a wall does to the disks that touch it, Sec. 3.1.
 enum class WallKind {
-  Static,   ///< reflects with its restitution
-  Driven,   ///< adds drive_speed to the normal velocity: the saw-tooth limit, Eqs. (2.17), (3.1)
-  Thermal,  ///< forgets the incoming velocity and emits at its temperature
+  Static,      ///< reflects with its restitution
+  Driven,      ///< adds drive_speed to the normal velocity: the saw-tooth limit, Eqs. (2.17), (3.1)
+  Thermal,     ///< forgets the incoming velocity and emits at its temperature
+  Sawtooth,    ///< moves inwards by its stroke at constant speed, jumps back, and again
+  Sinusoidal,  ///< swings by half its stroke to either side of its place
 };
 
 /// One wall of the box.
 struct Wall {
   WallKind kind = WallKind::Static;
-  double restitution = 1.0;  ///< alpha_w >= 0 of static and driven walls
+  double restitution = 1.0;  ///< alpha_w >= 0, of all but thermal walls; may exceed 1
+  Roughness roughness = {};  ///< of all but thermal walls
   double drive_speed =
       0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity, Eq. (2.17)
   double temperature = 1.0;  ///< T_w >= 0 of a thermal wall
+  double stroke = 0.0;       ///< whole travel of a saw-tooth or sinusoidal wall, >= 0
+  double frequency = 0.0;    ///< of its motion, in periods per time unit, >= 0
+  double phase = 0.0;        ///< of its motion at time 0, in periods
+
+  /// Whether the wall changes its place.
+  bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
+  /// How far into the box its motion takes it.
+  double innermost_travel() const;
 };
 
 /// The sides of the box: axis is side / 2, and the odd ones lie at the axis' far end.
@@ -32,19 +55,30 @@ enum Side { kLeft, kRight, kBottom, kTop };
 inline constexpr std::array<const char*, 4> kSideNames = {"left", "right", "bottom", "top"};
 
 /// How the disks are placed at time 0.
-enum class Layout { Random, Lattice };
+enum class Layout { Random, Lattice, File };
 
 /// Positions and velocities at time 0.
 struct Start {
   Layout layout = Layout::Random;
+  std::string file;  ///< of layout File: CSV with the columns x, y, vx, vy and, for spins, omega
   double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed
+  double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
 };
 
 /// The disks; their diameter and mass are the units of length and mass.
 struct Disks {
   int count = 0;             ///< N >= 0; resolved from area_fraction where the scene gives that
   double restitution = 1.0;  ///< alpha, 0..1
+  Roughness roughness;
+  double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a sphere
   Start start;
+};
+
+/// Homogeneous driving: every disk is kicked at once, again and again, Sec. 3.2.
+struct BulkDrive {
+  double interval = 1.0;    ///< time between kicks, > 0
+  double kick_speed = 0.0;  ///< standard deviation of a kick per velocity component; mean removed
+  double kick_spin = 0.0;   ///< standard deviation of the change of spin
 };
 
 /// A field over the box, chapter 4, and what a disk contributes to it.
@@ -60,7 +94,7 @@ struct Measure {
 };
 
 /// What a disk's colour shows.
-enum class ColourBy { None, Speed, VelocityX, VelocityY };
+enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno };
@@ -84,9 +118,14 @@ struct Scene {
   Vec2 box = {20.0, 25.0};  ///< Lx, Ly in disk diameters; disks touch walls with their surface
   Disks disks;
   std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
+  std::optional<Vec2> gravity;               ///< acceleration; absent: none
+  std::optional<BulkDrive> bulk_drive;       ///< absent: none
+  std::optional<double> contact_time;        ///< t_c > 0 of the TC model, section 4; absent: off
   Measure measure;
   View view;
 
+  /// Whether disks spin: they or any wall are rough.
+  bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }
   /// phi = N pi / (4 Lx Ly).

@@ -36,6 +36,8 @@ double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i) {
       return snapshot.velocities[i].x();
     case ColourBy::VelocityY:
       return snapshot.velocities[i].y();
+    case ColourBy::Spin:
+      return snapshot.spins.empty() ? 0.0 : snapshot.spins[i];
   }
   return 0.0;
 }

@@ -37,6 +37,9 @@ Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot) {
     case WallKind::Driven:
       // A wall that comes at speed V adds 2 V to what it hits.
       return {kTeeth, theme::kDrivenWall, 0.5 * wall->drive_speed * snapshot.time};
+    case WallKind::Sawtooth:
+    case WallKind::Sinusoidal:
+      return {kTeeth, theme::kDrivenWall};
     case WallKind::Thermal:
       return {kGlow, thermal_colour(wall->temperature, snapshot.temperature)};
   }
