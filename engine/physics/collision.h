@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/physics/spin.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -11,6 +12,92 @@ namespace clatter {
 template <int D>
 Vec<D> collision_impulse(const Vec<D>& x, const Vec<D>& g, double restitution) {
   return x * (-0.5 * (1.0 + restitution) * x.dot(g) / x.squaredNorm());
+}
+
+/// Energy that a collision of smooth disks loses, (m/4) (1 - alpha^2) g_n^2, section 2; x and g as
+/// in collision_impulse.
+template <int D>
+double dissipated_energy(const Vec<D>& x, const Vec<D>& g, double restitution) {
+  const double approach = x.dot(g);
+  return 0.25 * (1.0 - restitution * restitution) * approach * approach / x.squaredNorm();
+}
+
+/// What the surfaces of two partners do to each other, Walton's model, section 2.
+struct ContactLaw {
+  double restitution = 1.0;              ///< alpha, of the normal velocity
+  double friction = 0.0;                 ///< mu >= 0, Coulomb's; may be infinite
+  double tangential_restitution = -1.0;  ///< beta_0, -1 (smooth) .. 1 (perfectly rough)
+
+  /// Whether a touch can change a spin.
+  bool rough() const { return friction > 0.0 && tangential_restitution > -1.0; }
+};
+
+/// What a disk gains in a touch.
+template <int D>
+struct Impulse {
+  Vec<D> momentum = Vec<D>::Zero();  ///< of a disk of mass 1; its partner gains the negative
+  Spin<D> spin = Spin<D>::Zero();    ///< angular velocity; a partner disk gains the same
+};
+
+/// 1 + beta with the beta in force, Eq. (2.8): min(1 + beta_0, mu ((1+q)/q) |g_n' - g_n|/|g_t|),
+/// where `normal_change` = |g_n' - g_n| is (1 + alpha)|g_n| of two disks and |v_n' - v_n| of a disk
+/// at a wall, and `slip` = |g_t|. The sum keeps the digits that beta near -1 has lost.
+inline double slip_reversal(const ContactLaw& law, double inertia, double normal_change,
+                            double slip) {
+  const double full = 1.0 + law.tangential_restitution;
+  const double coulomb = law.friction * (1.0 + inertia) * normal_change;
+  // Compared before the division, which slip 0 forbids. Infinite friction holds even where nothing
+  // presses and coulomb is no number.
+  return coulomb < full * inertia * slip ? coulomb / (inertia * slip) : full;
+}
+
+/// g_t, the tangential velocity of the touching surfaces, section 2; n is the unit vector from the
+/// partner, `v` the relative velocity of the centres and `spin` the sum of the angular velocities.
+template <int D>
+Vec<D> surface_slip(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spin, double diameter) {
+  const Vec<D> g = v + 0.5 * diameter * cross_spin<D>(n, spin);
+  return g - n.dot(g) * n;
+}
+
+/// What friction gives to disk 1 of two, Eqs. (2.5), (2.8): the momentum -eta g_t and the spin
+/// (2 eta/(q a)) n x g_t with eta = q (1 + beta)/(2 (1 + q)); a wall, of infinite mass, gives twice
+/// that. Arguments as in surface_slip and slip_reversal.
+template <int D>
+Impulse<D> friction_impulse(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spin,
+                            double normal_change, const ContactLaw& law, double inertia,
+                            double diameter) {
+  const Vec<D> g_t = surface_slip<D>(n, v, spin, diameter);
+  // 2 eta/q, which exists at q = 0 too.
+  const double share = slip_reversal(law, inertia, normal_change, g_t.norm()) / (1.0 + inertia);
+  return {-0.5 * inertia * share * g_t, share / diameter * cross<D>(n, g_t)};
+}
+
+/// What disk 1 gains in a collision of rough disks, Eqs. (2.4), (2.5), (2.8), for x = r_1 - r_2 at
+/// contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a. The
+/// normal part, and all of it where the law is not rough, has the bits of collision_impulse.
+template <int D>
+Impulse<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
+                         const ContactLaw& law, double inertia, double diameter) {
+  const Vec<D> normal = collision_impulse<D>(x, v, law.restitution);
+  if (!law.rough()) return {normal};
+  const Impulse<D> friction =
+      friction_impulse<D>(x / x.norm(), v, spin, 2.0 * normal.norm(), law, inertia, diameter);
+  return {normal + friction.momentum, friction.spin};
+}
+
+/// Energy that a collision of rough disks loses, (m/4) [(1 - alpha^2) g_n^2 + (q/(1+q)) (1 -
+/// beta^2) g_t^2], section 2, with the beta in force; arguments as in rough_impulse.
+template <int D>
+double dissipated_energy(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
+                         const ContactLaw& law, double inertia, double diameter) {
+  const double normal_loss = dissipated_energy<D>(x, v, law.restitution);
+  if (!law.rough()) return normal_loss;
+  const double normal_change = 2.0 * collision_impulse<D>(x, v, law.restitution).norm();
+  const double slip = surface_slip<D>(x / x.norm(), v, spin, diameter).norm();
+  const double reversal = slip_reversal(law, inertia, normal_change, slip);
+  // (1 - beta^2) = (1 + beta) (1 - beta)
+  const double share = reversal * (2.0 - reversal) * inertia / (1.0 + inertia);
+  return normal_loss + 0.25 * share * slip * slip;
 }
 
 }  // namespace clatter

@@ -1,11 +1,36 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "engine/vec.h"
 
 namespace clatter {
 
-/// Angular velocity of a disk (one number) or of a sphere (a vector).
+/// Angular velocity in D dimensions: one number in the plane, a vector in space.
 template <int D>
 using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
+
+/// n x omega: a spin of omega moves the point at -n from the centre with this velocity.
+template <int D>
+Vec<D> cross_spin(const Vec<D>& n, const Spin<D>& spin) {
+  static_assert(D == 2 || D == 3);
+  if constexpr (D == 2) {
+    return {n.y() * spin[0], -n.x() * spin[0]};
+  } else {
+    return n.cross(spin);
+  }
+}
+
+/// n x g: what a momentum -g, given at the point -n from the centre, adds to the angular momentum
+/// about the centre.
+template <int D>
+Spin<D> cross(const Vec<D>& n, const Vec<D>& g) {
+  static_assert(D == 2 || D == 3);
+  if constexpr (D == 2) {
+    return Spin<D>(n.x() * g.y() - n.y() * g.x());
+  } else {
+    return n.cross(g);
+  }
+}
 
 }  // namespace clatter

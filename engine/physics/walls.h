@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/physics/collision.h"
+#include "engine/physics/spin.h"
 #include "engine/scene/scene.h"
 #include "engine/vec.h"
 
@@ -15,6 +17,30 @@ Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double dri
   return v;
 }
 
+/// Velocity after a wall that moves, section 3: v_n' = -alpha_w v_n + (1 + alpha_w) u, the
+/// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A disk
+/// that the wall catches up with (0 < v_n < u) is hit from behind.
+template <int D>
+Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, double wall_velocity) {
+  v[axis] = inward * (1.0 + restitution) * wall_velocity - restitution * v[axis];
+  return v;
+}
+
+/// What friction at a wall adds to a disk's momentum and spin, section 3: the momentum -2 eta_w g_t
+/// and the spin (4 eta_w/(q a)) n x g_t, with g_t of the velocity and spin before. `after` is the
+/// velocity that the smooth wall leaves: Coulomb's bound holds for the true normal impulse |v_n' -
+/// v_n| of every kind of wall.
+template <int D>
+Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin, int axis,
+                         double inward, const ContactLaw& law, double inertia, double diameter) {
+  if (!law.rough()) return {};
+  const Vec<D> n = inward * Vec<D>::Unit(axis);
+  const double normal_change = std::fabs(after[axis] - before[axis]);
+  const Impulse<D> friction =
+      friction_impulse<D>(n, before, spin, normal_change, law, inertia, diameter);
+  return {2.0 * friction.momentum, 2.0 * friction.spin};
+}
+
 /// Velocity after a thermal wall of temperature T_w, section 3: the normal component has the
 /// flux-weighted density (v/T_w) exp(-v^2/2T_w), v = sqrt(-2 T_w ln U), the others are Gaussian of
 /// variance T_w. `uniform` lies in (0,1), `normals` holds D - 1 standard normal variates.
@@ -26,6 +52,14 @@ Vec<D> emit(int axis, double inward, double temperature, double uniform, const d
                      : std::sqrt(temperature) * *normals++;
   }
   return v;
+}
+
+/// Spin after a thermal wall, section 3: Gaussian of variance T_w/I per component, I = q m a^2/4.
+/// `normals` holds one standard normal variate per component.
+template <int D>
+Spin<D> emit_spin(double temperature, double inertia, double diameter, const double* normals) {
+  const double moment_of_inertia = 0.25 * inertia * diameter * diameter;
+  return std::sqrt(temperature / moment_of_inertia) * Eigen::Map<const Spin<D>>(normals);
 }
 
 }  // namespace clatter

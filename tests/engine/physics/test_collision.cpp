@@ -1,12 +1,89 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "engine/physics/collision.h"
 #include "engine/physics/random.h"
+#include "tests/support/contact_laws.h"
 
 using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+/// Two rough disks (D = 3: spheres) at contact; r_2 lies within a few diameters of the origin.
+template <int D>
+struct RoughPair {
+  Vec<D> r_1, r_2, v_1, v_2;
+  Spin<D> spin_1, spin_2;
+  ContactLaw law;
+  double inertia, diameter;
+
+  Vec<D> x() const { return r_1 - r_2; }
+  Vec<D> n() const { return x() / x().norm(); }
+  Spin<D> spin_sum() const { return spin_1 + spin_2; }
+  Impulse<D> impulse() const {
+    return rough_impulse<D>(x(), v_1 - v_2, spin_sum(), law, inertia, diameter);
+  }
+  double dissipated() const {
+    return dissipated_energy<D>(x(), v_1 - v_2, spin_sum(), law, inertia, diameter);
+  }
+  /// Relative velocity of the touching surfaces, section 2.
+  Vec<D> surface_velocity() const {
+    return v_1 - v_2 + 0.5 * diameter * cross_spin<D>(n(), spin_sum());
+  }
+  void collide() {
+    const Impulse<D> gained = impulse();
+    v_1 += gained.momentum;
+    v_2 -= gained.momentum;
+    spin_1 += gained.spin;
+    spin_2 += gained.spin;
+  }
+  double energy() const {
+    const double moment = 0.25 * inertia * diameter * diameter;
+    return 0.5 * (v_1.squaredNorm() + v_2.squaredNorm()) +
+           0.5 * moment * (spin_1.squaredNorm() + spin_2.squaredNorm());
+  }
+  /// About the origin.
+  Spin<D> angular_momentum() const {
+    const double moment = 0.25 * inertia * diameter * diameter;
+    return cross<D>(r_1, v_1) + cross<D>(r_2, v_2) + moment * (spin_1 + spin_2);
+  }
+};
+
+template <int D>
+RoughPair<D> random_pair(std::uint32_t number) {
+  Random random(33, Stream::Velocity, number, D);
+  RoughPair<D> pair;
+  pair.law = random_law(random);
+  pair.inertia = random_inertia(random);
+  pair.diameter = 0.5 + random.uniform();
+  const double spin_speed = 2.0 * random.uniform() / pair.diameter;
+  pair.r_2 = 3.0 * random_vector<Vec<D>>(random);
+  pair.r_1 = pair.r_2 + pair.diameter * random_vector<Vec<D>>(random).normalized();
+  pair.v_1 = random_vector<Vec<D>>(random);
+  pair.v_2 = random_vector<Vec<D>>(random);
+  if (pair.x().dot(pair.v_1 - pair.v_2) > 0.0) std::swap(pair.v_1, pair.v_2);
+  pair.spin_1 = spin_speed * random_vector<Spin<D>>(random);
+  pair.spin_2 = spin_speed * random_vector<Spin<D>>(random);
+  return pair;
+}
+
+constexpr std::uint32_t kPairs = 100000;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <class Vector>
+bool same_bits(const Vector& a, const Vector& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double one, double other) {
+    return std::bit_cast<std::uint64_t>(one) == std::bit_cast<std::uint64_t>(other);
+  });
+}
+
+}  // namespace
 
 // Eq. (2.4), (2.8) with beta = -1 and m = 1.
 TEST_CASE("collision: momentum, energy and the tangential velocity over random pairs") {
@@ -58,4 +135,162 @@ TEST_CASE("collision: exact cases") {
   CHECK(collision_impulse<2>({1.0, 0.0}, {-2.0, 5.0}, 1.0) == Vec2(2.0, 0.0));
   CHECK(collision_impulse<2>({1.0, 0.0}, {-2.0, 5.0}, 0.0) == Vec2(1.0, 0.0));
   CHECK(collision_impulse<2>({0.0, -1.0}, {0.0, 4.0}, 0.5) == Vec2(0.0, -3.0));
+}
+
+TEST_CASE_TEMPLATE("collision: rough pairs keep momentum and angular momentum", Dimension, Plane,
+                   Space) {
+  constexpr int D = Dimension::value;
+  double momentum_off = 0.0, angular_off = 0.0;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const RoughPair<D> before = random_pair<D>(i);
+    RoughPair<D> after = before;
+    after.collide();
+    const double momentum = before.v_1.norm() + before.v_2.norm();
+    momentum_off =
+        std::max(momentum_off, (after.v_1 + after.v_2 - before.v_1 - before.v_2).norm() / momentum);
+    const double reach = before.r_1.norm() + before.r_2.norm();
+    const double surface_speed = before.diameter * (before.spin_1.norm() + before.spin_2.norm());
+    const double scale = (reach + before.diameter) * (momentum + surface_speed);
+    angular_off = std::max(angular_off,
+                           (after.angular_momentum() - before.angular_momentum()).norm() / scale);
+  }
+  CHECK(momentum_off < 1e-14);
+  CHECK(angular_off < 1e-14);
+}
+
+TEST_CASE_TEMPLATE("collision: rough pairs lose section 2's energy", Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  double lost_off = 0.0, told_off = 0.0;
+  int conserving = 0, sliding = 0;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const RoughPair<D> before = random_pair<D>(i);
+    RoughPair<D> after = before;
+    after.collide();
+    const auto [alpha, mu, beta_0] = before.law;
+    const double q = before.inertia;
+    const Vec<D> g = before.surface_velocity();
+    const double g_n = before.n().dot(g);
+    const double g_t = (g - g_n * before.n()).norm();
+    const double beta =
+        std::min(beta_0, -1.0 + mu * (1.0 + alpha) * ((1.0 + q) / q) * std::fabs(g_n) / g_t);
+    const double loss = 0.25 * (1.0 - alpha * alpha) * g_n * g_n +
+                        0.25 * (q / (1.0 + q)) * (1.0 - beta * beta) * g_t * g_t;
+    lost_off =
+        std::max(lost_off, std::fabs(before.energy() - after.energy() - loss) / before.energy());
+    told_off = std::max(told_off, std::fabs(before.dissipated() - loss) / before.energy());
+    if (alpha == 1.0 && std::fabs(beta) == 1.0) {
+      ++conserving;
+      REQUIRE(before.dissipated() == 0.0);
+    }
+    if (-1.0 < beta && beta < beta_0) {
+      ++sliding;
+      REQUIRE(before.dissipated() > 0.0);
+    }
+    REQUIRE(before.dissipated() >= 0.0);
+  }
+  CHECK(lost_off < 1e-13);
+  CHECK(told_off < 1e-13);
+  CHECK(conserving > 10000);
+  CHECK(sliding > 10000);
+}
+
+TEST_CASE_TEMPLATE("collision: the impulse between rough pairs is Walton's and Coulomb's",
+                   Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  double impulse_off = 0.0, coulomb_excess = -1.0;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const RoughPair<D> pair = random_pair<D>(i);
+    const Vec<D> n = pair.n(), g = pair.surface_velocity();
+    const double pressed = -0.5 * (1.0 + pair.law.restitution) * n.dot(g);
+    const Vec<D> dragged = friction_by_law<D>(n, g, pressed, pair.law, pair.inertia, 2.0);
+    impulse_off =
+        std::max(impulse_off, (pair.impulse().momentum - pressed * n - dragged).norm() / g.norm());
+    const Impulse<D> friction =
+        friction_impulse<D>(n, pair.v_1 - pair.v_2, pair.spin_sum(), 2.0 * pressed, pair.law,
+                            pair.inertia, pair.diameter);
+    if (pair.law.friction == 0.0) continue;
+    const double share = friction.momentum.norm() / (pair.law.friction * pressed);
+    coulomb_excess = std::max(coulomb_excess, share - 1.0);
+  }
+  CHECK(impulse_off < 1e-13);
+  CHECK(coulomb_excess < 1e-13);
+  CHECK(coulomb_excess > -1e-13);  // sliding pairs use all of it
+}
+
+TEST_CASE_TEMPLATE("collision: without friction, or with beta_0 = -1, the bits of smooth pairs",
+                   Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  int different = 0;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    RoughPair<D> pair = random_pair<D>(i);
+    (i % 2 ? pair.law.friction : pair.law.tangential_restitution) = i % 2 ? 0.0 : -1.0;
+    const Vec<D> x = pair.x(), v = pair.v_1 - pair.v_2;
+    different +=
+        !same_bits(pair.impulse().momentum, collision_impulse<D>(x, v, pair.law.restitution));
+    different += !same_bits(pair.impulse().spin, Spin<D>(Spin<D>::Zero()));
+    different += pair.dissipated() != dissipated_energy<D>(x, v, pair.law.restitution);
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE_TEMPLATE("collision: either partner reckons the same bits for rough pairs", Dimension,
+                   Plane, Space) {
+  constexpr int D = Dimension::value;
+  int different = 0;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const RoughPair<D> pair = random_pair<D>(i);
+    RoughPair<D> other = pair;
+    std::swap(other.r_1, other.r_2);
+    std::swap(other.v_1, other.v_2);
+    std::swap(other.spin_1, other.spin_2);
+    different += pair.impulse().momentum != -other.impulse().momentum;
+    different += pair.impulse().spin != other.impulse().spin;
+    different += pair.dissipated() != other.dissipated();
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE_TEMPLATE("collision: units that are powers of two keep the bits of rough pairs",
+                   Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  constexpr double kLength = 0x1p-7, kSpeed = 0x1p5;
+  int different = 0;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const RoughPair<D> pair = random_pair<D>(i);
+    RoughPair<D> scaled = pair;
+    scaled.diameter *= kLength;
+    for (auto* r : {&scaled.r_1, &scaled.r_2}) *r *= kLength;
+    for (auto* v : {&scaled.v_1, &scaled.v_2}) *v *= kSpeed;
+    for (auto* spin : {&scaled.spin_1, &scaled.spin_2}) *spin *= kSpeed / kLength;
+    different += scaled.impulse().momentum != pair.impulse().momentum * kSpeed;
+    different += scaled.impulse().spin != pair.impulse().spin * (kSpeed / kLength);
+    different += scaled.dissipated() != pair.dissipated() * (kSpeed * kSpeed);
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("collision: rough pairs, exact cases") {
+  // n = (1,0), a = 1, q = 1/2, and g_t = v_y - (omega_1 + omega_2)/2.
+  const ContactLaw perfectly_rough = {1.0, kInfinity, 1.0};
+  const auto collide = [](const ContactLaw& law, Vec2 v, double spin_sum) {
+    return rough_impulse<2>({1.0, 0.0}, v, Spin<2>(spin_sum), law, 0.5, 1.0);
+  };
+  // g_t = 3 - 6/2 = 0: nothing slips, and nothing is divided by it.
+  CHECK(collide(perfectly_rough, {-2.0, 3.0}, 6.0).momentum == Vec2(2.0, 0.0));
+  CHECK(collide(perfectly_rough, {-2.0, 3.0}, 6.0).spin[0] == 0.0);
+  CHECK(collide({1.0, 0.25, 1.0}, {-2.0, 3.0}, 6.0).momentum == Vec2(2.0, 0.0));
+  // g_t = 3, eta = .5 * 2/(2 * 1.5) = 1/3: momentum -1, spin 2 (1/3) 3/(.5) = 4.
+  CHECK(collide(perfectly_rough, {-2.0, 3.0}, 0.0).momentum.isApprox(Vec2(2.0, -1.0), 1e-15));
+  CHECK(collide(perfectly_rough, {-2.0, 3.0}, 0.0).spin[0] == doctest::Approx(4.0).epsilon(1e-15));
+  // Coulomb: |J_t| = .25 |J_n| = .5 < 1, spin 2 |J_t|/q = 2.
+  CHECK(collide({1.0, 0.25, 1.0}, {-2.0, 3.0}, 0.0).momentum.isApprox(Vec2(2.0, -0.5), 1e-15));
+  CHECK(collide({1.0, 0.25, 1.0}, {-2.0, 3.0}, 0.0).spin[0] == doctest::Approx(2.0).epsilon(1e-15));
+  // Nothing presses: finite friction does nothing, infinite friction does what it always does.
+  CHECK(collide({1.0, 0.25, 1.0}, {0.0, 3.0}, 0.0).momentum == Vec2(0.0, 0.0));
+  CHECK(collide(perfectly_rough, {0.0, 3.0}, 0.0).momentum.isApprox(Vec2(0.0, -1.0), 1e-15));
+  // All the mass at the centre: no momentum is needed to turn the spins, g_t' = 3 - 6 = -g_t.
+  const Impulse<2> light =
+      rough_impulse<2>({1.0, 0.0}, {-2.0, 3.0}, Spin<2>(0.0), perfectly_rough, 0.0, 1.0);
+  CHECK(light.momentum == Vec2(2.0, 0.0));
+  CHECK(light.spin[0] == 6.0);
 }

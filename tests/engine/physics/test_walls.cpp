@@ -1,16 +1,67 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "engine/physics/random.h"
 #include "engine/physics/walls.h"
+#include "tests/support/contact_laws.h"
 #include "tests/support/statistics.h"
 
 using namespace clatter;
 using namespace clatter::testing;
+
+namespace {
+
+/// A rough disk (D = 3: a sphere) at a wall, before and after.
+template <int D>
+struct RoughHit {
+  Vec<D> v, smooth, after;
+  Spin<D> spin, spin_after;
+  int axis;
+  double inward;
+  ContactLaw law;
+  double inertia, diameter;
+
+  Vec<D> n() const { return inward * Vec<D>::Unit(axis); }
+  double normal_change() const { return std::fabs(after[axis] - v[axis]); }
+  Impulse<D> friction() const {
+    return wall_friction<D>(v, smooth, spin, axis, inward, law, inertia, diameter);
+  }
+  Vec<D> surface_velocity() const { return v + 0.5 * diameter * cross_spin<D>(n(), spin); }
+  double moment_of_inertia() const { return 0.25 * inertia * diameter * diameter; }
+};
+
+// Driven and moving walls in turn.
+template <int D>
+RoughHit<D> random_hit(std::uint32_t number) {
+  Random random(42, Stream::Velocity, number, D);
+  RoughHit<D> hit;
+  hit.law = random_law(random);
+  hit.inertia = random_inertia(random);
+  hit.diameter = 0.5 + random.uniform();
+  hit.axis = static_cast<int>(random.below(D));
+  hit.inward = random.below(2) ? 1.0 : -1.0;
+  hit.v = random_vector<Vec<D>>(random);
+  hit.v[hit.axis] = -hit.inward * std::fabs(hit.v[hit.axis]);
+  hit.spin = 2.0 * random.uniform() / hit.diameter * random_vector<Spin<D>>(random);
+  const double speed = random.below(2) ? random.uniform() : 0.0;
+  hit.smooth = number % 2
+                   ? reflect<D>(hit.v, hit.axis, hit.inward, hit.law.restitution, speed)
+                   : reflect_moving<D>(hit.v, hit.axis, hit.inward, hit.law.restitution, speed);
+  const Impulse<D> friction = hit.friction();
+  hit.after = hit.smooth + friction.momentum;
+  hit.spin_after = hit.spin + friction.spin;
+  return hit;
+}
+
+constexpr std::uint32_t kHits = 100000;
+
+}  // namespace
 
 // Eq. (3.1): v_n' = alpha_w |v_n| + v_dr, along the normal into the box.
 TEST_CASE("walls: reflection off each of the four walls") {
@@ -71,4 +122,139 @@ TEST_CASE("walls: a thermal wall emits flux-weighted velocities") {
 TEST_CASE("walls: a thermal wall at T_w = 0 stops the disk") {
   const double normal = -1.5;
   CHECK(emit<2>(0, 1.0, 0.0, 0.3, &normal) == Vec2(0.0, 0.0));
+}
+
+// Section 3: in the wall's frame v_n' = -alpha_w v_n.
+TEST_CASE("walls: a wall that moves, and hits from behind") {
+  CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
+  CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 0.5, 1.0) == Vec2(2.5, 3.0));
+  CHECK(reflect_moving<2>({3.0, 2.0}, 1, -1.0, 0.5, 1.0) == Vec2(3.0, -2.5));
+  CHECK(reflect_moving<2>({0.5, 3.0}, 0, 1.0, 1.0, 1.0) == Vec2(1.5, 3.0));
+  CHECK(reflect_moving<2>({0.5, 3.0}, 0, 1.0, 0.0, 1.0) == Vec2(1.0, 3.0));
+  CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 0.5, -1.0) == Vec2(-0.5, 3.0));
+  // Met on its way in, a wall of speed u is the driven one of v_dr = (1 + alpha_w) u.
+  CHECK(reflect_moving<2>({-1.25, 3.0}, 0, 1.0, 0.5, 0.75) ==
+        reflect<2>({-1.25, 3.0}, 0, 1.0, 0.5, 1.125));
+}
+
+TEST_CASE_TEMPLATE("walls: friction is Walton's and Coulomb's at a wall of infinite mass",
+                   Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  double impulse_off = 0.0, torque_off = 0.0, coulomb_excess = -1.0;
+  int normal_changed = 0;
+  for (std::uint32_t i = 0; i < kHits; ++i) {
+    const RoughHit<D> hit = random_hit<D>(i);
+    const Impulse<D> friction = hit.friction();
+    const Vec<D> g = hit.surface_velocity();
+    const Vec<D> dragged =
+        friction_by_law<D>(hit.n(), g, hit.normal_change(), hit.law, hit.inertia, 1.0);
+    impulse_off = std::max(impulse_off, (friction.momentum - dragged).norm() / g.norm());
+    normal_changed += hit.after[hit.axis] != hit.smooth[hit.axis];
+    // The wall's force passes through the contact point: no angular momentum about it is gained.
+    const double arm = 0.5 * hit.diameter;
+    const Spin<D> torque =
+        arm * cross<D>(hit.n(), friction.momentum) + hit.moment_of_inertia() * friction.spin;
+    torque_off = std::max(torque_off, torque.norm() / (arm * g.norm()));
+    if (hit.law.friction == 0.0) continue;
+    const double share = friction.momentum.norm() / (hit.law.friction * hit.normal_change());
+    coulomb_excess = std::max(coulomb_excess, share - 1.0);
+  }
+  CHECK(impulse_off < 1e-13);
+  CHECK(torque_off < 1e-13);
+  CHECK(normal_changed == 0);
+  CHECK(coulomb_excess < 1e-13);
+  CHECK(coulomb_excess > -1e-13);  // sliding disks use all of it
+}
+
+// Section 2's dE of a partner of infinite mass: m/2 instead of m/4.
+TEST_CASE_TEMPLATE("walls: the energy that friction takes", Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  double energy_off = 0.0, conserving_off = 0.0;
+  int sliding = 0, conserving = 0;
+  for (std::uint32_t i = 0; i < kHits; ++i) {
+    const RoughHit<D> hit = random_hit<D>(i);
+    const auto [alpha, mu, beta_0] = hit.law;
+    const double q = hit.inertia;
+    const Vec<D> g = hit.surface_velocity();
+    const double g_t = (g - hit.n().dot(g) * hit.n()).norm();
+    const double beta = std::min(beta_0, -1.0 + mu * ((1.0 + q) / q) * hit.normal_change() / g_t);
+    const double loss = 0.5 * (q / (1.0 + q)) * (1.0 - beta * beta) * g_t * g_t;
+    const double before =
+        0.5 * (hit.smooth.squaredNorm() + hit.moment_of_inertia() * hit.spin.squaredNorm());
+    const double after =
+        0.5 * (hit.after.squaredNorm() + hit.moment_of_inertia() * hit.spin_after.squaredNorm());
+    energy_off = std::max(energy_off, std::fabs(before - after - loss) / before);
+    if (std::fabs(beta) == 1.0) {
+      ++conserving;
+      conserving_off = std::max(conserving_off, std::fabs(before - after) / before);
+    }
+    sliding += -1.0 < beta && beta < beta_0;
+  }
+  CHECK(energy_off < 1e-13);
+  CHECK(conserving_off < 1e-13);
+  CHECK(conserving > 10000);
+  CHECK(sliding > 10000);
+}
+
+TEST_CASE_TEMPLATE("walls: units that are powers of two keep the bits of friction", Dimension,
+                   Plane, Space) {
+  constexpr int D = Dimension::value;
+  constexpr double kLength = 0x1p-7, kSpeed = 0x1p5;
+  int different = 0;
+  for (std::uint32_t i = 0; i < kHits; ++i) {
+    const RoughHit<D> hit = random_hit<D>(i);
+    RoughHit<D> scaled = hit;
+    scaled.diameter *= kLength;
+    scaled.v *= kSpeed;
+    scaled.smooth *= kSpeed;
+    scaled.spin *= kSpeed / kLength;
+    different += scaled.friction().momentum != hit.friction().momentum * kSpeed;
+    different += scaled.friction().spin != hit.friction().spin * (kSpeed / kLength);
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("walls: friction, exact cases") {
+  // n = (-1,0), a = 1, q = 1/2: g_t = v_y + omega/2.
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto hit = [](const ContactLaw& law, Vec2 v, double spin, double normal_after) {
+    return wall_friction<2>(v, {normal_after, v.y()}, Spin<2>(spin), 0, -1.0, law, 0.5, 1.0);
+  };
+  // g_t = 3 - 6/2 = 0.
+  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, -6.0, -2.0).momentum == Vec2(0.0, 0.0));
+  CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, -6.0, -2.0).spin[0] == 0.0);
+  // eta = .5 * 2/(2 * 1.5) = 1/3: momentum -2, spin -4 (1/3) 3/.5 = -8.
+  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).momentum.isApprox(Vec2(0.0, -2.0), 1e-15));
+  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).spin[0] ==
+        doctest::Approx(-8.0).epsilon(1e-15));
+  // Coulomb, with what a driven wall gave: |J_t| = .1 * (2 + 3) = .5, spin -2 |J_t|/q = -2.
+  CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).momentum.isApprox(Vec2(0.0, -0.5), 1e-15));
+  CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).spin[0] ==
+        doctest::Approx(-2.0).epsilon(1e-15));
+  // Smooth.
+  for (const ContactLaw& law : {ContactLaw{1.0, 0.0, 1.0}, ContactLaw{1.0, infinity, -1.0}}) {
+    CHECK(hit(law, {2.0, 3.0}, 1.0, -2.0).momentum == Vec2(0.0, 0.0));
+    CHECK(hit(law, {2.0, 3.0}, 1.0, -2.0).spin[0] == 0.0);
+  }
+}
+
+// T_rot = I <omega^2> = T_w, I = q a^2/4: variance 4 T_w/(q a^2).
+TEST_CASE_TEMPLATE("walls: a thermal wall emits spins at its temperature", Dimension, Plane,
+                   Space) {
+  constexpr int D = Dimension::value, kSpins = D * (D - 1) / 2;
+  constexpr int kSamples = 100000;
+  constexpr double kT = 2.25, kInertia = 0.4, kDiameter = 1.5;
+  constexpr double kVariance = kT / (0.25 * kInertia * kDiameter * kDiameter);  // 10
+  double sum = 0.0, squares = 0.0;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    Random random(43, Stream::ThermalWall, i, 0);
+    const Spin<D> normals = random_vector<Spin<D>>(random);
+    const Spin<D> spin = emit_spin<D>(kT, kInertia, kDiameter, normals.data());
+    sum += spin.sum();
+    squares += spin.squaredNorm();
+  }
+  const double drawn = double{kSpins} * kSamples;
+  CHECK(std::fabs(standard_errors_off(sum, drawn, 0.0, kVariance)) < 5.0);
+  CHECK(std::fabs(standard_errors_off(squares, drawn, kVariance, 2.0 * kVariance * kVariance)) <
+        5.0);
 }

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "engine/physics/collision.h"
+#include "engine/physics/random.h"
+
+namespace clatter::testing {
+
+/// Dimensions, for templated cases.
+using Plane = std::integral_constant<int, 2>;
+using Space = std::integral_constant<int, 3>;
+
+template <class Vector>
+Vector random_vector(Random& random) {
+  Vector v;
+  for (double& component : v) component = random.normal();
+  return v;
+}
+
+/// Laws of all kinds: elastic or not, without, with finite and with infinite friction (from hardly
+/// any to more than any slip can use), smooth, rough and perfectly rough.
+inline ContactLaw random_law(Random& random) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  ContactLaw law;
+  law.restitution = random.below(3) == 0 ? 1.0 : random.uniform();
+  const double finite = std::pow(10.0, 4.0 * random.uniform() - 3.0);
+  law.friction = std::array{0.0, kInfinity, finite, finite}[random.below(4)];
+  const double between = 2.0 * random.uniform() - 1.0;
+  law.tangential_restitution = std::array{-1.0, 1.0, between, between}[random.below(4)];
+  return law;
+}
+
+/// Uniform disk, sphere, or anything.
+inline double random_inertia(Random& random) {
+  return std::array{0.5, 0.4, 0.01 + random.uniform()}[random.below(3)];
+}
+
+/// The tangential impulse by the laws themselves, without beta's and eta's formulas: what turns the
+/// slip into -beta_0 times itself, or as much of it as Coulomb allows. An impulse J changes the
+/// slip by (sum of 1/m) (1 + 1/q) J; the sum is 2 for two disks and 1 for a disk at a wall.
+template <int D>
+Vec<D> friction_by_law(const Vec<D>& n, const Vec<D>& surface_velocity, double normal_impulse,
+                       const ContactLaw& law, double inertia, double inverse_masses) {
+  const Vec<D> slip = surface_velocity - n.dot(surface_velocity) * n;
+  const double reversing =
+      (1.0 + law.tangential_restitution) * slip.norm() / (inverse_masses * (1.0 + 1.0 / inertia));
+  return -std::min(reversing, law.friction * normal_impulse) * slip.normalized();
+}
+
+}  // namespace clatter::testing
+
+TYPE_TO_STRING_AS("2D", clatter::testing::Plane);
+TYPE_TO_STRING_AS("3D", clatter::testing::Space);
