@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/physics/encounter.h"
+#include "engine/physics/fall_time.h"
 #include "engine/physics/flight.h"
 
 namespace clatter {
@@ -14,25 +15,28 @@ inline constexpr double kApproachRounding = 8.0 * std::numeric_limits<double>::e
 /// they approach faster than the rounding of their velocities: otherwise the rounding left by a
 /// collision would be another one, for ever.
 template <int D>
-double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double diameter) {
-  const double time = encounter_time<D>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(),
-                                        b.time, shift.data(), diameter);
+double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double diameter,
+                    const Vec<D>& gravity) {
+  const double time =
+      encounter_time<D, true>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time,
+                              shift.data(), diameter, gravity.data());
   if (time != kTouching) return time;
   const double start = a.time > b.time ? a.time : b.time;
-  const Vec<D> x = (a.at(start) - b.at(start)) + shift;
-  const double rounding = kApproachRounding * diameter * (a.v.norm() + b.v.norm());
-  return x.dot(a.v - b.v) < -rounding ? start : kNever;
+  const Vec<D> v_a = a.velocity_at(start, gravity);
+  const Vec<D> v_b = b.velocity_at(start, gravity);
+  const Vec<D> x = (a.at(start, gravity) - b.at(start, gravity)) + shift;
+  const double rounding = kApproachRounding * diameter * (v_a.norm() + v_b.norm());
+  return x.dot(v_a - v_b) < -rounding ? start : kNever;
 }
 
 /// Time at which a flight reaches the plane at `plane` along `axis`, where `inward` (+1 or -1) is
 /// the direction of the wall's normal into the box, or kNever. A disk that already touches the wall
-/// hits it at once if it moves outwards.
+/// hits it at once if it moves outwards, or rests there and gravity pulls it outwards.
 template <int D>
-double plane_contact_time(const Flight<D>& flight, int axis, double plane, double inward) {
-  const double outward_speed = -inward * flight.v[axis];
-  if (!(outward_speed > 0.0)) return kNever;
-  const double gap = inward * (flight.r[axis] - plane);
-  return gap > 0.0 ? flight.time + gap / outward_speed : flight.time;
+double plane_contact_time(const Flight<D>& flight, int axis, double plane, double inward,
+                          const Vec<D>& gravity) {
+  return flight.time + fall_time(inward * (flight.r[axis] - plane), inward * flight.v[axis],
+                                 inward * gravity[axis]);
 }
 
 }  // namespace clatter

@@ -5,10 +5,10 @@
 namespace clatter {
 
 // The loop runs over whole vectors: what lies beyond `size` is left from earlier and not looked at.
-template <int D>
+template <int D, bool kFalling>
 [[gnu::always_inline]] static inline double loop(const double* r, const double* v, double time,
-                                                 double diameter, Candidates<D>& candidates,
-                                                 int size) {
+                                                 double diameter, const double* gravity,
+                                                 Candidates<D>& candidates, int size) {
   const int rounded_up = (size + 7) & ~7;
   for (int i = 0; i < rounded_up; ++i) {
     double r_i[D], v_i[D], shift_i[D];
@@ -17,8 +17,8 @@ template <int D>
       v_i[k] = candidates.v[k][i];
       shift_i[k] = candidates.shift[k][i];
     }
-    candidates.contact[i] =
-        encounter_time<D>(r, v, time, r_i, v_i, candidates.time[i], shift_i, diameter);
+    candidates.contact[i] = encounter_time<D, kFalling>(r, v, time, r_i, v_i, candidates.time[i],
+                                                        shift_i, diameter, gravity);
   }
   double first = kNever;
   for (int i = 0; i < size; ++i) {
@@ -28,44 +28,47 @@ template <int D>
 }
 
 #if defined(__x86_64__)
-template <int D>
+template <int D, bool kFalling>
 [[gnu::target("avx512f,avx512vl")]] static double loop_avx512(const double* r, const double* v,
                                                               double time, double diameter,
+                                                              const double* gravity,
                                                               Candidates<D>& candidates, int size) {
-  return loop<D>(r, v, time, diameter, candidates, size);
+  return loop<D, kFalling>(r, v, time, diameter, gravity, candidates, size);
 }
 
-template <int D>
+template <int D, bool kFalling>
 [[gnu::target("avx2")]] static double loop_avx2(const double* r, const double* v, double time,
-                                                double diameter, Candidates<D>& candidates,
-                                                int size) {
-  return loop<D>(r, v, time, diameter, candidates, size);
+                                                double diameter, const double* gravity,
+                                                Candidates<D>& candidates, int size) {
+  return loop<D, kFalling>(r, v, time, diameter, gravity, candidates, size);
 }
 #endif
 
-template <int D>
+template <int D, bool kFalling>
 static double loop_baseline(const double* r, const double* v, double time, double diameter,
-                            Candidates<D>& candidates, int size) {
-  return loop<D>(r, v, time, diameter, candidates, size);
+                            const double* gravity, Candidates<D>& candidates, int size) {
+  return loop<D, kFalling>(r, v, time, diameter, gravity, candidates, size);
 }
 
-template <int D>
+template <int D, bool kFalling>
 static auto widest_loop() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-    return &loop_avx512<D>;
-  if (__builtin_cpu_supports("avx2")) return &loop_avx2<D>;
+    return &loop_avx512<D, kFalling>;
+  if (__builtin_cpu_supports("avx2")) return &loop_avx2<D, kFalling>;
 #endif
-  return &loop_baseline<D>;
+  return &loop_baseline<D, kFalling>;
 }
 
 template <int D>
 double contact_times(const double* r, const double* v, double time, double diameter,
-                     Candidates<D>& candidates, int size) {
-  static const auto chosen = widest_loop<D>();
-  return chosen(r, v, time, diameter, candidates, size);
+                     const double* gravity, Candidates<D>& candidates, int size) {
+  static const auto straight = widest_loop<D, false>();
+  static const auto falling = widest_loop<D, true>();
+  return (gravity ? falling : straight)(r, v, time, diameter, gravity, candidates, size);
 }
 
-template double contact_times<2>(const double*, const double*, double, double, Candidates<2>&, int);
+template double contact_times<2>(const double*, const double*, double, double, const double*,
+                                 Candidates<2>&, int);
 
 }  // namespace clatter

@@ -18,9 +18,9 @@ struct Candidates {
 
 /// Fills the first `size` of candidates.contact for the flight (r, v, time), with the widest
 /// vectors that the processor has, and returns the earliest, kNever or kTouching included; the bits
-/// are those of encounter_time on any.
+/// are those of encounter_time on any. `gravity` is null where there is none.
 template <int D>
 double contact_times(const double* r, const double* v, double time, double diameter,
-                     Candidates<D>& candidates, int size);
+                     const double* gravity, Candidates<D>& candidates, int size);
 
 }  // namespace clatter

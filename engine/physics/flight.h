@@ -6,17 +6,24 @@
 
 namespace clatter {
 
-/// Free flight of a disk: a straight line through `r` at `time`.
+/// Free flight of a disk: a parabola through `r` at `time`, under the gravity that all disks share.
 template <int D>
 struct Flight {
   Vec<D> r = Vec<D>::Zero();  ///< centre at `time`; may lie whole box lengths outside the box
-  Vec<D> v = Vec<D>::Zero();  ///< velocity since `time`
+  Vec<D> v = Vec<D>::Zero();  ///< velocity at `time`
   double time = 0.0;          ///< on the simulation's moving base
   std::uint32_t number = 0;   ///< physical events that the disk had before; predictions made for an
                               ///< earlier flight are stale
 
   /// The centre at a later time.
-  Vec<D> at(double later) const { return r + v * (later - time); }
+  Vec<D> at(double later, const Vec<D>& gravity) const {
+    const double dt = later - time;
+    return r + (v + gravity * (0.5 * dt)) * dt;
+  }
+  /// The velocity at a later time.
+  Vec<D> velocity_at(double later, const Vec<D>& gravity) const {
+    return v + gravity * (later - time);
+  }
 };
 
 }  // namespace clatter

@@ -60,7 +60,7 @@ static double time_kernel(int size) {
   const double r[] = {0.0, 0.0}, v[] = {0.3, -0.2};
   constexpr int kCalls = 1000000;
   const double taken = bench::seconds([&] {
-    for (int call = 0; call < kCalls; ++call) contact_times<2>(r, v, 0.0, 1.0, candidates, size);
+    for (int call = 0; call < kCalls; ++call) contact_times<2>(r, v, 0.0, 1.0, nullptr, candidates, size);
   });
   return taken / kCalls;
 }

@@ -9,6 +9,8 @@
 
 using namespace clatter;
 
+static const Vec2 kNoGravity = Vec2::Zero();
+
 static Flight<2> flight(Vec2 r, Vec2 v, double time = 0.0) {
   return {r, v, time, 0};
 }
@@ -17,11 +19,11 @@ TEST_CASE("contact: head on, through an image") {
   // Gaps of 3 and of 10 - 4 - 1 = 5, closed at speed 2.
   const auto a = flight({1.0, 2.0}, {1.0, 0.0});
   const auto b = flight({5.0, 2.0}, {-1.0, 0.0});
-  CHECK(contact_time<2>(a, b, Vec2::Zero(), 1.0) == 1.5);
+  CHECK(contact_time<2>(a, b, Vec2::Zero(), 1.0, kNoGravity) == 1.5);
   const auto away = flight({1.0, 2.0}, {-1.0, 0.0});
   const auto too = flight({5.0, 2.0}, {1.0, 0.0});
-  CHECK(contact_time<2>(away, too, Vec2::Zero(), 1.0) == kNever);
-  CHECK(contact_time<2>(away, too, {10.0, 0.0}, 1.0) == 2.5);
+  CHECK(contact_time<2>(away, too, Vec2::Zero(), 1.0, kNoGravity) == kNever);
+  CHECK(contact_time<2>(away, too, {10.0, 0.0}, 1.0, kNoGravity) == 2.5);
 }
 
 TEST_CASE("contact: disks that touch collide at once if they approach faster than rounding") {
@@ -32,19 +34,19 @@ TEST_CASE("contact: disks that touch collide at once if they approach faster tha
       return flight(Vec2(1.0 - overlap, 0.0) + drift * time, drift - Vec2(speed, 0.0), time);
     };
     const auto b = flight({0.0, 0.0}, drift);
-    CHECK(contact_time<2>(a(1.0, 0.0), b, none, 1.0) == 0.0);
-    CHECK(contact_time<2>(a(1e-9, 0.0), b, none, 1.0) == 0.0);
-    CHECK(contact_time<2>(a(1e-14, 0.0), b, none, 1.0) == 0.0);
+    CHECK(contact_time<2>(a(1.0, 0.0), b, none, 1.0, kNoGravity) == 0.0);
+    CHECK(contact_time<2>(a(1e-9, 0.0), b, none, 1.0, kNoGravity) == 0.0);
+    CHECK(contact_time<2>(a(1e-14, 0.0), b, none, 1.0, kNoGravity) == 0.0);
     // Speeds are .76, so that 8 epsilon of both is 2.7e-15.
-    CHECK(contact_time<2>(a(1e-15, 0.0), b, none, 1.0) == kNever);
-    CHECK(contact_time<2>(a(0.0, 0.0), b, none, 1.0) == kNever);
-    CHECK(contact_time<2>(a(-1.0, 0.0), b, none, 1.0) == kNever);
+    CHECK(contact_time<2>(a(1e-15, 0.0), b, none, 1.0, kNoGravity) == kNever);
+    CHECK(contact_time<2>(a(0.0, 0.0), b, none, 1.0, kNoGravity) == kNever);
+    CHECK(contact_time<2>(a(-1.0, 0.0), b, none, 1.0, kNoGravity) == kNever);
   }
   // The later of the two flights' starts is "at once".
   const auto early = flight({0.0, 0.0}, {1.0, 0.0}, 2.0);
   const auto late = flight({4.0, 0.0}, {-1.0, 0.0}, 5.0);
-  CHECK(contact_time<2>(early, late, none, 1.0) == 5.0);
-  CHECK(contact_time<2>(late, early, none, 1.0) == 5.0);
+  CHECK(contact_time<2>(early, late, none, 1.0, kNoGravity) == 5.0);
+  CHECK(contact_time<2>(late, early, none, 1.0, kNoGravity) == 5.0);
 }
 
 TEST_CASE("contact: what a collision leaves is not another one") {
@@ -64,7 +66,7 @@ TEST_CASE("contact: what a collision leaves is not another one") {
       const Vec2 impulse = collision_impulse<2>(x, a.v - b.v, i % 2);
       a.v += impulse;
       b.v -= impulse;
-      return contact_time<2>(a, b, Vec2::Zero(), 1.0) == 0.0;
+      return contact_time<2>(a, b, Vec2::Zero(), 1.0, kNoGravity) == 0.0;
     };
     if (!collides_again()) continue;
     ++again;
@@ -84,8 +86,8 @@ TEST_CASE("contact: exchange symmetry holds for touching disks too") {
     const auto a = flight({random.uniform(), 1.0}, {random.normal(), random.normal()}, 0.25);
     auto b = flight(a.r - n * (1.0 - 1e-15) + shift, a.v, 0.25);
     b.v += n * (1e-15 * random.normal());
-    const double one = contact_time<2>(a, b, shift, 1.0);
-    different += one != contact_time<2>(b, a, -shift, 1.0);
+    const double one = contact_time<2>(a, b, shift, 1.0, kNoGravity);
+    different += one != contact_time<2>(b, a, -shift, 1.0, kNoGravity);
     at_once += one == 0.25;
   }
   CHECK(different == 0);
@@ -94,21 +96,21 @@ TEST_CASE("contact: exchange symmetry holds for touching disks too") {
 
 TEST_CASE("contact: a disk reaches a plane") {
   const auto right = flight({2.0, 3.0}, {0.5, -1.0}, 1.0);
-  CHECK(plane_contact_time<2>(right, 0, 9.5, -1.0) == 16.0);
-  CHECK(plane_contact_time<2>(right, 0, 0.5, 1.0) == kNever);
-  CHECK(plane_contact_time<2>(right, 1, 0.5, 1.0) == 3.5);
-  CHECK(plane_contact_time<2>(right, 1, 9.5, -1.0) == kNever);
+  CHECK(plane_contact_time<2>(right, 0, 9.5, -1.0, kNoGravity) == 16.0);
+  CHECK(plane_contact_time<2>(right, 0, 0.5, 1.0, kNoGravity) == kNever);
+  CHECK(plane_contact_time<2>(right, 1, 0.5, 1.0, kNoGravity) == 3.5);
+  CHECK(plane_contact_time<2>(right, 1, 9.5, -1.0, kNoGravity) == kNever);
 }
 
 TEST_CASE("contact: a disk at the wall hits it at once if it moves outwards") {
   for (const double beyond : {0.0, 1e-15}) {
-    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {-1e-300, 1.0}, 4.0), 0, 0.5, 1.0) ==
-          4.0);
-    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {0.0, 1.0}, 4.0), 0, 0.5, 1.0) ==
-          kNever);
-    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {-0.0, 1.0}, 4.0), 0, 0.5, 1.0) ==
-          kNever);
-    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {1.0, 1.0}, 4.0), 0, 0.5, 1.0) ==
-          kNever);
+    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {-1e-300, 1.0}, 4.0), 0, 0.5, 1.0,
+                                kNoGravity) == 4.0);
+    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {0.0, 1.0}, 4.0), 0, 0.5, 1.0,
+                                kNoGravity) == kNever);
+    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {-0.0, 1.0}, 4.0), 0, 0.5, 1.0,
+                                kNoGravity) == kNever);
+    CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {1.0, 1.0}, 4.0), 0, 0.5, 1.0,
+                                kNoGravity) == kNever);
   }
 }
