@@ -16,16 +16,24 @@ class Clock {
  public:
   /// A clock whose base lies at `start`.
   explicit Clock(double start = 0.0) : base_{start, 0.0} {}
+  /// A clock with this base.
+  explicit Clock(const LongTime& base) : base_(base) {}
 
   /// Moves the base by `shift`; event times become smaller by it.
   void advance(double shift);
 
+  /// Simulation time of the base.
+  const LongTime& base() const { return base_; }
   /// Simulation time of a time on the base.
   double absolute(double relative) const;
   /// A simulation time on the base; infinite times stay so.
   double relative(double absolute) const;
   /// start + count * interval on the base: the product is exact, however large the count.
   double relative(double start, std::uint64_t count, double interval) const;
+
+  /// The fractional part, in [0,1), of frequency * base + phase: the periods done at the base by
+  /// what has done `phase` at simulation time 0. The product is exact, however many they are.
+  double periods(double frequency, double phase) const;
 
  private:
   LongTime base_;

@@ -3,33 +3,48 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/physics/collision.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/spin.h"
 #include "engine/vec.h"
 
 namespace clatter {
 
-/// A collision of two disks. Index 0 and 1 are the partners, the lower number first.
+/// What one disk brings to an event and gains in it.
+template <int D>
+struct DiskChange {
+  std::uint32_t disk = 0;
+  Flight<D> before;                  ///< flight that ends here
+  Vec<D> position = Vec<D>::Zero();  ///< centre, in the frame of that flight
+  Vec<D> velocity = Vec<D>::Zero();  ///< just before
+  Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 where none are carried
+  Impulse<D> gain;                   ///< of momentum and of spin
+  double energy = 0.0;               ///< kinetic energy that it gains, of motion and of spin
+};
+
+/// A collision of two disks, the lower number first.
 template <int D>
 struct PairCollision {
   double time = 0.0;  ///< on the moving base
-  std::array<std::uint32_t, 2> disks{};
-  std::array<Flight<D>, 2> before;     ///< flights that end here
-  std::array<Vec<D>, 2> position;      ///< centres, in the frames of those flights
+  std::array<DiskChange<D>, 2> disks;
   Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 at the image that touches
-  Vec<D> impulse = Vec<D>::Zero();     ///< momentum that disk 0 gains, disk 1 loses
-  std::array<double, 2> energy{};      ///< kinetic energy that each gains
+  bool elasticised = false;            ///< whether the TC model took the dissipation away
+  double undissipated = 0.0;           ///< energy that it would have dissipated otherwise
 };
 
 /// A collision of a disk with a wall.
 template <int D>
 struct WallCollision {
   double time = 0.0;  ///< on the moving base
-  std::uint32_t disk = 0;
-  int side = 0;                      ///< the Side
-  Flight<D> before;                  ///< flight that ends here
-  Vec<D> position = Vec<D>::Zero();  ///< centre, in the frame of that flight
-  Vec<D> impulse = Vec<D>::Zero();   ///< momentum that the disk gains
-  double energy = 0.0;               ///< kinetic energy that the disk gains
+  int side = 0;       ///< the Side
+  DiskChange<D> disk;
+};
+
+/// Bulk driving's kick of one disk; all disks are kicked at the same time, one after the other.
+template <int D>
+struct Kick {
+  double time = 0.0;  ///< on the moving base
+  DiskChange<D> disk;
 };
 
 /// Something that watches the events of a run; it cannot change it. A disk's flights follow each
@@ -42,6 +57,8 @@ class Observer {
   virtual void on_collision(const PairCollision<D>&) {}
   /// A disk has hit a wall; likewise.
   virtual void on_wall(const WallCollision<D>&) {}
+  /// A disk has been kicked; likewise.
+  virtual void on_kick(const Kick<D>&) {}
   /// All times on the moving base have become smaller by `shift`.
   virtual void on_base_moved(double /*shift*/) {}
 };

@@ -5,11 +5,28 @@
 namespace clatter {
 
 template <int D>
+Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
+                          const LargeArray<Disk<D>>& disks, const CellGrid<D>& grid)
+    : model_(model),
+      boundary_(boundary),
+      disks_(disks),
+      grid_(grid),
+      gravity_((model.gravity.array() != 0.0).any() ? model.gravity.data() : nullptr) {
+  for (int side = 0; side < 2 * D; ++side) {
+    const double travel = boundary.innermost_travel(side);
+    if (travel == 0.0) continue;
+    // One cell more than the wall comes to, so that rounding at a border does not matter.
+    const double cells = (0.5 * model.diameter + travel) / grid.border(side / 2, 1);
+    reach_[side] = static_cast<int>(cells) + 1;
+  }
+}
+
+template <int D>
 void Prediction<D>::plan(std::uint32_t disk, double now, Plan<D>& plan) const {
   plan.contact = kNever;
   look_at_disks(disk, {}, plan);
   look_at_walls(disk, plan);
-  look_at_borders(disk, now, plan);
+  gravity_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
 }
 
 template <int D>
@@ -19,7 +36,7 @@ void Prediction<D>::plan_entered(std::uint32_t disk, double now, int axis, int s
   ahead.from[axis] = ahead.to[axis] = step;
   look_at_disks(disk, ahead, plan);
   look_at_walls(disk, plan);
-  look_at_borders(disk, now, plan);
+  gravity_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
 }
 
 // Whether the pair's image comes first where one pair touches through two images at once; the same
@@ -106,8 +123,9 @@ void Prediction<D>::weigh(std::uint32_t disk, const Neighbours<D>& near, int siz
   } else {
     gather<D, false>(disks_.data(), near, size, self.image, model_.box, candidates);
   }
-  const double first = contact_times<D>(self.flight.r.data(), self.flight.v.data(),
-                                        self.flight.time, model_.diameter, candidates, size);
+  const double first =
+      contact_times<D>(self.flight.r.data(), self.flight.v.data(), self.flight.time,
+                       model_.diameter, gravity_, candidates, size);
   if (first <= plan.contact && first < kNever) {
     // All that share the earliest time are compared; and all at all, where some touch already.
     const double last = first == kTouching ? kNever : first;
@@ -126,22 +144,20 @@ void Prediction<D>::offer_disk(std::uint32_t disk, const Neighbours<D>& near, in
   if (near.wrapped) image -= near.wraps[i];
   if (time == kTouching) {
     const Vec<D> shift = image.cwiseProduct(model_.box);
-    time = contact_time<D>(self.flight, other.flight, shift, model_.diameter);
+    time = contact_time<D>(self.flight, other.flight, shift, model_.diameter, model_.gravity);
   }
   offer(time, disk, near.disks[i], image.template cast<int>(), plan);
 }
 
 template <int D>
 void Prediction<D>::look_at_walls(std::uint32_t disk, Plan<D>& plan) const {
-  const Flight<D>& flight = disks_[disk].flight;
   for (int axis = 0; axis < D; ++axis) {
     if (model_.periodic(axis)) continue;
-    for (const int end : {0, 1}) {
-      if (plan.cell[axis] != (end ? grid_.counts()[axis] - 1 : 0)) continue;
-      const double time =
-          plane_contact_time<D>(flight, axis, model_.wall_plane(axis, end), end ? -1.0 : 1.0);
-      offer(time, disk, kWall + static_cast<std::uint32_t>(2 * axis + end), IntVec<D>::Zero(),
-            plan);
+    for (const int side : {2 * axis, 2 * axis + 1}) {
+      const int cells_off = side % 2 ? grid_.counts()[axis] - 1 - plan.cell[axis] : plan.cell[axis];
+      if (cells_off > reach_[side]) continue;
+      offer(boundary_.contact_time(side, disks_[disk].flight), disk,
+            kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }
   }
 }
@@ -166,6 +182,30 @@ void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& pla
   plan.crossing = first;
   plan.crossing_axis = static_cast<std::int8_t>(first_axis);
   plan.crossing_step = self.flight.v[first_axis] > 0.0 ? 1 : -1;
+}
+
+// A disk on a parabola may leave through the border by which it came. It is looked at from where it
+// is now: a crossing, unlike a contact, need not be a function of the stored state alone.
+template <int D>
+void Prediction<D>::look_at_borders_falling(std::uint32_t disk, double now, Plan<D>& plan) const {
+  const Disk<D>& self = disks_[disk];
+  const Vec<D> r = self.flight.at(now, model_.gravity);
+  const Vec<D> v = self.flight.velocity_at(now, model_.gravity);
+  plan.crossing = kNever;
+  for (int axis = 0; axis < D; ++axis) {
+    for (const int step : {-1, 1}) {
+      const int border = plan.cell[axis] + (step > 0);
+      const bool outer = border == 0 || border == grid_.counts()[axis];
+      if (outer && !model_.periodic(axis)) continue;
+      const double place = grid_.border(axis, border) + self.image[axis] * model_.box[axis];
+      const double time =
+          now + fall_time(step * (place - r[axis]), -step * v[axis], -step * model_.gravity[axis]);
+      if (time >= plan.crossing) continue;
+      plan.crossing = time;
+      plan.crossing_axis = static_cast<std::int8_t>(axis);
+      plan.crossing_step = static_cast<std::int8_t>(step);
+    }
+  }
 }
 
 template class Prediction<2>;

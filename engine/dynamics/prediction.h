@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "engine/dynamics/boundary.h"
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/event.h"
@@ -45,9 +47,9 @@ struct Neighbours {
 template <int D>
 class Prediction {
  public:
-  /// Looks at the model, the disks and the grid of a simulation, which outlive it.
-  Prediction(const Model<D>& model, const LargeArray<Disk<D>>& disks, const CellGrid<D>& grid)
-      : model_(model), disks_(disks), grid_(grid) {}
+  /// Looks at the model, the walls, the disks and the grid of a simulation, which outlive it.
+  Prediction(const Model<D>& model, const Boundary<D>& boundary, const LargeArray<Disk<D>>& disks,
+             const CellGrid<D>& grid);
 
   /// The first contact with any disk or wall about the disk's cell, and its way out of the cell.
   void plan(std::uint32_t disk, double now, Plan<D>& plan) const;
@@ -64,12 +66,16 @@ class Prediction {
                   Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, Plan<D>& plan) const;
   void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
+  void look_at_borders_falling(std::uint32_t disk, double now, Plan<D>& plan) const;
   void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
 
   const Model<D>& model_;
+  const Boundary<D>& boundary_;
   const LargeArray<Disk<D>>& disks_;
   const CellGrid<D>& grid_;
+  const double* gravity_;           // of the model; null: none
+  std::array<int, 2 * D> reach_{};  // cells from the side's edge in which its wall can be touched
 };
 
 extern template class Prediction<2>;

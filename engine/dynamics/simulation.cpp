@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "engine/dynamics/fetch.h"
+#include "engine/dynamics/outcome.h"
+#include "engine/dynamics/standstill.h"
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
-#include "engine/physics/collision.h"
 #include "engine/physics/random.h"
-#include "engine/physics/walls.h"
 
 namespace clatter {
 
@@ -36,18 +36,59 @@ static Vec<D> boxes_off(const Model<D>& model, const Vec<D>& position) {
   return boxes;
 }
 
+// Whether collisions can take energy from the gas, or walls give it ever more: where time may come
+// to a standstill.
+template <int D>
+static bool may_stand_still(const Model<D>& model) {
+  bool may = model.restitution < 1.0 || model.roughness.any();
+  for (const auto& wall : model.walls) {
+    may = may || (wall && (wall->restitution != 1.0 || wall->roughness.any()));
+  }
+  return may;
+}
+
+template <int D>
+static Saved<D> fresh(const State<D>& state, double start_time) {
+  Saved<D> saved;
+  saved.base = {start_time, 0.0};
+  saved.kick_origin = start_time;
+  saved.until_base_moves = std::max<std::uint64_t>(kLeastEventsPerBase, state.positions.size());
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
+  }
+  saved.spins = state.spins;
+  return saved;
+}
+
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, const State<D>& state, double start_time)
+    : Simulation(model, fresh<D>(state, start_time)) {}
+
+template <int D>
+Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
     : model_(model),
-      clock_(start_time),
-      disks_(state.positions.size()),
+      clock_(saved.base),
+      boundary_(model_, clock_),
+      now_(saved.now),
+      disks_(saved.flights.size()),
+      spins_(saved.spins.begin(), saved.spins.end()),
+      last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
       plans_(disks_.size()),
       grid_(model_, disks_.size()),
-      prediction_(model_, disks_, grid_),
-      until_base_moves_(std::max<std::uint64_t>(kLeastEventsPerBase, disks_.size())) {
+      prediction_(model_, boundary_, disks_, grid_),
+      until_base_moves_(saved.until_base_moves),
+      kick_origin_(saved.kick_origin),
+      kicks_since_origin_(saved.kicks_since_origin),
+      counts_(saved.counts),
+      checks_(saved.checks) {
+  spins_.resize(model_.spins ? disks_.size() : 0, Spin<D>::Zero());
+  last_collisions_.resize(model_.contact_time ? disks_.size() : 0, -kNever);
+  if (may_stand_still(model_)) watchdog_.emplace(disks_.size(), now_);
   for (std::size_t i = 0; i < disks_.size(); ++i) {
-    disks_[i].flight = {state.positions[i], state.velocities[i], 0.0, 0};
-    plans_[i].cell = grid_.cell_at(state.positions[i]);
+    disks_[i].flight = saved.flights[i];
+    const Vec<D> r = saved.flights[i].at(now_, model_.gravity);
+    disks_[i].image = boxes_off<D>(model_, r);
+    plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
     grid_.insert(static_cast<std::uint32_t>(i), plans_[i].cell);
   }
   if (const double overlap = deepest_overlap(); overlap > kStartRounding) {
@@ -75,10 +116,13 @@ template <int D>
 void Simulation<D>::move_base() {
   const double shift = now_;
   for (Disk<D>& disk : disks_) disk.flight.time -= shift;
+  for (double& time : last_collisions_) time -= shift;
   clock_.advance(shift);
+  boundary_.move_base(clock_);
   now_ = 0.0;
   until_base_moves_ = std::max<std::uint64_t>(kLeastEventsPerBase, kEventsPerBase * disks_.size());
   plan_all();
+  if (watchdog_) watchdog_->on_base_moved(shift);
   for (Observer<D>* observer : observers_) observer->on_base_moved(shift);
 }
 
@@ -101,7 +145,12 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     const Event event = *next;
     queue_.pop();
     if (fetch && queue_.bucket() != fetched_bucket_) fetch_ahead();
+    const std::uint64_t before = counts_.collisions();
     process(event);
+    if (watchdog_ && counts_.collisions() != before &&
+        watchdog_->sees_standstill(now_, event.disk, event.partner)) {
+      stop_at_standstill();
+    }
     if (until_base_moves_ == 0) {
       move_base();
       return Halt::BaseMoved;
@@ -115,20 +164,29 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions) {
   for (;;) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);
-    const double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
+    double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
+    const double kick_time = next_kick();
+    const bool kicks = kick_time < kNever && kick_time <= stop;
+    if (kicks) stop = kick_time;
     const Halt halt = advance(stop, collisions);
     if (halt == Halt::BaseMoved) continue;
     if (halt == Halt::Collisions) return false;
     if (stop == kNever) return true;
     now_ = std::max(now_, stop);
-    if (!timer) return true;
-    fire(*timer);
+    if (kicks) {
+      kick();
+    } else if (timer) {
+      fire(*timer);
+    } else {
+      return true;
+    }
   }
 }
 
 template <int D>
-void Simulation<D>::every(double start, double interval, std::function<void(double)> action) {
-  timers_.push_back({start, interval, 0, std::move(action)});
+void Simulation<D>::every(double start, double interval, std::function<void(double)> action,
+                          std::uint64_t done) {
+  timers_.push_back({start, interval, done, std::move(action)});
 }
 
 template <int D>
@@ -193,27 +251,72 @@ void Simulation<D>::renew_flight(Disk<D>& disk, const Vec<D>& position, const Ve
 }
 
 template <int D>
+Spin<D> Simulation<D>::spin(std::uint32_t number) const {
+  return spins_.empty() ? Spin<D>(Spin<D>::Zero()) : spins_[number];
+}
+
+template <int D>
+void Simulation<D>::add_spin(std::uint32_t number, const Spin<D>& gain) {
+  if (!spins_.empty()) spins_[number] += gain;
+}
+
+template <int D>
+bool Simulation<D>::within_contact_time(std::uint32_t number) const {
+  return !last_collisions_.empty() && now_ - last_collisions_[number] < *model_.contact_time;
+}
+
+// What observers are told of one disk.
+template <int D>
+DiskChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
+                                       const Vec<D>& velocity, const Impulse<D>& gain) const {
+  const double half_inertia = 0.125 * model_.inertia * model_.diameter * model_.diameter;
+  const Spin<D> w = spin(number);
+  DiskChange<D> change{number, disks_[number].flight, position, velocity, w, gain};
+  // Without the rounding of a difference of two squares.
+  change.energy = 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
+                  half_inertia * gain.spin.dot(gain.spin + 2.0 * w);
+  return change;
+}
+
+template <int D>
 void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   Disk<D>& a = disks_[first];
   Disk<D>& b = disks_[second];
   const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
-  const Vec<D> r_a = a.flight.at(now_);
-  const Vec<D> r_b = b.flight.at(now_);
+  const Vec<D> r_a = a.flight.at(now_, model_.gravity);
+  const Vec<D> r_b = b.flight.at(now_, model_.gravity);
+  const Vec<D> v_a = a.flight.velocity_at(now_, model_.gravity);
+  const Vec<D> v_b = b.flight.velocity_at(now_, model_.gravity);
   const Vec<D> x = (r_a - r_b) + shift;
-  const Vec<D> g = a.flight.v - b.flight.v;
+  const Vec<D> g = v_a - v_b;
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
   // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
   // event counts, so that it is not predicted again from the same states.
-  Vec<D> impulse = Vec<D>::Zero();
-  if (x.dot(g) < 0.0) impulse = collision_impulse<D>(x, g, model_.restitution);
-  const Vec<D> v_a = a.flight.v + impulse;
-  const Vec<D> v_b = b.flight.v - impulse;
-  if (!observers_.empty()) {
-    report_collision({first, second}, {r_a, r_b}, x, impulse, {v_a, v_b});
+  PairOutcome<D> outcome;
+  if (x.dot(g) < 0.0) {
+    const bool elastic = within_contact_time(first) || within_contact_time(second);
+    outcome = pair_outcome<D>(model_, x, g, spin(first) + spin(second), elastic);
   }
-  renew_flight(a, r_a, v_a);
-  renew_flight(b, r_b, v_b);
+  const Impulse<D>& gain = outcome.gain;
+  const Impulse<D> loss{-gain.momentum, gain.spin};
+  if (!observers_.empty()) {
+    const bool swap = second < first;
+    PairCollision<D> collision{
+        now_,
+        {change_of(first, r_a, v_a, gain), change_of(second, r_b, v_b, loss)},
+        swap ? Vec<D>(-x) : x,
+        outcome.elasticised,
+        outcome.undissipated};
+    if (swap) std::swap(collision.disks[0], collision.disks[1]);
+    for (Observer<D>* observer : observers_) observer->on_collision(collision);
+  }
+  renew_flight(a, r_a, v_a + gain.momentum);
+  renew_flight(b, r_b, v_b - gain.momentum);
+  add_spin(first, gain.spin);
+  add_spin(second, gain.spin);
   ++counts_.disk_disk;
+  counts_.elasticised += outcome.elasticised;
+  if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
   --until_base_moves_;
   prediction_.plan(first, now_, plans_[first]);
   schedule(first);
@@ -221,63 +324,92 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   schedule(second);
 }
 
-// What a change of velocity from v to w adds to the kinetic energy, without the rounding of the
-// difference of two squares.
-template <int D>
-static double energy_gain(const Vec<D>& v, const Vec<D>& w) {
-  return 0.5 * (w - v).dot(w + v);
-}
-
-template <int D>
-void Simulation<D>::report_collision(std::array<std::uint32_t, 2> disks,
-                                     std::array<Vec<D>, 2> position, const Vec<D>& separation,
-                                     const Vec<D>& impulse, std::array<Vec<D>, 2> velocity) const {
-  const int low = disks[0] < disks[1] ? 0 : 1;
-  PairCollision<D> collision;
-  collision.time = now_;
-  collision.separation = low == 0 ? separation : Vec<D>(-separation);
-  collision.impulse = low == 0 ? impulse : Vec<D>(-impulse);
-  for (const int k : {0, 1}) {
-    const int from = k ^ low;
-    collision.disks[k] = disks[from];
-    collision.before[k] = disks_[disks[from]].flight;
-    collision.position[k] = position[from];
-    collision.energy[k] = energy_gain<D>(collision.before[k].v, velocity[from]);
-  }
-  for (Observer<D>* observer : observers_) observer->on_collision(collision);
-}
-
-template <int D>
-Vec<D> Simulation<D>::velocity_after_wall(std::uint32_t number, int side) const {
-  const Disk<D>& disk = disks_[number];
-  const Wall& wall = *model_.walls[side];
-  const int axis = side / 2;
-  const double inward = side % 2 ? -1.0 : 1.0;
-  if (wall.kind != WallKind::Thermal) {
-    return reflect<D>(disk.flight.v, axis, inward, wall.restitution, wall.drive_speed);
-  }
-  Random random(model_.seed, Stream::ThermalWall, number, disk.flight.number);
-  const double uniform = random.uniform();
-  std::array<double, D - 1> normals;
-  for (double& normal : normals) normal = random.normal();
-  return emit<D>(axis, inward, wall.temperature, uniform, normals.data());
-}
-
 template <int D>
 void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   Disk<D>& disk = disks_[number];
-  const Vec<D> r = disk.flight.at(now_);
-  const Vec<D> v = velocity_after_wall(number, side);
+  const int axis = side / 2;
+  Vec<D> r = disk.flight.at(now_, model_.gravity);
+  const Vec<D> v = disk.flight.velocity_at(now_, model_.gravity);
+  // A disk that touches a wall lies where the wall is to the last bit, so that a grain which comes
+  // to rest there does not sink by rounding.
+  const double place = boundary_.touching_place(side, now_);
+  const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
+  checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
+  r[axis] = place;
+  const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
+  const Departure<D> departure =
+      wall_outcome<D>(model_, side, boundary_.wall(side, now_),
+                      {v, spin(number), number, disk.flight.number}, elastic);
+  const Spin<D> spin_gain = departure.spin - spin(number);
   if (!observers_.empty()) {
-    const WallCollision<D> collision{
-        now_, number, side, disk.flight, r, v - disk.flight.v, energy_gain<D>(disk.flight.v, v)};
+    const WallCollision<D> collision{now_, side,
+                                     change_of(number, r, v, {departure.velocity - v, spin_gain})};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
-  renew_flight(disk, r, v);
+  renew_flight(disk, r, departure.velocity);
+  add_spin(number, spin_gain);
   ++counts_.disk_wall;
+  counts_.elasticised_wall += elastic;
+  if (!last_collisions_.empty()) last_collisions_[number] = now_;
   --until_base_moves_;
   prediction_.plan(number, now_, plans_[number]);
   schedule(number);
+}
+
+template <int D>
+double Simulation<D>::next_kick() const {
+  if (!model_.bulk_drive) return kNever;
+  return clock_.relative(kick_origin_, kicks_since_origin_ + 1, model_.bulk_drive->interval);
+}
+
+template <int D>
+void Simulation<D>::kick() {
+  const auto count = static_cast<std::uint32_t>(disks_.size());
+  const auto kick_number = static_cast<std::uint32_t>(counts_.kicks);
+  std::vector<Impulse<D>> gains(count);
+  Vec<D> mean = Vec<D>::Zero();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Random random(model_.seed, Stream::Kick, i, kick_number);
+    for (double& p : gains[i].momentum) p = model_.bulk_drive->kick_speed * random.normal();
+    if (model_.spins) {
+      for (double& w : gains[i].spin) w = model_.bulk_drive->kick_spin * random.normal();
+    }
+    mean += gains[i].momentum / count;
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    gains[i].momentum -= mean;
+    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
+    const Vec<D> v = disks_[i].flight.velocity_at(now_, model_.gravity);
+    const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
+    for (Observer<D>* observer : observers_) observer->on_kick(kick);
+    renew_flight(disks_[i], r, v + gains[i].momentum);
+    add_spin(i, gains[i].spin);
+  }
+  ++counts_.kicks;
+  ++kicks_since_origin_;
+  move_base();
+}
+
+template <int D>
+void Simulation<D>::stop_at_standstill() const {
+  throw PhysicalStop(standstill_message<D>(model_, *watchdog_, time(),
+                                           kinetic_energy() / static_cast<double>(disks_.size())));
+}
+
+template <int D>
+Saved<D> Simulation<D>::save() const {
+  Saved<D> saved;
+  saved.base = clock_.base();
+  saved.now = now_;
+  for (const Disk<D>& disk : disks_) saved.flights.push_back(disk.flight);
+  saved.spins.assign(spins_.begin(), spins_.end());
+  saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
+  saved.until_base_moves = until_base_moves_;
+  saved.kick_origin = kick_origin_;
+  saved.kicks_since_origin = kicks_since_origin_;
+  saved.counts = counts_;
+  saved.checks = checks_;
+  return saved;
 }
 
 template <int D>
@@ -286,15 +418,16 @@ State<D> Simulation<D>::state() const {
   state.positions.reserve(disks_.size());
   state.velocities.reserve(disks_.size());
   for (const Disk<D>& disk : disks_) {
-    Vec<D> r = disk.flight.at(now_);
+    Vec<D> r = disk.flight.at(now_, model_.gravity);
     r -= boxes_off<D>(model_, r).cwiseProduct(model_.box);
     for (int axis = 0; axis < D; ++axis) {
       // What lies a rounding error below 0 comes out at the far end, which is 0 again.
       if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
     }
     state.positions.push_back(r);
-    state.velocities.push_back(disk.flight.v);
+    state.velocities.push_back(disk.flight.velocity_at(now_, model_.gravity));
   }
+  state.spins.assign(spins_.begin(), spins_.end());
   return state;
 }
 
@@ -306,29 +439,39 @@ std::uint64_t Simulation<D>::state_hash() const {
 template <int D>
 double Simulation<D>::kinetic_energy() const {
   double twice = 0.0;
-  for (const Disk<D>& disk : disks_) twice += disk.flight.v.squaredNorm();
+  for (const Disk<D>& disk : disks_) {
+    twice += disk.flight.velocity_at(now_, model_.gravity).squaredNorm();
+  }
   return 0.5 * twice;
+}
+
+template <int D>
+double Simulation<D>::spin_energy() const {
+  double squares = 0.0;
+  for (const Spin<D>& spin : spins_) squares += spin.squaredNorm();
+  return 0.125 * model_.inertia * model_.diameter * model_.diameter * squares;
 }
 
 template <int D>
 double Simulation<D>::deepest_overlap() const {
   double deepest = 0.0;
   for (std::uint32_t i = 0; i < disks_.size(); ++i) {
-    const Vec<D> r = disks_[i].flight.at(now_);
+    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
     grid_.visit(plans_[i].cell, {}, [&](const auto& line, const Vec<D>* wrap) {
       for (std::uint32_t k = 0; k < line.count; ++k) {
         const std::uint32_t j = line.disks[k];
         if (j <= i) continue;
         Vec<D> image = disks_[j].image - disks_[i].image;
         if (wrap) image -= *wrap;
-        const Vec<D> x = r - disks_[j].flight.at(now_) + image.cwiseProduct(model_.box);
+        const Vec<D> x =
+            r - disks_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
         deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
       }
     });
-    for (int axis = 0; axis < D; ++axis) {
-      if (model_.periodic(axis)) continue;
-      const double beyond =
-          std::max(model_.wall_plane(axis, 0) - r[axis], r[axis] - model_.wall_plane(axis, 1));
+    for (int side = 0; side < 2 * D; ++side) {
+      if (!model_.walls[side]) continue;
+      const double place = boundary_.touching_place(side, now_);
+      const double beyond = Boundary<D>::inward(side) * (place - r[side / 2]);
       deepest = std::max(deepest, beyond / model_.diameter);
     }
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/dynamics/boundary.h"
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/disk.h"
@@ -13,27 +14,10 @@
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/prediction.h"
+#include "engine/dynamics/saved.h"
+#include "engine/dynamics/watchdog.h"
 
 namespace clatter {
-
-/// How many events of each kind have happened.
-struct EventCounts {
-  std::uint64_t disk_disk = 0;
-  std::uint64_t disk_wall = 0;
-  std::uint64_t cell_crossings = 0;
-  std::uint64_t stale = 0;  ///< predictions found out of date because the partner met another first
-
-  /// Collisions with disks and with walls.
-  std::uint64_t collisions() const { return disk_disk + disk_wall; }
-};
-
-/// What a run checks of itself at every event.
-struct RunChecks {
-  double deepest_overlap = 0.0;  ///< of colliding disks at contact, as a share of the diameter
-  /// Largest time by which an event came before the one processed last: 0 but for the rounding with
-  /// which a move of the base may exchange events that coincide.
-  double clock_steps_back = 0.0;
-};
 
 /// Disks in a box, moved from collision to collision. A disk's stored state changes only in its own
 /// physical events, and every contact time is a function of two stored states; so the same model
@@ -44,17 +28,25 @@ class Simulation {
   /// Starts at simulation time `start_time`. Throws PhysicalStop where disks of the state overlap
   /// each other or a wall.
   Simulation(const Model<D>& model, const State<D>& state, double start_time = 0.0);
+  /// Goes on from where a run was saved, under the model's laws: bit for bit as that run would
+  /// have, if they are the same.
+  Simulation(const Model<D>& model, const Saved<D>& saved);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   /// Processes every event up to and at a simulation time, timers included, and returns true; or
   /// halts before, right after the collision, once `collisions` with disks and walls have happened
-  /// since the start, and returns false.
+  /// since the start, and returns false. Throws PhysicalStop where time stands still, or speeds
+  /// diverge; the state is then sound, that of the last collision.
   bool run_until(double time, std::uint64_t collisions = kNoLimit);
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... once run_until() gets
-  /// there, after the physical events of the same time. interval = 0: once.
-  void every(double start, double interval, std::function<void(double)> action);
+  /// there, after the physical events of the same time, kicks included. interval = 0: once. A run
+  /// that goes on leaves out the first `done` times.
+  void every(double start, double interval, std::function<void(double)> action,
+             std::uint64_t done = 0);
+  /// All that the run's future depends on, beside the model and the timers.
+  Saved<D> save() const;
   /// Tells an observer, which outlives the simulation, of every event from now on.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
 
@@ -66,8 +58,12 @@ class Simulation {
   State<D> state() const;
   /// Hash of state(), in original order: equal for equal runs.
   std::uint64_t state_hash() const;
-  /// Kinetic energy of all disks.
+  /// Kinetic energy of all disks' centres at time().
   double kinetic_energy() const;
+  /// Kinetic energy of all spins, sum of I omega^2 / 2.
+  double spin_energy() const;
+  /// Where a wall is at time(), relative to its resting place, along its inward normal.
+  WallState wall(int side) const { return boundary_.wall(side, now_); }
   /// Deepest overlap of any two disks or of a disk and a wall at time(), as a share of the
   /// diameter; 0: none. Looks at all of them.
   double deepest_overlap() const;
@@ -76,6 +72,8 @@ class Simulation {
   const Model<D>& model() const { return model_; }
   /// [N] stored states, in original order; each since the disk's last physical event.
   const LargeArray<Disk<D>>& disks() const { return disks_; }
+  /// [N] angular velocities, in original order; empty where the model carries none.
+  const LargeArray<Spin<D>>& spins() const { return spins_; }
   /// Events since the start.
   const EventCounts& counts() const { return counts_; }
   /// What the run has checked of itself since the start.
@@ -101,29 +99,40 @@ class Simulation {
   void process(const Event& event);
   void collide(std::uint32_t first, std::uint32_t second);
   void hit_wall(std::uint32_t number, int side);
+  void kick();
+  double next_kick() const;
+  bool within_contact_time(std::uint32_t number) const;
+  void count_collision(std::uint32_t disk, std::uint32_t partner);
+  [[noreturn]] void stop_at_standstill() const;
   void enter_next_cell(std::uint32_t number);
   void renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity);
   void schedule(std::uint32_t disk);
   void plan_all();
   void move_base();
   void fetch_ahead();
-  void report_collision(std::array<std::uint32_t, 2> disks, std::array<Vec<D>, 2> position,
-                        const Vec<D>& separation, const Vec<D>& impulse,
-                        std::array<Vec<D>, 2> velocity) const;
-  Vec<D> velocity_after_wall(std::uint32_t number, int side) const;
+  Spin<D> spin(std::uint32_t number) const;
+  DiskChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
+                          const Impulse<D>& gain) const;
+  void add_spin(std::uint32_t number, const Spin<D>& gain);
 
   Model<D> model_;
   Clock clock_;
+  Boundary<D> boundary_;
   double now_ = 0.0;  // on the clock's base
   LargeArray<Disk<D>> disks_;
+  LargeArray<Spin<D>> spins_;           // [N], or empty
+  LargeArray<double> last_collisions_;  // [N] times on the base, where there is a t_c; else empty
   LargeArray<Plan<D>> plans_;
   CellGrid<D> grid_;
   Prediction<D> prediction_;
   EventQueue queue_;
-  std::uint64_t until_base_moves_;  // physical events left
+  std::uint64_t until_base_moves_;    // physical events left
+  std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
   std::uint64_t fetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
   std::deque<Timer> timers_;  // stay where they are while an action adds others
+  double kick_origin_;        // simulation time from which kicks are counted
+  std::uint64_t kicks_since_origin_;
   EventCounts counts_;
   RunChecks checks_;
 };

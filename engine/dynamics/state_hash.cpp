@@ -20,6 +20,9 @@ std::uint64_t state_hash(const State<D>& state) {
       for (int k = 0; k < D; ++k) hash = mix(hash, vector[k]);
     }
   }
+  for (const Spin<D>& spin : state.spins) {
+    for (const double component : spin) hash = mix(hash, component);
+  }
   return hash;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/physics/fall_time.h"
+
 namespace clatter {
 
 template <int D>
@@ -25,51 +27,75 @@ CellIntegrals<D>::CellIntegrals(const Simulation<D>& simulation, const IntVec<D>
 // folded back into the box; along walled ones the edge cells take what lies beyond.
 template <int D>
 void CellIntegrals<D>::add_flight(const Flight<D>& flight, double end) {
+  const Vec<D>& gravity = simulation_.model().gravity;
   double time = std::max(flight.time, window_start_);
   if (!(end > time)) return;
-  const Vec<D>& v = flight.v;
-  const Vec<D> v_squared = v.cwiseAbs2();
-  const Vec<D> from = flight.at(time);
-  std::array<double, D> next;  // time of the next border along each axis
   std::array<long, D> cell;
-  const auto border_time = [&](int axis) {
-    const long border = cell[axis] + (v[axis] > 0.0);
-    return flight.time + (static_cast<double>(border) * widths_[axis] - flight.r[axis]) / v[axis];
-  };
+  const Vec<D> from = flight.at(time, gravity);
   for (int axis = 0; axis < D; ++axis) {
     cell[axis] = static_cast<long>(std::floor(from[axis] / widths_[axis]));
-    next[axis] = v[axis] == 0.0 ? kNever : border_time(axis);
   }
-  for (;;) {
-    const int axis = static_cast<int>(std::min_element(next.begin(), next.end()) - next.begin());
-    const double until = std::min(std::max(next[axis], time), end);
-    std::size_t index = 0;
-    for (int k = D - 1; k >= 0; --k) {
-      const long n = cells_[k];
-      const long folded = simulation_.model().periodic(k) ? ((cell[k] % n) + n) % n
-                                                          : std::clamp(cell[k], 0L, n - 1);
-      index = index * static_cast<std::size_t>(n) + static_cast<std::size_t>(folded);
-    }
+  while (time < end) {
+    const Crossing next = next_crossing(flight, cell, time);
+    const double until = std::min(next.time, end);
     const double spent = until - time;
-    CellMoments<D>& moments = moments_[index];
+    const Vec<D> v = flight.velocity_at(time, gravity);
+    CellMoments<D>& moments = moments_[index_of(cell)];
     moments.count += spent;
-    moments.velocity += v * spent;
-    moments.velocity_squared += v_squared * spent;
-    if (next[axis] >= end) return;
+    moments.velocity += spent * (v + 0.5 * spent * gravity);
+    moments.velocity_squared +=
+        spent *
+        (v.cwiseAbs2() + spent * (v.cwiseProduct(gravity) + spent / 3.0 * gravity.cwiseAbs2()));
     time = until;
-    cell[axis] += v[axis] > 0.0 ? 1 : -1;
-    next[axis] = border_time(axis);
+    cell[next.axis] += next.step;
   }
+}
+
+// Along each axis a straight flight has one border ahead, a parabola may return to the one behind.
+template <int D>
+typename CellIntegrals<D>::Crossing CellIntegrals<D>::next_crossing(const Flight<D>& flight,
+                                                                    const std::array<long, D>& cell,
+                                                                    double time) const {
+  const Vec<D>& gravity = simulation_.model().gravity;
+  const Vec<D> r = flight.at(time, gravity);
+  const Vec<D> v = flight.velocity_at(time, gravity);
+  Crossing next;
+  for (int axis = 0; axis < D; ++axis) {
+    for (const int step : {-1, 1}) {
+      const double border = static_cast<double>(cell[axis] + (step > 0)) * widths_[axis];
+      const double crossing =
+          time + fall_time(step * (border - r[axis]), -step * v[axis], -step * gravity[axis]);
+      if (crossing < next.time) next = {crossing, axis, step};
+    }
+  }
+  return next;
+}
+
+template <int D>
+std::size_t CellIntegrals<D>::index_of(const std::array<long, D>& cell) const {
+  std::size_t index = 0;
+  for (int k = D - 1; k >= 0; --k) {
+    const long n = cells_[k];
+    const long folded =
+        simulation_.model().periodic(k) ? ((cell[k] % n) + n) % n : std::clamp(cell[k], 0L, n - 1);
+    index = index * static_cast<std::size_t>(n) + static_cast<std::size_t>(folded);
+  }
+  return index;
 }
 
 template <int D>
 void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
-  for (const Flight<D>& flight : collision.before) add_flight(flight, collision.time);
+  for (const DiskChange<D>& disk : collision.disks) add_flight(disk.before, collision.time);
 }
 
 template <int D>
 void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
-  add_flight(collision.before, collision.time);
+  add_flight(collision.disk.before, collision.time);
+}
+
+template <int D>
+void CellIntegrals<D>::on_kick(const Kick<D>& kick) {
+  add_flight(kick.disk.before, kick.time);
 }
 
 template <int D>

@@ -29,6 +29,7 @@ class CellIntegrals : public Observer<D> {
 
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
+  void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
   /// The integrals since the last call, or since the start; cell (i, j) at index i + j cells.x().
@@ -38,6 +39,16 @@ class CellIntegrals : public Observer<D> {
   const IntVec<D>& cells() const { return cells_; }
 
  private:
+  /// A flight's way out of a cell.
+  struct Crossing {
+    double time = kNever;
+    int axis = 0;
+    int step = 0;  // +1 or -1
+  };
+
+  Crossing next_crossing(const Flight<D>& flight, const std::array<long, D>& cell,
+                         double time) const;
+  std::size_t index_of(const std::array<long, D>& cell) const;
   void add_flight(const Flight<D>& flight, double end);
 
   const Simulation<D>& simulation_;

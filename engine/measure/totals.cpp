@@ -4,52 +4,97 @@
 
 namespace clatter {
 
+// Kinetic energy that the disks had at the start of their flights: it changes by events only, the
+// work of gravity on a flight being booked when that ends.
 template <int D>
-static Vec<D> sum_of_squares(const Simulation<D>& simulation) {
-  Vec<D> sum = Vec<D>::Zero();
-  for (const Disk<D>& disk : simulation.disks()) sum += disk.flight.v.cwiseAbs2();
-  return sum;
+static double energy_of_starts(const Simulation<D>& simulation) {
+  double twice = 0.0;
+  for (const Disk<D>& disk : simulation.disks()) twice += disk.flight.v.squaredNorm();
+  return 0.5 * twice + simulation.spin_energy();
 }
 
 template <int D>
 Totals<D>::Totals(const Simulation<D>& simulation)
     : simulation_(simulation),
-      energy_at_start_(simulation.kinetic_energy()),
-      squares_(sum_of_squares(simulation)),
+      energy_at_start_(energy_of_starts(simulation)),
       integrated_to_(simulation.base_time()),
-      window_start_(integrated_to_) {}
+      window_start_(integrated_to_) {
+  take_stock();
+}
 
 template <int D>
+void Totals<D>::take_stock() {
+  squares_.setZero();
+  momentum_.setZero();
+  spin_squares_ = 0.0;
+  for (const Disk<D>& disk : simulation_.disks()) {
+    const Vec<D> v = disk.flight.velocity_at(integrated_to_, simulation_.model().gravity);
+    squares_ += v.cwiseAbs2();
+    momentum_ += v;
+  }
+  for (const Spin<D>& spin : simulation_.spins()) spin_squares_ += spin.squaredNorm();
+}
+
+// Between events sum v_k^2 is a parabola in time, for all disks share the acceleration.
+template <int D>
 void Totals<D>::integrate_to(double time) {
-  integral_ += squares_ * (time - integrated_to_);
+  const double dt = time - integrated_to_;
+  const double count = static_cast<double>(simulation_.disks().size());
+  const Vec<D>& gravity = simulation_.model().gravity;
+  const Vec<D> slope = gravity.cwiseProduct(momentum_);
+  const Vec<D> curvature = count * gravity.cwiseAbs2();
+  integral_ += dt * (squares_ + dt * (slope + dt / 3.0 * curvature));
+  squares_ += dt * (2.0 * slope + dt * curvature);
+  momentum_ += dt * count * gravity;
+  spin_integral_ += dt * spin_squares_;
   integrated_to_ = time;
 }
 
 template <int D>
-void Totals<D>::change(const Vec<D>& before, const Vec<D>& after, double time) {
+void Totals<D>::book(double gained) {
+  booked_ += gained;
+  booked_sizes_ += std::fabs(gained);
+}
+
+// An event ends the disk's flight and changes its velocity and spin.
+template <int D>
+void Totals<D>::change(const DiskChange<D>& disk, double time) {
   integrate_to(time);
-  squares_ += (after - before).cwiseProduct(after + before);
+  const Impulse<D>& gain = disk.gain;
+  squares_ += gain.momentum.cwiseProduct(gain.momentum + 2.0 * disk.velocity);
+  momentum_ += gain.momentum;
+  spin_squares_ += gain.spin.dot(gain.spin + 2.0 * disk.spin);
+  const double work = simulation_.model().gravity.dot(disk.position - disk.before.r);
+  window_.gravity_in += work;
+  book(work);
 }
 
 template <int D>
 void Totals<D>::on_collision(const PairCollision<D>& collision) {
-  change(collision.before[0].v, collision.before[0].v + collision.impulse, collision.time);
-  change(collision.before[1].v, collision.before[1].v - collision.impulse, collision.time);
-  const double gained = collision.energy[0] + collision.energy[1];
-  booked_ += gained;
-  booked_sizes_ += std::fabs(gained);
+  for (const DiskChange<D>& disk : collision.disks) change(disk, collision.time);
   window_.collisions += 1.0;
+  window_.elasticised += collision.elasticised;
+  const double gained = collision.disks[0].energy + collision.disks[1].energy;
+  book(gained);
   window_.dissipated -= gained;
-  window_.virial += collision.impulse.dot(collision.separation);
+  window_.undissipated += collision.undissipated;
+  window_.virial += collision.disks[0].gain.momentum.dot(collision.separation);
 }
 
 template <int D>
 void Totals<D>::on_wall(const WallCollision<D>& collision) {
-  change(collision.before.v, collision.before.v + collision.impulse, collision.time);
-  booked_ += collision.energy;
-  booked_sizes_ += std::fabs(collision.energy);
-  window_.walls_in += collision.energy;
-  window_.wall_impulse[collision.side] += std::fabs(collision.impulse[collision.side / 2]);
+  change(collision.disk, collision.time);
+  book(collision.disk.energy);
+  window_.walls_in += collision.disk.energy;
+  window_.wall_impulse[collision.side] +=
+      std::fabs(collision.disk.gain.momentum[collision.side / 2]);
+}
+
+template <int D>
+void Totals<D>::on_kick(const Kick<D>& kick) {
+  change(kick.disk, kick.time);
+  book(kick.disk.energy);
+  window_.bulk_in += kick.disk.energy;
 }
 
 template <int D>
@@ -60,29 +105,34 @@ void Totals<D>::on_base_moved(double shift) {
 
 template <int D>
 WindowTotals<D> Totals<D>::close_window() {
+  const Model<D>& model = simulation_.model();
   const double now = simulation_.base_time();
   integrate_to(now);
   const double count = static_cast<double>(simulation_.disks().size());
   window_.duration = now - window_start_;
   for (const Disk<D>& disk : simulation_.disks()) {
-    const Vec<D> squares = disk.flight.v.cwiseAbs2();
+    const Vec<D> squares = disk.flight.velocity_at(now, model.gravity).cwiseAbs2();
     window_.second_moment += squares / count;
     window_.fourth_moment += squares.cwiseAbs2() / count;
   }
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
+    const double inertia = 0.25 * model.inertia * model.diameter * model.diameter;
+    constexpr int kComponents = Spin<D>::SizeAtCompileTime;
+    window_.spin_temperature = inertia * spin_integral_ / (window_.duration * count * kComponents);
   }
   const WindowTotals<D> closed = window_;
   window_ = {};
   integral_.setZero();
-  squares_ = sum_of_squares(simulation_);  // sheds the rounding of the increments
+  spin_integral_ = 0.0;
+  take_stock();  // sheds the rounding of the increments
   window_start_ = now;
   return closed;
 }
 
 template <int D>
 double Totals<D>::ledger_residual() const {
-  const double energy = simulation_.kinetic_energy();
+  const double energy = energy_of_starts(simulation_);
   const double scale = energy + booked_sizes_;
   return scale > 0.0 ? std::fabs(energy - energy_at_start_ - booked_) / scale : 0.0;
 }

@@ -17,14 +17,19 @@ struct WindowTotals {
   Vec<D> second_moment = Vec<D>::Zero();  ///< <v_k^2> over the disks at the window's end
   Vec<D> fourth_moment = Vec<D>::Zero();  ///< <v_k^4> there
   double collisions = 0.0;                ///< disk-disk
+  double elasticised = 0.0;               ///< of these, made elastic by the TC model
+  double spin_temperature = 0.0;          ///< exact time average of I <omega^2> per component
   double walls_in = 0.0;                  ///< energy that the walls gave
+  double bulk_in = 0.0;                   ///< energy that kicks gave
+  double gravity_in = 0.0;                ///< work of gravity on the flights that ended
   double dissipated = 0.0;                ///< energy lost between disks, > 0
+  double undissipated = 0.0;              ///< energy that the TC model kept from dissipating
   double virial = 0.0;                    ///< sum of impulse.separation over disk-disk collisions
   std::array<double, 2 * D> wall_impulse{};  ///< momentum that each wall took up, along its normal
 };
 
-/// Books energy and momentum of every event, and averages the temperature exactly over time:
-/// between events it does not change.
+/// Books energy and momentum of every event and of gravity, and averages the temperatures exactly
+/// over time.
 template <int D>
 class Totals : public Observer<D> {
  public:
@@ -33,27 +38,33 @@ class Totals : public Observer<D> {
 
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
+  void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
   /// What happened since the last call, or since the start.
   WindowTotals<D> close_window();
 
-  /// What the kinetic energy differs by from the energy at the start plus all bookings, relative to
-  /// the energy plus the sum of all bookings' sizes.
+  /// What the kinetic energy, of motion and spin, differs by from that at the start plus all
+  /// bookings, relative to the energy plus the sum of all bookings' sizes.
   double ledger_residual() const;
 
  private:
-  void change(const Vec<D>& before, const Vec<D>& after, double time);
+  void change(const DiskChange<D>& disk, double time);
   void integrate_to(double time);
+  void take_stock();
+  void book(double gained);
 
   const Simulation<D>& simulation_;
   double energy_at_start_;
-  double booked_ = 0.0;        // energy gained since the start
+  double booked_ = 0.0;        // energy gained since the start, by flights and events that ended
   double booked_sizes_ = 0.0;  // sum of |bookings|
-  Vec<D> squares_;             // sum of v_k^2 now
-  double integrated_to_;       // time on the base up to which integral_ reaches
+  Vec<D> squares_ = Vec<D>::Zero();   // sum of v_k^2 at integrated_to_
+  Vec<D> momentum_ = Vec<D>::Zero();  // sum of v_k there
+  double spin_squares_ = 0.0;         // sum of omega^2
+  double integrated_to_;              // time on the base up to which the integrals reach
   double window_start_;
   Vec<D> integral_ = Vec<D>::Zero();  // of squares_ over time, in this window
+  double spin_integral_ = 0.0;        // of spin_squares_
   WindowTotals<D> window_;
 };
 

@@ -46,9 +46,10 @@ TEST_CASE("conservation: what collisions take is what is lost") {
     double taken = 0.0;
     double booked = 0.0;
     void on_collision(const PairCollision<2>& c) override {
-      const double g_n = c.separation.dot(c.before[0].v - c.before[1].v) / c.separation.norm();
+      const double g_n =
+          c.separation.dot(c.disks[0].velocity - c.disks[1].velocity) / c.separation.norm();
       taken += 0.25 * (1.0 - 0.9 * 0.9) * g_n * g_n;
-      booked += c.energy[0] + c.energy[1];
+      booked += c.disks[0].energy + c.disks[1].energy;
     }
   } ledger;
   Model<2> model = periodic_box(20.0, 15.0);

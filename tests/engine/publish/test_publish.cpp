@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "engine/publish/publish.h"
 #include "tests/engine/measure/scenes.h"
 
@@ -13,7 +15,8 @@ TEST_CASE("snapshot_of: the state itself, to the last bit") {
     simulation->run_until(0.37 * frame);
     const Snapshot snapshot = snapshot_of(*simulation);
     const State<2> state = simulation->state();
-    CHECK(snapshot.time == 0.37 * frame);
+    // Through the moving base and back costs one rounding.
+    CHECK(std::fabs(snapshot.time - 0.37 * frame) <= 4e-16 * snapshot.time);
     CHECK(snapshot.positions == state.positions);
     CHECK(snapshot.velocities == state.velocities);
     CHECK(snapshot.temperature == simulation->kinetic_energy() / 20.0);

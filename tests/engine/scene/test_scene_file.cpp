@@ -86,7 +86,7 @@ Scene unusual_scene() {
   scene.title = "quotes \" ' \\ and \x7f, tab\t, line\n, é ∞";
   scene.caption = "\x1b[31m #not a comment = {}";
   scene.box = {123456.7, 0.1 + 0.2 + 1.0};
-  scene.disks = {.count = 17, .restitution = 1.0 / 3.0, .start = {Layout::Lattice, 1e-300}};
+  scene.disks = {.count = 17, .restitution = 1.0 / 3.0, .start = {.layout = Layout::Lattice, .temperature = 1e-300}};
   scene.walls[kLeft] = Wall{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 2.5};
   scene.walls[kRight] = Wall{.kind = WallKind::Thermal, .temperature = 12345678901234567890.0};
   scene.walls[kBottom] = Wall{.kind = WallKind::Static, .restitution = 0.25};

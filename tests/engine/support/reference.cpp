@@ -5,15 +5,19 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/physics/collision.h"
+#include "engine/dynamics/outcome.h"
 #include "engine/physics/contact.h"
 #include "engine/physics/random.h"
-#include "engine/physics/walls.h"
 
 namespace clatter::testing {
 
 Reference::Reference(const Model<2>& model, const State<2>& state)
-    : model_(model), until_base_moves_(std::max<std::uint64_t>(64, state.positions.size())) {
+    : model_(model),
+      boundary_(model_, clock_),
+      spins_(state.spins),
+      last_collisions_(state.positions.size(), -kNever),
+      until_base_moves_(std::max<std::uint64_t>(64, state.positions.size())) {
+  spins_.resize(model.spins ? state.positions.size() : 0, Spin<2>::Zero());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     flights_.push_back({state.positions[i], state.velocities[i], 0.0, 0});
   }
@@ -26,12 +30,21 @@ void Reference::run_until_collisions(std::uint64_t collisions) {
 // Looks farther and farther ahead until something happens; 10^9 times the first look is never.
 bool Reference::step() {
   double fastest = 0.0;
-  for (const Flight<2>& flight : flights_) fastest = std::max(fastest, flight.v.norm());
-  if (fastest == 0.0) return false;
+  for (const Flight<2>& flight : flights_) {
+    fastest = std::max(fastest, flight.velocity_at(now_, model_.gravity).norm());
+  }
+  fastest += std::sqrt(model_.gravity.norm() * model_.box.minCoeff());
+  if (fastest == 0.0) fastest = 1.0;  // a moving wall, or a kick, may come yet
   const double first_look = model_.box.minCoeff() / fastest;
   for (double look = first_look; look < 1e9 * first_look; look *= 4.0) {
     const Next next = first_before(now_ + look);
-    if (next.event.time > now_ + look) continue;
+    const double kick_time = next_kick();
+    if (std::min(next.event.time, kick_time) > now_ + look) continue;
+    if (kick_time < next.event.time) {
+      now_ = kick_time;
+      kick();
+      return true;
+    }
     now_ = next.event.time;
     if (next.event.partner < kWall) {
       collide(next);
@@ -58,8 +71,8 @@ Reference::Next Reference::first_before(double horizon) const {
 void Reference::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const {
   const Flight<2>& a = flights_[i];
   const Flight<2>& b = flights_[j];
-  const Vec2 x = a.at(now_) - b.at(now_);
-  const Vec2 g = a.v - b.v;
+  const Vec2 x = a.at(now_, model_.gravity) - b.at(now_, model_.gravity);
+  const Vec2 g = a.velocity_at(now_, model_.gravity) - b.velocity_at(now_, model_.gravity);
   IntVec<2> from = {0, 0}, to = {0, 0};
   for (int axis = 0; axis < 2; ++axis) {
     if (model_.periodic(axis)) {
@@ -71,7 +84,7 @@ void Reference::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Nex
   for (int kx = from.x(); kx <= to.x(); ++kx) {
     for (int ky = from.y(); ky <= to.y(); ++ky) {
       const Vec2 shift = {kx * model_.box.x(), ky * model_.box.y()};
-      const Event event{contact_time<2>(a, b, shift, model_.diameter), i, j};
+      const Event event{contact_time<2>(a, b, shift, model_.diameter, model_.gravity), i, j};
       if (event.time < kNever && before(event, first.event)) first = {event, {kx, ky}};
     }
   }
@@ -80,47 +93,79 @@ void Reference::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Nex
 void Reference::weigh_walls(std::uint32_t i, Next& first) const {
   for (int side = 0; side < 4; ++side) {
     if (!model_.walls[side]) continue;
-    const int axis = side / 2, end = side % 2;
-    const double time =
-        plane_contact_time<2>(flights_[i], axis, model_.wall_plane(axis, end), end ? -1.0 : 1.0);
+    const double time = boundary_.contact_time(side, flights_[i]);
     const Event event{time, i, kWall + static_cast<std::uint32_t>(side)};
     if (time < kNever && before(event, first.event)) first = {event, {0, 0}};
   }
 }
 
+Spin<2> Reference::spin(std::uint32_t i) const {
+  return spins_.empty() ? Spin<2>(Spin<2>::Zero()) : spins_[i];
+}
+
+bool Reference::within_contact_time(std::uint32_t i) const {
+  return model_.contact_time && now_ - last_collisions_[i] < *model_.contact_time;
+}
+
 void Reference::collide(const Next& next) {
-  Flight<2>& a = flights_[next.event.disk];
-  Flight<2>& b = flights_[next.event.partner];
-  const Vec2 r_a = a.at(now_), r_b = b.at(now_);
+  const std::uint32_t i = next.event.disk, j = next.event.partner;
+  const Flight<2>&a = flights_[i], &b = flights_[j];
+  const Vec2 r_a = a.at(now_, model_.gravity), r_b = b.at(now_, model_.gravity);
+  const Vec2 v_a = a.velocity_at(now_, model_.gravity), v_b = b.velocity_at(now_, model_.gravity);
   const Vec2 x = (r_a - r_b) + next.image.cast<double>().cwiseProduct(model_.box);
-  const Vec2 g = a.v - b.v;
-  Vec2 impulse = Vec2::Zero();
-  if (x.dot(g) < 0.0) impulse = collision_impulse<2>(x, g, model_.restitution);
-  renew(a, r_a, a.v + impulse);
-  renew(b, r_b, b.v - impulse);
+  Impulse<2> gain;
+  if (x.dot(v_a - v_b) < 0.0) {
+    const bool elastic = within_contact_time(i) || within_contact_time(j);
+    gain = pair_outcome<2>(model_, x, v_a - v_b, spin(i) + spin(j), elastic).gain;
+  }
+  renew(i, r_a, v_a + gain.momentum, spin(i) + gain.spin);
+  renew(j, r_b, v_b - gain.momentum, spin(j) + gain.spin);
+  last_collisions_[i] = last_collisions_[j] = now_;
   ++disk_disk_;
 }
 
 void Reference::hit_wall(const Event& event) {
-  Flight<2>& flight = flights_[event.disk];
+  const std::uint32_t i = event.disk;
   const int side = static_cast<int>(event.partner - kWall);
-  const Wall& wall = *model_.walls[side];
-  const double inward = side % 2 ? -1.0 : 1.0;
-  Vec2 v;
-  if (wall.kind == WallKind::Thermal) {
-    Random random(model_.seed, Stream::ThermalWall, event.disk, flight.number);
-    const double uniform = random.uniform();
-    const double normal = random.normal();
-    v = emit<2>(side / 2, inward, wall.temperature, uniform, &normal);
-  } else {
-    v = reflect<2>(flight.v, side / 2, inward, wall.restitution, wall.drive_speed);
-  }
-  renew(flight, flight.at(now_), v);
+  Vec2 r = flights_[i].at(now_, model_.gravity);
+  r[side / 2] = boundary_.touching_place(side, now_);
+  const Departure<2> departure = wall_outcome<2>(
+      model_, side, boundary_.wall(side, now_),
+      {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number},
+      within_contact_time(i));
+  renew(i, r, departure.velocity, departure.spin);
+  last_collisions_[i] = now_;
   ++disk_wall_;
 }
 
-void Reference::renew(Flight<2>& flight, const Vec2& r, const Vec2& v) {
-  flight = {wrapped(r), v, now_, flight.number + 1};
+double Reference::next_kick() const {
+  return model_.bulk_drive ? clock_.relative(0.0, kicks_ + 1, model_.bulk_drive->interval) : kNever;
+}
+
+void Reference::kick() {
+  const auto count = static_cast<std::uint32_t>(flights_.size());
+  std::vector<Vec2> kicks(count);
+  std::vector<Spin<2>> spin_kicks(count, Spin<2>::Zero());
+  Vec2 mean = Vec2::Zero();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Random random(model_.seed, Stream::Kick, i, static_cast<std::uint32_t>(kicks_));
+    kicks[i].x() = model_.bulk_drive->kick_speed * random.normal();
+    kicks[i].y() = model_.bulk_drive->kick_speed * random.normal();
+    if (model_.spins) spin_kicks[i][0] = model_.bulk_drive->kick_spin * random.normal();
+    mean += kicks[i] / count;
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    renew(i, flights_[i].at(now_, model_.gravity),
+          flights_[i].velocity_at(now_, model_.gravity) + (kicks[i] - mean),
+          spin(i) + spin_kicks[i]);
+  }
+  ++kicks_;
+  move_base();
+}
+
+void Reference::renew(std::uint32_t i, const Vec2& r, const Vec2& v, const Spin<2>& spin) {
+  flights_[i] = {wrapped(r), v, now_, flights_[i].number + 1};
+  if (!spins_.empty()) spins_[i] = spin;
 }
 
 Vec2 Reference::wrapped(const Vec2& r) const {
@@ -136,6 +181,9 @@ Vec2 Reference::wrapped(const Vec2& r) const {
 // When the base moves is part of what a run is: it rounds the times at which flights started.
 void Reference::move_base() {
   for (Flight<2>& flight : flights_) flight.time -= now_;
+  for (double& time : last_collisions_) time -= now_;
+  clock_.advance(now_);
+  boundary_.move_base(clock_);
   now_ = 0.0;
   until_base_moves_ = std::max<std::uint64_t>(64, 32 * flights_.size());
 }
@@ -143,9 +191,10 @@ void Reference::move_base() {
 State<2> Reference::state() const {
   State<2> state;
   for (const Flight<2>& flight : flights_) {
-    state.positions.push_back(wrapped(flight.at(now_)));
-    state.velocities.push_back(flight.v);
+    state.positions.push_back(wrapped(flight.at(now_, model_.gravity)));
+    state.velocities.push_back(flight.velocity_at(now_, model_.gravity));
   }
+  state.spins = spins_;
   return state;
 }
 

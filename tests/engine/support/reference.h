@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/boundary.h"
+#include "engine/dynamics/clock.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/model.h"
 #include "engine/physics/flight.h"
@@ -11,8 +13,8 @@ namespace clatter::testing {
 
 /// What Simulation does, by brute force: before every event all pairs, all images and all walls are
 /// looked at, and the earliest event happens. No cells, no queue, nothing remembered between
-/// events. It uses the same pure functions of physics/, so that equal runs are equal to the last
-/// bit.
+/// events. It uses the same pure functions of physics/ and the same outcomes of collisions, so that
+/// equal runs are equal to the last bit.
 class Reference {
  public:
   Reference(const Model<2>& model, const State<2>& state);
@@ -22,6 +24,7 @@ class Reference {
 
   std::uint64_t collisions() const { return disk_disk_; }
   std::uint64_t wall_hits() const { return disk_wall_; }
+  std::uint64_t kicks() const { return kicks_; }
   State<2> state() const;
 
  private:
@@ -35,16 +38,24 @@ class Reference {
   void weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const;
   void weigh_walls(std::uint32_t i, Next& first) const;
   bool step();
+  double next_kick() const;
+  void kick();
   void collide(const Next& next);
   void hit_wall(const Event& event);
-  void renew(Flight<2>& flight, const Vec2& r, const Vec2& v);
+  bool within_contact_time(std::uint32_t i) const;
+  Spin<2> spin(std::uint32_t i) const;
+  void renew(std::uint32_t i, const Vec2& r, const Vec2& v, const Spin<2>& spin);
   Vec2 wrapped(const Vec2& r) const;
   void move_base();
 
   Model<2> model_;
+  Clock clock_;
+  Boundary<2> boundary_;
   std::vector<Flight<2>> flights_;
+  std::vector<Spin<2>> spins_;
+  std::vector<double> last_collisions_;
   double now_ = 0.0;
-  std::uint64_t disk_disk_ = 0, disk_wall_ = 0;
+  std::uint64_t disk_disk_ = 0, disk_wall_ = 0, kicks_ = 0;
   std::uint64_t until_base_moves_;
 };
 

@@ -1,0 +1,52 @@
+#include "engine/dynamics/boundary.h"
+
+#include "engine/physics/contact.h"
+
+namespace clatter {
+
+template <int D>
+Boundary<D>::Boundary(const Model<D>& model, const Clock& clock) : model_(model) {
+  move_base(clock);
+}
+
+template <int D>
+void Boundary<D>::move_base(const Clock& clock) {
+  for (int side = 0; side < 2 * D; ++side) {
+    const auto& wall = model_.walls[side];
+    if (!wall || !wall->moves()) continue;
+    const WallPath path =
+        wall->kind == WallKind::Sawtooth ? WallPath::Sawtooth : WallPath::Sinusoidal;
+    motions_[side] = {path, wall->stroke, wall->frequency,
+                      clock.periods(wall->frequency, wall->phase)};
+  }
+}
+
+template <int D>
+WallState Boundary<D>::wall(int side, double time) const {
+  return motions_[side] ? wall_state(*motions_[side], time) : WallState{};
+}
+
+template <int D>
+double Boundary<D>::touching_place(int side, double time) const {
+  return model_.wall_plane(side / 2, side % 2) + inward(side) * wall(side, time).displacement;
+}
+
+template <int D>
+double Boundary<D>::contact_time(int side, const Flight<D>& flight) const {
+  const int axis = side / 2;
+  const double plane = model_.wall_plane(axis, side % 2);
+  if (!motions_[side]) {
+    return plane_contact_time<D>(flight, axis, plane, inward(side), model_.gravity);
+  }
+  return moving_wall_contact(*motions_[side], flight.time, inward(side) * (flight.r[axis] - plane),
+                             inward(side) * flight.v[axis], inward(side) * model_.gravity[axis]);
+}
+
+template <int D>
+double Boundary<D>::innermost_travel(int side) const {
+  return model_.walls[side] ? model_.walls[side]->innermost_travel() : 0.0;
+}
+
+template class Boundary<2>;
+
+}  // namespace clatter

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/clock.h"
+#include "engine/physics/flight.h"
+#include "engine/physics/spin.h"
+
+namespace clatter {
+
+/// How many events of each kind have happened.
+struct EventCounts {
+  std::uint64_t disk_disk = 0;
+  std::uint64_t disk_wall = 0;
+  std::uint64_t kicks = 0;             ///< of bulk driving, each of all disks
+  std::uint64_t elasticised = 0;       ///< disk-disk collisions that the TC model made elastic
+  std::uint64_t elasticised_wall = 0;  ///< likewise with walls
+  std::uint64_t cell_crossings = 0;
+  std::uint64_t stale = 0;  ///< predictions found out of date because the partner met another first
+
+  /// Collisions with disks and with walls.
+  std::uint64_t collisions() const { return disk_disk + disk_wall; }
+};
+
+/// What a run checks of itself at every event.
+struct RunChecks {
+  /// Of colliding disks at contact, or of a disk and the wall it hits, as a share of the diameter.
+  double deepest_overlap = 0.0;
+  /// Largest time by which an event came before the one processed last: 0 but for the rounding with
+  /// which a move of the base may exchange events that coincide.
+  double clock_steps_back = 0.0;
+};
+
+/// A run between two events: with its model, all that its future depends on.
+template <int D>
+struct Saved {
+  LongTime base;                        ///< simulation time of the moving base
+  double now = 0.0;                     ///< on the base
+  std::vector<Flight<D>> flights;       ///< [N] in original order
+  std::vector<Spin<D>> spins;           ///< [N], or empty: all 0
+  std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
+  std::uint64_t until_base_moves = 0;   ///< physical events left
+  double kick_origin = 0.0;             ///< simulation time from which kicks are counted
+  std::uint64_t kicks_since_origin = 0;
+  EventCounts counts;
+  RunChecks checks;
+};
+
+}  // namespace clatter

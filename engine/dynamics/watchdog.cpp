@@ -1,0 +1,69 @@
+#include "engine/dynamics/watchdog.h"
+
+#include <algorithm>
+
+namespace clatter {
+
+static constexpr double kStandstill = 1e-6;  // mean collision times
+static constexpr std::uint64_t kMostPerDisk = 1000;
+static constexpr std::uint64_t kMostPerPair = 10'000;
+static constexpr std::size_t kWindows = 10;  // whose longest mean time counts
+
+Watchdog::Watchdog(std::size_t disks, double time)
+    : disks_(static_cast<double>(disks)),
+      window_(std::max<std::uint64_t>(1, kMostPerDisk * disks)),
+      look_interval_(std::min(kMostPerPair, window_)),
+      until_look_(look_interval_),
+      look_start_(time),
+      window_start_(time) {}
+
+void Watchdog::on_base_moved(double shift) {
+  look_start_ -= shift;
+  window_start_ -= shift;
+  still_since_ -= shift;
+}
+
+double Watchdog::longest_mean(double time) const {
+  double longest = disks_ * (time - window_start_) / static_cast<double>(participations_);
+  for (const double mean : means_) longest = std::max(longest, mean);
+  return longest;
+}
+
+// Pairs are counted only once time seems to stand still, so that a run that moves on pays for one
+// look every 10^4 collisions.
+bool Watchdog::look(double time) {
+  until_look_ = look_interval_;
+  collisions_ += look_interval_;
+  if (suspicious_ && time - still_since_ > kStandstill * still_mean_) {
+    suspicious_ = false;
+    pairs_.clear();
+  }
+  if (suspicious_) {
+    still_collisions_ += look_interval_;
+  } else if (const double mean = longest_mean(time); time - look_start_ <= kStandstill * mean) {
+    suspicious_ = true;
+    still_since_ = look_start_;
+    still_mean_ = mean;
+    still_collisions_ = 0;
+  }
+  look_start_ = time;
+  if (collisions_ >= window_) {
+    means_.push_back(disks_ * (time - window_start_) / static_cast<double>(participations_));
+    if (means_.size() > kWindows) means_.pop_front();
+    window_start_ = time;
+    collisions_ = participations_ = 0;
+  }
+  return suspicious_ && too_many();
+}
+
+bool Watchdog::too_many() const {
+  return still_collisions_ >= window_ ||
+         std::ranges::any_of(pairs_, [](const auto& pair) { return pair.second > kMostPerPair; });
+}
+
+std::pair<std::uint32_t, std::uint32_t> Watchdog::busiest_pair() const {
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return std::ranges::max_element(pairs_, fewer)->first;
+}
+
+}  // namespace clatter

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <utility>
+
+#include "engine/dynamics/event.h"
+
+namespace clatter {
+
+/// Sees where collisions go on while time stands still: inelastic collapse, grains that come to
+/// rest, speeds that diverge. It compares the time that collisions take with the mean time between
+/// a disk's collisions, so it needs no unit; and it only looks on, so a run is the same with it.
+class Watchdog {
+ public:
+  /// Watches a run of so many disks from a time on the moving base.
+  Watchdog(std::size_t disks, double time);
+
+  /// Takes note of a disk's collision with a partner, a disk or kWall + side; true where time has
+  /// stood still: 1000 N collisions, or 10^4 of one pair, within 10^-6 mean collision times.
+  bool sees_standstill(double time, std::uint32_t disk, std::uint32_t partner) {
+    participations_ += partner < kWall ? 2 : 1;
+    if (suspicious_) ++pairs_[{disk, partner}];
+    return --until_look_ == 0 && look(time);
+  }
+
+  /// All times on the base have become smaller by `shift`.
+  void on_base_moved(double shift);
+
+  /// The two that met most often while time stood still, as in sees_standstill.
+  std::pair<std::uint32_t, std::uint32_t> busiest_pair() const;
+  /// Mean time between a disk's collisions, with disks and walls, before time stood still.
+  double mean_collision_time() const { return still_mean_; }
+
+ private:
+  bool look(double time);
+  double longest_mean(double time) const;
+  bool too_many() const;
+
+  double disks_;
+  std::uint64_t window_;         // collisions over which a mean time is taken
+  std::uint64_t look_interval_;  // collisions between looks
+  std::uint64_t until_look_;
+  double look_start_;
+
+  // The window under way, and the mean times of those before.
+  double window_start_;
+  std::uint64_t collisions_ = 0;
+  std::uint64_t participations_ = 0;  // each collision of two disks counts for both
+  std::deque<double> means_;
+
+  // While time may stand still: since when, and what happened in it.
+  bool suspicious_ = false;
+  double still_since_ = 0.0;
+  double still_mean_ = 0.0;
+  std::uint64_t still_collisions_ = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> pairs_;
+};
+
+}  // namespace clatter
