@@ -33,7 +33,6 @@ Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, dou
 template <int D>
 Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin, int axis,
                          double inward, const ContactLaw& law, double inertia, double diameter) {
-  if (!law.rough()) return {};
   const Vec<D> n = inward * Vec<D>::Unit(axis);
   const double normal_change = std::fabs(after[axis] - before[axis]);
   const Impulse<D> friction =
