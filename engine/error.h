@@ -28,7 +28,16 @@ class RunError : public std::runtime_error {
 /// A physical stop (overlap, collapse, no more room for motion): where, when, which disks, what
 /// would help; the program prints it and exits with 3.
 class PhysicalStop : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+ public:
+  PhysicalStop(const std::string& what, const std::string& remedy = "")
+      : std::runtime_error(what), remedy_(remedy) {}
+
+  /// The key=value with which the run would carry on from where it stopped; empty where none is
+  /// known.
+  const std::string& remedy() const { return remedy_; }
+
+ private:
+  std::string remedy_;
 };
 
 }  // namespace clatter

@@ -32,19 +32,57 @@ struct RunChecks {
   double clock_steps_back = 0.0;
 };
 
-/// A run between two events: with its model, all that its future depends on.
+/// A run between two events: with its model, all that its future depends on. It may go on under
+/// other laws, too.
 template <int D>
 struct Saved {
+  Vec<D> gravity = Vec<D>::Zero();      ///< of the flights
   LongTime base;                        ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
   std::vector<Flight<D>> flights;       ///< [N] in original order
   std::vector<Spin<D>> spins;           ///< [N], or empty: all 0
   std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
   std::uint64_t until_base_moves = 0;   ///< physical events left
+  double kick_interval = 0.0;           ///< of bulk driving; 0: none
   double kick_origin = 0.0;             ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
   EventCounts counts;
   RunChecks checks;
 };
+
+// What checkpoints keep of all this, see engine/checkpoint/archive.h.
+
+template <class Archive>
+void visit(Archive& io, EventCounts& counts) {
+  auto& [disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale] =
+      counts;
+  io(disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale);
+}
+
+template <class Archive>
+void visit(Archive& io, RunChecks& checks) {
+  auto& [deepest_overlap, clock_steps_back] = checks;
+  io(deepest_overlap, clock_steps_back);
+}
+
+template <class Archive>
+void visit(Archive& io, LongTime& time) {
+  auto& [high, low] = time;
+  io(high, low);
+}
+
+template <class Archive, int D>
+void visit(Archive& io, Flight<D>& flight) {
+  auto& [r, v, time, number] = flight;
+  io(r, v, time, number);
+}
+
+template <class Archive, int D>
+void visit(Archive& io, Saved<D>& saved) {
+  auto& [gravity, base, now, flights, spins, last_collisions, until_base_moves, kick_interval,
+         kick_origin, kicks_since_origin, counts, checks] = saved;
+  io(gravity, base, now, flights, spins, last_collisions, until_base_moves, kick_interval,
+     kick_origin, kicks_since_origin, counts, checks);
+}
 
 }  // namespace clatter

@@ -47,10 +47,18 @@ static bool may_stand_still(const Model<D>& model) {
   return may;
 }
 
+// 0 where there are no kicks.
 template <int D>
-static Saved<D> fresh(const State<D>& state, double start_time) {
+static double kick_interval(const Model<D>& model) {
+  return model.bulk_drive ? model.bulk_drive->interval : 0.0;
+}
+
+template <int D>
+static Saved<D> fresh(const Model<D>& model, const State<D>& state, double start_time) {
   Saved<D> saved;
+  saved.gravity = model.gravity;
   saved.base = {start_time, 0.0};
+  saved.kick_interval = kick_interval<D>(model);
   saved.kick_origin = start_time;
   saved.until_base_moves = std::max<std::uint64_t>(kLeastEventsPerBase, state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
@@ -62,7 +70,7 @@ static Saved<D> fresh(const State<D>& state, double start_time) {
 
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, const State<D>& state, double start_time)
-    : Simulation(model, fresh<D>(state, start_time)) {}
+    : Simulation(model, fresh<D>(model, state, start_time)) {}
 
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
@@ -84,14 +92,24 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
   spins_.resize(model_.spins ? disks_.size() : 0, Spin<D>::Zero());
   last_collisions_.resize(model_.contact_time ? disks_.size() : 0, -kNever);
   if (may_stand_still(model_)) watchdog_.emplace(disks_.size(), now_);
+  if (saved.kick_interval != kick_interval<D>(model_)) {
+    kick_origin_ = time();
+    kicks_since_origin_ = 0;
+  }
   for (std::size_t i = 0; i < disks_.size(); ++i) {
-    disks_[i].flight = saved.flights[i];
-    const Vec<D> r = saved.flights[i].at(now_, model_.gravity);
+    Flight<D>& flight = disks_[i].flight = saved.flights[i];
+    if (saved.gravity != model_.gravity) {
+      flight = {flight.at(now_, saved.gravity), flight.velocity_at(now_, saved.gravity), now_,
+                flight.number};
+    }
+    const Vec<D> r = flight.at(now_, model_.gravity);
     disks_[i].image = boxes_off<D>(model_, r);
     plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
     grid_.insert(static_cast<std::uint32_t>(i), plans_[i].cell);
   }
-  if (const double overlap = deepest_overlap(); overlap > kStartRounding) {
+  // What a run bore at contacts, it bears when it goes on.
+  const double borne = kStartRounding + checks_.deepest_overlap;
+  if (const double overlap = deepest_overlap(); overlap > borne) {
     throw PhysicalStop("disks overlap at the start, the deepest by " + std::to_string(overlap) +
                        " diameters; move them apart");
   }
@@ -147,14 +165,12 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     if (fetch && queue_.bucket() != fetched_bucket_) fetch_ahead();
     const std::uint64_t before = counts_.collisions();
     process(event);
-    if (watchdog_ && counts_.collisions() != before &&
-        watchdog_->sees_standstill(now_, event.disk, event.partner)) {
-      stop_at_standstill();
-    }
-    if (until_base_moves_ == 0) {
-      move_base();
-      return Halt::BaseMoved;
-    }
+    const bool stands_still = watchdog_ && counts_.collisions() != before &&
+                              watchdog_->sees_standstill(now_, event.disk, event.partner);
+    const bool base_moves = until_base_moves_ == 0;
+    if (base_moves) move_base();
+    if (stands_still) stop_at_standstill();
+    if (base_moves) return Halt::BaseMoved;
   }
   return Halt::Collisions;
 }
@@ -392,19 +408,21 @@ void Simulation<D>::kick() {
 
 template <int D>
 void Simulation<D>::stop_at_standstill() const {
-  throw PhysicalStop(standstill_message<D>(model_, *watchdog_, time(),
-                                           kinetic_energy() / static_cast<double>(disks_.size())));
+  throw standstill<D>(model_, *watchdog_, time(),
+                      kinetic_energy() / static_cast<double>(disks_.size()));
 }
 
 template <int D>
 Saved<D> Simulation<D>::save() const {
   Saved<D> saved;
+  saved.gravity = model_.gravity;
   saved.base = clock_.base();
   saved.now = now_;
   for (const Disk<D>& disk : disks_) saved.flights.push_back(disk.flight);
   saved.spins.assign(spins_.begin(), spins_.end());
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
   saved.until_base_moves = until_base_moves_;
+  saved.kick_interval = kick_interval<D>(model_);
   saved.kick_origin = kick_origin_;
   saved.kicks_since_origin = kicks_since_origin_;
   saved.counts = counts_;

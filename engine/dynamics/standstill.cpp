@@ -38,20 +38,22 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
 }
 
 template <int D>
-std::string standstill_message(const Model<D>& model, const Watchdog& watchdog, double time,
-                               double temperature) {
+PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
+                        double temperature) {
   const std::string when = "time stands still at t = " + rounded(time);
   if (diverges<D>(model, watchdog, temperature)) {
-    return when + ": the temperature diverges, having reached " + rounded(temperature) +
-           "; walls with restitution > 1 give more than the gas loses";
+    return PhysicalStop(when + ": the temperature diverges, having reached " +
+                        rounded(temperature) +
+                        "; walls with restitution > 1 give more than the gas loses");
   }
   const auto [disk, partner] = watchdog.busiest_pair();
-  return when + ": inelastic collapse of disk " + std::to_string(disk) + " and " +
-         partner_name(partner) +
-         "; collapse.contact_time = " + rounded(helpful_contact_time<D>(model, watchdog)) +
-         " or more would carry on";
+  const std::string contact_time = rounded(helpful_contact_time<D>(model, watchdog));
+  return {when + ": inelastic collapse of disk " + std::to_string(disk) + " and " +
+              partner_name(partner) + "; collapse.contact_time = " + contact_time +
+              " or more would carry on",
+          "collapse.contact_time=" + contact_time};
 }
 
-template std::string standstill_message<2>(const Model<2>&, const Watchdog&, double, double);
+template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double);
 
 }  // namespace clatter
