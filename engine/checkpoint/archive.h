@@ -1,0 +1,157 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+// What a checkpoint keeps of a type is told once, beside it: a function that passes over the
+// members in order, for writing and reading alike,
+//   template <class Archive> void visit(Archive& io, Type& value)   for plain structs,
+//   template <class Archive> void visit(Archive& io)                for classes, a member of them.
+// It takes the value apart by a structured binding of all its members, so that one added to the
+// type does not compile until it is named there, too.
+
+namespace clatter {
+
+/// What writing and reading share: the way through structs, vectors and containers down to numbers.
+template <class Self>
+class Archive {
+ public:
+  /// Passes over values, one after the other.
+  template <class... T>
+  void operator()(T&... values) {
+    (item(values), ...);
+  }
+
+ protected:
+  Archive() = default;
+  ~Archive() = default;
+
+ private:
+  Self& self() { return static_cast<Self&>(*this); }
+
+  template <class T>
+  void item(T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      self().number(value);
+    } else if constexpr (requires { value.visit(self()); }) {
+      value.visit(self());
+    } else {
+      visit(self(), value);
+    }
+  }
+
+  void item(bool& flag) {
+    std::uint8_t number = flag;
+    self().number(number);
+    flag = number != 0;
+  }
+
+  template <class T, int Size>
+  void item(Eigen::Matrix<T, Size, 1>& vector) {
+    for (T& component : vector) item(component);
+  }
+
+  template <class T, std::size_t Size>
+  void item(std::array<T, Size>& array) {
+    for (T& element : array) item(element);
+  }
+
+  template <class T>
+  void item(std::vector<T>& vector) {
+    self().length(vector);
+    for (T& element : vector) item(element);
+  }
+
+  void item(std::string& text) {
+    self().length(text);
+    self().bytes(text.data(), text.size());
+  }
+
+  template <class T>
+  void item(std::optional<T>& optional) {
+    bool present = optional.has_value();
+    item(present);
+    if (present && !optional) optional.emplace();
+    if (!present) optional.reset();
+    if (present) item(*optional);
+  }
+};
+
+/// Collects values as bytes: numbers in the order of little-endian machines, bit for bit.
+class ArchiveWriter : public Archive<ArchiveWriter> {
+ public:
+  /// All that has been written.
+  const std::string& written() const { return bytes_; }
+
+ private:
+  friend Archive<ArchiveWriter>;
+
+  template <class T>
+  void number(const T& value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
+    bytes_.append(raw, sizeof raw);
+  }
+  template <class Container>
+  void length(const Container& container) {
+    number(static_cast<std::uint64_t>(container.size()));
+  }
+  void bytes(const char* from, std::size_t count) { bytes_.append(from, count); }
+
+  std::string bytes_;
+};
+
+/// Gives values back from bytes; throws UserError where these are not what a writer of the same
+/// program made.
+class ArchiveReader : public Archive<ArchiveReader> {
+ public:
+  /// Reads these bytes, which outlive it; `file` is the name that errors carry.
+  ArchiveReader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+
+  /// Throws UserError where bytes are left over.
+  void finish() const {
+    if (!bytes_.empty()) refuse();
+  }
+
+ private:
+  friend Archive<ArchiveReader>;
+
+  [[noreturn]] void refuse() const;
+
+  template <class T>
+  void number(T& value) {
+    char raw[sizeof value];
+    bytes(raw, sizeof raw);
+    if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
+    std::memcpy(&value, raw, sizeof value);
+  }
+  // Every element takes a byte at least, so that no length makes it ask for memory without end.
+  template <class Container>
+  void length(Container& container) {
+    std::uint64_t size = 0;
+    number(size);
+    if (size > bytes_.size()) refuse();
+    container.resize(size);
+  }
+  void bytes(char* to, std::size_t count) {
+    if (count > bytes_.size()) refuse();
+    if (count > 0) std::memcpy(to, bytes_.data(), count);
+    bytes_.remove_prefix(count);
+  }
+
+  std::string_view bytes_;  // still to read
+  std::string file_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,141 @@
+#include "engine/checkpoint/checkpoint.h"
+
+#include <libdeflate.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/checkpoint/synced_file.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+// A file is: the magic, the head, the body, and the CRC-32 of all before.
+static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
+// To be raised when a struct that it keeps changes.
+static constexpr std::uint32_t kVersion = 1;
+
+template <class Archive>
+static void visit(Archive& io, Checkpoint& checkpoint) {
+  auto& [program, command, scene, seed, saved, measurement] = checkpoint;
+  io(program, command, scene, seed, saved, measurement);
+}
+
+namespace {
+
+struct Head {
+  std::uint32_t version = kVersion;
+  std::uint64_t length = 0;  // of the body, bytes
+};
+
+constexpr std::size_t kHeadBytes = sizeof(std::uint32_t) + sizeof(std::uint64_t);
+constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
+
+template <class Archive>
+void visit(Archive& io, Head& head) {
+  auto& [version, length] = head;
+  io(version, length);
+}
+
+template <class T>
+std::string bytes_of(T& value) {
+  ArchiveWriter writer;
+  writer(value);
+  return writer.written();
+}
+
+template <class T>
+void read(T& value, std::string_view bytes, const std::filesystem::path& file) {
+  ArchiveReader reader(bytes, file.string());
+  reader(value);
+  reader.finish();
+}
+
+std::uint32_t checksum(std::string_view bytes) {
+  return libdeflate_crc32(0, bytes.data(), bytes.size());
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  const std::filesystem::path previous = previous_checkpoint(file);
+  std::error_code ignored;
+  throw UserError({file.string()}, what,
+                  std::filesystem::exists(previous, ignored)
+                      ? "the one before is " + previous.string()
+                      : "give a file that --checkpoint, an interrupt or a stop has left");
+}
+
+std::string read_whole(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) refuse(file, "there is no such file");
+  if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
+  if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(std::filesystem::file_size(file, ignored), '\0');
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+    refuse(file, std::string("it cannot be read: ") + std::strerror(errno));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint) {
+  const std::string body = bytes_of(checkpoint);
+  Head head{.length = body.size()};
+  std::string bytes = std::string(kMagic) + bytes_of(head) + body;
+  std::uint32_t sum = checksum(bytes);
+  bytes += bytes_of(sum);
+
+  const std::filesystem::path part = file.string() + ".part";
+  write_synced(part, bytes);
+  if (std::filesystem::exists(file)) rename_synced(file, previous_checkpoint(file));
+  rename_synced(part, file);
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  const std::string whole = read_whole(file);
+  std::string_view bytes = whole;
+  const auto take = [&](std::size_t count) {
+    if (bytes.size() < count) refuse(file, "the checkpoint is cut short");
+    const std::string_view taken = bytes.substr(0, count);
+    bytes.remove_prefix(count);
+    return taken;
+  };
+  take(kMagic.size());
+  Head head;
+  read(head, take(kHeadBytes), file);
+  if (head.version > kVersion) {
+    refuse(file, "a newer clatter wrote this checkpoint, of version " +
+                     std::to_string(head.version) + "; this one reads version " +
+                     std::to_string(kVersion));
+  }
+  if (head.version < kVersion) {
+    refuse(file, "the checkpoint is of version " + std::to_string(head.version) +
+                     ", which this clatter no longer reads");
+  }
+  const std::string_view body = take(head.length);
+  std::uint32_t sum = 0;
+  read(sum, take(kChecksumBytes), file);
+  if (!bytes.empty()) refuse(file, "the checkpoint is damaged: something follows its end");
+  if (sum != checksum({whole.data(), whole.size() - kChecksumBytes})) {
+    refuse(file, "the checkpoint is damaged: its checksum differs");
+  }
+  Checkpoint checkpoint;
+  read(checkpoint, body, file);
+  return checkpoint;
+}
+
+std::filesystem::path previous_checkpoint(const std::filesystem::path& file) {
+  return file.string() + ".previous";
+}
+
+bool is_checkpoint(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(kMagic.size(), '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return stream && start == kMagic;
+}
+
+}  // namespace clatter

@@ -1,0 +1,216 @@
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/checkpoint/checkpoint.h"
+#include "engine/error.h"
+#include "tests/engine/checkpoint/scratch_folder.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string archived(Checkpoint& checkpoint) {
+  auto& [program, command, scene, seed, saved, measurement] = checkpoint;
+  ArchiveWriter writer;
+  writer(program, command, scene, seed, saved, measurement);
+  return writer.written();
+}
+
+// Every number is another, so that none can stand in for its neighbour.
+Checkpoint example() {
+  Saved<2> saved;
+  saved.gravity = {0.5, -1.5};
+  saved.base = {1e9, 1e-9};
+  saved.now = 3.25;
+  saved.flights = {{{1.0, 2.0}, {-0.0, 1e-300}, 0.25, 7}, {{3.0, 4.0}, {5.0, 6.0}, 0.75, 8}};
+  saved.spins = {Spin<2>(0.125), Spin<2>(-8.0)};
+  saved.last_collisions = {-HUGE_VAL, 2.5};
+  saved.until_base_moves = 11;
+  saved.kick_interval = 0.0625;
+  saved.kick_origin = 12.0;
+  saved.kicks_since_origin = 13;
+  saved.counts = {14, 15, 16, 17, 18, 19, 20};
+  saved.checks = {1e-14, 1e-15};
+  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 42, saved, std::string("\0bytes", 6)};
+}
+
+// What reading the file says; empty where it is read.
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    read_checkpoint(file);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool says(const std::string& message, const std::string& part) {
+  return message.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("Checkpoint: all that is written is read back, bit for bit") {
+  const ScratchFolder folder;
+  Checkpoint written = example();
+  write_checkpoint(folder / "a", written);
+  Checkpoint read = read_checkpoint(folder / "a");
+  CHECK(read.program == "clatter 9.8");
+  CHECK(read.command == "measure");
+  CHECK(read.scene == "title = \"ρ\"\n");
+  CHECK(read.seed == 42);
+  CHECK(read.saved.flights.size() == 2);
+  CHECK(std::signbit(read.saved.flights[0].v.x()));
+  CHECK(read.saved.spins[1][0] == -8.0);
+  CHECK(read.saved.last_collisions[0] == -HUGE_VAL);
+  CHECK(read.saved.counts.stale == 20);
+  CHECK(read.saved.checks.clock_steps_back == 1e-15);
+  CHECK(read.measurement == written.measurement);
+  CHECK(archived(read) == archived(written));
+}
+
+// Each member is changed alone: one that is told but not passed on would come back as it was.
+TEST_CASE("Checkpoint: a change of any one member changes the file") {
+  const std::vector<std::function<void(Checkpoint&)>> changes = {
+      [](Checkpoint& c) { c.program += '!'; },
+      [](Checkpoint& c) { c.command += '!'; },
+      [](Checkpoint& c) { c.scene += '!'; },
+      [](Checkpoint& c) { ++c.seed; },
+      [](Checkpoint& c) { c.measurement += '!'; },
+      [](Checkpoint& c) { c.saved.gravity.x() += 1.0; },
+      [](Checkpoint& c) { c.saved.base.high += 1.0; },
+      [](Checkpoint& c) { c.saved.base.low += 1.0; },
+      [](Checkpoint& c) { c.saved.now += 1.0; },
+      [](Checkpoint& c) { c.saved.flights[1].r.y() += 1.0; },
+      [](Checkpoint& c) { c.saved.flights[1].v.y() += 1.0; },
+      [](Checkpoint& c) { c.saved.flights[1].time += 1.0; },
+      [](Checkpoint& c) { ++c.saved.flights[1].number; },
+      [](Checkpoint& c) { c.saved.spins[1][0] += 1.0; },
+      [](Checkpoint& c) { c.saved.last_collisions[1] += 1.0; },
+      [](Checkpoint& c) { ++c.saved.until_base_moves; },
+      [](Checkpoint& c) { c.saved.kick_interval += 1.0; },
+      [](Checkpoint& c) { c.saved.kick_origin += 1.0; },
+      [](Checkpoint& c) { ++c.saved.kicks_since_origin; },
+      [](Checkpoint& c) { ++c.saved.counts.disk_disk; },
+      [](Checkpoint& c) { ++c.saved.counts.disk_wall; },
+      [](Checkpoint& c) { ++c.saved.counts.kicks; },
+      [](Checkpoint& c) { ++c.saved.counts.elasticised; },
+      [](Checkpoint& c) { ++c.saved.counts.elasticised_wall; },
+      [](Checkpoint& c) { ++c.saved.counts.cell_crossings; },
+      [](Checkpoint& c) { ++c.saved.counts.stale; },
+      [](Checkpoint& c) { c.saved.checks.deepest_overlap += 1.0; },
+      [](Checkpoint& c) { c.saved.checks.clock_steps_back += 1.0; },
+  };
+  Checkpoint plain = example();
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    CAPTURE(i);
+    Checkpoint changed = example();
+    changes[i](changed);
+    CHECK(archived(changed) != archived(plain));
+  }
+}
+
+TEST_CASE("Checkpoint: the one before is kept, and nothing else is left") {
+  const ScratchFolder folder;
+  Checkpoint checkpoint = example();
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    checkpoint.seed = seed;
+    write_checkpoint(folder / "a", checkpoint);
+  }
+  CHECK(read_checkpoint(folder / "a").seed == 3);
+  CHECK(read_checkpoint(folder / "a.previous").seed == 2);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder / ""), {}) == 2);
+}
+
+TEST_CASE("Checkpoint: one that cannot be written is an error and leaves the one before") {
+  const ScratchFolder folder;
+  Checkpoint checkpoint = example();
+  CHECK_THROWS_AS(write_checkpoint(folder / "missing/a", checkpoint), RunError);
+  write_checkpoint(folder / "a", checkpoint);
+  std::filesystem::create_directory(folder / "a.part");
+  CHECK_THROWS_AS(write_checkpoint(folder / "a", checkpoint), RunError);
+  CHECK(read_checkpoint(folder / "a").seed == 42);
+}
+
+TEST_CASE("Checkpoint: any byte changed, any length cut, anything added is refused") {
+  const ScratchFolder folder;
+  Checkpoint checkpoint = example();
+  write_checkpoint(folder / "a", checkpoint);
+  const std::string sound = bytes_of(folder / "a");
+  REQUIRE(sound.size() < 1000);
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    CAPTURE(i);
+    for (const int flip : {0x01, 0x80, 0xff}) {
+      std::string damaged = sound;
+      damaged[i] = static_cast<char>(damaged[i] ^ flip);
+      write_bytes(folder / "a", damaged);
+      CHECK(says(refusal(folder / "a"), "a: "));
+    }
+    write_bytes(folder / "a", sound.substr(0, i));
+    CHECK(says(refusal(folder / "a"), "a: "));
+  }
+  write_bytes(folder / "a", sound + '\0');
+  CHECK(says(refusal(folder / "a"), "follows its end"));
+  write_bytes(folder / "a", sound);
+  CHECK(refusal(folder / "a").empty());
+}
+
+TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is") {
+  const ScratchFolder folder;
+  CHECK(says(refusal(folder / "a"), "there is no such file"));
+  CHECK(says(refusal(folder / ""), "this is no file"));
+  write_bytes(folder / "a", "schema = 1\n");
+  CHECK(says(refusal(folder / "a"), "this is no checkpoint"));
+  CHECK_FALSE(says(refusal(folder / "a"), "a.previous"));
+
+  Checkpoint checkpoint = example();
+  write_checkpoint(folder / "a", checkpoint);
+  write_checkpoint(folder / "a", checkpoint);
+  const std::string sound = bytes_of(folder / "a");
+  const auto refusal_of = [&](std::size_t at, int flip) {
+    std::string damaged = sound;
+    damaged[at] = static_cast<char>(damaged[at] ^ flip);
+    write_bytes(folder / "a", damaged);
+    return refusal(folder / "a");
+  };
+  const std::size_t version = sound.find('\n', sound.find('\n') + 1) + 1;
+  CHECK(says(refusal_of(version, 2), "newer"));
+  CHECK(says(refusal_of(version, 1), "no longer"));
+  CHECK(says(refusal_of(version + 5, 0xff), "cut short"));
+  CHECK(says(refusal_of(version + 30, 1), "checksum"));
+  CHECK(says(refusal_of(version + 30, 1), "the one before is "));
+  std::filesystem::remove(folder / "a");
+  CHECK(says(refusal(folder / "a"), "a.previous"));
+}
+
+// As a file of another program's structs would, were its checksum right.
+TEST_CASE("Checkpoint: lengths that nothing stands behind are refused, not allocated") {
+  std::uint64_t length = ~std::uint64_t{0} / 16;
+  ArchiveWriter writer;
+  writer(length, length);
+  std::vector<double> numbers;
+  std::vector<std::vector<double>> rows;
+  std::string text;
+  CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(numbers), UserError);
+  CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(rows), UserError);
+  CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(text), UserError);
+  ArchiveReader reader(writer.written(), "a");
+  reader(length);
+  CHECK_THROWS_AS(reader.finish(), UserError);
+  reader(length);
+  reader.finish();
+  CHECK_THROWS_AS(reader(length), UserError);
+}
