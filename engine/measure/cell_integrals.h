@@ -20,6 +20,12 @@ struct CellMoments {
   CellMoments& operator+=(const CellMoments& other);
 };
 
+template <class Archive, int D>
+void visit(Archive& io, CellMoments<D>& moments) {
+  auto& [count, velocity, velocity_squared] = moments;
+  io(count, velocity, velocity_squared);
+}
+
 /// Accumulates CellMoments on a grid of equal cells over the whole box.
 template <int D>
 class CellIntegrals : public Observer<D> {
@@ -37,6 +43,13 @@ class CellIntegrals : public Observer<D> {
 
   /// Number of cells along each axis.
   const IntVec<D>& cells() const { return cells_; }
+
+  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  template <class Archive>
+  void visit(Archive& io) {
+    auto& [simulation, cells, widths, window_start, moments] = *this;
+    io(window_start, moments);
+  }
 
  private:
   /// A flight's way out of a cell.

@@ -12,23 +12,57 @@ static constexpr double kLeastWindows = 512.0;
 static constexpr double kMostWindows = 8192.0;
 
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, double end)
-    : simulation_(simulation), measure_(measure), totals_(simulation) {
-  simulation.add_observer(totals_);
-  const double span = end - measure.burn_in;
+    : simulation_(simulation),
+      measure_(measure),
+      totals_(simulation),
+      series_start_(std::ceil(simulation.time() / measure.series_interval) *
+                    measure.series_interval),
+      averages_start_(std::max(measure.burn_in, simulation.time())) {
+  const double span = end - averages_start_;
   window_ =
       span / std::clamp(std::ceil(span / measure.series_interval), kLeastWindows, kMostWindows);
-  simulation.every(0.0, measure.series_interval, [this](double time) {
-    const auto count = static_cast<double>(simulation_.disks().size());
-    series_time_.push_back(time);
-    series_temperature_.push_back(count > 0.0 ? simulation_.kinetic_energy() / count : 0.0);
-  });
-  simulation.every(measure.burn_in, window_, [this](double) {
-    if (started_) {
-      close_window();
-    } else {
-      start();
-    }
-  });
+  observe();
+}
+
+Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, ArchiveReader saved)
+    : simulation_(simulation), measure_(measure), totals_(simulation) {
+  visit(saved);
+  saved.finish();
+  observe();
+}
+
+std::string Measurement::save() {
+  ArchiveWriter writer;
+  visit(writer);
+  return writer.written();
+}
+
+template <class Archive>
+void Measurement::visit(Archive& io) {
+  auto& [simulation, measure, totals, cells, series_start, averages_start, window, started,
+         counts_at_start, windows, columns, series_time, series_temperature] = *this;
+  io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
+     series_time, series_temperature);
+  if (!started || measure.fields.empty()) return;
+  if (!cells) cells.emplace(simulation, IntVec<2>(measure.cells[0], measure.cells[1]));
+  io(*cells);
+}
+
+void Measurement::observe() {
+  simulation_.add_observer(totals_);
+  if (cells_) simulation_.add_observer(*cells_);
+  simulation_.every(
+      series_start_, measure_.series_interval, [this](double time) { sample(time); },
+      series_time_.size());
+  simulation_.every(
+      averages_start_, window_, [this](double) { started_ ? close_window() : start(); },
+      started_ ? windows_.size() + 1 : 0);
+}
+
+void Measurement::sample(double time) {
+  const auto count = static_cast<double>(simulation_.disks().size());
+  series_time_.push_back(time);
+  series_temperature_.push_back(count > 0.0 ? simulation_.kinetic_energy() / count : 0.0);
 }
 
 void Measurement::start() {
@@ -112,9 +146,10 @@ Measured Measurement::result() {
   const Model<2>& model = simulation_.model();
   const auto count = static_cast<double>(simulation_.disks().size());
   // The last window ends with the run, perhaps a rounding error before its time.
-  const double next_close = measure_.burn_in + static_cast<double>(windows_.size() + 1) * window_;
+  const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
   if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
   Measured measured;
+  measured.burn_in = averages_start_;
   measured.series_time = series_time_;
   measured.series_temperature = series_temperature_;
   measured.ledger_residual = totals_.ledger_residual();

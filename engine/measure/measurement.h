@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/checkpoint/archive.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/estimate.h"
@@ -24,6 +25,7 @@ struct Profile {
 /// What a run measured, over the time after the burn-in. Parts that the scene does not have are
 /// absent.
 struct Measured {
+  double burn_in = 0.0;         ///< simulation time at which averages start
   double duration = 0.0;        ///< time averaged over
   std::uint64_t disk_disk = 0;  ///< collisions in that time
   std::uint64_t disk_wall = 0;
@@ -43,13 +45,23 @@ struct Measured {
 /// Observes a simulation as the scene's [measure] block asks.
 class Measurement {
  public:
-  /// Averages from burn_in to `end`, simulation times; watches from now on.
+  /// Averages from burn_in to `end`, simulation times; watches from now on, where that is later.
   Measurement(Simulation<2>& simulation, const Measure& measure, double end);
+  /// Goes on from what save() told of another measurement of the same run, asked for by the same
+  /// block: averages over windows of the same length, for as long as the run goes on.
+  Measurement(Simulation<2>& simulation, const Measure& measure, ArchiveReader saved);
 
   /// What has been measured up to the simulation's time.
   Measured result();
 
+  /// All that has been measured up to the simulation's time, for a checkpoint.
+  std::string save();
+
  private:
+  void observe();
+  void sample(double time);
+  template <class Archive>
+  void visit(Archive& io);
   void start();
   void close_window();
 
@@ -57,6 +69,8 @@ class Measurement {
   Measure measure_;
   Totals<2> totals_;
   std::optional<CellIntegrals<2>> cells_;
+  double series_start_ = 0.0;  // simulation times
+  double averages_start_ = 0.0;
   double window_ = 0.0;  // duration of each
   bool started_ = false;
   EventCounts counts_at_start_;

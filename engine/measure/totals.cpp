@@ -4,22 +4,22 @@
 
 namespace clatter {
 
-// Kinetic energy that the disks had at the start of their flights: it changes by events only, the
-// work of gravity on a flight being booked when that ends.
-template <int D>
-static double energy_of_starts(const Simulation<D>& simulation) {
-  double twice = 0.0;
-  for (const Disk<D>& disk : simulation.disks()) twice += disk.flight.v.squaredNorm();
-  return 0.5 * twice + simulation.spin_energy();
-}
-
 template <int D>
 Totals<D>::Totals(const Simulation<D>& simulation)
     : simulation_(simulation),
-      energy_at_start_(energy_of_starts(simulation)),
+      energy_at_start_(energy_of_starts()),
       integrated_to_(simulation.base_time()),
       window_start_(integrated_to_) {
   take_stock();
+}
+
+// Kinetic energy that the disks had at the start of their flights: it changes by events only, the
+// work of gravity on a flight being booked when that ends.
+template <int D>
+double Totals<D>::energy_of_starts() const {
+  double twice = 0.0;
+  for (const Disk<D>& disk : simulation_.disks()) twice += disk.flight.v.squaredNorm();
+  return 0.5 * twice + simulation_.spin_energy();
 }
 
 template <int D>
@@ -132,7 +132,7 @@ WindowTotals<D> Totals<D>::close_window() {
 
 template <int D>
 double Totals<D>::ledger_residual() const {
-  const double energy = energy_of_starts(simulation_);
+  const double energy = energy_of_starts();
   const double scale = energy + booked_sizes_;
   return scale > 0.0 ? std::fabs(energy - energy_at_start_ - booked_) / scale : 0.0;
 }

@@ -28,6 +28,15 @@ struct WindowTotals {
   std::array<double, 2 * D> wall_impulse{};  ///< momentum that each wall took up, along its normal
 };
 
+template <class Archive, int D>
+void visit(Archive& io, WindowTotals<D>& window) {
+  auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
+         spin_temperature, walls_in, bulk_in, gravity_in, dissipated, undissipated, virial,
+         wall_impulse] = window;
+  io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
+     walls_in, bulk_in, gravity_in, dissipated, undissipated, virial, wall_impulse);
+}
+
 /// Books energy and momentum of every event and of gravity, and averages the temperatures exactly
 /// over time.
 template <int D>
@@ -48,9 +57,14 @@ class Totals : public Observer<D> {
   /// bookings, relative to the energy plus the sum of all bookings' sizes.
   double ledger_residual() const;
 
+  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  template <class Archive>
+  void visit(Archive& io);
+
  private:
   void change(const DiskChange<D>& disk, double time);
   void integrate_to(double time);
+  double energy_of_starts() const;
   void take_stock();
   void book(double gained);
 
@@ -67,6 +81,22 @@ class Totals : public Observer<D> {
   double spin_integral_ = 0.0;        // of spin_squares_
   WindowTotals<D> window_;
 };
+
+template <int D>
+template <class Archive>
+void Totals<D>::visit(Archive& io) {
+  auto& [simulation, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares,
+         integrated_to, window_start, integral, spin_integral, window] = *this;
+  const double energy_here = energy_of_starts();
+  double energy = energy_here;
+  io(energy, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares, integrated_to,
+     window_start, integral, spin_integral, window);
+  if (energy != energy_here) {
+    // Other laws have brought or taken spins.
+    energy_at_start += energy_here - energy;
+    take_stock();
+  }
+}
 
 extern template class Totals<2>;
 

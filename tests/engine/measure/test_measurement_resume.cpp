@@ -1,0 +1,174 @@
+// A measurement that is put aside with its run and taken up again gives the same numbers, bit for
+// bit, as the one that went on.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/measure/measurement.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+constexpr double kBurnIn = 3.3;
+constexpr double kEnd = 43.7;
+
+Scene everything(int count) {
+  Scene scene = rough_mixture(count);
+  scene.disks.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
+  scene.walls[kRight] = {
+      .kind = WallKind::Sinusoidal, .restitution = 0.7, .stroke = 0.3, .frequency = 1.3};
+  scene.gravity = Vec2(0.1, -0.2);
+  scene.bulk_drive = BulkDrive{.interval = 0.3, .kick_speed = 0.2, .kick_spin = 0.1};
+  scene.contact_time = 1e-3;
+  return scene;
+}
+
+Measure measure_of(std::vector<Field> fields) {
+  Measure measure;
+  measure.burn_in = kBurnIn;
+  measure.series_interval = 0.7;
+  measure.fields = std::move(fields);
+  measure.cells = {5, 4};
+  return measure;
+}
+
+/// A run and its measurement.
+struct Run {
+  std::unique_ptr<Simulation<2>> simulation;
+  std::unique_ptr<Measurement> measurement;
+};
+
+Run started(const Scene& scene, const Measure& measure) {
+  Run run{simulation_of(scene, 5), nullptr};
+  run.measurement = std::make_unique<Measurement>(*run.simulation, measure, kEnd);
+  return run;
+}
+
+Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
+  const std::string saved = before.measurement->save();
+  Run run{std::make_unique<Simulation<2>>(model_of(scene, 5), before.simulation->save()), nullptr};
+  run.measurement =
+      std::make_unique<Measurement>(*run.simulation, measure, ArchiveReader(saved, "saved"));
+  // Saving twice gives the same, and saving is no more than looking.
+  REQUIRE(run.measurement->save() == saved);
+  return run;
+}
+
+// All but the cell crossings and the stale predictions before the averages, two neighbouring
+// counts: a run that is taken up plans anew, so that it may have others.
+bool same(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  std::size_t first = a.size(), last = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    first = std::min(first, i);
+    last = i;
+  }
+  return first == a.size() || last - first < 2 * sizeof(std::uint64_t);
+}
+
+void check_same(const Run& a, const Run& b) {
+  CHECK(a.simulation->state_hash() == b.simulation->state_hash());
+  CHECK(same(a.measurement->save(), b.measurement->save()));
+  const Measured x = a.measurement->result(), y = b.measurement->result();
+  CHECK(x.duration == y.duration);
+  CHECK(x.burn_in == y.burn_in);
+  CHECK(x.disk_disk == y.disk_disk);
+  CHECK(x.temperature.mean == y.temperature.mean);
+  CHECK(x.temperature.standard_error == y.temperature.standard_error);
+  CHECK(x.ledger_residual == y.ledger_residual);
+  CHECK(x.series_time == y.series_time);
+  CHECK(x.series_temperature == y.series_temperature);
+  CHECK(same(a.measurement->save(), b.measurement->save()));
+}
+
+}  // namespace
+
+TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
+  for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
+    for (const Measure& measure : {measure_of({Field::Density}), measure_of({})}) {
+      const Run straight = started(scene, measure);
+      straight.simulation->run_until(kEnd);
+      Run halted = started(scene, measure);
+      // Times in the burn-in, at its end, within a window, where one ends.
+      for (const double time : {0.0, 1.0, 2.1, kBurnIn, 3.4, 10.0, 11.2, 25.0, 43.6}) {
+        halted.simulation->run_until(time);
+        halted = taken_up(scene, measure, halted);
+      }
+      // And between two events of the same run.
+      for (int k = 0; k < 200 && halted.simulation->time() < kEnd; ++k) {
+        halted.simulation->run_until(kEnd, halted.simulation->counts().collisions() + 1);
+        halted = taken_up(scene, measure, halted);
+      }
+      halted.simulation->run_until(kEnd);
+      check_same(halted, straight);
+    }
+  }
+}
+
+TEST_CASE("Measurement: taken up for longer it goes on with windows of the same length") {
+  const Measure measure = measure_of({Field::Density});
+  const Run first = started(rough_mixture(20), measure);
+  first.simulation->run_until(kEnd);
+  const Run longer = taken_up(rough_mixture(20), measure, first);
+  const double span = kEnd - kBurnIn;
+  longer.simulation->run_until(kBurnIn + 3.0 * span);
+  CHECK(first.measurement->result().duration == doctest::Approx(span));
+  const Measured measured = longer.measurement->result();
+  CHECK(measured.duration == doctest::Approx(3.0 * span));
+  CHECK(measured.series_time.back() == doctest::Approx(kBurnIn + 3.0 * span).epsilon(0.01));
+  CHECK(measured.ledger_residual < 1e-12);
+}
+
+TEST_CASE("Measurement: one that starts in the midst of a run averages from then on") {
+  const auto simulation = simulation_of(rough_mixture(20), 5);
+  simulation->run_until(10.0);
+  Measurement measurement(*simulation, measure_of({Field::Density}), kEnd);
+  simulation->run_until(kEnd);
+  const Measured measured = measurement.result();
+  CHECK(measured.burn_in == 10.0);
+  CHECK(measured.duration == doctest::Approx(kEnd - 10.0));
+  CHECK(measured.series_time.front() == doctest::Approx(10.5));
+  double disks = 0.0;
+  for (const Estimate& density : measured.profile->density) disks += density.mean * 9.0 / 5.0 * 8.0;
+  CHECK(disks == doctest::Approx(20.0));
+}
+
+TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledger") {
+  const Measure measure = measure_of({});
+  const Run rough = started(everything(20), measure);
+  rough.simulation->run_until(10.0);
+  REQUIRE(rough.simulation->spin_energy() > 0.1);
+  Scene scene = everything(20);
+  scene.disks.roughness = {};
+  Run smooth{std::make_unique<Simulation<2>>(model_of(scene, 5), rough.simulation->save()),
+             nullptr};
+  const std::string saved = rough.measurement->save();
+  smooth.measurement =
+      std::make_unique<Measurement>(*smooth.simulation, measure, ArchiveReader(saved, "saved"));
+  CHECK(smooth.simulation->spin_energy() == 0.0);
+  smooth.simulation->run_until(kEnd);
+  CHECK(smooth.measurement->result().ledger_residual < 1e-12);
+}
+
+TEST_CASE("Measurement: what is no measurement is refused") {
+  const Measure measure = measure_of({Field::Density});
+  const Run run = started(rough_mixture(20), measure);
+  run.simulation->run_until(10.0);
+  const std::string saved = run.measurement->save();
+  const Simulation<2>& simulation = *run.simulation;
+  for (const std::string& bytes :
+       {std::string(), saved + '\0', saved.substr(0, saved.size() - 1), saved.substr(8)}) {
+    Simulation<2> other(simulation.model(), simulation.save());
+    CHECK_THROWS_AS(Measurement(other, measure, ArchiveReader(bytes, "saved")), UserError);
+  }
+}
