@@ -27,14 +27,21 @@ enum ExitCode {
 struct CommonOptions {
   std::string scene;                  ///< path or gallery name
   std::vector<std::string> settings;  ///< "key=value" of each --set
-  std::uint64_t seed = 1;
-  std::optional<double> until;  ///< simulation time at which the run ends
-  int threads = 2;              ///< of picture encoders
-  bool quiet = false;           ///< nothing on stderr but errors
+  std::optional<std::uint64_t> seed;  ///< absent: that of the checkpoint resumed from, or 1
+  std::optional<double> until;        ///< simulation time at which the run ends
+  int threads = 2;                    ///< of picture encoders
+  bool quiet = false;                 ///< nothing on stderr but errors
   ProgressStyle progress = ProgressStyle::Auto;
 
   /// The progress to show, given --quiet.
   ProgressStyle shown_progress() const { return quiet ? ProgressStyle::None : progress; }
+};
+
+/// Flags of commands that can put a run aside and take it up again.
+struct CheckpointOptions {
+  std::string resume;    ///< checkpoint from which the run goes on; empty: none, from the start
+  std::string file;      ///< checkpoint that is kept up to date; empty: none
+  double every = 600.0;  ///< how often, in seconds of wall time
 };
 
 /// The scene with the flags' settings. Throws UserError.
@@ -49,6 +56,9 @@ void add_bench_command(CLI::App& program, int& exit_code);
 
 /// Adds the flags of CommonOptions to a command; `options` outlives it.
 void add_common_flags(CLI::App& command, CommonOptions& options);
+
+/// Adds the flags of CheckpointOptions to a command; `options` outlives it.
+void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options);
 
 /// Runs the program: parses the command line, runs the command, turns every error into a message on
 /// stderr and an exit code.

@@ -20,6 +20,7 @@ namespace {
 
 struct MeasureOptions {
   CommonOptions common;
+  CheckpointOptions checkpoints;
   std::string out;  // result file; empty: stdout
   std::string csv;  // folder for tables; empty: none
 };
@@ -38,6 +39,13 @@ int measure(const MeasureOptions& options) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
                     "go beyond measure.burn_in = " + number_text(spec.burn_in));
   }
+  std::optional<Resumed> resumed = resume(options.checkpoints, scene);
+  if (resumed && !(end > resumed->time())) {
+    throw UserError({"--until", 0, 0},
+                    "the checkpoint is at t = " + number_text(resumed->time()) +
+                        ", and the run ends at " + number_text(end),
+                    "go beyond that");
+  }
   if (end / spec.series_interval > kMostSamples) {
     throw UserError(
         {"measure.series_interval", 0, 0},
@@ -52,28 +60,29 @@ int measure(const MeasureOptions& options) {
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
-  const auto simulation = simulation_of(scene, options.common.seed);
-  Measurement measurement(*simulation, spec, end);
-  bool completed;
+  Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
+  const Simulation<2>& simulation = run.simulation();
+  Measurement& measurement = run.measure(end);
   {
-    Progress progress(options.common.shown_progress(), "measuring", 0.0, end);
-    completed = run_until(*simulation, end, progress);
+    Progress progress(options.common.shown_progress(), "measuring", simulation.time(), end);
+    run.until(end, progress);
   }
+  run.put_aside();
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  const auto json = result_json(scene, options.common.seed, *simulation, measured, performance);
+  const auto json = result_json(scene, run.seed(), simulation, measured, performance);
   if (options.out.empty()) {
     print(json.dump(1) + "\n");
   } else {
     write_file(options.out, json.dump(1) + "\n");
   }
   if (!options.csv.empty()) write_tables(options.csv, measured);
-  if (simulation->checks().deepest_overlap > kLostEventOverlap) {
+  if (simulation.checks().deepest_overlap > kLostEventOverlap) {
     throw PhysicalStop("disks overlapped by " +
-                       std::to_string(simulation->checks().deepest_overlap) +
+                       std::to_string(simulation.checks().deepest_overlap) +
                        " diameters: events were lost; please report this scene and seed");
   }
-  return completed ? kOk : kInterrupted;
+  return run.end();
 }
 
 }  // namespace
@@ -83,6 +92,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "measure", "Run a scene without pictures and write what its [measure] block asks for");
   add_common_flags(*command, options->common);
+  add_checkpoint_flags(*command, options->checkpoints);
   command->add_option("--out", options->out, "Result file (default: stdout)")
       ->type_name("FILE.json");
   command->add_option("--csv", options->csv, "Folder for tables of series and profiles")

@@ -33,9 +33,10 @@ void add_common_flags(CLI::App& command, CommonOptions& options) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--seed", options.seed, "Seed of all random numbers")
-      ->check(seed_number())
-      ->capture_default_str();
+  command
+      .add_option("--seed", options.seed,
+                  "Seed of all random numbers (default: 1, or the checkpoint's)")
+      ->check(seed_number());
   command.add_option("--until", options.until, "Simulation time at which the run ends")
       ->check(positive_number());
   command.add_option("--threads", options.threads, "Threads that encode pictures")
@@ -47,6 +48,23 @@ void add_common_flags(CLI::App& command, CommonOptions& options) {
                                          {"json", ProgressStyle::Json},
                                          {"none", ProgressStyle::None}}))
       ->type_name("auto|json|none");
+}
+
+void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
+  command
+      .add_option("--resume", options.resume,
+                  "Go on from a checkpoint, under the laws of the scene given here")
+      ->type_name("FILE");
+  CLI::Option* file = command
+                          .add_option("--checkpoint", options.file,
+                                      "Keep a checkpoint up to date; the one before is "
+                                      "FILE.previous (default: one beside the result where the run "
+                                      "is interrupted or stops)")
+                          ->type_name("FILE");
+  command.add_option("--checkpoint-every", options.every, "How often, in seconds of wall time")
+      ->check(positive_number())
+      ->needs(file)
+      ->capture_default_str();
 }
 
 static int report(const char* message, int code) {

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/flag_checks.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct RenderOptions {
   CommonOptions common;
+  CheckpointOptions checkpoints;
   std::string out;
   std::string size = "1280x720";
   double fps = 30.0;
@@ -53,31 +55,32 @@ Size parse_size(const std::string& text) {
                   "write WIDTHxHEIGHT, each from 16 to 16384, for instance 1280x720");
 }
 
-FrameTimes frame_times(const RenderOptions& options, double speed) {
+// The film begins at `from`, which is --from or the time of a checkpoint.
+FrameTimes frame_times(const RenderOptions& options, double from, double speed) {
   constexpr double kFilmSeconds = 20.0;
   constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
   const bool one_picture = std::filesystem::path(options.out).extension() == ".png";
   const std::optional<double> to = options.to ? options.to : options.common.until;
-  if (to && *to < options.from) {
+  if (to && *to < from) {
     throw UserError({"--to", 0, 0}, "the film would end before it begins",
-                    "give a time after --from " + number_text(options.from));
+                    "give a time after " + number_text(from) + ", that of --from or --resume");
   }
-  if (one_picture) return {to.value_or(options.from + kPictureSeconds * speed), 0.0, 1};
+  if (one_picture) return {to.value_or(from + kPictureSeconds * speed), 0.0, 1};
   const double interval = speed / options.fps;
-  const double span = to ? *to - options.from : kFilmSeconds * speed;
+  const double span = to ? *to - from : kFilmSeconds * speed;
   constexpr double kMostFrames = 1e7;
   const double frames = std::max(1.0, std::round(span / interval));
   if (frames > kMostFrames) {
     throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
                     "choose a larger --speed, or an earlier --to");
   }
-  return {options.from, interval, static_cast<long>(frames)};
+  return {from, interval, static_cast<long>(frames)};
 }
 
-// Draws one frame after the other; fewer than there are times where it was interrupted.
-long film(Simulation<2>& simulation, const View& view, const OverlayText& text,
-          const FrameTimes& times, GlContext& context, Size size, FrameSink& sink,
-          Progress& progress) {
+// Draws one frame after the other; fewer than there are times where the run ended early.
+long film(Run& run, const View& view, const OverlayText& text, const FrameTimes& times,
+          GlContext& context, Size size, FrameSink& sink, Progress& progress) {
+  Simulation<2>& simulation = run.simulation();
   Canvas canvas(context.gl(), size);
   canvas.bind();
   Renderer renderer(context.gl());
@@ -86,7 +89,7 @@ long film(Simulation<2>& simulation, const View& view, const OverlayText& text,
   std::optional<Camera> camera;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
-    if (!run_until(simulation, time, progress)) return k;
+    if (!run.until(time, progress)) return k;
     Snapshot snapshot = snapshot_of(simulation);
     if (field) snapshot.field = field->map();
     if (!camera) camera = renderer.fit(snapshot, size, view, text);
@@ -102,7 +105,9 @@ int render(const RenderOptions& options) {
   View view = scene.view;
   if (options.speed) view.speed = *options.speed;
   view.overlay = view.overlay && !options.no_overlay;
-  const FrameTimes times = frame_times(options, view.speed);
+  std::optional<Resumed> resumed = resume(options.checkpoints, scene);
+  const double from = std::max(options.from, resumed ? resumed->time() : 0.0);
+  const FrameTimes times = frame_times(options, from, view.speed);
   const Size size = parse_size(options.size);
   constexpr double kMostWindows = 1e7;
   if (view.field && times.last() / view.window > kMostWindows) {
@@ -112,28 +117,29 @@ int render(const RenderOptions& options) {
   require_folder_of(options.out, "--out");
   catch_interrupts();
 
-  const auto simulation = simulation_of(scene, options.common.seed);
+  Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   const auto context = open_context(options.backend);
   SinkOptions sink_options;
   sink_options.size = size;
   sink_options.fps = options.fps;
   sink_options.texts = {{"Title", scene.title},
                         {"Software", "clatter " CLATTER_VERSION},
-                        {"Seed", std::to_string(options.common.seed)},
+                        {"Seed", std::to_string(run.seed())},
                         {"Scene", scene_to_toml(scene)}};
   sink_options.threads = options.common.threads;
   sink_options.overwrite = options.overwrite;
   const auto sink = open_sink(options.out, sink_options);
   long frames;
   {
-    Progress progress(options.common.shown_progress(), "filming", 0.0, times.last());
-    frames = film(*simulation, view, {scene.title, scene.caption}, times, *context, size, *sink,
-                  progress);
+    Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
+                      times.last());
+    frames = film(run, view, {scene.title, scene.caption}, times, *context, size, *sink, progress);
   }
-  if (frames == 0) return kInterrupted;
+  run.put_aside();
+  if (frames == 0) return run.end();
   sink->finish();
   if (!options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
-  return frames == times.count ? kOk : kInterrupted;
+  return run.end();
 }
 
 }  // namespace
@@ -143,6 +149,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
   add_common_flags(*command, options->common);
+  add_checkpoint_flags(*command, options->checkpoints);
   command
       ->add_option(
           "--out", options->out,

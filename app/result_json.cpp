@@ -90,7 +90,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   json["seed"] = seed;
   json["program"] = "clatter " CLATTER_VERSION;
   json["state_hash"] = hash;
-  json["time"] = {{"burn_in", scene.measure.burn_in}, {"measured", measured.duration}};
+  json["time"] = {{"burn_in", measured.burn_in}, {"measured", measured.duration}};
   json["events"] = {{"disk_disk", measured.disk_disk}, {"disk_wall", measured.disk_wall}};
   // A run that was interrupted in its burn-in has no averages, and nor have no disks.
   const bool averaged = measured.duration > 0.0;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "engine/checkpoint/checkpoint.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/scene_differences.h"
+
+namespace clatter {
+
+/// A checkpoint that fits the scene under which its run goes on.
+struct Resumed {
+  std::string file;
+  Checkpoint checkpoint;
+  std::vector<KeyDifference> differences;  ///< of the scene from that of the checkpoint
+
+  /// Simulation time at which it was written.
+  double time() const;
+};
+
+/// Reads the checkpoint that `--resume` names, if any. Throws UserError unless it has the scene's
+/// box, disks and walled sides.
+std::optional<Resumed> resume(const CheckpointOptions& options, const Scene& scene);
+
+/// Throws UserError where the scene's [measure] block asks for something else than averages that
+/// have begun.
+void require_same_measure(const Resumed& resumed);
+
+/// The keys of all laws that differ, separated by commas; empty: none does.
+std::string changed_laws(const Resumed& resumed);
+
+/// Whether a key differs.
+bool differs(const Resumed& resumed, const std::string& key);
+
+}  // namespace clatter

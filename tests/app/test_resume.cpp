@@ -1,0 +1,219 @@
+// Runs that are put aside and taken up again, as a person does it.
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+namespace {
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+json result_of(const Shell& shell, const std::string& name) {
+  json result = json::parse(shell.read(name));
+  result.erase("performance");
+  return result;
+}
+
+// Starts a line with `--checkpoint c` in the background and ends it by a signal as soon as there is
+// a checkpoint, however fast the machine.
+Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal) {
+  return shell.run(line +
+                   " --checkpoint c --checkpoint-every 0.2 & pid=$!\n"
+                   "while [ ! -e c ] && kill -0 $pid; do sleep 0.02; done\n"
+                   "kill -" +
+                   signal + " $pid; wait $pid");
+}
+
+// Some seconds.
+const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --until 6000 --quiet ";
+
+void check_refused(const Shell& shell, const std::string& line,
+                   const std::vector<std::string>& parts) {
+  CAPTURE(line);
+  const std::vector<std::string> before = shell.files();
+  const Outcome outcome = shell.run(line);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  for (const std::string& part : parts) {
+    CAPTURE(part);
+    CHECK(says(outcome.err, part));
+  }
+  CHECK(shell.files() == before);
+}
+
+}  // namespace
+
+TEST_CASE("A measurement that was interrupted or killed goes on to the same result") {
+  const Shell shell;
+  REQUIRE(shell.run(kRun + "--seed 7 --out whole.json").code == 0);
+  int code = 0;
+  SUBCASE("interrupted") {
+    code = cut_off(shell, kRun + "--seed 7 --out part.json", "INT").code;
+  }
+  SUBCASE("killed") {
+    code = cut_off(shell, kRun + "--seed 7 --out part.json", "KILL").code;
+  }
+  REQUIRE((code == 130 || code == 137));
+  // Its seed comes from the checkpoint.
+  const Outcome outcome = shell.run(kRun + "--resume c --out resumed.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(result_of(shell, "resumed.json") == result_of(shell, "whole.json"));
+}
+
+TEST_CASE("An interrupted run leaves a checkpoint beside its result and names it") {
+  const Shell shell;
+  const std::string interrupted = "timeout --preserve-status -s INT 1 ";
+  const auto leaves = [&](const std::string& line, const std::string& file) {
+    CAPTURE(line);
+    const Outcome outcome = shell.run(interrupted + line);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 130);
+    CHECK(says(outcome.err, "go on with --resume " + file + "\n"));
+    CHECK_FALSE(shell.read(file).empty());
+  };
+  shell.run("mkdir folder && clatter check vibrated > folder/mine.toml");
+  leaves("clatter measure vibrated --until 1e6 --out folder/r.json", "folder/r.checkpoint");
+  leaves("clatter measure vibrated --until 1e6", "vibrated.checkpoint");
+  leaves("clatter measure folder/mine.toml --until 1e6 --out /dev/null", "mine.checkpoint");
+  leaves("clatter measure vibrated --until 1e6 --checkpoint c", "c");
+  leaves("clatter render vibrated --size 64x64 --to 1e5 --out film.mp4", "film.checkpoint");
+  leaves("clatter render vibrated --size 64x64 --to 1e5 --out frames/", "frames.checkpoint");
+}
+
+TEST_CASE("A run may go on for longer, and is then one run") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.burn_in=20 --quiet ";
+  CHECK(shell.run(line + "--until 60 --out a.json --checkpoint c").code == 0);
+  CHECK(shell.run(line + "--until 120 --out b.json --resume c").code == 0);
+  CHECK(shell.run(line + "--until 120 --out c.json").code == 0);
+  const json resumed = result_of(shell, "b.json"), whole = result_of(shell, "c.json");
+  CHECK(resumed.at("state_hash") == whole.at("state_hash"));
+  CHECK(resumed.at("time").at("measured").get<double>() == doctest::Approx(100.0));
+  CHECK(resumed.at("temperature_series") == whole.at("temperature_series"));
+  CHECK(resumed.at("events") == whole.at("events"));
+  check_refused(shell, line + "--until 60 --resume c", {"--until", "t = 60", "go beyond"});
+}
+
+TEST_CASE(
+    "A film goes on from a checkpoint, also of a measurement, and a measurement from a film") {
+  const Shell shell;
+  const std::string render = "clatter render vibrated --size 64x64 --quiet ";
+  CHECK(shell.run(render + "--to 30 --out whole.png").code == 0);
+  CHECK(shell
+            .run("clatter measure vibrated --set measure.burn_in=1 --until 25 --quiet --out r.json "
+                 "--checkpoint c")
+            .code == 0);
+  CHECK(shell.run(render + "--to 30 --resume c --out resumed.png").code == 0);
+  // The field's average differs: it begins with the checkpoint.
+  CHECK(shell.run(render + "--to 30 --set view.window=0.5 --out whole.png").code == 0);
+  CHECK(shell.run(render + "--to 30 --set view.window=0.5 --resume c --out resumed.png").code == 0);
+  CHECK(shell.read("resumed.png") == shell.read("whole.png"));
+  check_refused(shell, render + "--to 20 --resume c --out x.png", {"--to", "25", "--resume"});
+
+  const Outcome film =
+      shell.run(render + "--to 26 --resume c --fps 4 --speed 1 --out f/ --checkpoint d");
+  CHECK(film.code == 0);
+  CHECK(shell.run("ls f | wc -l").out == "4\n");
+  const Outcome measured = shell.run(
+      "clatter measure vibrated --set measure.burn_in=1 --until 40 --resume d --out m.json");
+  CHECK(measured.code == 0);
+  CHECK(says(measured.err, "averages start anew at t = 25.75"));
+  CHECK(result_of(shell, "m.json").at("time").at("burn_in") == 25.75);
+}
+
+TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.burn_in=1 ";
+  REQUIRE(shell.run(line + "--until 5 --checkpoint c --out a.json").code == 0);
+  const Outcome outcome = shell.run(line +
+                                    "--until 9 --resume c --seed 3 --set disks.restitution=0.8 "
+                                    "--set walls.left.drive_speed=2 --set view.speed=7");
+  CHECK(outcome.code == 0);
+  CHECK(says(outcome.err,
+             "from t = 5 on other laws hold: disks.restitution, walls.left.drive_speed\n"));
+  CHECK(json::parse(outcome.out).at("seed") == 3);
+}
+
+TEST_CASE("A checkpoint that does not fit is refused") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.burn_in=1 --until 9 --resume c ";
+  check_refused(shell, line, {"c: ", "there is no such file"});
+  REQUIRE(shell
+              .run("clatter measure vibrated --set measure.burn_in=1 --until 5 --checkpoint c "
+                   "--out a.json")
+              .code == 0);
+  check_refused(shell, line + "--set disks.count=201",
+                {"c: ", "disks.count is 200 in the checkpoint and 201 in the scene"});
+  check_refused(shell, line + "--set box.size=[20,26]", {"c: ", "box.size"});
+  check_refused(shell, line + "--set walls.top.kind=static --set walls.bottom.kind=static",
+                {"c: ", "walls.bottom.kind is absent in the checkpoint"});
+  check_refused(shell, line + "--set measure.burn_in=2",
+                {"c: ", "measure.burn_in", "--set measure.burn_in=1"});
+  check_refused(shell, line + "--set measure.cells=[7,7]", {"c: ", "measure.cells"});
+  check_refused(shell, line + "--set 'measure.fields=[\"density\"]'", {"c: ", "measure.fields"});
+  CHECK(shell.run(line + "--set measure.duration=2").code == 0);
+
+  shell.write("c", shell.read("c").substr(0, 5000));
+  check_refused(shell, line, {"c: ", "cut short"});
+  check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "cut short"});
+  shell.write("c", "no checkpoint");
+  check_refused(shell, line, {"c: ", "this is no checkpoint"});
+  check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c is there"});
+  check_refused(shell, "clatter measure vibrated --checkpoint no/c", {"--checkpoint", "folder no"});
+  check_refused(shell, "clatter measure vibrated --checkpoint-every 5", {"--checkpoint"});
+  check_refused(shell, "clatter measure vibrated --checkpoint d --checkpoint-every 0",
+                {"--checkpoint-every"});
+}
+
+// Cools without end: at a restitution of 0.1 disks soon collide without end in a finite time.
+TEST_CASE("A collapse leaves results, a checkpoint and the way on") {
+  const Shell shell;
+  const std::string scene =
+      "cooling --set disks.restitution=0.1 --set disks.count=300 "
+      "--set box.size=[25,25] --until 1e4 ";
+  const Outcome stopped = shell.run("clatter measure " + scene + "--quiet --out r.json");
+  CHECK(stopped.code == 3);
+  CHECK(says(stopped.err, "inelastic collapse"));
+  const std::size_t way = stopped.err.find("--resume r.checkpoint --set collapse.contact_time=");
+  REQUIRE(way != std::string::npos);
+  const double time = json::parse(shell.read("r.json")).at("temperature_series").at("time").back();
+  CHECK(time > 0.0);
+  CHECK(time < 1e4);
+
+  // As the message says, to the letter.
+  const Outcome resumed =
+      shell.run("clatter measure " + scene + "--out s.json " + stopped.err.substr(way));
+  CAPTURE(resumed.err);
+  CHECK(resumed.code == 0);
+  CHECK(says(resumed.err, "other laws hold: collapse.contact_time\n"));
+  CHECK(json::parse(shell.read("s.json")).at("temperature_series").at("time").back() == 1e4);
+
+  const Outcome film =
+      shell.run("clatter render " + scene + "--size 64x64 --speed 50 --out film.mp4");
+  CHECK(film.code == 3);
+  CHECK(says(film.err, "--resume film.checkpoint --set collapse.contact_time="));
+  CHECK_FALSE(shell.read("film.mp4").empty());
+}
+
+TEST_CASE("A checkpoint that cannot be written costs no result") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "mkdir vibrated.checkpoint.part; timeout --preserve-status -s INT 1 clatter measure "
+      "vibrated --until 1e6");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "no checkpoint is left: cannot write vibrated.checkpoint.part"));
+  CHECK(json::accept(outcome.out));
+}
+
+}  // namespace clatter
