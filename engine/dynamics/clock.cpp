@@ -1,6 +1,9 @@
 #include "engine/dynamics/clock.h"
 
 #include <cmath>
+#include <initializer_list>
+
+#include "engine/physics/fraction.h"
 
 namespace clatter {
 
@@ -45,6 +48,17 @@ double Clock::relative(double start, std::uint64_t count, double interval) const
   const LongTime from_base = two_sum(start, -base_.high);
   const LongTime sum = two_sum(from_base.high, product.high);
   return sum.high + (sum.low + (from_base.low - base_.low + product.low));
+}
+
+double Clock::periods(double frequency, double phase) const {
+  // The nearest whole periods are taken off each exact part first, which is exact too.
+  double sum = phase;
+  for (const double part : {base_.high, base_.low}) {
+    const LongTime product = two_product(frequency, part);
+    sum += product.high - std::nearbyint(product.high);
+    sum += product.low - std::nearbyint(product.low);
+  }
+  return fraction(sum);
 }
 
 }  // namespace clatter

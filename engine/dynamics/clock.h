@@ -27,6 +27,10 @@ class Clock {
   /// start + count * interval on the base: the product is exact, however large the count.
   double relative(double start, std::uint64_t count, double interval) const;
 
+  /// The fractional part, in [0,1), of frequency * base + phase: the periods done at the base by
+  /// what has done `phase` at simulation time 0. The product is exact, however many they are.
+  double periods(double frequency, double phase) const;
+
  private:
   LongTime base_;
 };
