@@ -1,0 +1,196 @@
+#include "engine/physics/wall_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "engine/physics/contact.h"
+#include "engine/physics/fall_time.h"
+#include "engine/physics/fraction.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+double wall_velocity(const WallMotion& motion, double phase) {
+  if (motion.path == WallPath::Sawtooth) return motion.stroke * motion.frequency;
+  return 0.5 * motion.stroke * (kTwoPi * motion.frequency) * std::cos(kTwoPi * fraction(phase));
+}
+
+// The amplitude of the sinusoidal wall's acceleration.
+double peak_acceleration(const WallMotion& motion) {
+  const double angular_frequency = kTwoPi * motion.frequency;
+  return 0.5 * motion.stroke * angular_frequency * angular_frequency;
+}
+
+// A disk that nears a wall, both as functions of the time t since the start. "Crests" are the times
+// at which the wall is innermost; the saw-tooth's are the ends of its ramps.
+struct Approach {
+  WallMotion motion;    // with the phase at t = 0
+  double gap;           // between disk and wall at t = 0, >= 0
+  double height;        // of the disk above the wall's resting place at t = 0
+  double speed;         // of the disk at t = 0, inwards
+  double acceleration;  // of the disk, inwards
+
+  double velocity(double t) const { return speed + acceleration * t; }
+  double rise(double t) const { return speed * t + 0.5 * acceleration * t * t; }
+
+  // When the disk falls to a plane; 0 if it is beyond already.
+  double time_to(double plane) const {
+    return height < plane ? 0.0 : fall_time(height - plane, speed, acceleration);
+  }
+};
+
+// Gaps are summed from the one at t = 0 and the changes since. So their error is that of speeds
+// times t, and just after a hit a gap is as precise as the velocities, however small it is.
+
+// The gap to the saw-tooth's ramp `number`, 0 being the one at t = 0: they are one line, set back
+// by a stroke each time.
+double gap_to_ramp(const Approach& disk, double number, double t) {
+  const double ramp_rise = disk.motion.stroke * disk.motion.frequency * t;
+  return disk.gap + (disk.rise(t) - (ramp_rise - number * disk.motion.stroke));
+}
+
+// The gap to the sinusoidal wall, from sin(x + 2y) - sin(x) = 2 cos(x + y) sin(y).
+double gap_to_wave(const Approach& disk, double t) {
+  const double half = fraction(0.5 * disk.motion.frequency * t);
+  const double wave_rise = disk.motion.stroke *
+                           std::cos(kTwoPi * fraction(disk.motion.phase + half)) *
+                           std::sin(kTwoPi * half);
+  return disk.gap + (disk.rise(t) - wave_rise);
+}
+
+double gap_rate(const Approach& disk, double t) {
+  return disk.velocity(t) -
+         wall_velocity(disk.motion, disk.motion.phase + disk.motion.frequency * t);
+}
+
+// Newton's method on a convex or concave gap never oversteps a root that it nears from the side
+// where gap and curvature have one sign: the tangent meets zero first. Each step there divides
+// gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one), so
+// that about sixty reach the rounding even where the wall is grazed. Both searches end where the
+// gap has changed its sign or the step is lost in rounding.
+
+// The first root of a gap that is convex and not negative at `left`: approached from there.
+double convex_contact(const Approach& disk, double left, double right) {
+  for (double t = left;;) {
+    const double rate = gap_rate(disk, t);
+    if (rate >= 0.0) return kNever;
+    const double gap = gap_to_wave(disk, t);
+    const double next = t - gap / rate;
+    if (!(next > t)) return t;
+    if (next > right) return kNever;
+    t = next;
+  }
+}
+
+// The root of a gap that is concave and not negative at `left`: there is one if the gap is negative
+// at `right`, and it is approached from there.
+double concave_contact(const Approach& disk, double left, double right) {
+  double t = right;
+  double gap = gap_to_wave(disk, t);
+  if (gap >= 0.0) return kNever;
+  while (gap < 0.0) {
+    const double next = t - gap / gap_rate(disk, t);
+    if (!(next < t)) return t;
+    if (next <= left) return left;
+    t = next;
+    gap = gap_to_wave(disk, t);
+  }
+  return t;
+}
+
+// The first contact with the sinusoidal wall between t and the next crest. The gap's curvature,
+// acceleration + peak_acceleration sin(2 pi phase), is positive about the crests and negative
+// between them (or has one sign always), so that there are three pieces at most.
+double contact_with_wave(const Approach& disk, double t, double crest) {
+  const double lowest = disk.time_to(-1.5 * disk.motion.stroke);  // It is hit before that.
+  const double cosine = std::clamp(-disk.acceleration / peak_acceleration(disk.motion), -1.0, 1.0);
+  const double period = 1.0 / disk.motion.frequency;
+  const double convex_time = std::acos(cosine) / kTwoPi * period;
+  bool convex = true;
+  for (const double end : {crest - (period - convex_time), crest - convex_time, crest}) {
+    const double right = std::min(end, lowest);
+    if (right > t) {
+      const double contact =
+          convex ? convex_contact(disk, t, right) : concave_contact(disk, t, right);
+      if (contact < kNever) return contact;
+      t = right;
+    }
+    convex = !convex;
+  }
+  return t < lowest ? kNever : lowest;
+}
+
+// The contact with the saw-tooth's ramp, or the line that prolongs it: a parabola has one at most.
+double contact_with_ramp(const Approach& disk, double number) {
+  return fall_time(disk.gap + number * disk.motion.stroke, gap_rate(disk, 0.0), disk.acceleration);
+}
+
+// The search begins when the disk gets near the places where the wall goes, and proceeds from crest
+// to crest. A disk that a crest finds behind the wall has been hit; one that it leaves in front can
+// be hit only after it has fallen to the crest's height, and the search goes on there. If it stays
+// below for a period it is hit, and a parabola comes down to a height twice at most, so there are
+// few crests to look at.
+//
+// Near means a stroke away from the wall's extreme places: the rounding of the height at the start
+// must not decide about disks that touch the wall there.
+double contact_with_moving(const Approach& disk) {
+  const WallMotion& motion = disk.motion;
+  const bool ramps = motion.path == WallPath::Sawtooth;
+  // Periods from t = 0 to the first crest, in (0,1].
+  const double lead = 1.0 - (ramps ? motion.phase : fraction(motion.phase - 0.25));
+  double t = disk.time_to(innermost_travel(motion) + motion.stroke);
+  for (double number = 0.0; t < kNever; ++number) {
+    number = std::max(number, std::ceil(motion.frequency * t - lead));
+    const double crest = (number + lead) / motion.frequency;
+    const double contact =
+        ramps ? contact_with_ramp(disk, number) : contact_with_wave(disk, t, crest);
+    if (contact < crest) return contact;
+    const double gap = ramps ? gap_to_ramp(disk, number, crest) : gap_to_wave(disk, crest);
+    t = crest + fall_time(gap, disk.velocity(crest), disk.acceleration);
+    if (t == crest) return crest;
+  }
+  return kNever;
+}
+
+}  // namespace
+
+WallState wall_state(const WallMotion& motion, double time) {
+  const double phase = fraction(motion.frequency * time + motion.phase);
+  const double velocity = wall_velocity(motion, phase);
+  if (motion.path == WallPath::Sawtooth) return {motion.stroke * phase, velocity, 0.0};
+  const double sine = std::sin(kTwoPi * phase);
+  return {0.5 * motion.stroke * sine, velocity, -peak_acceleration(motion) * sine};
+}
+
+double innermost_travel(const WallMotion& motion) {
+  return motion.path == WallPath::Sawtooth ? motion.stroke : 0.5 * motion.stroke;
+}
+
+double moving_wall_contact(const WallMotion& motion, double start, double distance, double speed,
+                           double acceleration) {
+  const WallState wall = wall_state(motion, start);
+  const bool touching = distance <= wall.displacement;
+  if (touching) {
+    const double recession = speed - wall.velocity;
+    const double rounding = kApproachRounding * (std::fabs(speed) + std::fabs(wall.velocity));
+    const bool pressed = acceleration < wall.acceleration;
+    if (recession < -rounding || (recession <= rounding && pressed)) return start;
+    // What is left of overlap and approach is rounding: off with it.
+    distance = wall.displacement;
+    speed = std::max(speed, wall.velocity);
+  }
+  Approach disk{motion, distance - wall.displacement, distance, speed, acceleration};
+  disk.motion.phase = fraction(motion.frequency * start + motion.phase);
+  const bool at_rest = motion.stroke * motion.frequency == 0.0;
+  const double contact =
+      start + (at_rest ? fall_time(disk.gap, speed, acceleration) : contact_with_moving(disk));
+  // A disk that recedes approaches only later, be it by the least time that there is.
+  return touching && contact == start ? std::nextafter(start, kNever) : contact;
+}
+
+}  // namespace clatter
