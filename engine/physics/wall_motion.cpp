@@ -70,13 +70,15 @@ double gap_rate(const Approach& disk, double t) {
 
 // Newton's method on a convex or concave gap never oversteps a root that it nears from the side
 // where gap and curvature have one sign: the tangent meets zero first. Each step there divides
-// gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one), so
-// that about sixty reach the rounding even where the wall is grazed. Both searches end where the
-// gap has changed its sign or the step is lost in rounding.
+// gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one),
+// even where the wall is grazed. Both searches end where the gap has changed its sign or the step
+// is lost in rounding; after so many steps nothing else is left.
+constexpr int kMostSteps = 200;
 
 // The first root of a gap that is convex and not negative at `left`: approached from there.
 double convex_contact(const Approach& disk, double left, double right) {
-  for (double t = left;;) {
+  double t = left;
+  for (int step = 0; step < kMostSteps; ++step) {
     const double rate = gap_rate(disk, t);
     if (rate >= 0.0) return kNever;
     const double gap = gap_to_wave(disk, t);
@@ -85,6 +87,7 @@ double convex_contact(const Approach& disk, double left, double right) {
     if (next > right) return kNever;
     t = next;
   }
+  return t;
 }
 
 // The root of a gap that is concave and not negative at `left`: there is one if the gap is negative
@@ -93,7 +96,7 @@ double concave_contact(const Approach& disk, double left, double right) {
   double t = right;
   double gap = gap_to_wave(disk, t);
   if (gap >= 0.0) return kNever;
-  while (gap < 0.0) {
+  for (int step = 0; gap < 0.0 && step < kMostSteps; ++step) {
     const double next = t - gap / gap_rate(disk, t);
     if (!(next < t)) return t;
     if (next <= left) return left;

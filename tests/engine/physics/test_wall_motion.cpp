@@ -247,6 +247,8 @@ TEST_CASE("wall motion: where the wall is") {
     CHECK(wall.acceleration == 0.0);
     CHECK(wall_state(sawtooth, time + 1.5).displacement == 0.0);
   }
+  // The rounding of a time just before the jump puts it after.
+  CHECK(wall_state({WallPath::Sawtooth, 3.0, 0.5, 0.0}, -1e-20).displacement == 0.0);
   const WallMotion wave{WallPath::Sinusoidal, 3.0, 0.5, 0.25};
   CHECK(innermost_travel(wave) == 1.5);
   const double pi = std::numbers::pi;
@@ -438,6 +440,18 @@ TEST_CASE("wall motion: a disk that creeps, or rests but for rounding, ends the 
         }
       }
     }
+  }
+}
+
+TEST_CASE("wall motion: walls so slow or disks so fast that the other seems to stand") {
+  for (const WallPath path : kPaths) {
+    for (const double frequency : {1e-12, 1e-100, 1e-200}) {
+      const WallMotion wall{path, 2.0, frequency, 0.0};
+      CHECK(std::fabs(Case{wall, 0.0, 4.0, 2.0, -4.0}.contact() - 2.0) < 1e-11);
+      CHECK(std::fabs(Case{wall, 0.0, 4.0, -2.0, 0.0}.contact() - 2.0) < 1e-11);
+    }
+    // They cross the wall's way within the rounding of the time.
+    CHECK(std::fabs(Case{{path, 1e-3, 0.3, 0.0}, 0.0, 1e15, -1e15}.contact() - 1.0) <= kEpsilon);
   }
 }
 
