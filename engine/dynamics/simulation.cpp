@@ -293,7 +293,9 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
   // event counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
-  if (x.dot(g) < 0.0) {
+  if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
+    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution);
+  } else if (x.dot(g) < 0.0) {
     const bool elastic = within_contact_time(first) || within_contact_time(second);
     outcome = pair_outcome<D>(model_, x, g, spin(first) + spin(second), elastic);
   }
