@@ -85,7 +85,7 @@ TEST_CASE("Every command explains each of its flags") {
                    true,
                    {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
                     "--overwrite", "--backend"}},
-           Command{"measure", true, {"--out", "--csv"}},
+           Command{"measure", true, {"--out", "--csv", "--save-state"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
            Command{"bench", false, {"--json", "--count", "--area-fraction"}},
