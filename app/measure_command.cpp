@@ -12,6 +12,7 @@
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
+#include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 
 namespace clatter {
@@ -21,8 +22,9 @@ namespace {
 struct MeasureOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
-  std::string out;  // result file; empty: stdout
-  std::string csv;  // folder for tables; empty: none
+  std::string out;         // result file; empty: stdout
+  std::string csv;         // folder for tables; empty: none
+  std::string save_state;  // file for the state at the end; empty: none
 };
 
 // Samples of a series: some GB of result file.
@@ -57,6 +59,7 @@ int measure(const MeasureOptions& options) {
     require_folder_of(options.csv, "--csv");
     make_folder(options.csv);
   }
+  if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
@@ -77,6 +80,9 @@ int measure(const MeasureOptions& options) {
     write_file(options.out, json.dump(1) + "\n");
   }
   if (!options.csv.empty()) write_tables(options.csv, measured);
+  if (!options.save_state.empty()) {
+    write_file(options.save_state, state_to_csv(simulation.state()));
+  }
   if (simulation.checks().deepest_overlap > kLostEventOverlap) {
     throw PhysicalStop("disks overlapped by " +
                        std::to_string(simulation.checks().deepest_overlap) +
@@ -97,6 +103,11 @@ void add_measure_command(CLI::App& program, int& exit_code) {
       ->type_name("FILE.json");
   command->add_option("--csv", options->csv, "Folder for tables of series and profiles")
       ->type_name("DIR");
+  command
+      ->add_option("--save-state", options->save_state,
+                   "Write the disks at the end, from which a scene may start: "
+                   "--set 'disks.start={layout=\"file\",file=\"FILE.csv\"}'")
+      ->type_name("FILE.csv");
   command->callback([options, &exit_code] { exit_code = measure(*options); });
 }
 

@@ -1,5 +1,6 @@
 #include "app/result_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -27,31 +28,48 @@ static Json pressure_json(const Measured& measured) {
 static Json energy_json(const Measured& measured) {
   Json json = Json::object();
   if (measured.walls_in) json["walls_in"] = estimate_json(*measured.walls_in);
+  if (measured.bulk_in) json["bulk_in"] = estimate_json(*measured.bulk_in);
+  if (measured.gravity_in) json["gravity_in"] = estimate_json(*measured.gravity_in);
   json["dissipated"] = estimate_json(measured.dissipated);
   json["ledger_residual"] = measured.ledger_residual;
   return json;
 }
 
+// Whether left and right are the same wall, vibrated or at rest, and nothing else acts.
+static bool is_vibrated_gas(const Scene& scene) {
+  const auto& left = scene.walls[kLeft];
+  const auto& right = scene.walls[kRight];
+  const auto vibrates = [](const std::optional<Wall>& wall) {
+    return wall && (wall->kind == WallKind::Driven || wall->kind == WallKind::Static);
+  };
+  return vibrates(left) && vibrates(right) && scene.periodic(1) && scene.disks.count > 0 &&
+         left->restitution == right->restitution && left->drive_speed == right->drive_speed &&
+         !scene.spins() && !scene.gravity && !scene.bulk_drive;
+}
+
 // Eqs. (3.6)-(3.14), as far as the scene is the system that they describe.
 static Json theory_json(const Scene& scene) {
   Json json{{"chi", contact_correlation(scene.area_fraction())}};
-  const auto& left = scene.walls[kLeft];
-  const auto& right = scene.walls[kRight];
-  const bool alike = left && right && left->kind == WallKind::Driven &&
-                     right->kind == WallKind::Driven && left->restitution == right->restitution &&
-                     left->drive_speed == right->drive_speed;
-  if (!alike || !scene.periodic(1) || scene.disks.count == 0) return json;
+  if (!is_vibrated_gas(scene)) return json;
+  const Wall& wall = *scene.walls[kLeft];
   const VibratedGas gas{static_cast<double>(scene.disks.count),
                         scene.box.x(),
                         scene.box.y(),
                         scene.disks.restitution,
-                        left->restitution,
-                        left->drive_speed};
+                        wall.restitution,
+                        wall.drive_speed};
   json["psi"] = gas.psi();
   json["epsilon_effective"] = gas.epsilon_effective();
-  if (gas.epsilon_effective() > 0.0) {
+  if (wall.drive_speed > 0.0 && gas.epsilon_effective() > 0.0) {
     json["temperature_simple"] = gas.temperature_simple();
     json["temperature_refined"] = gas.temperature_refined();
+    json["temperature_corrected"] = gas.temperature_corrected();
+  }
+  // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
+  if (wall.drive_speed == 0.0) {
+    const double rate = gas.haff_rate_corrected(scene.disks.start.temperature);
+    json["haff_rate"] = rate;
+    if (rate < 0.0) json["divergence_time"] = divergence_time(rate);
   }
   return json;
 }
@@ -92,15 +110,21 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   json["state_hash"] = hash;
   json["time"] = {{"burn_in", measured.burn_in}, {"measured", measured.duration}};
   json["events"] = {{"disk_disk", measured.disk_disk}, {"disk_wall", measured.disk_wall}};
+  if (scene.bulk_drive) json["events"]["kicks"] = measured.kicks;
+  if (scene.contact_time) json["events"]["elasticised"] = measured.elasticised;
   // A run that was interrupted in its burn-in has no averages, and nor have no disks.
   const bool averaged = measured.duration > 0.0;
   if (averaged) {
     json["temperature"] = estimate_json(measured.temperature);
     json["temperature_x"] = estimate_json(measured.temperature_x);
     json["temperature_y"] = estimate_json(measured.temperature_y);
+    if (measured.spin_temperature) {
+      json["spin_temperature"] = estimate_json(*measured.spin_temperature);
+    }
   }
   json["temperature_series"] = {{"time", measured.series_time},
                                 {"translational", measured.series_temperature}};
+  if (scene.spins()) json["temperature_series"]["spin"] = measured.series_spin_temperature;
   if (averaged) {
     json["kurtosis_excess_x"] = estimate_json(measured.kurtosis_excess_x);
     json["kurtosis_excess_y"] = estimate_json(measured.kurtosis_excess_y);
@@ -112,6 +136,13 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   if (measured.profile) json["profile"] = profile_json(*measured.profile, scene.measure.fields);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
+  if (scene.contact_time) {
+    const double collisions = std::max<double>(1.0, static_cast<double>(measured.disk_disk));
+    json["checks"]["elasticised_share"] = static_cast<double>(measured.elasticised) / collisions;
+  }
+  if (measured.undissipated_share) {
+    json["checks"]["undissipated_share"] = *measured.undissipated_share;
+  }
   const double collisions = static_cast<double>(simulation.counts().disk_disk);
   json["performance"] = {
       {"cpu_seconds", performance.cpu_seconds},

@@ -18,13 +18,8 @@ std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t s
 // Where a checkpoint goes that nobody asked for: beside what the command writes, where that is a
 // file or folder.
 static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene) {
-  std::error_code ignored;
-  const auto type = std::filesystem::status(out, ignored).type();
-  const bool special = type != std::filesystem::file_type::not_found &&
-                       type != std::filesystem::file_type::regular &&
-                       type != std::filesystem::file_type::directory;
   std::filesystem::path file = std::filesystem::path(scene).stem();
-  if (!out.empty() && !special) {
+  if (!out.empty() && !is_special(out)) {
     file = out;
     if (!file.has_filename()) file = file.parent_path();
   }

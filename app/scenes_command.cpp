@@ -13,7 +13,7 @@ void add_scenes_command(CLI::App& program, int& exit_code) {
     std::string list;
     for (const EmbeddedFile& file : embedded_scenes()) {
       const std::string name(file.name.substr(0, file.name.rfind('.')));
-      const Scene scene = parse_scene(file.bytes, name);
+      const Scene scene = load_gallery_scene(file);
       list += name + std::string(std::max(1, 15 - static_cast<int>(name.size())), ' ') +
               scene.title + ": " + scene.caption + "\n";
     }

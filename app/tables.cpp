@@ -20,9 +20,13 @@ namespace clatter {
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
   std::string series =
       "# units: disk diameter, disk mass and the scene's velocity unit are 1\n"
-      "time,temperature\n";
+      "time,temperature";
+  const std::vector<double>& spin = measured.series_spin_temperature;
+  series += spin.empty() ? "\n" : ",spin_temperature\n";
   for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
-    append(series, "%.17g,%.17g\n", measured.series_time[k], measured.series_temperature[k]);
+    append(series, "%.17g,%.17g", measured.series_time[k], measured.series_temperature[k]);
+    if (!spin.empty()) append(series, ",%.17g", spin[k]);
+    series += '\n';
   }
   write_file(folder / "temperature_series.csv", series);
 

@@ -5,8 +5,11 @@
 
 namespace clatter {
 
+/// Whether a path is a device, a pipe or the like: written into, never replaced.
+bool is_special(const std::filesystem::path& path);
+
 /// Writes a whole file under a temporary name and renames it, so that the name never holds half of
-/// it. Throws RunError where that fails.
+/// it; or writes into what is special. Throws RunError where that fails.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
 /// Writes to stdout at once. Throws RunError where that fails, say because it is closed.

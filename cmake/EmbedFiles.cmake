@@ -1,6 +1,6 @@
 # embed_files(TARGET TABLE FILE...): puts files into the program and defines, in <TABLE>.cpp,
 # `std::span<const clatter::EmbeddedFile> clatter::<TABLE>()`, one entry per file, named by file name.
-# The bytes go through the assembler's .incbin, so a large font costs no compile time.
+# There may be no file. The bytes go through the assembler's .incbin, so a large font costs no compile time.
 function(embed_files target table)
   set(assembly ".section .rodata\n")
   set(declarations "")
@@ -21,15 +21,17 @@ function(embed_files target table)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${table})
   file(CONFIGURE OUTPUT ${base}_bytes.S CONTENT "${assembly}")
   file(CONFIGURE OUTPUT ${base}.cpp CONTENT
-"#include \"engine/embedded_file.h\"
+"#include <array>
+
+#include \"engine/embedded_file.h\"
 
 extern \"C\" {
 ${declarations}}
 
 namespace clatter {
 std::span<const EmbeddedFile> ${table}() {
-  static const EmbeddedFile files[] = {
-${entries}  };
+  static const std::array<EmbeddedFile, ${index}> files = {{
+${entries}  }};
   return files;
 }
 }  // namespace clatter

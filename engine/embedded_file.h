@@ -14,6 +14,9 @@ struct EmbeddedFile {
 /// The scenes of assets/scenes, in alphabetical order.
 std::span<const EmbeddedFile> embedded_scenes();
 
+/// The start states of assets/scenes that the scenes beside them name.
+std::span<const EmbeddedFile> embedded_start_states();
+
 /// The shaders of shaders/.
 std::span<const EmbeddedFile> embedded_shaders();
 

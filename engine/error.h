@@ -29,7 +29,7 @@ class RunError : public std::runtime_error {
 /// would help; the program prints it and exits with 3.
 class PhysicalStop : public std::runtime_error {
  public:
-  PhysicalStop(const std::string& what, const std::string& remedy = "")
+  explicit PhysicalStop(const std::string& what, const std::string& remedy = "")
       : std::runtime_error(what), remedy_(remedy) {}
 
   /// The key=value with which the run would carry on from where it stopped; empty where none is

@@ -115,13 +115,14 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
   for (int axis : {0, 1}) {
     if (!snapshot.walls[2 * axis]) overhang[axis] = 0.5 * snapshot.diameter;
   }
+  const Faces faces = outermost_faces(snapshot);
   const double wall = wall_thickness(size);
   Margins margins{wall, wall, wall, wall};
   if (view.overlay) {
     // How much room a legend takes does not depend on its values.
-    margins = overlay_.margins(snapshot.box, size, legends(snapshot, view, {}), text);
+    margins = overlay_.margins(snapshot, size, legends(snapshot, view, {}), text);
   }
-  return Camera::fit(-overhang, snapshot.box + overhang, size, margins);
+  return Camera::fit(faces.low - overhang, faces.high + overhang, size, margins);
 }
 
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,

@@ -6,7 +6,7 @@ flat in vec2 v_centre;
 flat in vec4 v_colour;
 
 uniform float u_radius;  // pixels
-uniform vec2 u_box_low;  // corners of the box, pixels
+uniform vec2 u_box_low;  // corners between the faces of the walls, pixels
 uniform vec2 u_box_high;
 
 out vec4 o_colour;

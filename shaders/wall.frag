@@ -11,7 +11,8 @@ uniform float u_line;       // width of lines, pixels
 
 out vec4 o_colour;
 
-const int kHatch = 0, kTeeth = 1, kGlow = 2, kDashes = 3;
+const int kHatch = 0, kTeeth = 1, kWaves = 2, kGlow = 3, kDashes = 4, kPlain = 5;
+const float kTurn = 6.2831853;
 
 // The share of a pixel inside an edge, at a distance (positive: inside) in pixels.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
@@ -22,13 +23,16 @@ float stripes(float phase, float softness) {
   return clamp(distance / softness + 0.5, 0.0, 1.0);
 }
 
-// The saw-tooth that a driven wall stands for: teeth that point, and move, into the box.
-float teeth() {
+// Stripes whose crests, from 0 to 1 high, point into the box; a driven wall's move into it.
+float crests(float height) {
   float period = 0.75 * u_thickness;
-  float tooth = abs(fract(v_place.x / (2.0 * u_thickness)) - 0.5) * 2.0;
-  float phase = (v_place.y - 0.6 * u_thickness * tooth) / period + u_advance;
+  float phase = (v_place.y - 0.6 * u_thickness * height) / period + u_advance;
   return stripes(phase, 1.2 / period);
 }
+
+// How high a saw-tooth or a wave is here.
+float tooth() { return abs(fract(v_place.x / (2.0 * u_thickness)) - 0.5) * 2.0; }
+float wave() { return 0.5 + 0.5 * cos(kTurn * v_place.x / (2.0 * u_thickness)); }
 
 void main() {
   float face = coverage(u_line - v_place.y);
@@ -36,12 +40,15 @@ void main() {
   float alpha = 0.0;
   if (u_pattern == kHatch) {
     alpha = 0.45 * stripes((v_place.x + v_place.y) / (0.6 * u_thickness), 2.4 / u_thickness);
-  } else if (u_pattern == kTeeth) {
-    alpha = mix(0.15, 0.9, teeth()) * (1.0 - 0.5 * depth);
+  } else if (u_pattern == kTeeth || u_pattern == kWaves) {
+    float height = u_pattern == kTeeth ? tooth() : wave();
+    alpha = mix(0.15, 0.9, crests(height)) * (1.0 - 0.5 * depth);
   } else if (u_pattern == kGlow) {
     alpha = pow(1.0 - depth, 1.5);
   } else if (u_pattern == kDashes) {
     face = 0.7 * stripes(v_place.x / (8.0 * u_line), 1.0 / (8.0 * u_line));
+  } else if (u_pattern == kPlain) {
+    alpha = 1.0;
   }
   o_colour = vec4(u_colour.rgb, u_colour.a * max(alpha, face));
 }

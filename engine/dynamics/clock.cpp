@@ -51,11 +51,12 @@ double Clock::relative(double start, std::uint64_t count, double interval) const
 }
 
 double Clock::periods(double frequency, double phase) const {
-  // Whole periods are taken off each exact part first, so that none drowns the fractions.
+  // The nearest whole periods are taken off each exact part first, which is exact too.
   double sum = phase;
   for (const double part : {base_.high, base_.low}) {
     const LongTime product = two_product(frequency, part);
-    sum += fraction(product.high) + fraction(product.low);
+    sum += product.high - std::nearbyint(product.high);
+    sum += product.low - std::nearbyint(product.low);
   }
   return fraction(sum);
 }

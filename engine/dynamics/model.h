@@ -3,10 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
-#include "engine/physics/spin.h"
 #include "engine/scene/scene.h"
+#include "engine/state.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -33,14 +32,6 @@ struct Model {
   double wall_plane(int axis, int end) const {
     return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;
   }
-};
-
-/// Positions, velocities and spins of all disks at one time, in original order.
-template <int D>
-struct State {
-  std::vector<Vec<D>> positions;    ///< [N] centres inside the box
-  std::vector<Vec<D>> velocities;   ///< [N]
-  std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
 };
 
 /// The laws that a scene asks for.

@@ -309,7 +309,9 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
   // event counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
-  if (x.dot(g) < 0.0) {
+  if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
+    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution);
+  } else if (x.dot(g) < 0.0) {
     const bool elastic = within_contact_time(first) || within_contact_time(second);
     outcome = pair_outcome<D>(model_, x, g, spin(first) + spin(second), elastic);
   }
@@ -346,12 +348,12 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   const int axis = side / 2;
   Vec<D> r = disk.flight.at(now_, model_.gravity);
   const Vec<D> v = disk.flight.velocity_at(now_, model_.gravity);
-  // A disk that touches a wall lies where the wall is to the last bit, so that a grain which comes
-  // to rest there does not sink by rounding.
   const double place = boundary_.touching_place(side, now_);
   const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
-  r[axis] = place;
+  // A disk at a wall that stays where it is lies there to the last bit, so that a grain which comes
+  // to rest does not sink by rounding.
+  if (!model_.walls[side]->moves()) r[axis] = place;
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
@@ -363,7 +365,7 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   renew_flight(disk, r, departure.velocity);
-  add_spin(number, spin_gain);
+  if (!spins_.empty()) spins_[number] = departure.spin;
   ++counts_.disk_wall;
   counts_.elasticised_wall += elastic;
   if (!last_collisions_.empty()) last_collisions_[number] = now_;

@@ -48,10 +48,10 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
   }
   const auto [disk, partner] = watchdog.busiest_pair();
   const std::string contact_time = rounded(helpful_contact_time<D>(model, watchdog));
-  return {when + ": inelastic collapse of disk " + std::to_string(disk) + " and " +
-              partner_name(partner) + "; collapse.contact_time = " + contact_time +
-              " or more would carry on",
-          "collapse.contact_time=" + contact_time};
+  return PhysicalStop(when + ": inelastic collapse of disk " + std::to_string(disk) + " and " +
+                          partner_name(partner) + "; collapse.contact_time = " + contact_time +
+                          " or more would carry on",
+                      "collapse.contact_time=" + contact_time);
 }
 
 template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double);

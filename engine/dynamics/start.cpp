@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "engine/dynamics/random_insertion.h"
@@ -36,6 +37,23 @@ static std::vector<Vec2> gaussian_velocities(std::size_t count, double temperatu
   const double scale = std::sqrt(2.0 * static_cast<double>(count) * temperature / twice_energy);
   for (Vec2& v : velocities) v = temperature > 0.0 ? Vec2(v * scale) : Vec2::Zero();
   return velocities;
+}
+
+// With the mean that they happen to have: spins have no law of conservation that a mean could
+// break.
+static std::vector<Spin<2>> gaussian_spins(std::size_t count, double temperature, double inertia,
+                                           std::uint64_t seed) {
+  std::vector<Spin<2>> spins(count, Spin<2>::Zero());
+  if (!(temperature > 0.0)) return spins;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    spins[i][0] = Random(seed, Stream::StartSpin, static_cast<std::uint32_t>(i), 0).normal();
+    sum += spins[i].squaredNorm();
+  }
+  const double moment = 0.25 * inertia;  // I = q m a^2 / 4
+  const double scale = std::sqrt(static_cast<double>(count) * temperature / (moment * sum));
+  for (Spin<2>& spin : spins) spin *= scale;
+  return spins;
 }
 
 // A random choice of `count` of the sites.
@@ -74,7 +92,8 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
 
 // Elastic motion from lattice sites until the bond order of the square and of the triangular
 // lattice is that of a fluid, or for long enough that it would have been.
-static std::vector<Vec2> melt(const Model<2>& model, std::vector<Vec2> sites, std::uint64_t seed) {
+static std::vector<Vec2> melt(const Room& room, const std::vector<Vec2>& sites,
+                              std::uint64_t seed) {
   constexpr int kRounds = 10;
   constexpr std::uint64_t kCollisionsPerRound = 20;  // per disk
   // At T = 1 and above phi = 0.5 these take less than 10; a lone disk never has them.
@@ -82,10 +101,11 @@ static std::vector<Vec2> melt(const Model<2>& model, std::vector<Vec2> sites, st
   const double count = static_cast<double>(sites.size());
   const double square_order = std::max(0.1, 3.0 / std::sqrt(count));
   const double triangular_order = std::max(0.3, 3.0 / std::sqrt(count));
-  Model<2> elastic = model;
-  elastic.restitution = 1.0;
-  for (auto& wall : elastic.walls) {
-    if (wall) wall = Wall{};
+  Model<2> elastic;
+  elastic.box = room.box;
+  elastic.diameter = room.diameter;
+  for (int side = 0; side < 4; ++side) {
+    if (!room.periodic[side / 2]) elastic.walls[side] = Wall{};
   }
   Simulation<2> simulation(elastic, {sites, gaussian_velocities(sites.size(), 1.0, ~seed)});
   for (int round = 1; round <= kRounds; ++round) {
@@ -99,11 +119,10 @@ static std::vector<Vec2> melt(const Model<2>& model, std::vector<Vec2> sites, st
   return simulation.state().positions;
 }
 
-static std::vector<Vec2> random_positions(const Scene& scene, const Model<2>& model,
-                                          const Room& room) {
-  const int count = scene.disks.count;
-  Random random(model.seed, Stream::Placement, 0, 0);
-  if (scene.area_fraction() <= kInsertionFraction) {
+static std::vector<Vec2> random_positions(const Room& room, int count, std::uint64_t seed) {
+  Random random(seed, Stream::Placement, 0, 0);
+  const double fraction = count * std::numbers::pi / (4.0 * room.box.x() * room.box.y());
+  if (fraction <= kInsertionFraction) {
     std::vector<Vec2> placed = random_insertion(room, count, random);
     if (static_cast<int>(placed.size()) == count) return placed;
   }
@@ -111,24 +130,33 @@ static std::vector<Vec2> random_positions(const Scene& scene, const Model<2>& mo
   const bool square = !sites.empty();
   if (!square) sites = hexagonal_lattice(room, count);
   choose(sites, static_cast<std::size_t>(count), random);
-  if (!square || scene.area_fraction() > kFluidFraction) return sites;
-  return melt(model, std::move(sites), model.seed);
+  if (!square || fraction > kFluidFraction) return sites;
+  return melt(room, sites, seed);
+}
+
+static std::vector<Vec2> lattice_positions(const Room& room, int count, std::uint64_t seed) {
+  std::vector<Vec2> sites = hexagonal_lattice(room, count);
+  if (sites.empty()) sites = square_lattice(room, count);
+  Random random(seed, Stream::Placement, 0, 0);
+  choose(sites, static_cast<std::size_t>(count), random);
+  return sites;
 }
 
 State<2> start_state(const Scene& scene, std::uint64_t seed) {
-  const Model<2> model = model_of(scene, seed);
-  const Room room{scene.box, {scene.periodic(0), scene.periodic(1)}, model.diameter};
-  const auto count = static_cast<std::size_t>(scene.disks.count);
+  const Start& start = scene.disks.start;
+  if (start.layout == Layout::File) return start.state;
+  const Room room = start_room(scene);
+  const int count = scene.disks.count;
   State<2> state;
-  if (scene.disks.start.layout == Layout::Random) {
-    state.positions = random_positions(scene, model, room);
-  } else {
-    state.positions = hexagonal_lattice(room, scene.disks.count);
-    if (state.positions.empty()) state.positions = square_lattice(room, scene.disks.count);
-    Random random(seed, Stream::Placement, 0, 0);
-    choose(state.positions, count, random);
+  state.positions = start.layout == Layout::Random ? random_positions(room, count, seed)
+                                                   : lattice_positions(room, count, seed);
+  const Vec2 corner = scene.clear_corner();
+  for (Vec2& position : state.positions) position += corner;
+  state.velocities = gaussian_velocities(state.positions.size(), start.temperature, seed);
+  if (scene.spins()) {
+    state.spins =
+        gaussian_spins(state.positions.size(), start.spin_temperature, scene.disks.inertia, seed);
   }
-  state.velocities = gaussian_velocities(count, scene.disks.start.temperature, seed);
   return state;
 }
 

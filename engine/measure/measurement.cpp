@@ -28,6 +28,8 @@ Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, Arch
     : simulation_(simulation), measure_(measure), totals_(simulation) {
   visit(saved);
   saved.finish();
+  // Where other laws have brought or taken spins: there were none, or there are none.
+  series_spin_temperature_.resize(simulation.spins().empty() ? 0 : series_time_.size());
   observe();
 }
 
@@ -40,9 +42,10 @@ std::string Measurement::save() {
 template <class Archive>
 void Measurement::visit(Archive& io) {
   auto& [simulation, measure, totals, cells, series_start, averages_start, window, started,
-         counts_at_start, windows, columns, series_time, series_temperature] = *this;
+         counts_at_start, windows, columns, series_time, series_temperature,
+         series_spin_temperature] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     series_time, series_temperature);
+     series_time, series_temperature, series_spin_temperature);
   if (!started || measure.fields.empty()) return;
   if (!cells) cells.emplace(simulation, IntVec<2>(measure.cells[0], measure.cells[1]));
   io(*cells);
@@ -63,6 +66,9 @@ void Measurement::sample(double time) {
   const auto count = static_cast<double>(simulation_.disks().size());
   series_time_.push_back(time);
   series_temperature_.push_back(count > 0.0 ? simulation_.kinetic_energy() / count : 0.0);
+  if (!simulation_.spins().empty()) {
+    series_spin_temperature_.push_back(2.0 * simulation_.spin_energy() / count);
+  }
 }
 
 void Measurement::start() {
@@ -152,22 +158,44 @@ Measured Measurement::result() {
   measured.burn_in = averages_start_;
   measured.series_time = series_time_;
   measured.series_temperature = series_temperature_;
+  measured.series_spin_temperature = series_spin_temperature_;
   measured.ledger_residual = totals_.ledger_residual();
   if (windows_.empty() || count == 0.0) return measured;
   const auto estimate = [&](const auto& quantity) {
     return mean_estimate(series_of(windows_, quantity));
   };
   measured.duration = static_cast<double>(windows_.size()) * window_;
-  measured.disk_disk = simulation_.counts().disk_disk - counts_at_start_.disk_disk;
-  measured.disk_wall = simulation_.counts().disk_wall - counts_at_start_.disk_wall;
+  const EventCounts& counts = simulation_.counts();
+  measured.disk_disk = counts.disk_disk - counts_at_start_.disk_disk;
+  measured.disk_wall = counts.disk_wall - counts_at_start_.disk_wall;
+  measured.kicks = counts.kicks - counts_at_start_.kicks;
+  measured.elasticised = counts.elasticised - counts_at_start_.elasticised;
+  measured.elasticised_wall = counts.elasticised_wall - counts_at_start_.elasticised_wall;
   measured.temperature = estimate([](const auto& w) { return 0.5 * w.temperature.sum(); });
   measured.temperature_x = estimate([](const auto& w) { return w.temperature.x(); });
   measured.temperature_y = estimate([](const auto& w) { return w.temperature.y(); });
   measured.kurtosis_excess_x = kurtosis_excess(windows_, 0);
   measured.kurtosis_excess_y = kurtosis_excess(windows_, 1);
+  if (model.spins) {
+    measured.spin_temperature = estimate([](const auto& w) { return w.spin_temperature; });
+  }
   measured.collision_rate =
       estimate([&](const auto& w) { return 2.0 * w.collisions / (count * w.duration); });
   measured.dissipated = estimate([](const auto& w) { return w.dissipated / w.duration; });
+  if (model.bulk_drive) {
+    measured.bulk_in = estimate([](const auto& w) { return w.bulk_in / w.duration; });
+  }
+  if ((model.gravity.array() != 0.0).any()) {
+    measured.gravity_in = estimate([](const auto& w) { return w.gravity_in / w.duration; });
+  }
+  if (model.contact_time) {
+    double dissipated = 0.0, undissipated = 0.0;
+    for (const WindowTotals<2>& window : windows_) {
+      dissipated += window.dissipated;
+      undissipated += window.undissipated;
+    }
+    if (dissipated > 0.0) measured.undissipated_share = undissipated / dissipated;
+  }
   for (int side = 0; side < 4; ++side) {
     if (!model.walls[side]) continue;
     measured.walls_in = estimate([](const auto& w) { return w.walls_in / w.duration; });

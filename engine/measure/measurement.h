@@ -29,17 +29,27 @@ struct Measured {
   double duration = 0.0;        ///< time averaged over
   std::uint64_t disk_disk = 0;  ///< collisions in that time
   std::uint64_t disk_wall = 0;
+  std::uint64_t kicks = 0;             ///< of bulk driving, each of all disks
+  std::uint64_t elasticised = 0;       ///< disk-disk collisions that t_c made elastic
+  std::uint64_t elasticised_wall = 0;  ///< likewise with walls
   Estimate temperature, temperature_x, temperature_y;
+  std::optional<Estimate> spin_temperature;       ///< T_rot = I <omega^2>, where spins are carried
   Estimate kurtosis_excess_x, kurtosis_excess_y;  ///< <v^4>/(3 <v^2>^2) - 1
   Estimate collision_rate;  ///< disk-disk collisions per disk and time; each counts for both
-  std::optional<Estimate> walls_in;  ///< energy per time that the walls give
-  Estimate dissipated;               ///< energy per time lost in disk-disk collisions, > 0
-  double ledger_residual = 0.0;      ///< see Totals::ledger_residual
+  std::optional<Estimate> walls_in;    ///< energy per time that the walls give
+  std::optional<Estimate> bulk_in;     ///< likewise the kicks of bulk driving
+  std::optional<Estimate> gravity_in;  ///< likewise gravity
+  Estimate dissipated;                 ///< energy per time lost in disk-disk collisions, > 0
+  /// What elasticised collisions of disks did not dissipate, over what all did: an estimate of the
+  /// error that t_c makes. Where there is a t_c and something dissipates.
+  std::optional<double> undissipated_share;
+  double ledger_residual = 0.0;                     ///< see Totals::ledger_residual
   std::array<std::optional<Estimate>, 4> pressure;  ///< on each Side: momentum per time and length
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
   std::optional<Profile> profile;
-  std::vector<double> series_time;         ///< 0, series_interval, ...; burn-in included
-  std::vector<double> series_temperature;  ///< T at those times
+  std::vector<double> series_time;              ///< 0, series_interval, ...; burn-in included
+  std::vector<double> series_temperature;       ///< T at those times
+  std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
 };
 
 /// Observes a simulation as the scene's [measure] block asks.
@@ -78,6 +88,7 @@ class Measurement {
   std::vector<std::vector<CellMoments<2>>> columns_;  // [windows][columns]
   std::vector<double> series_time_;
   std::vector<double> series_temperature_;
+  std::vector<double> series_spin_temperature_;
 };
 
 }  // namespace clatter

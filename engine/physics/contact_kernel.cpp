@@ -63,9 +63,12 @@ static auto widest_loop() {
 template <int D>
 double contact_times(const double* r, const double* v, double time, double diameter,
                      const double* gravity, Candidates<D>& candidates, int size) {
-  static const auto straight = widest_loop<D, false>();
-  static const auto falling = widest_loop<D, true>();
-  return (gravity ? falling : straight)(r, v, time, diameter, gravity, candidates, size);
+  static const struct {
+    decltype(widest_loop<D, false>()) straight = widest_loop<D, false>();
+    decltype(widest_loop<D, true>()) falling = widest_loop<D, true>();
+  } loops;
+  const auto loop = gravity ? loops.falling : loops.straight;
+  return loop(r, v, time, diameter, gravity, candidates, size);
 }
 
 template double contact_times<2>(const double*, const double*, double, double, const double*,

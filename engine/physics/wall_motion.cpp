@@ -70,13 +70,15 @@ double gap_rate(const Approach& disk, double t) {
 
 // Newton's method on a convex or concave gap never oversteps a root that it nears from the side
 // where gap and curvature have one sign: the tangent meets zero first. Each step there divides
-// gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one), so
-// that about sixty reach the rounding even where the wall is grazed. Both searches end where the
-// gap has changed its sign or the step is lost in rounding.
+// gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one),
+// even where the wall is grazed. Both searches end where the gap has changed its sign or the step
+// is lost in rounding; after so many steps nothing else is left.
+constexpr int kMostSteps = 200;
 
 // The first root of a gap that is convex and not negative at `left`: approached from there.
 double convex_contact(const Approach& disk, double left, double right) {
-  for (double t = left;;) {
+  double t = left;
+  for (int step = 0; step < kMostSteps; ++step) {
     const double rate = gap_rate(disk, t);
     if (rate >= 0.0) return kNever;
     const double gap = gap_to_wave(disk, t);
@@ -85,6 +87,7 @@ double convex_contact(const Approach& disk, double left, double right) {
     if (next > right) return kNever;
     t = next;
   }
+  return t;
 }
 
 // The root of a gap that is concave and not negative at `left`: there is one if the gap is negative
@@ -93,7 +96,7 @@ double concave_contact(const Approach& disk, double left, double right) {
   double t = right;
   double gap = gap_to_wave(disk, t);
   if (gap >= 0.0) return kNever;
-  while (gap < 0.0) {
+  for (int step = 0; gap < 0.0 && step < kMostSteps; ++step) {
     const double next = t - gap / gap_rate(disk, t);
     if (!(next < t)) return t;
     if (next <= left) return left;
@@ -107,7 +110,7 @@ double concave_contact(const Approach& disk, double left, double right) {
 // acceleration + peak_acceleration sin(2 pi phase), is positive about the crests and negative
 // between them (or has one sign always), so that there are three pieces at most.
 double contact_with_wave(const Approach& disk, double t, double crest) {
-  const double lowest = disk.time_to(-innermost_travel(disk.motion));  // hit by then, if not before
+  const double lowest = disk.time_to(-1.5 * disk.motion.stroke);  // It is hit before that.
   const double cosine = std::clamp(-disk.acceleration / peak_acceleration(disk.motion), -1.0, 1.0);
   const double period = 1.0 / disk.motion.frequency;
   const double convex_time = std::acos(cosine) / kTwoPi * period;
@@ -130,22 +133,26 @@ double contact_with_ramp(const Approach& disk, double number) {
   return fall_time(disk.gap + number * disk.motion.stroke, gap_rate(disk, 0.0), disk.acceleration);
 }
 
-// A wall that moves can be met only where it goes, so the search begins when the disk gets there.
-// It goes from crest to crest: a disk that is behind the innermost place of the wall at a crest has
-// been met, and one that is not has left or not yet entered; then it goes on when the disk falls to
-// that place. A parabola enters twice at most, so there are few crests to look at.
+// The search begins when the disk gets near the places where the wall goes, and proceeds from crest
+// to crest. A disk that a crest finds behind the wall has been hit; one that it leaves in front can
+// be hit only after it has fallen to the crest's height, and the search goes on there. If it stays
+// below for a period it is hit, and a parabola comes down to a height twice at most, so there are
+// few crests to look at.
+//
+// Near means a stroke away from the wall's extreme places: the rounding of the height at the start
+// must not decide about disks that touch the wall there.
 double contact_with_moving(const Approach& disk) {
   const WallMotion& motion = disk.motion;
   const bool ramps = motion.path == WallPath::Sawtooth;
   // Periods from t = 0 to the first crest, in (0,1].
   const double lead = 1.0 - (ramps ? motion.phase : fraction(motion.phase - 0.25));
-  double t = disk.time_to(innermost_travel(motion));
+  double t = disk.time_to(innermost_travel(motion) + motion.stroke);
   for (double number = 0.0; t < kNever; ++number) {
     number = std::max(number, std::ceil(motion.frequency * t - lead));
     const double crest = (number + lead) / motion.frequency;
     const double contact =
         ramps ? contact_with_ramp(disk, number) : contact_with_wave(disk, t, crest);
-    if (contact <= crest) return contact;
+    if (contact < crest) return contact;
     const double gap = ramps ? gap_to_ramp(disk, number, crest) : gap_to_wave(disk, crest);
     t = crest + fall_time(gap, disk.velocity(crest), disk.acceleration);
     if (t == crest) return crest;

@@ -11,6 +11,9 @@ Snapshot snapshot_of(const Simulation<2>& simulation) {
   snapshot.box = simulation.model().box;
   snapshot.diameter = simulation.model().diameter;
   snapshot.walls = simulation.model().walls;
+  for (int side = 0; side < 4; ++side) {
+    snapshot.wall_displacement[side] = simulation.wall(side).displacement;
+  }
   snapshot.positions = std::move(state.positions);
   snapshot.velocities = std::move(state.velocities);
   for (const Spin<2>& spin : state.spins) snapshot.spins.push_back(spin[0]);

@@ -32,7 +32,7 @@ class KeyLister {
 
   template <class T, class Visit>
   void table(std::string_view key, const std::optional<T>&, Visit visit) {
-    T any;
+    T any{};
     table(key, [&](KeyLister& io) { visit(io, any); });
   }
 

@@ -1,5 +1,7 @@
 #include "engine/scene/key_reader.h"
 
+#include <cmath>
+
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
 
@@ -15,6 +17,9 @@ static std::string within(const std::string& what, Limits limits) {
   }
   if (limits.highest < Limits().highest) {
     return what + " between " + number_text(limits.lowest) + " and " + number_text(limits.highest);
+  }
+  if (std::isinf(limits.highest)) {
+    return what + " of at least " + number_text(limits.lowest) + ", or inf";
   }
   return limits.lowest > Limits().lowest ? what + " of at least " + number_text(limits.lowest)
                                          : what;
@@ -45,11 +50,10 @@ static std::string shown(const toml::node& node) {
 const toml::node* KeyReader::find(std::string_view key, Presence presence) const {
   const toml::node* node = table_ ? table_->get(key) : nullptr;
   const Place place = place_of(root_, path(key), file_);
-  if (node && presence == Presence::Forbidden) {
-    throw UserError(place, "'" + path(key) + "' has no meaning for this kind of wall",
-                    "remove it or choose another kind");
+  if (node && presence.kind == Presence::Forbidden) {
+    throw UserError(place, "'" + path(key) + "' " + presence.reason, presence.advice);
   }
-  if (!node && presence == Presence::Required) {
+  if (!node && presence.kind == Presence::Required) {
     throw UserError(place, "'" + path(key) + "' is missing", "give it a value");
   }
   return node;

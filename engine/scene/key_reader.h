@@ -24,8 +24,7 @@ class KeyReader {
       : root_(root), table_(&root), file_(std::move(file)) {}
 
   template <class T>
-  void value(std::string_view key, T& value, Limits limits = {},
-             Presence presence = Presence::Optional) {
+  void value(std::string_view key, T& value, Limits limits = {}, Presence presence = kOptional) {
     const toml::node* node = find(key, presence);
     if (!node) return;
     if (const std::string wanted = read(*node, limits, value); !wanted.empty()) {
@@ -35,13 +34,14 @@ class KeyReader {
 
   /// A number that may be absent.
   template <class T>
-  void value(std::string_view key, std::optional<T>& number, Limits limits) {
-    if (has(key)) value(key, number.emplace(), limits);
+  void value(std::string_view key, std::optional<T>& number, Limits limits,
+             Presence presence = kOptional) {
+    if (has(key)) value(key, number.emplace(), limits, presence);
   }
 
   template <class E, std::size_t N>
   void choice(std::string_view key, E& chosen, const std::array<Named<E>, N>& names,
-              Presence presence = Presence::Optional) {
+              Presence presence = kOptional) {
     const toml::node* node = find(key, presence);
     if (!node) return;
     const std::vector<E> values = named(key, *node, names);
@@ -56,7 +56,7 @@ class KeyReader {
 
   template <class E, std::size_t N>
   void choice(std::string_view key, std::vector<E>& chosen, const std::array<Named<E>, N>& names) {
-    const toml::node* node = find(key, Presence::Optional);
+    const toml::node* node = find(key, kOptional);
     if (!node) return;
     const toml::array* list = node->as_array();
     if (!list) refuse(key, *node, "a list of names");
@@ -69,7 +69,7 @@ class KeyReader {
 
   template <class Visit>
   void table(std::string_view key, Visit visit) {
-    const toml::node* node = find(key, Presence::Optional);
+    const toml::node* node = find(key, kOptional);
     if (node && !node->is_table()) refuse(key, *node, "a table");
     KeyReader inner(*this);
     inner.table_ = node ? node->as_table() : nullptr;

@@ -1,11 +1,14 @@
 #include "engine/scene/key_writer.h"
 
+#include <cmath>
+
 #include "engine/scene/text.h"
 
 namespace clatter {
 
 std::string value_text(double number) {
   const std::string text = number_text(number);
+  if (std::isinf(number)) return text;
   // Without a point a large number would read as an integer, and TOML's end at 2^63.
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
@@ -66,7 +69,7 @@ void JsonWriter::begin(std::string_view key) {
 
 void JsonWriter::write(std::string_view key, const std::string& value) {
   begin(key);
-  text_ += value;
+  text_ += value == "inf" ? quoted(value) : value;  // JSON has no infinity
 }
 
 void JsonWriter::open(std::string_view key) {

@@ -11,7 +11,7 @@
 
 namespace clatter {
 
-/// A value as both TOML and JSON write it.
+/// A value as TOML writes it, and JSON too but for infinity.
 std::string value_text(double number);
 std::string value_text(int number);
 std::string value_text(bool flag);
@@ -24,20 +24,20 @@ std::string value_text(const std::optional<std::array<double, 2>>& range);  ///<
 class KeyWriter {
  public:
   template <class T>
-  void value(std::string_view key, const T& value, Limits = {},
-             Presence presence = Presence::Optional) {
-    if (presence != Presence::Forbidden) write(key, value_text(value));
+  void value(std::string_view key, const T& value, Limits = {}, Presence presence = kOptional) {
+    if (presence.kind != Presence::Forbidden) write(key, value_text(value));
   }
 
   /// A number that may be absent.
   template <class T>
-  void value(std::string_view key, const std::optional<T>& number, Limits) {
-    if (number) write(key, value_text(*number));
+  void value(std::string_view key, const std::optional<T>& number, Limits limits,
+             Presence presence = kOptional) {
+    if (number) value(key, *number, limits, presence);
   }
 
   template <class E, std::size_t N>
   void choice(std::string_view key, E chosen, const std::array<Named<E>, N>& names,
-              Presence = Presence::Optional) {
+              Presence = kOptional) {
     write(key, value_text(name_of(chosen, names)));
   }
 

@@ -157,6 +157,10 @@ std::vector<Vec2> widest_lattice(const Room& room, bool chess, int count) {
 
 }  // namespace
 
+Room start_room(const Scene& scene) {
+  return {scene.clear_box(), {scene.periodic(0), scene.periodic(1)}};
+}
+
 std::vector<Vec2> square_lattice(const Room& room, int count) {
   return widest_lattice(room, false, count);
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/scene/scene.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -14,6 +15,10 @@ struct Room {
   std::array<bool, 2> periodic = {true, true};  ///< along x, y
   double diameter = 1.0;
 };
+
+/// The room of a scene's start: the part of its box that no wall's motion reaches, with its corner
+/// at the origin.
+Room start_room(const Scene& scene);
 
 /// Sites of the rectangular lattice with at least `count` sites whose closest sites lie farthest
 /// apart, spread evenly over the room; empty where none holds `count` without overlap.

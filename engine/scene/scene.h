@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/state.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -46,6 +47,8 @@ struct Wall {
   bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
   /// How far into the box its motion takes it.
   double innermost_travel() const;
+  /// How far out of the box its motion takes it.
+  double outermost_travel() const { return kind == WallKind::Sinusoidal ? 0.5 * stroke : 0.0; }
 };
 
 /// The sides of the box: axis is side / 2, and the odd ones lie at the axis' far end.
@@ -60,7 +63,8 @@ enum class Layout { Random, Lattice, File };
 /// Positions and velocities at time 0.
 struct Start {
   Layout layout = Layout::Random;
-  std::string file;  ///< of layout File: CSV with the columns x, y, vx, vy and, for spins, omega
+  std::string file;     ///< of layout File: a CSV, see state_file.h, or its name in the gallery
+  State<2> state = {};  ///< of layout File: what the file says
   double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
 };
@@ -130,6 +134,10 @@ struct Scene {
   bool periodic(int axis) const { return !walls[2 * axis]; }
   /// phi = N pi / (4 Lx Ly).
   double area_fraction() const;
+  /// How far into the box the near walls of both axes move at most.
+  Vec2 clear_corner() const;
+  /// The size of that part of the box, from clear_corner() on, which no wall's motion reaches.
+  Vec2 clear_box() const;
 };
 
 }  // namespace clatter

@@ -106,11 +106,15 @@ void apply_override(toml::table& root, const Override& change) {
   replace(root, changes);
 }
 
+bool from_override(const Place& place) {
+  return place.file.starts_with(kOverrideFile);
+}
+
 /// Where a key stands, or a table's header.
 static Place place_of(const toml::key& key, const toml::node& value) {
   const toml::source_region& source = value.is_table() ? value.source() : key.source();
   const std::string file = source.path ? *source.path : "";
-  if (file.starts_with(kOverrideFile)) return {file};
+  if (from_override({file})) return {file};
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 

@@ -21,6 +21,9 @@ void apply_override(toml::table& root, const Override& change);
 /// known one that may have been meant.
 void refuse_unknown_keys(const toml::table& root, const std::vector<std::string>& known);
 
+/// Whether an override gave what stands there.
+bool from_override(const Place& place);
+
 /// Where the key of this dotted path stands, or a table's header, or else the innermost table on
 /// the way to it that the document has; an override has no line.
 Place place_of(const toml::table& root, std::string_view path, const std::string& file);

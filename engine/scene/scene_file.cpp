@@ -1,94 +1,104 @@
 #include "engine/scene/scene_file.h"
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <numbers>
+#include <system_error>
 
-#include "engine/embedded_file.h"
 #include "engine/error.h"
+#include "engine/read_file.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/key_reader.h"
 #include "engine/scene/key_writer.h"
-#include "engine/scene/lattice.h"
+#include "engine/scene/scene_checks.h"
 #include "engine/scene/scene_document.h"
+#include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 
 namespace clatter {
 
-/// Throws where a wall stands without the one opposite.
-static void check_walls(const Scene& scene, const toml::table& root, const std::string& file) {
-  for (int side = 0; side < 4; ++side) {
-    const int opposite = side ^ 1;
-    if (!scene.walls[side] || scene.walls[opposite]) continue;
-    const std::string path = std::string("walls.") + kSideNames[side];
-    throw UserError(place_of(root, path, file), "[" + path + "] has no wall opposite",
-                    std::string("add [walls.") + kSideNames[opposite] +
-                        "], or remove this one for a periodic axis");
+namespace {
+
+/// Where the files lie that a scene names.
+enum class Origin { Folder, Gallery };
+
+constexpr std::size_t kLargestScene = 1'000'000;
+constexpr std::size_t kLargestState = 4'000'000'000;
+
+const EmbeddedFile* find_embedded(std::span<const EmbeddedFile> files, std::string_view name) {
+  const auto found = std::ranges::find(files, name, &EmbeddedFile::name);
+  return found == files.end() ? nullptr : &*found;
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code ignored;  // what cannot be looked at counts as absent
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
+}
+
+[[noreturn]] void refuse_missing_state(const Place& place, const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  const auto folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());
+  }
+  const std::string near(near_miss(path.filename().string(), names));
+  throw UserError(place, "there is no file '" + path.string() + "'",
+                  near.empty() ? "name a CSV file, relative to the scene's folder"
+                               : "did you mean '" + near + "'?");
+}
+
+/// Reads the state that the scene starts from, and makes the name of its file one that is found
+/// from the working directory.
+void load_start_state(Scene& scene, const toml::table& root, const std::string& file,
+                      Origin origin) {
+  Start& start = scene.disks.start;
+  const Place place = place_of(root, "disks.start.file", file);
+  // What a person types is relative to where they are, and not to the scene.
+  const bool typed = from_override(place);
+  std::filesystem::path path = start.file;
+  if (!typed && origin == Origin::Folder) path = std::filesystem::path(file).parent_path() / path;
+  const EmbeddedFile* embedded = find_embedded(embedded_start_states(), start.file);
+  if ((typed || origin == Origin::Folder) && is_file(path)) {
+    start.file = path.string();
+    const std::string csv = read_file(start.file, kLargestState, "a line is enough for a disk");
+    start.state = parse_state(csv, start.file, scene);
+  } else if (embedded) {
+    start.state = parse_state(embedded->bytes, start.file, scene);
+  } else {
+    refuse_missing_state(place, path);
   }
 }
 
-/// The number of disks that the input asks for; throws where it asks twice, not at all, or for
-/// more than any lattice holds.
-static int resolve_count(const SceneInput& input, const toml::table& root,
-                         const std::string& file) {
-  const Scene& scene = input.scene;
-  if (input.count.has_value() == input.area_fraction.has_value()) {
-    const std::string path = input.count ? "disks.area_fraction" : "disks";
-    throw UserError(place_of(root, path, file),
-                    input.count ? "both 'disks.count' and 'disks.area_fraction' are given"
-                                : "the number of disks is missing",
-                    "give exactly one of 'disks.count' and 'disks.area_fraction'");
-  }
-  const double area = scene.box.x() * scene.box.y();
-  const double count =
-      input.count ? *input.count : std::round(*input.area_fraction * 4.0 * area / std::numbers::pi);
-  const int capacity =
-      lattice_capacity({.box = scene.box, .periodic = {scene.periodic(0), scene.periodic(1)}});
-  if (count > capacity) {
-    const std::string path = input.count ? "disks.count" : "disks.area_fraction";
-    throw UserError(place_of(root, path, file),
-                    (input.count ? std::to_string(*input.count) : number_text(count)) +
-                        " disks do not fit into the box",
-                    "it holds at most " + std::to_string(capacity));
-  }
-  return static_cast<int>(count);
+SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {
+  SceneInput input;
+  input.spins = spins;
+  KeyReader reader(root, file);
+  visit_scene(reader, input);
+  return input;
 }
 
-Scene parse_scene(std::string_view text, const std::string& file,
-                  const std::vector<Override>& overrides) {
+Scene parse(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
+            Origin origin) {
   toml::table root = parse_document(text, file);
   for (const Override& change : overrides) apply_override(root, change);
 
-  SceneInput input;
+  SceneInput any;
   KeyLister lister;
-  visit_scene(lister, input);
+  visit_scene(lister, any);
   refuse_unknown_keys(root, lister.keys());
 
-  KeyReader reader(root, file);
-  visit_scene(reader, input);
-  check_walls(input.scene, root, file);
-  input.scene.disks.count = resolve_count(input, root, file);
-  return input.scene;
+  SceneInput input = read_keys(root, file, true);
+  // Only the whole scene tells whether there are spins; where not, their keys are refused.
+  if (!input.scene.spins()) input = read_keys(root, file, false);
+  Scene& scene = input.scene;
+  check_scene(scene, root, file);
+  if (scene.disks.start.layout == Layout::File) load_start_state(scene, root, file, origin);
+  scene.disks.count = resolve_count(input, root, file);
+  return scene;
 }
 
-/// All bytes of a scene file.
-static std::string read_file(const std::string& path) {
-  constexpr std::size_t kLargest = 1'000'000;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(kLargest + 1, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (file.bad() || (file.fail() && !file.eof())) {
-    throw UserError({path}, "the file cannot be read", "check its permissions");
-  }
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  if (bytes.size() > kLargest) {
-    throw UserError({path}, "the file is larger than 1 MB", "a scene is a text of a few kB");
-  }
-  return bytes;
-}
-
-[[noreturn]] static void refuse_missing(const std::string& name) {
+[[noreturn]] void refuse_missing(const std::string& name) {
   std::vector<std::string> gallery;
   for (const EmbeddedFile& scene : embedded_scenes()) {
     gallery.emplace_back(scene.name.substr(0, scene.name.rfind('.')));
@@ -100,25 +110,37 @@ static std::string read_file(const std::string& path) {
                                : "did you mean the gallery scene '" + std::string(near) + "'?");
 }
 
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& file,
+                  const std::vector<Override>& overrides) {
+  return parse(text, file, overrides, Origin::Folder);
+}
+
+Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides) {
+  return parse(scene.bytes, std::string(scene.name), overrides, Origin::Gallery);
+}
+
 Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides) {
-  std::error_code ignored;  // what cannot be looked at counts as absent
-  const std::filesystem::file_status status = std::filesystem::status(path_or_name, ignored);
-  const bool directory = std::filesystem::is_directory(status);
-  if (std::filesystem::exists(status) && !directory) {
-    return parse_scene(read_file(path_or_name), path_or_name, overrides);
+  if (is_file(path_or_name)) {
+    return parse_scene(read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"),
+                       path_or_name, overrides);
   }
-  for (const EmbeddedFile& scene : embedded_scenes()) {
-    if (scene.name == path_or_name || scene.name == path_or_name + ".toml") {
-      return parse_scene(scene.bytes, std::string(scene.name), overrides);
-    }
+  for (const std::string& name : {path_or_name, path_or_name + ".toml"}) {
+    const EmbeddedFile* scene = find_embedded(embedded_scenes(), name);
+    if (scene) return load_gallery_scene(*scene, overrides);
   }
-  if (directory) throw UserError({path_or_name}, "this is a directory", "give a scene file in it");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path_or_name, ignored)) {
+    throw UserError({path_or_name}, "this is a directory", "give a scene file in it");
+  }
   refuse_missing(path_or_name);
 }
 
 template <class Writer>
 static std::string written(const Scene& scene) {
-  SceneInput input{.count = scene.disks.count, .area_fraction = {}, .scene = scene};
+  SceneInput input{
+      .count = scene.disks.count, .area_fraction = {}, .spins = scene.spins(), .scene = scene};
   Writer writer;
   visit_scene(writer, input);
   return writer.text();

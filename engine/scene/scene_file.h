@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/embedded_file.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
@@ -18,7 +19,11 @@ struct Override {
 /// validates the whole. Throws UserError with file, line, column, what is wrong and what to do.
 Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {});
 
-/// Like load_scene, from text; `file` is the name that errors carry.
+/// Like load_scene, of a scene in the gallery.
+Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides = {});
+
+/// Like load_scene, from text; `file` is the name that errors carry, beside which the files lie
+/// that the scene names.
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides = {});
 

@@ -10,7 +10,7 @@
 // Every key of the scene file, in the order in which it is written, told once. A visitor passes
 // over the keys to list, read or write them (key_lister.h, key_reader.h, key_writer.h); it has
 //   value(key, variable, limits, presence)   for numbers, flags, text and arrays of numbers,
-//   value(key, optional, limits)             for a number that may be absent,
+//   value(key, optional, limits, presence)   for a number that may be absent,
 //   choice(key, variable, names, presence)   for enumerations, optional ones, and lists of them,
 //   table(key, function)                     for a table whose keys the function passes over,
 //   table(key, optional, function)           for one that may be absent.
@@ -18,13 +18,13 @@
 namespace clatter {
 
 /// The numbers that a key allows, from `lowest` (itself excluded where `above` is set) to
-/// `highest`.
+/// `highest`, which may be infinite.
 struct Limits {
   double lowest = -std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::max();
   bool above = false;
 
-  /// Whether the number lies within; NaN and infinities never do.
+  /// Whether the number lies within; NaN never does.
   bool allow(double number) const {
     return (above ? number > lowest : number >= lowest) && number <= highest;
   }
@@ -39,15 +39,46 @@ constexpr Limits at_least(double lowest) {
 constexpr Limits above(double lowest) {
   return {.lowest = lowest, .above = true};
 }
+/// Numbers from `lowest` on, infinity among them.
+constexpr Limits at_least_or_infinite(double lowest) {
+  return {.lowest = lowest, .highest = std::numeric_limits<double>::infinity()};
+}
 
 /// Speeds and temperatures stop where their squares and the times between collisions still are
-/// ordinary numbers; box sides where a position still has a rounding error of 1e-10 diameters.
+/// ordinary numbers; box sides where a position still has a rounding error of 1e-10 diameters; a
+/// wall's phase where it is as precise in its period; inertia where spins are not faster than
+/// speeds by more than they have room for.
 inline constexpr double kMostSpeed = 1e15;
 inline constexpr double kMostTemperature = 1e30;
+inline constexpr double kMostAcceleration = 1e15;
 inline constexpr double kMostLength = 1e6;
+inline constexpr double kMostFrequency = 1e15;
+inline constexpr double kMostPhase = 1e6;
+inline constexpr double kLeastInertia = 1e-9;
+/// A wall that gives more than it gets, Sec. 3.1 a, has a restitution above 1.
+inline constexpr double kMostWallRestitution = 10.0;
 
 /// Whether a table must, may or must not have a key.
-enum class Presence { Required, Optional, Forbidden };
+struct Presence {
+  enum Kind { Required, Optional, Forbidden };
+  Kind kind = Optional;
+  const char* reason = "";  ///< where forbidden: "has no meaning ..."
+  const char* advice = "";  ///< what to do then
+};
+inline constexpr Presence kRequired = {Presence::Required};
+inline constexpr Presence kOptional = {Presence::Optional};
+inline constexpr Presence kNotOfWall = {Presence::Forbidden, "has no meaning for this kind of wall",
+                                        "remove it or choose another kind"};
+inline constexpr Presence kNotWithoutFile = {Presence::Forbidden,
+                                             "has no meaning without layout = \"file\"",
+                                             "remove it, or set disks.start.layout = \"file\""};
+inline constexpr Presence kNotBesideFile = {
+    Presence::Forbidden, "has no meaning beside layout = \"file\": the file has the velocities",
+    "remove it, or choose another layout"};
+inline constexpr Presence kNotWithoutSpins = {
+    Presence::Forbidden, "has no meaning where nothing spins",
+    "remove it, or make the disks or a wall rough: give friction above 0, or "
+    "tangential_restitution above -1"};
 
 /// What an enumerator is called in scene files.
 template <class E>
@@ -56,17 +87,21 @@ struct Named {
   E value;
 };
 
-inline constexpr std::array<Named<Layout>, 2> kLayouts = {
-    {{"random", Layout::Random}, {"lattice", Layout::Lattice}}};
+inline constexpr std::array<Named<Layout>, 3> kLayouts = {
+    {{"random", Layout::Random}, {"lattice", Layout::Lattice}, {"file", Layout::File}}};
 
-inline constexpr std::array<Named<WallKind>, 3> kWallKinds = {
-    {{"static", WallKind::Static}, {"driven", WallKind::Driven}, {"thermal", WallKind::Thermal}}};
+inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
+    {{"static", WallKind::Static},
+     {"driven", WallKind::Driven},
+     {"thermal", WallKind::Thermal},
+     {"sawtooth", WallKind::Sawtooth},
+     {"sinusoidal", WallKind::Sinusoidal}}};
 
-inline constexpr std::array<Named<ColourBy>, 4> kColourings = {
-    {{"none", ColourBy::None},
-     {"speed", ColourBy::Speed},
-     {"velocity_x", ColourBy::VelocityX},
-     {"velocity_y", ColourBy::VelocityY}}};
+inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourBy::None},
+                                                                {"speed", ColourBy::Speed},
+                                                                {"velocity_x", ColourBy::VelocityX},
+                                                                {"velocity_y", ColourBy::VelocityY},
+                                                                {"spin", ColourBy::Spin}}};
 
 inline constexpr std::array<Named<Palette>, 2> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}}};
@@ -92,21 +127,49 @@ struct SceneInput {
   int schema = 1;                       ///< version of the format
   std::optional<int> count;             ///< the number of disks, given by exactly one of these two
   std::optional<double> area_fraction;  ///< phi
+  bool spins = true;                    ///< whether the keys of spins are allowed
   Scene scene;
+
+  /// Of a key that spins give its meaning.
+  Presence spin_key() const { return spins ? kOptional : kNotWithoutSpins; }
 };
+
+template <class Visitor>
+void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
+  io.value("friction", roughness.friction, at_least_or_infinite(0.0), presence);
+  io.value("tangential_restitution", roughness.tangential_restitution, between(-1.0, 1.0),
+           presence);
+}
 
 /// The keys of one wall; which of them it may have depends on its kind.
 template <class Visitor>
 void visit_wall(Visitor& io, Wall& wall) {
-  using enum Presence;
-  io.choice("kind", wall.kind, kWallKinds, Required);
+  io.choice("kind", wall.kind, kWallKinds, kRequired);
   const bool driven = wall.kind == WallKind::Driven;
   const bool thermal = wall.kind == WallKind::Thermal;
-  io.value("restitution", wall.restitution, between(0.0, 1.0), thermal ? Forbidden : Optional);
+  const Presence of_touch = thermal ? kNotOfWall : kOptional;
+  const Presence of_motion = wall.moves() ? kRequired : kNotOfWall;
+  io.value("restitution", wall.restitution, between(0.0, kMostWallRestitution), of_touch);
+  visit_roughness(io, wall.roughness, of_touch);
   io.value("drive_speed", wall.drive_speed, between(0.0, kMostSpeed),
-           driven ? Required : Forbidden);
+           driven ? kRequired : kNotOfWall);
   io.value("temperature", wall.temperature, between(0.0, kMostTemperature),
-           thermal ? Required : Forbidden);
+           thermal ? kRequired : kNotOfWall);
+  io.value("stroke", wall.stroke, between(0.0, kMostLength), of_motion);
+  io.value("frequency", wall.frequency, between(0.0, kMostFrequency), of_motion);
+  io.value("phase", wall.phase, between(-kMostPhase, kMostPhase),
+           wall.moves() ? kOptional : kNotOfWall);
+}
+
+template <class Visitor>
+void visit_start(Visitor& io, Start& start, Presence spin_key) {
+  io.choice("layout", start.layout, kLayouts);
+  const bool from_file = start.layout == Layout::File;
+  io.value("file", start.file, Limits{}, from_file ? kRequired : kNotWithoutFile);
+  io.value("temperature", start.temperature, between(0.0, kMostTemperature),
+           from_file ? kNotBesideFile : kOptional);
+  io.value("spin_temperature", start.spin_temperature, between(0.0, kMostTemperature),
+           from_file ? kNotBesideFile : spin_key);
 }
 
 template <class Visitor>
@@ -116,10 +179,16 @@ void visit_disks(Visitor& io, SceneInput& input) {
   io.value("count", input.count, between(0, kMostDisks));
   io.value("area_fraction", input.area_fraction, between(0.0, 1.0));
   io.value("restitution", disks.restitution, between(0.0, 1.0));
-  io.table("start", [&disks](auto& io) {
-    io.choice("layout", disks.start.layout, kLayouts);
-    io.value("temperature", disks.start.temperature, between(0.0, kMostTemperature));
-  });
+  visit_roughness(io, disks.roughness, kOptional);
+  io.value("inertia", disks.inertia, between(kLeastInertia, 1.0), input.spin_key());
+  io.table("start", [&](auto& io) { visit_start(io, disks.start, input.spin_key()); });
+}
+
+template <class Visitor>
+void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
+  io.value("interval", drive.interval, above(0.0), kRequired);
+  io.value("kick_speed", drive.kick_speed, between(0.0, kMostSpeed), kRequired);
+  io.value("kick_spin", drive.kick_spin, between(0.0, kMostSpeed), spin_key);
 }
 
 template <class Visitor>
@@ -160,6 +229,15 @@ void visit_scene(Visitor& io, SceneInput& input) {
       io.table(kSideNames[side], scene.walls[side],
                [](auto& io, Wall& wall) { visit_wall(io, wall); });
     }
+  });
+  io.table("gravity", scene.gravity, [](auto& io, Vec2& acceleration) {
+    io.value("acceleration", acceleration, between(-kMostAcceleration, kMostAcceleration),
+             kRequired);
+  });
+  io.table("bulk_drive", scene.bulk_drive,
+           [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });
+  io.table("collapse", scene.contact_time, [](auto& io, double& contact_time) {
+    io.value("contact_time", contact_time, above(0.0), kRequired);
   });
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure); });
   io.table("view", [&](auto& io) { visit_view(io, scene.view); });

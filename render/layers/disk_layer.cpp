@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "render/layers/wall_layer.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -119,8 +120,9 @@ void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   const int height = projection.size.height + 2 * margin;
   gl_->Viewport(-margin, -margin, width, height);
 
-  const Vec2 low = projection.pixels({0.0, 0.0});
-  const Vec2 high = projection.pixels(snapshot.box);
+  const Faces faces = faces_of(snapshot);
+  const Vec2 low = projection.pixels(faces.low);
+  const Vec2 high = projection.pixels(faces.high);
   program.use();
   gl_->Uniform2f(program.uniform("u_origin"), -margin, -margin);
   gl_->Uniform2f(program.uniform("u_extent"), width, height);

@@ -76,10 +76,11 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
 }
 
 // The arrangement that leaves the box the most room.
-Page arrange(const Vec2& box, const Fonts& fonts, Size size, std::span<const Legend> legends,
-             const OverlayText& text) {
+Page arrange(const Snapshot& snapshot, const Fonts& fonts, Size size,
+             std::span<const Legend> legends, const OverlayText& text) {
+  const Faces faces = outermost_faces(snapshot);
   auto shown_width = [&](const Page& page) {
-    return Camera::fit({0.0, 0.0}, box, size, page.margins).width;
+    return Camera::fit(faces.low, faces.high, size, page.margins).width;
   };
   const Page rows = arrange(Arrangement::Rows, fonts, size, legends, text);
   const Page column = arrange(Arrangement::Column, fonts, size, legends, text);
@@ -176,12 +177,12 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, double scale, const
 }
 
 // One below the other at the right of the box, or at the picture's edge where the box goes beyond.
-void draw_legends(ImDrawList& list, std::span<const Legend> legends, const Vec2& box,
+void draw_legends(ImDrawList& list, std::span<const Legend> legends, const Faces& faces,
                   const Projection& projection, const Page& page) {
   if (legends.empty()) return;
   const float unit = page.fonts.unit();
   const double height = projection.size.height;
-  const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(box);
+  const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
   const double top = std::max(page.margins.top, height - high.y());
   const double bottom = std::min(height - page.margins.bottom, height - low.y());
   const double right = std::min(high.x(), projection.size.width - page.margins.right);
@@ -217,22 +218,22 @@ Fonts Overlay::fonts_for(Size size) {
   return fonts;
 }
 
-Margins Overlay::margins(const Vec2& box, Size size, std::span<const Legend> legends,
+Margins Overlay::margins(const Snapshot& snapshot, Size size, std::span<const Legend> legends,
                          const OverlayText& text) {
   const CurrentContext current(context_.get());
-  return arrange(box, fonts_for(size), size, legends, text).margins;
+  return arrange(snapshot, fonts_for(size), size, legends, text).margins;
 }
 
 void Overlay::draw(const Snapshot& snapshot, const Projection& projection,
                    std::span<const Legend> legends, const OverlayText& text) {
   const CurrentContext current(context_.get());
   const Size size = projection.size;
-  const Page page = arrange(snapshot.box, fonts_for(size), size, legends, text);
+  const Page page = arrange(snapshot, fonts_for(size), size, legends, text);
   ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   draw_heading(list, text, page);
-  draw_legends(list, legends, snapshot.box, projection, page);
+  draw_legends(list, legends, outermost_faces(snapshot), projection, page);
   switch (page.arrangement) {
     case Arrangement::Rows:
       draw_row(list, snapshot, projection.scale(), page);

@@ -25,8 +25,8 @@ class Overlay {
  public:
   explicit Overlay(const Gl& gl);
 
-  /// The space its texts take along the edges of a picture of `size` that shows `box`.
-  Margins margins(const Vec2& box, Size size, std::span<const Legend> legends,
+  /// The space its texts take along the edges of a picture of `size` that shows the whole box.
+  Margins margins(const Snapshot& snapshot, Size size, std::span<const Legend> legends,
                   const OverlayText& text);
 
   /// Draws it over a picture of `snapshot`.

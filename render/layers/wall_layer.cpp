@@ -13,7 +13,7 @@ namespace clatter {
 namespace {
 
 // As in wall.frag: the patterns, and the teeth's period in thicknesses of the band.
-enum Pattern { kHatch, kTeeth, kGlow, kDashes };
+enum Pattern { kHatch, kTeeth, kWaves, kGlow, kDashes, kPlain };
 constexpr double kToothPeriod = 0.75;
 
 struct Look {
@@ -38,38 +38,39 @@ Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot) {
       // A wall that comes at speed V adds 2 V to what it hits.
       return {kTeeth, theme::kDrivenWall, 0.5 * wall->drive_speed * snapshot.time};
     case WallKind::Sawtooth:
-    case WallKind::Sinusoidal:
       return {kTeeth, theme::kDrivenWall};
+    case WallKind::Sinusoidal:
+      return {kWaves, theme::kDrivenWall};
     case WallKind::Thermal:
       return {kGlow, thermal_colour(wall->temperature, snapshot.temperature)};
   }
   return {kHatch, theme::kStaticWall};
 }
 
-struct Vertex {
-  float x, y;            // pixels
-  float along, outward;  // pixels from the wall's lower or left end, and from its face
-};
-
-// The band's four corners as a triangle strip; where walls meet, it is mitred.
-std::array<Vertex, 4> band(Side side, const Snapshot& snapshot, const Projection& projection,
-                           double inner, double outer) {
+// The four corners of a band along a wall's face as a triangle strip, from `inner` to `outer`
+// pixels outside it; where walls meet, a mitred one fits its neighbours. Patterns stay in place
+// when the wall beside moves.
+enum class Ends { Straight, Mitred };
+std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
+                                      const Projection& projection, double inner, double outer,
+                                      Ends ends) {
   const int axis = side / 2, other = 1 - axis;
   const bool far = side % 2;
-  const bool meets_walls = snapshot.walls[2 * other].has_value();
-  const Vec2 low = projection.pixels({0.0, 0.0});
-  const Vec2 high = projection.pixels(snapshot.box);
+  const bool mitred = ends == Ends::Mitred && snapshot.walls[2 * other];
+  const Faces faces = faces_of(snapshot);
+  const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
+  const double origin = projection.pixels({0.0, 0.0})[other];
 
-  std::array<Vertex, 4> corners;
+  std::array<WallLayer::Vertex, 4> corners;
   for (int i = 0; i < 4; ++i) {
     const bool at_end = i % 2;
     const double outward = i / 2 ? outer : inner;
-    const double overhang = meets_walls ? outward : 0.0;
+    const double overhang = mitred ? outward : 0.0;
     Vec2 place;
     place[axis] = far ? high[axis] + outward : low[axis] - outward;
     place[other] = at_end ? high[other] + overhang : low[other] - overhang;
     corners[i] = {static_cast<float>(place.x()), static_cast<float>(place.y()),
-                  static_cast<float>(place[other] - low[other]), static_cast<float>(outward)};
+                  static_cast<float>(place[other] - origin), static_cast<float>(outward)};
   }
   return corners;
 }
@@ -82,6 +83,19 @@ double line_width(Size size) {
 
 double wall_thickness(Size size) {
   return std::max(6.0, std::round(0.025 * std::min(size.width, size.height)));
+}
+
+Faces faces_of(const Snapshot& snapshot) {
+  const auto& moved = snapshot.wall_displacement;
+  return {Vec2(moved[kLeft], moved[kBottom]), snapshot.box - Vec2(moved[kRight], moved[kTop])};
+}
+
+Faces outermost_faces(const Snapshot& snapshot) {
+  const auto travel = [&](Side side) {
+    const auto& wall = snapshot.walls[side];
+    return wall ? wall->outermost_travel() : 0.0;
+  };
+  return {-Vec2(travel(kLeft), travel(kBottom)), snapshot.box + Vec2(travel(kRight), travel(kTop))};
 }
 
 WallLayer::WallLayer(const Gl& gl)
@@ -105,7 +119,24 @@ void WallLayer::draw(const Snapshot& snapshot, const Projection& projection) con
   gl_->Uniform1f(program_.uniform("u_line"), line_width(projection.size));
   gl_->BindVertexArray(vertices_.id());
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
+  for (Side side : {kLeft, kRight, kBottom, kTop}) {
+    const auto& wall = snapshot.walls[side];
+    if (wall && wall->moves()) draw_place(side, snapshot, projection);
+  }
   for (Side side : {kLeft, kRight, kBottom, kTop}) draw_side(side, snapshot, projection);
+}
+
+void WallLayer::draw_place(Side side, const Snapshot& snapshot,
+                           const Projection& projection) const {
+  const double line = line_width(projection.size);
+  // What the field shows behind the face is no part of the gas.
+  const double moved_in = snapshot.wall_displacement[side] * projection.scale();
+  if (moved_in > 0.0) {
+    draw_band(band(side, snapshot, projection, 0.0, moved_in, Ends::Straight), kPlain,
+              theme::kBackground);
+  }
+  draw_band(band(side, snapshot, projection, moved_in, moved_in + line, Ends::Straight), kPlain,
+            theme::kWallPlace);
 }
 
 void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection& projection) const {
@@ -113,15 +144,18 @@ void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection&
   const double thickness = wall_thickness(projection.size);
   const double line = line_width(projection.size);
   const bool is_line = look.pattern == kDashes;
-  const auto corners = band(side, snapshot, projection, is_line ? -0.5 * line : 0.0,
-                            is_line ? 0.5 * line : thickness);
-  gl_->BufferData(GL_ARRAY_BUFFER, sizeof corners, corners.data(), GL_STREAM_DRAW);
-
   const double periods = look.advance * projection.scale() / (kToothPeriod * thickness);
-  gl_->Uniform1i(program_.uniform("u_pattern"), look.pattern);
   gl_->Uniform1f(program_.uniform("u_advance"), periods - std::floor(periods));
-  gl_->Uniform4f(program_.uniform("u_colour"), look.colour.red / 255.0f, look.colour.green / 255.0f,
-                 look.colour.blue / 255.0f, look.colour.alpha / 255.0f);
+  draw_band(band(side, snapshot, projection, is_line ? -0.5 * line : 0.0,
+                 is_line ? 0.5 * line : thickness, Ends::Mitred),
+            look.pattern, look.colour);
+}
+
+void WallLayer::draw_band(const std::array<Vertex, 4>& corners, int pattern, Colour colour) const {
+  gl_->BufferData(GL_ARRAY_BUFFER, sizeof corners, corners.data(), GL_STREAM_DRAW);
+  gl_->Uniform1i(program_.uniform("u_pattern"), pattern);
+  gl_->Uniform4f(program_.uniform("u_colour"), colour.red / 255.0f, colour.green / 255.0f,
+                 colour.blue / 255.0f, colour.alpha / 255.0f);
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 

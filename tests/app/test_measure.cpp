@@ -143,13 +143,44 @@ TEST_CASE("Results and tables go into the files asked for") {
   CHECK(std::ranges::count(profile, '\n') == 22);
 }
 
+TEST_CASE("A state that was saved is where another run starts") {
+  const Shell shell;
+  REQUIRE(shell.run(kMeasure + "--quiet --out r.json --save-state end.csv").code == 0);
+  CHECK(shell.read("end.csv").starts_with("x,y,vx,vy\n"));
+  CHECK(std::ranges::count(shell.read("end.csv"), '\n') == 201);
+  shell.run("mkdir from && cp end.csv from/start.csv");
+  shell.write(
+      "from/s.toml",
+      "box.size = [20, 25]\ndisks.start = { layout = 'file', file = 'start.csv' }\n"
+      "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n"
+      "measure.burn_in = 0\n");
+  // So short a run moves no disk by as much as the last bit.
+  const std::string instant = " --quiet --until 1e-300 --save-state again.csv";
+  for (const std::string scene : {"from/s.toml",
+                                  "vibrated --set measure.burn_in=0 --set "
+                                  "'disks.start={layout=\"file\",file=\"end.csv\"}'"}) {
+    CAPTURE(scene);
+    const Outcome outcome = shell.run("clatter measure " + scene + instant);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(json::parse(outcome.out).at("state_hash") ==
+          json::parse(shell.read("r.json")).at("state_hash"));
+    CHECK(shell.read("again.csv") == shell.read("end.csv"));
+  }
+  CHECK(shell.run("clatter check from/s.toml").out.find("count = 200\n") != std::string::npos);
+}
+
 TEST_CASE("An interrupted measurement keeps what it has") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";
   SUBCASE("while it averages") {
     const Outcome outcome =
-        shell.run(interrupted + "--set measure.burn_in=1 --set measure.duration=1e6 --out r.json");
+        shell.run(interrupted +
+                  "--set measure.burn_in=1 --set measure.duration=1e6 --out r.json "
+                  "--save-state end.csv");
     CHECK(outcome.code == 130);
+    CHECK(std::ranges::count(shell.read("end.csv"), '\n') == 201);
+    shell.run("rm end.csv");
     const json result = json::parse(shell.read("r.json"));
     const double measured = result.at("time").at("measured");
     CHECK(measured > 0.0);
@@ -165,7 +196,7 @@ TEST_CASE("An interrupted measurement keeps what it has") {
     CHECK_FALSE(result.contains("temperature"));
     CHECK_FALSE(result.contains("energy"));
   }
-  CHECK(shell.files() == std::vector<std::string>{"r.json"});
+  CHECK(shell.files() == std::vector<std::string>{"r.checkpoint", "r.json"});
 }
 
 TEST_CASE("Progress is told on stderr as asked") {

@@ -111,7 +111,7 @@ TEST_CASE("An interrupted film plays up to where it got") {
   const Outcome outcome =
       shell.run("timeout --preserve-status -s INT 4 " + kRender + "--to 1e5 --out film.mp4");
   CHECK(outcome.code == 130);
-  CHECK(shell.files() == Files{"film.mp4"});
+  CHECK(shell.files() == Files{"film.checkpoint", "film.mp4"});
   int width = 0, height = 0, frames = 0;
   char comma;
   std::istringstream(probe(shell, "film.mp4")) >> width >> comma >> height >> comma >> frames;

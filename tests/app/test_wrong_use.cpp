@@ -61,6 +61,24 @@ TEST_CASE("Mistakes in a scene are refused at their line and column") {
   }
 }
 
+TEST_CASE("Mistakes in a start state are refused at their line and column") {
+  const Shell shell;
+  shell.write("s.toml", "[disks.start]\nlayout = 'file'\nfile = 'a.csv'\n");
+  struct Mistake {
+    std::string csv;
+    std::vector<std::string> parts;
+  };
+  for (const Mistake& mistake :
+       {Mistake{"x,y,vx,vy\n1,1,0,0\n1.5,1,0,0\n", {"a.csv:3:1: ", "lines 2 and 3", "move them"}},
+        Mistake{"x,y,vx,vy\n1,1,0,zero\n", {"a.csv:2:7: ", "zero", "write, say"}},
+        Mistake{"x,y,vx,vy,omega\n1,1,0,0,1\n", {"a.csv:1:11: ", "omega", "remove the column"}}}) {
+    shell.write("a.csv", mistake.csv);
+    check_refused(shell, "clatter check s.toml", mistake.parts);
+    check_refused(shell, "clatter measure s.toml --out r.json", mistake.parts);
+    check_refused(shell, "clatter render s.toml --out film.mp4", mistake.parts);
+  }
+}
+
 TEST_CASE("What is no scene is refused") {
   const Shell shell;
   check_refused(shell, "clatter check nowhere.toml", {"nowhere.toml: ", "clatter scenes"});
@@ -99,6 +117,8 @@ TEST_CASE("Where nothing can be written, nothing is run") {
   for (const std::string out : {"missing/x", "folder", "folder/"}) {
     CAPTURE(out);
     check_refused(shell, "clatter measure vibrated --until 1e6 --out " + out, {"--out", "folder"});
+    check_refused(shell, "clatter measure vibrated --until 1e6 --save-state " + out,
+                  {"--save-state", "folder"});
   }
   check_refused(shell, "clatter measure vibrated --until 1e6 --csv missing/x",
                 {"--csv", "missing"});

@@ -15,7 +15,7 @@ int main() {
   constexpr std::uint64_t kCollisions = 5000;
   for (const EmbeddedFile& file : embedded_scenes()) {
     const std::string name(file.name);
-    const Scene scene = parse_scene(file.bytes, name);
+    const Scene scene = load_gallery_scene(file);
     Simulation<2> simulation(model_of(scene, kSeed), start_state(scene, kSeed));
     simulation.run_until(kNever, kCollisions);
     std::printf("%-20s %016" PRIx64 "\n", name.c_str(), simulation.state_hash());

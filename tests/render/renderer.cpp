@@ -88,6 +88,67 @@ TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
 }
 
+TEST_CASE("A picture has room for a wall that swings out of the box") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot = driven_box();
+  snapshot.walls[kRight] = Wall{.kind = WallKind::Sinusoidal, .stroke = 6.0, .frequency = 1.0};
+  for (Size size : {Size{1280, 720}, {360, 640}}) {
+    for (const bool overlay : {false, true}) {
+      View view;
+      view.overlay = overlay;
+      const Camera camera = renderer.fit(snapshot, size, view, kText);
+      const Projection projection{camera, size};
+      const double face = projection.pixels({23.0, 0.0}).x();
+      CHECK(projection.pixels({0.0, 0.0}).x() >= wall_thickness(size) - 0.5);
+      CHECK(face + wall_thickness(size) <= size.width + 0.5);
+      if (!overlay) continue;
+      // No text where the wall comes.
+      snapshot.wall_displacement[kRight] = -3.0;
+      const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+      view.overlay = false;
+      const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+      const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels({23.0, 25.0});
+      int written = 0;
+      for (int y = static_cast<int>(low.y()) + 1; y < high.y() - 1; ++y) {
+        for (int x = static_cast<int>(low.x()) + 1; x < high.x() + wall_thickness(size) - 1; ++x) {
+          const int down = size.height - 1 - y;
+          written += !(pixel(with, x, down) == pixel(without, x, down));
+        }
+      }
+      CHECK(written == 0);
+    }
+  }
+}
+
+TEST_CASE("Spins are coloured by their sense") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{3.0, 5.0}, {5.0, 5.0}, {7.0, 5.0}};
+  snapshot.velocities = {{9.0, 0.0}, {9.0, 0.0}, {9.0, 0.0}};
+  snapshot.spins = {2.0, 0.0, -2.0};
+  View view;
+  view.overlay = false;
+  view.colour_by = ColourBy::Spin;
+  const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
+  const Colour forward = pixel(image, 30, 50), still = pixel(image, 50, 50);
+  const Colour backward = pixel(image, 70, 50);
+  CHECK(forward.red > forward.blue + 80);
+  CHECK(backward.blue > backward.red + 80);
+  CHECK(difference(still, {still.red, still.red, still.red}) < 20);
+  // Its legend is written.
+  view.overlay = true;
+  const Image with = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
+  CHECK(
+      difference(with, draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, [&] {
+                   View v = view;
+                   v.overlay = false;
+                   return v;
+                 }())) > 50);
+}
+
 TEST_CASE("An empty box is drawn too") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());

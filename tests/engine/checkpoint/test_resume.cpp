@@ -61,7 +61,7 @@ std::vector<Laws> all_laws() {
   // All at once.
   model = laws[4].model;
   model.walls[kLeft] = model.walls[kRight] = laws[3].model.walls[kLeft];
-  model.walls[kLeft]->roughness = {.friction = 0.2};
+  model.walls[kLeft]->roughness.friction = 0.2;
   model.roughness = {.friction = 0.5, .tangential_restitution = 0.3};
   model.spins = true;
   model.gravity = {0.05, -0.1};
@@ -122,7 +122,7 @@ TEST_CASE("Resume: a halt right after any collision changes no bit") {
 TEST_CASE("Resume: every scene of the gallery, halfway") {
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
-    const Scene scene = parse_scene(file.bytes, std::string(file.name));
+    const Scene scene = load_gallery_scene(file);
     const Model<2> model = model_of(scene, 1);
     Simulation<2> first(model, start_state(scene, 1));
     first.run_until(kNever, 20 * static_cast<std::uint64_t>(scene.disks.count));

@@ -66,3 +66,35 @@ TEST_CASE("clock: start + count * interval is exact up to 1e15 counts") {
     }
   }
 }
+
+TEST_CASE("clock: the periods done at the base are exact up to 1e18 of them") {
+  CHECK(Clock(0.0).periods(3.0, 0.25) == 0.25);
+  CHECK(Clock(0.75).periods(3.0, 0.0) == 0.25);
+  CHECK(Clock(1.0).periods(3.5, 0.5) == 0.0);
+  CHECK(Clock(1e12).periods(1e6, 0.625) == 0.625);
+  CHECK(Clock(-0.25).periods(1.0, 0.0) == 0.75);
+  // Frequencies of whole multiples of 2^-20 below 2^20, a base of such of 2^-40: the product in
+  // units of 2^-60 fits 128 bits.
+  constexpr Integer period = static_cast<Integer>(1) << 60;
+  for (const std::int64_t start : {0ll, 1000000000ll, 1000000000000ll}) {
+    Random random(54, Stream::Velocity, 0, 0);
+    Clock clock(static_cast<double>(start));
+    Integer base = static_cast<Integer>(start) << 40;
+    double worst = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+      const auto moved = static_cast<std::int64_t>(random.below(1ull << 41));
+      clock.advance(std::ldexp(static_cast<double>(moved), -40));
+      base += moved;
+      const auto frequency = static_cast<std::int64_t>(random.below(1ull << 40));
+      const auto phase = static_cast<std::int64_t>(random.below(1ull << 40));
+      const Integer exact = (frequency * base + (static_cast<Integer>(phase) << 20)) % period;
+      const double got = clock.periods(std::ldexp(static_cast<double>(frequency), -20),
+                                       std::ldexp(static_cast<double>(phase), -40));
+      REQUIRE(got >= 0.0);
+      REQUIRE(got < 1.0);
+      const double error = std::fabs(got - std::ldexp(static_cast<double>(exact), -60));
+      worst = std::max(worst, std::min(error, 1.0 - error));
+    }
+    CHECK(worst < 2.5e-16);
+  }
+}

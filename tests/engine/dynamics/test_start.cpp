@@ -7,8 +7,10 @@
 #include <set>
 #include <vector>
 
+#include "engine/dynamics/simulation.h"
 #include "engine/dynamics/start.h"
 #include "engine/scene/lattice.h"
+#include "engine/scene/state_file.h"
 
 using namespace clatter;
 
@@ -219,4 +221,105 @@ TEST_CASE("start_state: one disk in a box that it nearly fills") {
     if (walled) scene.walls[kLeft] = scene.walls[kRight] = Wall{};
     CHECK(start_state(scene, 82).positions.size() == 1);
   }
+}
+
+TEST_CASE("start_state: spins have exactly their temperature, and the mean that chance gives") {
+  // 5000 disks: the mean of omega is 0 with standard error sqrt(T_rot/(I N)), and what is left of
+  // it shows that none was taken out; the kurtosis is 3 with standard error sqrt(24/5000) = .069.
+  Scene scene;
+  scene.box = {200.0, 200.0};
+  scene.disks.count = 5000;
+  scene.disks.roughness.friction = 0.5;
+  scene.disks.inertia = 0.4;
+  scene.disks.start.spin_temperature = 2.3;
+  const double moment = 0.1;  // I = q/4
+  const State<2> state = start_state(scene, 83);
+  REQUIRE(state.spins.size() == 5000);
+  double mean = 0.0, square = 0.0, fourth = 0.0, mixed = 0.0;
+  for (std::size_t i = 0; i < state.spins.size(); ++i) {
+    const double omega = state.spins[i][0];
+    mean += omega / 5000.0;
+    square += omega * omega / 5000.0;
+    fourth += std::pow(omega, 4) / 5000.0;
+    mixed += omega * state.velocities[i].x() / 5000.0;
+  }
+  CHECK(moment * square == doctest::Approx(2.3).epsilon(1e-14));
+  CHECK(std::fabs(mean) < 5.0 * std::sqrt(2.3 / moment / 5000.0));
+  CHECK(std::fabs(mean) > 1e-6);
+  CHECK(std::fabs(fourth / (square * square) - 3.0) < 5.0 * 0.069);
+  CHECK(std::fabs(mixed) < 5.0 * std::sqrt(square / 5000.0));
+  CHECK(start_state(scene, 83).spins == state.spins);
+  CHECK(start_state(scene, 84).spins != state.spins);
+}
+
+TEST_CASE("start_state: spins are there where the scene has them, and change nothing else") {
+  Scene scene = scene_of(0.6, {true, false});
+  const State<2> smooth = start_state(scene, 85);
+  CHECK(smooth.spins.empty());
+  scene.walls[kLeft]->roughness.tangential_restitution = 0.5;
+  const State<2> still = start_state(scene, 85);
+  REQUIRE(still.spins.size() == smooth.positions.size());
+  CHECK(std::ranges::all_of(still.spins, [](const Spin<2>& spin) { return spin[0] == 0.0; }));
+  CHECK(still.positions == smooth.positions);
+  CHECK(still.velocities == smooth.velocities);
+  scene.disks.start.spin_temperature = 1.0;
+  scene.disks.count = 1;
+  scene.disks.inertia = 0.5;
+  CHECK(std::fabs(start_state(scene, 85).spins[0][0]) == doctest::Approx(std::sqrt(8.0)));
+}
+
+TEST_CASE("start_state: disks keep clear of moving walls, at any density") {
+  for (const Case& c : kCases) {
+    // The room of 25 x 22 that other cases fill, and what the walls sweep around it.
+    const Scene still = scene_of(c.fraction, {true, true});
+    Scene scene = still;
+    scene.walls[kLeft] = Wall{.kind = WallKind::Sawtooth, .stroke = 1.5, .frequency = 1.0};
+    scene.walls[kTop] = Wall{.kind = WallKind::Sinusoidal, .stroke = 3.0, .frequency = 1.0};
+    scene.walls[kBottom] = Wall{.kind = WallKind::Sawtooth, .stroke = 0.25, .frequency = 1.0};
+    scene.box = {26.5, 23.75};
+    CAPTURE(c.fraction);
+    CAPTURE(c.how);
+    const State<2> state = start_state(scene, 86);
+    const State<2> expected = start_state(still, 86);
+    REQUIRE(state.positions.size() == expected.positions.size());
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      CHECK(state.positions[i] == expected.positions[i] + Vec2(1.5, 0.25));
+    }
+    CHECK(state.velocities == expected.velocities);
+  }
+}
+
+TEST_CASE("start_state: forces, roughness and driving leave the places as they are") {
+  Scene scene = scene_of(0.6, {false, true});
+  const State<2> plain = start_state(scene, 87);
+  scene.gravity = {1.0, -5.0};
+  scene.bulk_drive = {.interval = 0.01, .kick_speed = 3.0, .kick_spin = 1.0};
+  scene.contact_time = 0.1;
+  scene.disks.restitution = 0.5;
+  scene.disks.roughness.friction = 0.5;
+  scene.disks.start.spin_temperature = 2.0;
+  const State<2> other = start_state(scene, 87);
+  CHECK(other.positions == plain.positions);
+  CHECK(other.velocities == plain.velocities);
+}
+
+TEST_CASE("start_state: a state that was saved starts a run, bit by bit") {
+  const auto restarted = [](Scene scene, const State<2>& saved) {
+    scene.disks.start.layout = Layout::File;
+    scene.disks.start.state = parse_state(state_to_csv(saved), "a.csv", scene);
+    return start_state(scene, 1);
+  };
+  Scene scene = scene_of(0.3, {true, false});
+  Simulation<2> simulation(model_of(scene, 88), start_state(scene, 88));
+  simulation.run_until(1.7);
+  const State<2> state = restarted(scene, simulation.state());
+  CHECK(state.positions == simulation.state().positions);
+  CHECK(state.velocities == simulation.state().velocities);
+  CHECK(state.spins.empty());
+  CHECK(Simulation<2>(model_of(scene, 1), state).state_hash() == simulation.state_hash());
+
+  scene.disks.roughness.friction = 0.5;
+  scene.disks.start.spin_temperature = 2.0;
+  const State<2> spinning = start_state(scene, 88);
+  CHECK(restarted(scene, spinning).spins == spinning.spins);
 }

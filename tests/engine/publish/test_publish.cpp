@@ -36,6 +36,21 @@ TEST_CASE("snapshot_of: what the renderer draws the box from") {
   CHECK_FALSE(snapshot_of(*simulation_of(gas(9.0, 8.0, 3, 1.0), 52)).walls[kLeft]);
 }
 
+TEST_CASE("snapshot_of: moving walls are where they are at its time, the others in their places") {
+  Scene scene = gas(9.0, 8.0, 1, 1.0);
+  scene.walls[kLeft] = Wall{.kind = WallKind::Sawtooth, .stroke = 0.5, .frequency = 0.25};
+  scene.walls[kRight] = Wall{};
+  scene.walls[kBottom] = scene.walls[kTop] =
+      Wall{.kind = WallKind::Sinusoidal, .stroke = 0.5, .frequency = 0.25, .phase = 0.5};
+  const auto simulation = simulation_of(scene, 53);
+  simulation->run_until(1.0);
+  const Snapshot snapshot = snapshot_of(*simulation);
+  CHECK(snapshot.wall_displacement[kLeft] == doctest::Approx(0.125));
+  CHECK(snapshot.wall_displacement[kRight] == 0.0);
+  CHECK(snapshot.wall_displacement[kBottom] == doctest::Approx(-0.25));
+  CHECK(snapshot.wall_displacement[kTop] == doctest::Approx(-0.25));
+}
+
 TEST_CASE("snapshot_of: centres lie in the box, wherever their flights began") {
   const auto simulation = lone_disk(gas(5.0, 4.0, 1, 1.0), {0.5, 3.5}, {-3.0, 7.0});
   simulation->run_until(1.25);  // at (-3.25, 12.25): one box back, three boxes up

@@ -48,6 +48,11 @@ struct TemporaryFile {
   std::string path = (std::filesystem::temp_directory_path() / "clatter_test_scene.toml").string();
 };
 
+void check_equal(const Roughness& a, const Roughness& b) {
+  CHECK(a.friction == b.friction);
+  CHECK(a.tangential_restitution == b.tangential_restitution);
+}
+
 void check_equal(const std::optional<Wall>& a, const std::optional<Wall>& b) {
   REQUIRE(a.has_value() == b.has_value());
   if (!a) return;
@@ -55,6 +60,18 @@ void check_equal(const std::optional<Wall>& a, const std::optional<Wall>& b) {
   CHECK(a->restitution == b->restitution);
   CHECK(a->drive_speed == b->drive_speed);
   CHECK(a->temperature == b->temperature);
+  CHECK(a->stroke == b->stroke);
+  CHECK(a->frequency == b->frequency);
+  CHECK(a->phase == b->phase);
+  check_equal(a->roughness, b->roughness);
+}
+
+void check_equal(const std::optional<BulkDrive>& a, const std::optional<BulkDrive>& b) {
+  REQUIRE(a.has_value() == b.has_value());
+  if (!a) return;
+  CHECK(a->interval == b->interval);
+  CHECK(a->kick_speed == b->kick_speed);
+  CHECK(a->kick_spin == b->kick_spin);
 }
 
 void check_equal(const Scene& a, const Scene& b) {
@@ -63,9 +80,19 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.box == b.box);
   CHECK(a.disks.count == b.disks.count);
   CHECK(a.disks.restitution == b.disks.restitution);
+  check_equal(a.disks.roughness, b.disks.roughness);
+  CHECK(a.disks.inertia == b.disks.inertia);
   CHECK(a.disks.start.layout == b.disks.start.layout);
+  CHECK(a.disks.start.file == b.disks.start.file);
+  CHECK(a.disks.start.state.positions == b.disks.start.state.positions);
+  CHECK(a.disks.start.state.velocities == b.disks.start.state.velocities);
+  CHECK(a.disks.start.state.spins == b.disks.start.state.spins);
   CHECK(a.disks.start.temperature == b.disks.start.temperature);
+  CHECK(a.disks.start.spin_temperature == b.disks.start.spin_temperature);
   for (int side = 0; side < 4; ++side) check_equal(a.walls[side], b.walls[side]);
+  CHECK(a.gravity == b.gravity);
+  check_equal(a.bulk_drive, b.bulk_drive);
+  CHECK(a.contact_time == b.contact_time);
   CHECK(a.measure.burn_in == b.measure.burn_in);
   CHECK(a.measure.duration == b.measure.duration);
   CHECK(a.measure.series_interval == b.measure.series_interval);
@@ -86,17 +113,33 @@ Scene unusual_scene() {
   scene.title = "quotes \" ' \\ and \x7f, tab\t, line\n, é ∞";
   scene.caption = "\x1b[31m #not a comment = {}";
   scene.box = {123456.7, 0.1 + 0.2 + 1.0};
-  scene.disks = {.count = 17, .restitution = 1.0 / 3.0, .start = {.layout = Layout::Lattice, .temperature = 1e-300}};
+  scene.disks.count = 17;
+  scene.disks.restitution = 1.0 / 3.0;
+  scene.disks.roughness = {.friction = std::numeric_limits<double>::infinity(),
+                           .tangential_restitution = -0.1};
+  scene.disks.inertia = 0.4;
+  scene.disks.start.layout = Layout::Lattice;
+  scene.disks.start.temperature = 1e-300;
+  scene.disks.start.spin_temperature = 0.7;
   scene.walls[kLeft] = Wall{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 2.5};
   scene.walls[kRight] = Wall{.kind = WallKind::Thermal, .temperature = 12345678901234567890.0};
-  scene.walls[kBottom] = Wall{.kind = WallKind::Static, .restitution = 0.25};
-  scene.walls[kTop] = Wall{};
+  scene.walls[kBottom] = Wall{.kind = WallKind::Sawtooth,
+                              .restitution = 0.25,
+                              .roughness = {.friction = 0.1, .tangential_restitution = {}},
+                              .stroke = 0.1,
+                              .frequency = 1e9 / 3.0,
+                              .phase = -0.3};
+  scene.walls[kTop] =
+      Wall{.kind = WallKind::Sinusoidal, .restitution = 1.5, .stroke = 0.05, .frequency = 2.0};
+  scene.gravity = {0.1, -1.0 / 3.0};
+  scene.bulk_drive = {.interval = 0.05, .kick_speed = 0.12, .kick_spin = 0.3};
+  scene.contact_time = 1e-6;
   scene.measure.burn_in = 0.0;
   scene.measure.duration = 1e308;
   scene.measure.series_interval = 5e-324;
   scene.measure.fields = {Field::VelocityX, Field::VelocityY, Field::TemperatureY, Field::Density};
   scene.measure.cells = {3, 7};
-  scene.view = {.colour_by = ColourBy::VelocityY,
+  scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field::TemperatureX,
                 .window = 0.125,
                 .speed = 1e-7,
@@ -122,10 +165,22 @@ TEST_CASE("every key arrives at its place") {
     [disks]
     count = 3
     restitution = 0.9
-    start = { layout = "lattice", temperature = 2 }
+    friction = inf
+    inertia = 0.4
+    start = { layout = "lattice", temperature = 2, spin_temperature = 3 }
     [walls]
     left = { kind = "driven", drive_speed = 1, restitution = 0.5 }
     right = { kind = "thermal", temperature = 3 }
+    bottom = { kind = "sawtooth", stroke = 0.5, frequency = 4, tangential_restitution = 1 }
+    top = { kind = "sinusoidal", stroke = 0.25, frequency = 3, phase = 0.5, restitution = 10 }
+    [gravity]
+    acceleration = [0, -1]
+    [bulk_drive]
+    interval = 0.05
+    kick_speed = 0.12
+    kick_spin = 0.1
+    [collapse]
+    contact_time = 1e-6
     [measure]
     fields = ["velocity", "density", "velocity"]
     cells = [4, 5]
@@ -140,7 +195,23 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.walls[kLeft]->drive_speed == 1.0);
   CHECK(scene.walls[kRight]->temperature == 3.0);
   CHECK(!scene.periodic(0));
-  CHECK(scene.periodic(1));
+  CHECK(scene.disks.roughness.friction == std::numeric_limits<double>::infinity());
+  CHECK(!scene.disks.roughness.tangential_restitution);
+  CHECK(scene.disks.inertia == 0.4);
+  CHECK(scene.disks.start.spin_temperature == 3.0);
+  CHECK(scene.walls[kBottom]->kind == WallKind::Sawtooth);
+  CHECK(scene.walls[kBottom]->stroke == 0.5);
+  CHECK(scene.walls[kBottom]->frequency == 4.0);
+  CHECK(scene.walls[kBottom]->phase == 0.0);
+  CHECK(scene.walls[kBottom]->roughness.tangential_restitution == 1.0);
+  CHECK(scene.walls[kTop]->kind == WallKind::Sinusoidal);
+  CHECK(scene.walls[kTop]->phase == 0.5);
+  CHECK(scene.walls[kTop]->restitution == 10.0);
+  CHECK(scene.gravity == Vec2(0.0, -1.0));
+  CHECK(scene.bulk_drive->interval == 0.05);
+  CHECK(scene.bulk_drive->kick_speed == 0.12);
+  CHECK(scene.bulk_drive->kick_spin == 0.1);
+  CHECK(scene.contact_time == 1e-6);
   const std::vector<Field> fields = {Field::VelocityX, Field::VelocityY, Field::Density};
   CHECK(scene.measure.fields == fields);
   CHECK(scene.measure.cells == std::array{4, 5});
@@ -182,6 +253,30 @@ TEST_CASE("a scene as JSON has the keys of the file") {
         R"("range": "auto", "overlay": true}})");
 }
 
+TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
+  const std::string json = scene_to_json(parse_scene(R"(
+    disks = { count = 3, friction = inf, start.spin_temperature = 2 }
+    walls.left = { kind = "sawtooth", stroke = 0.5, frequency = 3, friction = 0.5 }
+    walls.right = { kind = "sinusoidal", stroke = 0.5, frequency = 3 }
+    gravity.acceleration = [0, -1]
+    bulk_drive = { interval = 0.5, kick_speed = 2 }
+    collapse.contact_time = 1e-6)",
+                                                     "s.toml"));
+  CAPTURE(json);
+  for (const char* part :
+       {R"("disks": {"count": 3, "restitution": 1.0, "friction": "inf", "inertia": 0.5, )",
+        R"("temperature": 1.0, "spin_temperature": 2.0})",
+        R"("left": {"kind": "sawtooth", "restitution": 1.0, "friction": 0.5, "stroke": 0.5, )",
+        R"("right": {"kind": "sinusoidal", "restitution": 1.0, "stroke": 0.5, "frequency": 3.0, )"
+        R"("phase": 0.0}})",
+        R"("gravity": {"acceleration": [0.0, -1.0]})",
+        R"("bulk_drive": {"interval": 0.5, "kick_speed": 2.0, "kick_spin": 0.0})",
+        R"("collapse": {"contact_time": 1e-06})"}) {
+    CAPTURE(part);
+    CHECK(has(json, part));
+  }
+}
+
 TEST_CASE("mistakes are told with their place and what to do") {
   struct Case {
     std::string text;
@@ -199,9 +294,12 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {kDisks + "[veiw]\n", "s.toml:3:1: unknown key 'veiw'; did you mean 'view'?"},
       {kDisks + "temperature = 1\n",
        "s.toml:3:1: unknown key 'temperature'; did you mean 'disks.start.temperature'?"},
-      {kDisks + "friction = 0.3\n",
-       "s.toml:3:1: unknown key 'friction'; the keys here are count, area_fraction, restitution, "
-       "start"},
+      {kDisks + "mass = 0.3\n",
+       "s.toml:3:1: unknown key 'mass'; the keys here are count, area_fraction, restitution, "
+       "friction, tangential_restitution, inertia, start"},
+      {kDisks + "[gravty]\n", "s.toml:3:1: unknown key 'gravty'; did you mean 'gravity'?"},
+      {kDisks + "[bulk_drive]\nkick_sped = 1\n",
+       "s.toml:4:1: unknown key 'kick_sped'; did you mean 'kick_speed'?"},
       {"\"a.b\\u001b\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'a.b\\u001b'; the keys here are"},
       {"\"disks.count\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'disks.count'; "},
       // wrong types
@@ -258,8 +356,91 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "s.toml:5:1: 'walls.top.drive_speed' has no meaning for this kind of wall"},
       {kDisks + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\nrestitution = 1\n",
        "s.toml:6:1: 'walls.top.restitution' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"static\"\nrestitution = 1.1\n",
-       "s.toml:5:1: 'walls.top.restitution' cannot be 1.1; give a number between 0 and 1"},
+      {kDisks + "[walls.top]\nkind = \"static\"\nrestitution = 10.1\n",
+       "s.toml:5:1: 'walls.top.restitution' cannot be 10.1; give a number between 0 and 10"},
+      {kDisks + "[walls.top]\nkind = \"sawtoth\"\n",
+       "s.toml:4:1: 'walls.top.kind' cannot be \"sawtoth\"; give one of \"static\", \"driven\", "
+       "\"thermal\", \"sawtooth\", \"sinusoidal\"; did you mean \"sawtooth\"?"},
+      {kDisks + "[walls.top]\nkind = \"sawtooth\"\nfrequency = 1\n",
+       "s.toml:3:1: 'walls.top.stroke' is missing"},
+      {kDisks + "[walls.top]\nkind = \"sinusoidal\"\nstroke = 1\n",
+       "s.toml:3:1: 'walls.top.frequency' is missing"},
+      {kDisks + "[walls.top]\nkind = \"sawtooth\"\nstroke = -1\nfrequency = 1\n",
+       "s.toml:5:1: 'walls.top.stroke' cannot be -1; give a number between 0 and"},
+      {kDisks + "[walls.top]\nkind = \"static\"\nstroke = 1\n",
+       "s.toml:5:1: 'walls.top.stroke' has no meaning for this kind of wall"},
+      {kDisks + "[walls.top]\nkind = \"driven\"\ndrive_speed = 1\nfrequency = 1\n",
+       "s.toml:6:1: 'walls.top.frequency' has no meaning for this kind of wall"},
+      {kDisks + "[walls.top]\nkind = \"static\"\nphase = 1\n",
+       "s.toml:5:1: 'walls.top.phase' has no meaning for this kind of wall"},
+      {kDisks + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\nfriction = 1\n",
+       "s.toml:6:1: 'walls.top.friction' has no meaning for this kind of wall"},
+      {kDisks + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\ntangential_restitution = 1\n",
+       "s.toml:6:1: 'walls.top.tangential_restitution' has no meaning for this kind of wall"},
+      {kDisks + "[walls.top]\nkind = \"sawtooth\"\nstroke = 0.1\nfrequency = 1\ndrive_speed = 1\n",
+       "s.toml:7:1: 'walls.top.drive_speed' has no meaning for this kind of wall"},
+      {kDisks + "[walls.left]\nkind = \"static\"\n[walls.right]\nkind = \"sawtooth\"\n"
+                "stroke = 10\nfrequency = 1e15\n",
+       "s.toml:8:1: the wall would move at a speed of 1e+16; lower its stroke or its frequency"},
+      {kDisks + "[walls.left]\nkind = \"sinusoidal\"\nstroke = 1\nfrequency = 4e14\n"
+                "[walls.right]\nkind = \"static\"\n",
+       "s.toml:6:1: the wall would move at a speed of 1256637061435917.2; lower its"},
+      {kDisks + "[walls.left]\nkind = \"sinusoidal\"\nstroke = 18\nfrequency = 1\n"
+                "[walls.right]\nkind = \"sawtooth\"\nstroke = 10\nfrequency = 1\n",
+       "s.toml:9:1: where the walls move farthest in, 1 diameters are left between them; choose a "
+       "smaller stroke or a larger box"},
+      {kDisks + "[walls.left]\nkind = \"sawtooth\"\nstroke = 19.5\nfrequency = 1\n"
+                "[walls.right]\nkind = \"static\"\n",
+       "s.toml:5:1: where the walls move farthest in, 0.5 diameters are left between them"},
+      // rough disks
+      {kDisks + "friction = -1\n",
+       "s.toml:3:1: 'disks.friction' cannot be -1; give a number of at least 0, or inf"},
+      {kDisks + "friction = nan\n", "s.toml:3:1: 'disks.friction' cannot be nan; give"},
+      {kDisks + "tangential_restitution = -1.1\n",
+       "s.toml:3:1: 'disks.tangential_restitution' cannot be -1.1; give a number between -1 and 1"},
+      {kDisks + "tangential_restitution = inf\n",
+       "s.toml:3:1: 'disks.tangential_restitution' cannot be inf; give a number between -1 and 1"},
+      {kDisks + "friction = 1\ninertia = 0\n", "s.toml:4:1: 'disks.inertia' cannot be 0; give"},
+      {kDisks + "friction = 1\ninertia = 1.1\n", "s.toml:4:1: 'disks.inertia' cannot be 1.1; give"},
+      // spins without rough partners
+      {kDisks + "inertia = 0.5\n",
+       "s.toml:3:1: 'disks.inertia' has no meaning where nothing spins; remove it, or make the "
+       "disks or a wall rough: give friction above 0, or tangential_restitution above -1"},
+      {kDisks + "friction = 0\ninertia = 0.5\n",
+       "s.toml:4:1: 'disks.inertia' has no meaning where nothing spins"},
+      {kDisks + "[disks.start]\nspin_temperature = 1\n",
+       "s.toml:4:1: 'disks.start.spin_temperature' has no meaning where nothing spins; remove it"},
+      {kDisks + "[bulk_drive]\ninterval = 1\nkick_speed = 1\nkick_spin = 1\n",
+       "s.toml:6:1: 'bulk_drive.kick_spin' has no meaning where nothing spins; remove it"},
+      {kDisks + "[view]\ncolour_by = \"spin\"\n",
+       "s.toml:4:1: the colour \"spin\" has no meaning where nothing spins; choose another"},
+      // forces
+      {kDisks + "[gravity]\n", "s.toml:3:1: 'gravity.acceleration' is missing"},
+      {kDisks + "[gravity]\nacceleration = -1\n",
+       "s.toml:4:1: 'gravity.acceleration' cannot be -1; give two numbers between"},
+      {kDisks + "[gravity]\nacceleration = [0, -inf]\n",
+       "s.toml:4:1: 'gravity.acceleration' cannot be [0, -inf]; give two numbers between"},
+      {kDisks + "[bulk_drive]\nkick_speed = 1\n", "s.toml:3:1: 'bulk_drive.interval' is missing"},
+      {kDisks + "[bulk_drive]\ninterval = 1\n", "s.toml:3:1: 'bulk_drive.kick_speed' is missing"},
+      {kDisks + "[bulk_drive]\ninterval = 0\nkick_speed = 1\n",
+       "s.toml:4:1: 'bulk_drive.interval' cannot be 0; give a number greater than 0"},
+      {kDisks + "[bulk_drive]\ninterval = 1\nkick_speed = -1\n",
+       "s.toml:5:1: 'bulk_drive.kick_speed' cannot be -1; give"},
+      {kDisks + "[collapse]\n", "s.toml:3:1: 'collapse.contact_time' is missing"},
+      {kDisks + "[collapse]\ncontact_time = 0\n",
+       "s.toml:4:1: 'collapse.contact_time' cannot be 0; give a number greater than 0"},
+      // start
+      {kDisks + "[disks.start]\nfile = \"a.csv\"\n",
+       "s.toml:4:1: 'disks.start.file' has no meaning without layout = \"file\"; remove it, or "
+       "set"},
+      {kDisks + "[disks.start]\nlayout = \"file\"\n", "s.toml:3:1: 'disks.start.file' is missing"},
+      {kDisks + "[disks.start]\nlayout = \"file\"\nfile = \"a.csv\"\ntemperature = 1\n",
+       "s.toml:6:1: 'disks.start.temperature' has no meaning beside layout = \"file\""},
+      {kDisks + "friction = 1\n[disks.start]\nlayout = \"file\"\nfile = \"a.csv\"\n"
+                "spin_temperature = 1\n",
+       "s.toml:7:1: 'disks.start.spin_temperature' has no meaning beside layout = \"file\""},
+      {kDisks + "[disks.start]\nlayout = \"file\"\nfile = \"nowhere/a.csv\"\n",
+       "s.toml:5:1: there is no file 'nowhere/a.csv'; name a CSV file, relative to"},
       // the number of disks
       {"", "s.toml: the number of disks is missing; give exactly one of"},
       {"title = \"a\"\n[disks]\n", "s.toml:2:1: the number of disks is missing"},
@@ -267,6 +448,10 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "s.toml:3:1: both 'disks.count' and 'disks.area_fraction' are given; give exactly one of"},
       {"[box]\nsize = [2.5, 3.5]\n[disks]\ncount = 9\n",
        "s.toml:4:1: 9 disks do not fit into the box; it holds at most 8"},
+      {"[box]\nsize = [2.5, 3.5]\n[disks]\ncount = 8\n[walls.left]\nkind = \"sawtooth\"\n"
+       "stroke = 1\nfrequency = 1\n[walls.right]\nkind = \"static\"\n",
+       "s.toml:4:1: 8 disks do not fit into the box where its walls move farthest in; it holds at "
+       "most 4"},
       {"[disks]\narea_fraction = 0.95\n",
        "s.toml:2:1: 605 disks do not fit into the box; it holds at most "},
       {"[disks]\ncount = 2000000000\n",

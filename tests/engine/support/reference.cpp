@@ -128,7 +128,7 @@ void Reference::hit_wall(const Event& event) {
   const std::uint32_t i = event.disk;
   const int side = static_cast<int>(event.partner - kWall);
   Vec2 r = flights_[i].at(now_, model_.gravity);
-  r[side / 2] = boundary_.touching_place(side, now_);
+  if (!model_.walls[side]->moves()) r[side / 2] = boundary_.touching_place(side, now_);
   const Departure<2> departure = wall_outcome<2>(
       model_, side, boundary_.wall(side, now_),
       {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number},

@@ -56,6 +56,18 @@ Circle measure(const Image& image) {
 
 }  // namespace
 
+TEST_CASE("A disk that follows a wall out of the box is no ghost") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = one_disk({-4.0 + 100.0, 60.0}, 40.0);
+  snapshot.box = {100.0, kSize.height};
+  const Image still = draw(context->gl(), snapshot, kAlwaysPoints);
+  snapshot.wall_displacement[kRight] = -16.0;
+  const Image swung = draw(context->gl(), snapshot, kAlwaysPoints);
+  CHECK(pixel(swung, 104, 60) == theme::kDisk);
+  CHECK(pixel(swung, 90, 60) == pixel(still, 90, 60));
+  CHECK(difference(pixel(still, 104, 60), theme::kDisk) > 50);
+}
+
 TEST_CASE("A disk is drawn where it is and as large as it is") {
   const auto context = open_context(Backend::Osmesa);
   for (double largest_point : {kAlwaysPoints, kAlwaysSquares}) {

@@ -56,6 +56,92 @@ TEST_CASE("Only a driven wall moves, at the speed it stands for") {
   }
 }
 
+TEST_CASE("A moving wall is drawn where it is, and covers what is behind it") {
+  const auto context = open_context(Backend::Osmesa);
+  for (WallKind kind : {WallKind::Sawtooth, WallKind::Sinusoidal}) {
+    for (double displacement : {-1.0, 0.0, 2.0, 3.0}) {  // 10 pixels each
+      CAPTURE(displacement);
+      Snapshot snapshot;
+      snapshot.box = {10.0, 10.0};
+      snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(kind);
+      snapshot.wall_displacement[kLeft] = displacement;
+      const Canvas canvas = blank_canvas(context->gl(), kSize);
+      // A field, as bright as no wall.
+      context->gl().ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+      context->gl().Clear(GL_COLOR_BUFFER_BIT);
+      WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+      const Image image = canvas.read();
+      const Colour white = {255, 255, 255};
+      const int face = 50 + static_cast<int>(10.0 * displacement);
+      for (int y : {60, 100, 140}) {
+        for (int x = std::max(face, 52); x < 150; ++x) REQUIRE(pixel(image, x, y) == white);
+        const Colour at_face = pixel(image, face - 1, y);
+        CHECK(at_face.red > 2 * at_face.blue);
+        for (int x = 52; x < face; ++x) CHECK(difference(pixel(image, x, y), white) > 100);
+        // The other wall is where it was.
+        CHECK(pixel(image, 150, y).red > 2 * pixel(image, 150, y).blue);
+      }
+    }
+  }
+}
+
+TEST_CASE("A moving wall looks the same wherever it is") {
+  const auto context = open_context(Backend::Osmesa);
+  const auto at = [&](double displacement) {
+    Snapshot snapshot;
+    snapshot.box = {10.0, 10.0};
+    snapshot.time = displacement;
+    snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(WallKind::Sawtooth);
+    snapshot.wall_displacement[kLeft] = displacement;
+    const Canvas canvas = blank_canvas(context->gl(), kSize);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+    return canvas.read();
+  };
+  const Image start = at(0.0), moved = at(3.0);
+  const int thickness = static_cast<int>(wall_thickness(kSize));
+  for (int y = 55; y < 145; ++y) {
+    for (int x = 50 - thickness; x < 49; ++x) {
+      CHECK(difference(pixel(start, x, y), pixel(moved, x + 30, y)) <= 3);
+    }
+  }
+}
+
+TEST_CASE("A line marks the place of a wall that has moved, as long as the box is wide") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.walls.fill(wall_of(WallKind::Static));
+  snapshot.walls[kLeft] = wall_of(WallKind::Sinusoidal);
+  for (double displacement : {-2.0, 2.0}) {
+    CAPTURE(displacement);
+    snapshot.wall_displacement[kLeft] = displacement;
+    const Canvas canvas = blank_canvas(context->gl(), kSize);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+    const Image image = canvas.read();
+    for (int y = 51; y < 149; ++y) {
+      CHECK(difference(pixel(image, 49, y), theme::kBackground) > 20);
+    }
+    for (int y : {35, 165}) CHECK(pixel(image, 49, y) == theme::kBackground);
+  }
+}
+
+TEST_CASE("The walls beside one that moves end at its face") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.walls.fill(wall_of(WallKind::Thermal));
+  snapshot.walls[kLeft] = wall_of(WallKind::Sinusoidal);
+  for (double displacement : {-1.0, 2.0}) {
+    snapshot.wall_displacement[kLeft] = displacement;
+    const Canvas canvas = blank_canvas(context->gl(), kSize);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+    const Image image = canvas.read();
+    const int face = 50 + static_cast<int>(10.0 * displacement);
+    CHECK(difference(pixel(image, face + 2, 150), theme::kBackground) > 30);
+    CHECK(difference(pixel(image, face - 8, 150), theme::kBackground) < 30);
+  }
+}
+
 TEST_CASE("A driven wall is warm, and a hot thermal one brighter than a cold one") {
   const auto context = open_context(Backend::Osmesa);
   const Colour driven = pixel(draw(context->gl(), wall_of(WallKind::Driven)), 49, 100);

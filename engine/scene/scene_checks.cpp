@@ -1,0 +1,119 @@
+#include "engine/scene/scene_checks.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/error.h"
+#include "engine/scene/lattice.h"
+#include "engine/scene/scene_document.h"
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+static std::string wall_path(int side) {
+  return std::string("walls.") + kSideNames[side];
+}
+
+/// Throws where a wall stands without the one opposite.
+static void check_pairs(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (int side = 0; side < 4; ++side) {
+    if (!scene.walls[side] || scene.walls[side ^ 1]) continue;
+    const std::string path = wall_path(side);
+    throw UserError(place_of(root, path, file), "[" + path + "] has no wall opposite",
+                    "add [" + wall_path(side ^ 1) + "], or remove this one for a periodic axis");
+  }
+}
+
+/// The greatest speed of a wall's motion.
+static double top_speed(const Wall& wall) {
+  const double speed = wall.stroke * wall.frequency;
+  return wall.kind == WallKind::Sinusoidal ? std::numbers::pi * speed : speed;
+}
+
+static void check_speeds(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (int side = 0; side < 4; ++side) {
+    const auto& wall = scene.walls[side];
+    if (!wall || !wall->moves() || top_speed(*wall) <= kMostSpeed) continue;
+    throw UserError(
+        place_of(root, wall_path(side) + ".frequency", file),
+        "the wall would move at a speed of " + number_text(top_speed(*wall)),
+        "lower its stroke or its frequency: walls move at " + number_text(kMostSpeed) + " at most");
+  }
+}
+
+/// Throws where moving walls leave no room for a disk between them.
+static void check_room(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double room = scene.clear_box()[axis];
+    // The box itself is wider than a diameter.
+    if (room > 1.0) continue;
+    const int near = 2 * axis, far = near + 1;
+    const bool far_goes_farther =
+        scene.walls[far]->innermost_travel() > scene.walls[near]->innermost_travel();
+    throw UserError(place_of(root, wall_path(far_goes_farther ? far : near) + ".stroke", file),
+                    "where the walls move farthest in, " + number_text(room) +
+                        " diameters are left between them",
+                    "choose a smaller stroke or a larger box, so that it is more than one");
+  }
+}
+
+static void check_colour(const Scene& scene, const toml::table& root, const std::string& file) {
+  if (scene.view.colour_by != ColourBy::Spin || scene.spins()) return;
+  throw UserError(place_of(root, "view.colour_by", file),
+                  std::string("the colour \"spin\" ") + kNotWithoutSpins.reason,
+                  "choose another, or make the disks or a wall rough");
+}
+
+void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
+  check_pairs(scene, root, file);
+  check_speeds(scene, root, file);
+  check_room(scene, root, file);
+  check_colour(scene, root, file);
+}
+
+/// The number of disks that a scene's two keys ask for; nothing where there is neither.
+static std::optional<double> asked_count(const SceneInput& input) {
+  if (input.count) return *input.count;
+  if (!input.area_fraction) return std::nullopt;
+  const Vec2& box = input.scene.box;
+  return std::round(*input.area_fraction * 4.0 * (box.x() * box.y()) / std::numbers::pi);
+}
+
+static int count_of_file(const SceneInput& input, const Place& place) {
+  const Start& start = input.scene.disks.start;
+  const auto count = static_cast<int>(start.state.positions.size());
+  const auto asked = asked_count(input);
+  if (!asked || *asked == count) return count;
+  throw UserError(place,
+                  "this asks for " + number_text(*asked) + " disks, and " + start.file + " has " +
+                      std::to_string(count),
+                  "remove the key, or choose the file that you mean");
+}
+
+int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file) {
+  const Scene& scene = input.scene;
+  const Place place = place_of(root, input.count ? "disks.count" : "disks.area_fraction", file);
+  if (input.count && input.area_fraction) {
+    throw UserError(place_of(root, "disks.area_fraction", file),
+                    "both 'disks.count' and 'disks.area_fraction' are given",
+                    "give exactly one of 'disks.count' and 'disks.area_fraction'");
+  }
+  if (scene.disks.start.layout == Layout::File) return count_of_file(input, place);
+  const auto count = asked_count(input);
+  if (!count) {
+    throw UserError(place_of(root, "disks", file), "the number of disks is missing",
+                    "give exactly one of 'disks.count' and 'disks.area_fraction'");
+  }
+  const int capacity = lattice_capacity(start_room(scene));
+  if (*count > capacity) {
+    const bool walls_move = scene.clear_box() != scene.box;
+    throw UserError(place,
+                    (input.count ? std::to_string(*input.count) : number_text(*count)) +
+                        " disks do not fit into the box" +
+                        (walls_move ? " where its walls move farthest in" : ""),
+                    "it holds at most " + std::to_string(capacity));
+  }
+  return static_cast<int>(*count);
+}
+
+}  // namespace clatter

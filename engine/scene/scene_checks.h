@@ -1,0 +1,20 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+/// Throws UserError where keys that are each allowed make no scene together: walls without one
+/// opposite, too fast or with no room between them, a colour for spins where nothing spins. `root`
+/// is what the input was read from, and `file` the name that errors carry.
+void check_scene(const Scene& scene, const toml::table& root, const std::string& file);
+
+/// The number of disks that the input asks for; throws UserError where it asks twice, not at all,
+/// for more than any lattice holds, or for others than a start state has.
+int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file);
+
+}  // namespace clatter

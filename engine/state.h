@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/physics/spin.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// Positions, velocities and spins of all disks at one time, in original order.
+template <int D>
+struct State {
+  std::vector<Vec<D>> positions;    ///< [N] centres inside the box
+  std::vector<Vec<D>> velocities;   ///< [N]
+  std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
+};
+
+}  // namespace clatter

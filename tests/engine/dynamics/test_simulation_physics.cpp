@@ -1,0 +1,194 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/dynamics/state_hash.h"
+#include "engine/measure/totals.h"
+#include "tests/engine/support/gas.h"
+#include "tests/engine/support/reference.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+// Every feature of the model, alone and together with others, against the brute-force reference.
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const Wall kStatic{};
+const Wall kLossy{.restitution = 0.8};
+const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
+const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
+const Wall kRoughDriven{.kind = WallKind::Driven,
+                        .restitution = 0.9,
+                        .roughness = {.friction = 0.3, .tangential_restitution = 0.5},
+                        .drive_speed = 1.0};
+const Wall kSawtooth{
+    .kind = WallKind::Sawtooth, .restitution = 0.9, .stroke = 0.3, .frequency = 2.0, .phase = 0.25};
+const Wall kSinusoidal{.kind = WallKind::Sinusoidal,
+                       .restitution = 0.8,
+                       .stroke = 0.4,
+                       .frequency = 1.0,
+                       .phase = 0.125};
+
+Model<2> inelastic(Model<2> model, double restitution) {
+  model.restitution = restitution;
+  return model;
+}
+
+Model<2> rough(Model<2> model, double friction, double tangential_restitution) {
+  model.roughness = {friction, tangential_restitution};
+  model.spins = true;
+  return model;
+}
+
+Model<2> falling(Model<2> model, const Vec2& gravity) {
+  model.gravity = gravity;
+  return model;
+}
+
+Model<2> kicked(Model<2> model, double interval, double speed) {
+  model.bulk_drive = BulkDrive{interval, speed, model.spins ? speed : 0.0};
+  return model;
+}
+
+Model<2> with_contact_time(Model<2> model, double contact_time) {
+  model.contact_time = contact_time;
+  return model;
+}
+
+Model<2> four(const Wall& sides, const Wall& ends) {
+  return with_walls(with_walls(periodic_box(9.0, 8.0), 0, sides), 1, ends);
+}
+
+// A gas that clears the innermost travel of every wall of these tests, with spins where they are
+// carried.
+State<2> gas(const Model<2>& model, int count, std::uint64_t seed) {
+  Model<2> inner = model;
+  Vec2 low = Vec2::Zero();
+  for (int side = 0; side < 4; ++side) {
+    if (!model.walls[side]) continue;
+    const double travel = model.walls[side]->innermost_travel();
+    inner.box[side / 2] -= travel;
+    if (side % 2 == 0) low[side / 2] = travel;
+  }
+  State<2> state = random_gas(inner, count, seed);
+  for (Vec2& r : state.positions) r += low;
+  if (model.spins) {
+    for (int i = 0; i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
+  }
+  return state;
+}
+
+// The state after as many collisions must be that of the reference to the last bit.
+void compare(const std::string& name, const Model<2>& model, const std::vector<int>& counts,
+             std::uint64_t collisions = 1000) {
+  for (const int count : counts) {
+    CAPTURE(name);
+    CAPTURE(count);
+    const State<2> start = gas(model, count, 83);
+    Simulation<2> simulation(model, start);
+    Totals<2> totals(simulation);
+    simulation.add_observer(totals);
+    Reference reference(model, start);
+    simulation.run_until(kNever, collisions);
+    reference.run_until_collisions(collisions);
+    CHECK(simulation.counts().disk_disk == reference.collisions());
+    CHECK(simulation.counts().disk_wall == reference.wall_hits());
+    CHECK(simulation.counts().kicks == reference.kicks());
+    CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+    CHECK(simulation.deepest_overlap() < 1e-12);
+    CHECK(totals.ledger_residual() < 1e-12);
+    CHECK(simulation.checks().clock_steps_back < 1e-13);
+    // Two disks may fly a thousand box lengths before they meet, whose rounding is that much more.
+    CHECK(simulation.checks().deepest_overlap < 1e-11);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("reference: rough disks and rough walls") {
+  const Model<2> periodic = inelastic(periodic_box(9.0, 8.0), 0.9);
+  // Not for long: a gas that cools ends with velocities that differ by rounding only.
+  compare("constant beta", rough(periodic, kInfinity, 0.4), {3, 12, 30}, 100);
+  compare("Coulomb", rough(periodic, 0.2, 1.0), {3, 12, 30}, 100);
+  compare("both, one disk high", rough(inelastic(periodic_box(12.0, 1.2), 0.9), 0.3, 0.7), {3, 6},
+          50);
+  compare("rough walls and disks", rough(inelastic(four(kRoughDriven, kThermal), 0.9), 0.3, 0.5),
+          {2, 12, 30});
+  Model<2> rough_walls_only = inelastic(four(kRoughDriven, kStatic), 0.95);
+  rough_walls_only.spins = true;
+  compare("smooth disks, rough walls", rough_walls_only, {2, 12});
+}
+
+TEST_CASE("reference: gravity in every direction, with and without walls") {
+  compare("down onto a static floor",
+          falling(inelastic(with_walls(periodic_box(9.0, 8.0), 1, kStatic), 1.0), {0.0, -0.5}),
+          {1, 2, 12, 30});
+  compare("aslant in a driven box", falling(inelastic(four(kDriven, kDriven), 0.95), {0.3, -0.7}),
+          {1, 2, 12, 30});
+  compare("upwards onto a thermal ceiling",
+          falling(inelastic(with_walls(periodic_box(9.0, 8.0), 1, kThermal), 0.9), {0.1, 1.0}),
+          {2, 12, 30});
+  compare("along a periodic axis", falling(periodic_box(9.0, 8.0), {0.5, 0.0}), {12});
+  compare("strong, in a narrow channel",
+          falling(inelastic(with_walls(periodic_box(12.0, 1.5), 1, kDriven), 0.9), {0.0, -30.0}),
+          {2, 6});
+}
+
+TEST_CASE("reference: walls that move") {
+  compare("saw-tooth", inelastic(with_walls(periodic_box(9.0, 8.0), 0, kSawtooth), 0.9),
+          {1, 2, 12, 30});
+  compare("sinusoidal", inelastic(with_walls(periodic_box(9.0, 8.0), 0, kSinusoidal), 0.9),
+          {1, 2, 12, 30});
+  compare("both, at corners", inelastic(four(kSinusoidal, kSawtooth), 0.9), {1, 2, 12, 30});
+  Wall swinging = kSinusoidal;
+  swinging.stroke = 5.0;
+  swinging.frequency = 0.2;
+  compare("a stroke over several cells",
+          inelastic(with_walls(periodic_box(14.0, 4.0), 0, swinging), 0.9), {1, 2, 8});
+  Wall quick = kSawtooth;
+  quick.frequency = 500.0;
+  quick.stroke = 1e-3;
+  compare("fast and short", inelastic(with_walls(periodic_box(9.0, 8.0), 0, quick), 0.9), {2, 12});
+  compare("shaken floor under gravity",
+          falling(inelastic(with_walls(periodic_box(9.0, 20.0), 1, kSinusoidal), 0.9), {0.0, -1.0}),
+          {1, 2, 12});
+  compare("saw-tooth floor under gravity",
+          falling(inelastic(with_walls(periodic_box(9.0, 20.0), 1, kSawtooth), 0.9), {0.0, -1.0}),
+          {1, 2, 12});
+}
+
+TEST_CASE("reference: bulk driving") {
+  compare("smooth", kicked(inelastic(periodic_box(9.0, 8.0), 0.8), 0.05, 0.2), {2, 12, 30});
+  compare("rough", kicked(rough(inelastic(periodic_box(9.0, 8.0), 0.8), 0.5, 0.5), 0.3, 0.2),
+          {2, 12, 30});
+  compare("between walls, under gravity",
+          falling(kicked(inelastic(four(kDriven, kStatic), 0.8), 0.11, 0.1), {0.0, -0.2}), {2, 12});
+}
+
+TEST_CASE("reference: the TC model") {
+  compare("long t_c", with_contact_time(inelastic(four(kDriven, kLossy), 0.7), 0.1), {2, 12, 30});
+  compare(
+      "rough, under gravity, on a shaken floor",
+      with_contact_time(
+          falling(rough(inelastic(four(kStatic, kSinusoidal), 0.6), 0.3, 0.3), {0.0, -1.0}), 0.02),
+      {2, 12});
+  compare("wholly inelastic, kicked",
+          with_contact_time(kicked(inelastic(periodic_box(9.0, 8.0), 0.0), 0.2, 0.3), 1e-3),
+          {2, 12, 30});
+}
+
+TEST_CASE("reference: everything at once") {
+  compare("all",
+          with_contact_time(
+              kicked(falling(rough(inelastic(four(kSinusoidal, kRoughDriven), 0.8), 0.4, 0.6),
+                             {0.2, -0.5}),
+                     0.17, 0.1),
+              0.01),
+          {1, 2, 12, 30});
+}

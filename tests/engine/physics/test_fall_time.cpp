@@ -1,0 +1,73 @@
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/physics/fall_time.h"
+#include "engine/physics/random.h"
+
+using namespace clatter;
+
+TEST_CASE("fall time: exact numbers") {
+  CHECK(fall_time(3.0, -2.0, 0.0) == 1.5);
+  CHECK(fall_time(8.0, 0.0, -4.0) == 2.0);
+  CHECK(fall_time(6.0, -1.0, -4.0) == 1.5);
+  CHECK(fall_time(6.0, 4.0, -4.0) == 3.0);
+  CHECK(fall_time(4.0, -5.0, 2.0) == 1.0);  // The first of the two passages, 1 and 4.
+}
+
+TEST_CASE("fall time: what does not pass zero downwards never does") {
+  CHECK(fall_time(3.0, 0.0, 0.0) == kNever);
+  CHECK(fall_time(3.0, -0.0, 0.0) == kNever);
+  CHECK(fall_time(3.0, 2.0, 0.0) == kNever);
+  CHECK(fall_time(3.0, 2.0, 1.0) == kNever);
+  CHECK(fall_time(4.0, -3.0, 2.0) == kNever);  // Turns at a height of 1.75.
+  CHECK(fall_time(4.0, -4.0, 2.0) == kNever);  // Turns at zero.
+}
+
+TEST_CASE("fall time: a gap of zero, or below it by rounding") {
+  for (const double gap : {0.0, -0.0, -1e-16}) {
+    CHECK(fall_time(gap, -2.0, 0.0) == 0.0);
+    CHECK(fall_time(gap, -2.0, 1.0) == 0.0);
+    CHECK(fall_time(gap, -2.0, -1.0) == 0.0);
+    CHECK(fall_time(gap, 0.0, -1.0) == 0.0);
+    CHECK(fall_time(gap, 0.0, 0.0) == kNever);
+    CHECK(fall_time(gap, 0.0, 1.0) == kNever);
+    CHECK(fall_time(gap, 2.0, 0.0) == kNever);
+    CHECK(fall_time(gap, 2.0, -0.5) == 8.0);
+    CHECK(fall_time(gap, 1e-14, -0.5) == 4e-14);  // The rounding outweighs the flight.
+  }
+}
+
+TEST_CASE("fall time: without acceleration the bits of the quotient, of slow disks too") {
+  int different = 0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    Random random(31, Stream::Velocity, i, 0);
+    const double gap = std::exp(700.0 * random.uniform() - 350.0);
+    const double speed = -std::exp(600.0 * random.uniform() - 560.0);
+    different += std::bit_cast<std::uint64_t>(fall_time(gap, speed, 0.0)) !=
+                 std::bit_cast<std::uint64_t>(gap / -speed);
+  }
+  CHECK(different == 0);
+}
+
+// The height at the passage is zero but for the rounding of the three terms and of the time.
+TEST_CASE("fall time: nothing is lost where acceleration or speed hardly matters") {
+  double worst = 0.0;
+  int passages = 0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    Random random(32, Stream::Velocity, i, 0);
+    const double gap = std::exp(20.0 * random.normal());
+    const double speed = (random.below(2) ? 1.0 : -1.0) * std::exp(20.0 * random.normal());
+    const double acceleration = (random.below(4) ? -1.0 : 1.0) * std::exp(20.0 * random.normal());
+    const double time = fall_time(gap, speed, acceleration);
+    if (time == kNever) continue;
+    ++passages;
+    const double by_speed = speed * time, by_acceleration = 0.5 * acceleration * time * time;
+    worst = std::max(worst, std::fabs(gap + by_speed + by_acceleration) /
+                                (gap + std::fabs(by_speed) + std::fabs(by_acceleration)));
+  }
+  CHECK(passages > 80000);
+  CHECK(worst < 4e-16);
+}
