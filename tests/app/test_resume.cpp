@@ -147,6 +147,14 @@ TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
   CHECK(says(outcome.err,
              "from t = 5 on other laws hold: disks.restitution, walls.left.drive_speed\n"));
   CHECK(json::parse(outcome.out).at("seed") == 3);
+
+  // What flights contribute is booked at their end, so averages cannot span two gravities.
+  const Outcome fallen =
+      shell.run(line + "--until 9 --resume c --set gravity.acceleration=[0.1,0]");
+  CHECK(fallen.code == 0);
+  CHECK(says(fallen.err, "other laws hold: gravity.acceleration\n"));
+  CHECK(says(fallen.err, "averages start anew at t = 5\n"));
+  CHECK(json::parse(fallen.out).at("time").at("burn_in") == 5.0);
 }
 
 TEST_CASE("A checkpoint that does not fit is refused") {

@@ -220,3 +220,13 @@ TEST_CASE("Resume: a stop leaves a base that moves on") {
     CHECK(simulation.save().until_base_moves > 0);
   }
 }
+
+TEST_CASE("Resume: overlaps that a run bore do not keep it from going on") {
+  const Model<2> model = periodic_box(20.0, 20.0);
+  Saved<2> saved =
+      Simulation<2>(model, {{{5.0, 5.0}, {6.0, 5.0}}, {{0.0, 0.0}, {1.0, 0.0}}}).save();
+  saved.flights[1].r.x() -= 1e-10;
+  CHECK_THROWS_AS(Simulation<2>(model, saved), PhysicalStop);
+  saved.checks.deepest_overlap = 2e-10;
+  Simulation<2>(model, saved).run_until(1.0);
+}
