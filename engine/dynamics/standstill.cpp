@@ -33,7 +33,7 @@ static bool diverges(const Model<D>& model, const Watchdog& watchdog, double tem
 // already needs a longer one.
 template <int D>
 static double helpful_contact_time(const Model<D>& model, const Watchdog& watchdog) {
-  constexpr double kShare = 1e-4;  // of the mean collision time
+  constexpr double kShare = 1e-3;  // of the mean collision time
   return std::max(kShare * watchdog.mean_collision_time(), 10.0 * model.contact_time.value_or(0.0));
 }
 

@@ -73,12 +73,18 @@ void JsonWriter::write(std::string_view key, const std::string& value) {
 }
 
 void JsonWriter::open(std::string_view key) {
+  starts_.push_back(text_.size());
   begin(key);
   text_ += '{';
 }
 
 void JsonWriter::close() {
-  text_ += '}';
+  if (text_.back() == '{') {
+    text_.resize(starts_.back());
+  } else {
+    text_ += '}';
+  }
+  starts_.pop_back();
 }
 
 }  // namespace clatter

@@ -116,6 +116,7 @@ class JsonWriter final : public KeyWriter {
   void begin(std::string_view key);
 
   std::string text_;
+  std::vector<std::size_t> starts_;  // of the objects being written; one without keys is left out
 };
 
 }  // namespace clatter

@@ -236,9 +236,7 @@ void visit_scene(Visitor& io, SceneInput& input) {
   });
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });
-  io.table("collapse", scene.contact_time, [](auto& io, double& contact_time) {
-    io.value("contact_time", contact_time, above(0.0), kRequired);
-  });
+  io.table("collapse", [&](auto& io) { io.value("contact_time", scene.contact_time, above(0.0)); });
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure); });
   io.table("view", [&](auto& io) { visit_view(io, scene.view); });
 }
