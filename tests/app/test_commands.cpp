@@ -11,7 +11,7 @@ TEST_CASE("The gallery is listed, one scene a line, each of which is sound") {
   const Outcome outcome = shell.run("clatter scenes");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
-  CHECK(std::ranges::count(outcome.out, '\n') == 5);
+  CHECK(std::ranges::count(outcome.out, '\n') == 12);
   for (const std::string name : {"conduction", "cooling", "dense", "equilibrium", "vibrated"}) {
     CAPTURE(name);
     CHECK(("\n" + outcome.out).find("\n" + name + " ") != std::string::npos);
