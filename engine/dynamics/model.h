@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -27,6 +28,16 @@ struct Model {
 
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
+  /// The whole box lengths by which a position lies outside the box, along periodic axes.
+  Vec<D> boxes_off(const Vec<D>& position) const {
+    Vec<D> boxes = Vec<D>::Zero();
+    for (int axis = 0; axis < D; ++axis) {
+      const bool inside = position[axis] >= 0.0 && position[axis] < box[axis];
+      if (inside || !periodic(axis)) continue;
+      boxes[axis] = std::floor(position[axis] / box[axis]);
+    }
+    return boxes;
+  }
   /// Where the centres of disks that touch a wall lie: `end` 0 is the near wall of the axis, 1 the
   /// far.
   double wall_plane(int axis, int end) const {

@@ -7,11 +7,9 @@
 #include <utility>
 
 #include "engine/dynamics/fetch.h"
-#include "engine/dynamics/outcome.h"
 #include "engine/dynamics/standstill.h"
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
-#include "engine/physics/random.h"
 
 namespace clatter {
 
@@ -23,18 +21,6 @@ static constexpr std::uint64_t kLeastEventsPerBase = 64;
 static constexpr std::size_t kFetchAheadFrom = 20000;
 // Overlap that a start state may have from the rounding of its positions, in diameters.
 static constexpr double kStartRounding = 1e-12;
-
-// The whole box lengths by which a position lies outside the box, along periodic axes.
-template <int D>
-static Vec<D> boxes_off(const Model<D>& model, const Vec<D>& position) {
-  Vec<D> boxes = Vec<D>::Zero();
-  for (int axis = 0; axis < D; ++axis) {
-    const bool inside = position[axis] >= 0.0 && position[axis] < model.box[axis];
-    if (inside || !model.periodic(axis)) continue;
-    boxes[axis] = std::floor(position[axis] / model.box[axis]);
-  }
-  return boxes;
-}
 
 // Whether collisions can take energy from the gas, or walls give it ever more: where time may come
 // to a standstill.
@@ -103,7 +89,7 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
                 flight.number};
     }
     const Vec<D> r = flight.at(now_, model_.gravity);
-    disks_[i].image = boxes_off<D>(model_, r);
+    disks_[i].image = model_.boxes_off(r);
     plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
     grid_.insert(static_cast<std::uint32_t>(i), plans_[i].cell);
   }
@@ -243,169 +229,9 @@ void Simulation<D>::process(const Event& event) {
 }
 
 template <int D>
-void Simulation<D>::enter_next_cell(std::uint32_t number) {
-  Plan<D>& plan = plans_[number];
-  const int axis = plan.crossing_axis;
-  const int step = plan.crossing_step;
-  grid_.remove(number, plan.cell);
-  plan.cell[axis] += step;
-  if (plan.cell[axis] < 0 || plan.cell[axis] == grid_.counts()[axis]) {
-    plan.cell[axis] -= step * grid_.counts()[axis];
-    disks_[number].image[axis] += step;
-  }
-  grid_.insert(number, plan.cell);
-  ++counts_.cell_crossings;
-  prediction_.plan_entered(number, now_, axis, step, plan);
-  schedule(number);
-}
-
-template <int D>
-void Simulation<D>::renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity) {
-  const Vec<D> boxes = boxes_off<D>(model_, position);
-  disk.flight = {position - boxes.cwiseProduct(model_.box), velocity, now_, disk.flight.number + 1};
-  disk.image -= boxes;
-}
-
-template <int D>
-Spin<D> Simulation<D>::spin(std::uint32_t number) const {
-  return spins_.empty() ? Spin<D>(Spin<D>::Zero()) : spins_[number];
-}
-
-template <int D>
-void Simulation<D>::add_spin(std::uint32_t number, const Spin<D>& gain) {
-  if (!spins_.empty()) spins_[number] += gain;
-}
-
-template <int D>
-bool Simulation<D>::within_contact_time(std::uint32_t number) const {
-  return !last_collisions_.empty() && now_ - last_collisions_[number] < *model_.contact_time;
-}
-
-// What observers are told of one disk.
-template <int D>
-DiskChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
-                                       const Vec<D>& velocity, const Impulse<D>& gain) const {
-  const double half_inertia = 0.125 * model_.inertia * model_.diameter * model_.diameter;
-  const Spin<D> w = spin(number);
-  DiskChange<D> change{number, disks_[number].flight, position, velocity, w, gain};
-  // Without the rounding of a difference of two squares.
-  change.energy = 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
-                  half_inertia * gain.spin.dot(gain.spin + 2.0 * w);
-  return change;
-}
-
-template <int D>
-void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
-  Disk<D>& a = disks_[first];
-  Disk<D>& b = disks_[second];
-  const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
-  const Vec<D> r_a = a.flight.at(now_, model_.gravity);
-  const Vec<D> r_b = b.flight.at(now_, model_.gravity);
-  const Vec<D> v_a = a.flight.velocity_at(now_, model_.gravity);
-  const Vec<D> v_b = b.flight.velocity_at(now_, model_.gravity);
-  const Vec<D> x = (r_a - r_b) + shift;
-  const Vec<D> g = v_a - v_b;
-  checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
-  // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
-  // event counts, so that it is not predicted again from the same states.
-  PairOutcome<D> outcome;
-  if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
-    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution);
-  } else if (x.dot(g) < 0.0) {
-    const bool elastic = within_contact_time(first) || within_contact_time(second);
-    outcome = pair_outcome<D>(model_, x, g, spin(first) + spin(second), elastic);
-  }
-  const Impulse<D>& gain = outcome.gain;
-  const Impulse<D> loss{-gain.momentum, gain.spin};
-  if (!observers_.empty()) {
-    const bool swap = second < first;
-    PairCollision<D> collision{
-        now_,
-        {change_of(first, r_a, v_a, gain), change_of(second, r_b, v_b, loss)},
-        swap ? Vec<D>(-x) : x,
-        outcome.elasticised,
-        outcome.undissipated};
-    if (swap) std::swap(collision.disks[0], collision.disks[1]);
-    for (Observer<D>* observer : observers_) observer->on_collision(collision);
-  }
-  renew_flight(a, r_a, v_a + gain.momentum);
-  renew_flight(b, r_b, v_b - gain.momentum);
-  add_spin(first, gain.spin);
-  add_spin(second, gain.spin);
-  ++counts_.disk_disk;
-  counts_.elasticised += outcome.elasticised;
-  if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
-  --until_base_moves_;
-  prediction_.plan(first, now_, plans_[first]);
-  schedule(first);
-  prediction_.plan(second, now_, plans_[second]);
-  schedule(second);
-}
-
-template <int D>
-void Simulation<D>::hit_wall(std::uint32_t number, int side) {
-  Disk<D>& disk = disks_[number];
-  const int axis = side / 2;
-  Vec<D> r = disk.flight.at(now_, model_.gravity);
-  const Vec<D> v = disk.flight.velocity_at(now_, model_.gravity);
-  const double place = boundary_.touching_place(side, now_);
-  const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
-  checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
-  // A disk at a wall that stays where it is lies there to the last bit, so that a grain which comes
-  // to rest does not sink by rounding.
-  if (!model_.walls[side]->moves()) r[axis] = place;
-  const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
-  const Departure<D> departure =
-      wall_outcome<D>(model_, side, boundary_.wall(side, now_),
-                      {v, spin(number), number, disk.flight.number}, elastic);
-  const Spin<D> spin_gain = departure.spin - spin(number);
-  if (!observers_.empty()) {
-    const WallCollision<D> collision{now_, side,
-                                     change_of(number, r, v, {departure.velocity - v, spin_gain})};
-    for (Observer<D>* observer : observers_) observer->on_wall(collision);
-  }
-  renew_flight(disk, r, departure.velocity);
-  if (!spins_.empty()) spins_[number] = departure.spin;
-  ++counts_.disk_wall;
-  counts_.elasticised_wall += elastic;
-  if (!last_collisions_.empty()) last_collisions_[number] = now_;
-  --until_base_moves_;
-  prediction_.plan(number, now_, plans_[number]);
-  schedule(number);
-}
-
-template <int D>
 double Simulation<D>::next_kick() const {
   if (!model_.bulk_drive) return kNever;
   return clock_.relative(kick_origin_, kicks_since_origin_ + 1, model_.bulk_drive->interval);
-}
-
-template <int D>
-void Simulation<D>::kick() {
-  const auto count = static_cast<std::uint32_t>(disks_.size());
-  const auto kick_number = static_cast<std::uint32_t>(counts_.kicks);
-  std::vector<Impulse<D>> gains(count);
-  Vec<D> mean = Vec<D>::Zero();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Random random(model_.seed, Stream::Kick, i, kick_number);
-    for (double& p : gains[i].momentum) p = model_.bulk_drive->kick_speed * random.normal();
-    if (model_.spins) {
-      for (double& w : gains[i].spin) w = model_.bulk_drive->kick_spin * random.normal();
-    }
-    mean += gains[i].momentum / count;
-  }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    gains[i].momentum -= mean;
-    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
-    const Vec<D> v = disks_[i].flight.velocity_at(now_, model_.gravity);
-    const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
-    for (Observer<D>* observer : observers_) observer->on_kick(kick);
-    renew_flight(disks_[i], r, v + gains[i].momentum);
-    add_spin(i, gains[i].spin);
-  }
-  ++counts_.kicks;
-  ++kicks_since_origin_;
-  move_base();
 }
 
 template <int D>
@@ -439,7 +265,7 @@ State<D> Simulation<D>::state() const {
   state.velocities.reserve(disks_.size());
   for (const Disk<D>& disk : disks_) {
     Vec<D> r = disk.flight.at(now_, model_.gravity);
-    r -= boxes_off<D>(model_, r).cwiseProduct(model_.box);
+    r -= model_.boxes_off(r).cwiseProduct(model_.box);
     for (int axis = 0; axis < D; ++axis) {
       // What lies a rounding error below 0 comes out at the far end, which is 0 again.
       if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
