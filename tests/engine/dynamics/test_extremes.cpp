@@ -373,17 +373,17 @@ TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and 
     model.gravity = {0.0, -1.0};
     model.contact_time = 0.02;
     Simulation<2> simulation(model, clear_gas(model, 10, 908));
-    for (int k = 1; k <= 20; ++k) {
+    for (int k = 1; k <= 40; ++k) {
       REQUIRE_NOTHROW(simulation.run_until(k));
       REQUIRE(simulation.deepest_overlap() < 1e-9);
     }
-    MESSAGE("collisions ", simulation.counts().collisions(), ", energy ",
-            simulation.kinetic_energy());
     CHECK(simulation.checks().deepest_overlap < 1e-9);
     // What t_c leaves: hops of some t_c, of speed g t_c. Sideways they slide without friction.
     double vertical = 0.0;
     for (const Vec2& v : simulation.state().velocities)
       vertical = std::max(vertical, std::fabs(v.y()));
+    MESSAGE("collisions ", simulation.counts().collisions(), ", energy ",
+            simulation.kinetic_energy(), ", fastest up or down ", vertical);
     if (floor.kind == WallKind::Static || floor.frequency == kGentle.frequency) {
       CHECK(vertical < 0.3);
     }
@@ -464,6 +464,32 @@ TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on
     CHECK(on.deepest_overlap() < 1e-11);
     for (const Vec2& r_i : on.state().positions) CHECK(r_i.y() == 2.0);
   }
+}
+
+TEST_CASE("extremes: the t_c that is advised is 1e-4 of the time between collisions before") {
+  // However early the collapse comes; a t_c of a thousandth of that would make grains at rest hop a
+  // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
+  // some ten collisions per disk before it collapses.
+  Model<2> ball = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.9});
+  ball.gravity = {0.0, -0.5};
+  Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
+  const double ball_time = 1e4 * advised_contact_time(stop_of(bouncing, 1e6));
+  MESSAGE("mean time of the ball ", ball_time);
+  CHECK(ball_time > 0.4);  // 76 time units, the first flights 7
+  CHECK(ball_time < 8.0);
+  Model<2> pile = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.5});
+  pile.restitution = 0.5;
+  pile.gravity = {0.0, -1.0};
+  const State<2> start = clear_gas(pile, 12, 909);
+  Simulation<2> falling(pile, start), first(pile, start);
+  const double pile_time = 1e4 * advised_contact_time(stop_of(falling, 1e6));
+  first.run_until(kNever, 60);  // ten for each disk
+  const double expected =
+      first.time() * 12.0 /
+      static_cast<double>(2 * first.counts().disk_disk + first.counts().disk_wall);
+  MESSAGE("mean time of the pile ", pile_time, ", of its first collisions ", expected);
+  CHECK(pile_time > 0.1 * expected);
+  CHECK(pile_time < 10.0 * expected);
 }
 
 TEST_CASE("extremes: who looks for a standstill changes nothing") {
