@@ -7,12 +7,14 @@ namespace clatter {
 static constexpr double kStandstill = 1e-6;  // mean collision times
 static constexpr std::uint64_t kMostPerDisk = 1000;
 static constexpr std::uint64_t kMostPerPair = 10'000;
-static constexpr std::size_t kWindows = 10;  // whose longest mean time counts
+static constexpr std::uint64_t kFirstLook = 64;  // collisions; the next ones come at twice that
+static constexpr std::size_t kWindows = 10;      // whose longest mean time counts
 
 Watchdog::Watchdog(std::size_t disks, double time)
     : disks_(static_cast<double>(disks)),
       window_(std::max<std::uint64_t>(1, kMostPerDisk * disks)),
-      look_interval_(std::min(kMostPerPair, window_)),
+      longest_interval_(std::min(kMostPerPair, window_)),
+      look_interval_(std::min(kFirstLook, longest_interval_)),
       until_look_(look_interval_),
       look_start_(time),
       window_start_(time) {}
@@ -23,23 +25,33 @@ void Watchdog::on_base_moved(double shift) {
   still_since_ -= shift;
 }
 
+double Watchdog::mean_of_window(double time) const {
+  return disks_ * (time - window_start_) / static_cast<double>(participations_);
+}
+
 double Watchdog::longest_mean(double time) const {
-  double longest = disks_ * (time - window_start_) / static_cast<double>(participations_);
+  double longest = std::max(mean_of_window(time), means_.empty() ? longest_early_ : 0.0);
   for (const double mean : means_) longest = std::max(longest, mean);
   return longest;
 }
 
+// Looks come close together at first: what stands still soon after the start must not count into
+// the mean time before.
+//
 // Pairs are counted only once time seems to stand still, so that a run that moves on pays for one
 // look every 10^4 collisions.
 bool Watchdog::look(double time) {
+  const std::uint64_t seen = look_interval_;
+  look_interval_ = std::min(2 * seen, longest_interval_);
   until_look_ = look_interval_;
-  collisions_ += look_interval_;
+  collisions_ += seen;
+  if (means_.empty()) longest_early_ = std::max(longest_early_, mean_of_window(time));
   if (suspicious_ && time - still_since_ > kStandstill * still_mean_) {
     suspicious_ = false;
     pairs_.clear();
   }
   if (suspicious_) {
-    still_collisions_ += look_interval_;
+    still_collisions_ += seen;
   } else if (const double mean = longest_mean(time); time - look_start_ <= kStandstill * mean) {
     suspicious_ = true;
     still_since_ = look_start_;
@@ -48,7 +60,7 @@ bool Watchdog::look(double time) {
   }
   look_start_ = time;
   if (collisions_ >= window_) {
-    means_.push_back(disks_ * (time - window_start_) / static_cast<double>(participations_));
+    means_.push_back(means_.empty() ? longest_early_ : mean_of_window(time));
     if (means_.size() > kWindows) means_.pop_front();
     window_start_ = time;
     collisions_ = participations_ = 0;

@@ -36,12 +36,14 @@ class Watchdog {
 
  private:
   bool look(double time);
+  double mean_of_window(double time) const;
   double longest_mean(double time) const;
   bool too_many() const;
 
   double disks_;
-  std::uint64_t window_;         // collisions over which a mean time is taken
-  std::uint64_t look_interval_;  // collisions between looks
+  std::uint64_t window_;            // collisions over which a mean time is taken
+  std::uint64_t longest_interval_;  // collisions between looks, but for the first ones
+  std::uint64_t look_interval_;     // before the next look
   std::uint64_t until_look_;
   double look_start_;
 
@@ -49,6 +51,7 @@ class Watchdog {
   double window_start_;
   std::uint64_t collisions_ = 0;
   std::uint64_t participations_ = 0;  // each collision of two disks counts for both
+  double longest_early_ = 0.0;        // mean times up to the looks of the first window
   std::deque<double> means_;
 
   // While time may stand still: since when, and what happened in it.

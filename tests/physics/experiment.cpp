@@ -45,4 +45,22 @@ Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed) {
   return measured;
 }
 
+void check_energy_balance(const Measured& measured, int count) {
+  double sum = -measured.dissipated.mean;
+  double error = measured.dissipated.standard_error;
+  for (const auto* gain : {&measured.walls_in, &measured.bulk_in, &measured.gravity_in}) {
+    if (!*gain) continue;
+    sum += (*gain)->mean;
+    error = std::hypot(error, (*gain)->standard_error);
+  }
+  MESSAGE("energy in - dissipated = ", sum, " +- ", error, ", dissipated ",
+          measured.dissipated.mean);
+  CHECK(std::fabs(sum) < 5.0 * error);
+  // The energy of few disks may be many times its mean, with a probability that falls off as
+  // exp(-E/T).
+  const double spin_temperature = measured.spin_temperature ? measured.spin_temperature->mean : 0.0;
+  const double energy_per_disk = measured.temperature.mean + 0.5 * spin_temperature;
+  CHECK(std::fabs(sum) * measured.duration < (count + 10.0) * energy_per_disk);
+}
+
 }  // namespace clatter::testing

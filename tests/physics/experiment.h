@@ -23,6 +23,11 @@ Scene vibrated_gas(double restitution, double wall_restitution);
 /// Runs a scene through its [measure] block, which is `burn_in` and `duration` here.
 Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
 
+/// What walls, kicks and gravity give is what collisions of so many disks lose where the gas is
+/// stationary: within 5 standard errors, and but for the energy that the gas itself holds, which
+/// bounds the difference far more tightly.
+void check_energy_balance(const Measured& measured, int count);
+
 /// Deviation from an expected value, relative to it.
 inline double relative(const Estimate& estimate, double expected) {
   return estimate.mean / expected - 1.0;

@@ -64,6 +64,15 @@ TEST_CASE("vibrated gas: both losses together balance the drive") {
   check_balance(result);
 }
 
+TEST_CASE("vibrated gas: inelastic disks between lossy walls, Eq. (3.14) within 5 %") {
+  const double expected = refined(0.9, 0.9);
+  const Measured result = run(vibrated_gas(0.9, 0.9), 300.0, 10000.0, 115);
+  report(result, expected);
+  CHECK(relative_error(result.temperature) < 0.006);
+  CHECK(std::fabs(relative(result.temperature, expected)) < 0.05);
+  check_balance(result);
+}
+
 TEST_CASE("vibrated gas: walls push along x, collisions share with y") {
   // The walls only heat the x direction, so it is the hotter one, and the middle is the coldest.
   Scene scene = vibrated_gas(0.9, 1.0);

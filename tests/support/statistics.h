@@ -34,4 +34,21 @@ inline double standard_errors_off(double sum, double samples, double mean, doubl
   return (sum / samples - mean) / std::sqrt(variance / samples);
 }
 
+/// Independent values, one of each seed say: their mean and its standard error.
+struct Sample {
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+
+  void add(double value) {
+    count += 1.0;
+    sum += value;
+    squares += value * value;
+  }
+  double mean() const { return sum / count; }
+  double standard_error() const {
+    return std::sqrt((squares / count - mean() * mean()) / (count - 1.0));
+  }
+};
+
 }  // namespace clatter::testing

@@ -1,0 +1,57 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "engine/dynamics/start.h"
+#include "engine/error.h"
+#include "engine/physics/theory.h"
+#include "tests/physics/experiment.h"
+#include "tests/support/statistics.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+// What the program says as it stops.
+std::string stop_of(Simulation<2>& simulation, double end) {
+  try {
+    simulation.run_until(end);
+  } catch (const PhysicalStop& stop) {
+    return stop.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("divergence: walls of restitution 1.05 heat without bound in a finite time") {
+  // alpha = 1, alpha_w = 1.05, no drive, N = 100, 20 x 25: T = T_0/(1 + k t)^2 with k < 0,
+  // corrected for the layer at the walls, section 5, so t* = 1/|k|. 6 seeds, mean t* to 1 %, within
+  // 5 %.
+  constexpr int kSeeds = 6;
+  Scene scene = gas(20.0, 25.0, 100, 1.0);
+  wall_in(scene, 0, {.kind = WallKind::Static, .restitution = 1.05});
+  const VibratedGas theory{100.0, 20.0, 25.0, 1.0, 1.05, 0.0};
+  const double expected = divergence_time(theory.haff_rate_corrected(1.0));
+  Sample times;
+  for (std::uint64_t seed = 501; seed < 501 + kSeeds; ++seed) {
+    Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+    const std::string message = stop_of(simulation, 10.0 * expected);
+    CHECK(message.find("the temperature diverges") != std::string::npos);
+    times.add(simulation.time());
+    CHECK(std::isfinite(simulation.kinetic_energy()));
+    CHECK(simulation.kinetic_energy() > 1e6 * 100.0);
+    for (const Vec2& r : simulation.state().positions) {
+      REQUIRE(r.allFinite());
+      REQUIRE((r.array() >= 0.0).all());
+      REQUIRE((r.array() <= scene.box.array()).all());
+    }
+    CHECK(simulation.deepest_overlap() < 1e-9);
+  }
+  MESSAGE("t* = ", times.mean(), " +- ", times.standard_error(), ", theory ", expected,
+          ", without the layer ", divergence_time(theory.haff_rate_refined(1.0)));
+  CHECK(times.standard_error() < 0.01 * expected);
+  CHECK(std::fabs(times.mean() / expected - 1.0) < 0.05);
+}
