@@ -73,7 +73,7 @@ struct Start {
 struct Disks {
   int count = 0;             ///< N >= 0; resolved from area_fraction where the scene gives that
   double restitution = 1.0;  ///< alpha, 0..1
-  Roughness roughness;
+  Roughness roughness = {};
   double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a sphere
   Start start;
 };
