@@ -58,6 +58,7 @@ TEST_CASE("CellPath: the next face of a flight") {
   };
   check(kPath, {{3.0, 3.0}, {1.0, 0.4}}, {1, 1}, 0.0, {1.0, 0, 1});
   check(kPath, {{3.0, 3.0 + 60.0}, {-0.5, 0.8}}, {1, 1}, 0.25, {1.25, 1, 1});
+  check(kPath, {{5.0, 3.0}, {1.0, 0.0}}, {2, 1}, 0.0, {1.0, 0, 1});
   // On a face, or beyond by rounding: at once outwards, the far face inwards.
   check(kPath, {{4.0 + 1e-15, 3.0}, {1.0, 0.0}}, {1, 1}, 0.0, {0.0, 0, 1});
   check(kPath, {{4.0 + 1e-15, 3.0}, {-1.0, 0.0}}, {1, 1}, 0.0, {2.0, 0, -1});
