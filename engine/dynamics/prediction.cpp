@@ -1,6 +1,7 @@
 #include "engine/dynamics/prediction.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace clatter {
 
@@ -198,8 +199,11 @@ void Prediction<D>::look_at_borders_falling(std::uint32_t disk, double now, Plan
       const bool outer = border == 0 || border == grid_.counts()[axis];
       if (outer && !model_.periodic(axis)) continue;
       const double place = grid_.border(axis, border) + self.image[axis] * model_.box[axis];
-      const double time =
-          now + fall_time(step * (place - r[axis]), -step * v[axis], -step * model_.gravity[axis]);
+      const double recession = -step * v[axis];
+      double time =
+          now + fall_time(step * (place - r[axis]), recession, -step * model_.gravity[axis]);
+      // Who turns just beyond a border returns later, be it by the least time that there is.
+      if (recession > 0.0 && time == now) time = std::nextafter(now, kNever);
       if (time >= plan.crossing) continue;
       plan.crossing = time;
       plan.crossing_axis = static_cast<std::int8_t>(axis);

@@ -1,0 +1,261 @@
+#include "engine/measure/balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clatter {
+
+template <int D>
+static Conserved<D> conserved(double mass, const Vec<D>& momentum, double energy) {
+  Conserved<D> amount;
+  amount << mass, momentum, energy;
+  return amount;
+}
+
+template <int D>
+static void add(Booked<D>& booked, const Conserved<D>& amount) {
+  booked.net += amount;
+  booked.size += amount.cwiseAbs();
+}
+
+// What an event gives to a disk.
+template <int D>
+static Conserved<D> given(const DiskChange<D>& change) {
+  return conserved<D>(0.0, change.gain.momentum, change.energy);
+}
+
+template <int D>
+Balance<D>::Balance(const Simulation<D>& simulation, const IntVec<D>& cells)
+    : simulation_(simulation),
+      paths_(simulation.model(), cells),
+      window_start_(simulation.base_time()) {
+  const Vec<D>& gravity = simulation.model().gravity;
+  for (std::uint32_t i = 0; i < simulation.disks().size(); ++i) {
+    const Flight<D>& flight = simulation.disks()[i].flight;
+    const IntVec<D> cell = paths_.cell_at(flight.at(window_start_, gravity));
+    disks_.push_back({cell, cell, flight.velocity_at(window_start_, gravity), spin(i)});
+  }
+  clear();
+}
+
+template <int D>
+void Balance<D>::clear() {
+  const auto count = static_cast<std::size_t>(cells().prod());
+  for (auto& faces : booked_.faces) faces.assign(count, {});
+  booked_.sources.assign(count, {});
+  booked_.weights.assign(count, Conserved<D>::Zero());
+}
+
+template <int D>
+double Balance<D>::half_inertia() const {
+  const Model<D>& model = simulation_.model();
+  return 0.125 * model.inertia * model.diameter * model.diameter;
+}
+
+template <int D>
+Spin<D> Balance<D>::spin(std::uint32_t disk) const {
+  if (simulation_.spins().empty()) return Spin<D>::Zero();
+  return simulation_.spins()[disk];
+}
+
+template <int D>
+Conserved<D> Balance<D>::carried(const Vec<D>& velocity, const Spin<D>& spin) const {
+  return conserved<D>(1.0, velocity,
+                      0.5 * velocity.squaredNorm() + half_inertia() * spin.squaredNorm());
+}
+
+// What a disk that stays in its cell has gained since the window's start, without the rounding of a
+// difference of squares.
+template <int D>
+Conserved<D> Balance<D>::gained(const Tracked& disk, const Vec<D>& velocity,
+                                const Spin<D>& spin) const {
+  const Vec<D> dp = velocity - disk.first_velocity;
+  const Spin<D> dw = spin - disk.first_spin;
+  return conserved<D>(0.0, dp,
+                      0.5 * dp.dot(velocity + disk.first_velocity) +
+                          half_inertia() * dw.dot(spin + disk.first_spin));
+}
+
+// A crossing at the very end is left to what comes then: a collision may have turned the disk back.
+template <int D>
+void Balance<D>::follow(std::uint32_t disk, const Flight<D>& flight, double end) {
+  IntVec<D>& cell = disks_[disk].cell;
+  double time = std::max(flight.time, window_start_);
+  FaceCrossing last;
+  for (;;) {
+    FaceCrossing next = paths_.next_crossing(flight, cell, time);
+    // The top of a parabola on a face may fall back within less than a time's rounding, and would
+    // cross to and fro at one time for ever.
+    if (next.axis == last.axis && next.step == -last.step) {
+      next.at = std::max(next.at, std::nextafter(time, kNever));
+    }
+    if (!(next.at < end)) break;
+    fall(cell, flight, time, next.at);
+    time = next.at;
+    const Vec<D> v = flight.velocity_at(time, simulation_.model().gravity);
+    pass(cell, next.axis, next.step, carried(v, spin(disk)));
+    cell = paths_.beyond(cell, next.axis, next.step);
+    last = next;
+  }
+  fall(cell, flight, time, end);
+}
+
+// Gravity's force and its work on a disk, the integrals of g and of g.v.
+template <int D>
+void Balance<D>::fall(const IntVec<D>& cell, const Flight<D>& flight, double begin, double end) {
+  const Vec<D>& gravity = simulation_.model().gravity;
+  const Vec<D> v = flight.velocity_at(begin, gravity);
+  const Vec<D> w = flight.velocity_at(end, gravity);
+  const Vec<D> gained = (end - begin) * gravity;
+  arise(cell, conserved<D>(0.0, gained, 0.5 * gained.dot(v + w)));
+  const double weight = 0.5 * gained.cwiseAbs().dot(v.cwiseAbs() + w.cwiseAbs());
+  booked_.weights[paths_.index(cell)] += conserved<D>(0.0, Vec<D>::Zero(), weight);
+}
+
+template <int D>
+void Balance<D>::arise(const IntVec<D>& cell, const Conserved<D>& amount) {
+  add<D>(booked_.sources[paths_.index(cell)], amount);
+}
+
+template <int D>
+void Balance<D>::pass(const IntVec<D>& cell, int axis, int step, const Conserved<D>& amount) {
+  const IntVec<D> below = step > 0 ? cell : paths_.beyond(cell, axis, step);
+  add<D>(booked_.faces[axis][paths_.index(below)], step * amount);
+}
+
+template <int D>
+void Balance<D>::transport(const Vec<D>& start, const Vec<D>& branch, IntVec<D> from,
+                           const IntVec<D>& to, const Conserved<D>& amount) {
+  for (const FaceCrossing& crossing : paths_.along(start, branch, from, to)) {
+    pass(from, crossing.axis, crossing.step, amount);
+    from = paths_.beyond(from, crossing.axis, crossing.step);
+  }
+}
+
+// Energies in full, p.v and p^2/2: at a wall that takes none they cancel.
+template <int D>
+void Balance<D>::weigh(const DiskChange<D>& change) {
+  const Vec<D>& p = change.gain.momentum;
+  booked_.weights[paths_.index(disks_[change.disk].cell)] +=
+      conserved<D>(0.0, p.cwiseAbs(), 0.5 * p.squaredNorm() + std::fabs(p.dot(change.velocity)));
+}
+
+// Each partner changes in its own cell. What one gains from the other comes along the branch, of
+// the energy (1/2)(dE_0 - dE_1), Eq. (4.34); the rest arises at both ends, Eq. (4.32).
+template <int D>
+void Balance<D>::on_collision(const PairCollision<D>& collision) {
+  const auto& [first, second] = collision.disks;
+  for (const DiskChange<D>& disk : collision.disks) {
+    follow(disk.disk, disk.before, collision.time);
+    weigh(disk);
+  }
+  const IntVec<D>& to = disks_[first.disk].cell;
+  const IntVec<D>& from = disks_[second.disk].cell;
+  transport(first.position - collision.separation, collision.separation, from, to,
+            0.5 * (given<D>(first) - given<D>(second)));
+  const Conserved<D> source = 0.5 * (given<D>(first) + given<D>(second));
+  arise(to, source);
+  arise(from, source);
+}
+
+// What the wall gives comes in whole where it touches the disk, and from there along the branch.
+template <int D>
+void Balance<D>::on_wall(const WallCollision<D>& collision) {
+  const DiskChange<D>& disk = collision.disk;
+  follow(disk.disk, disk.before, collision.time);
+  weigh(disk);
+  const int axis = collision.side / 2;
+  const Vec<D> branch =
+      0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side) * Vec<D>::Unit(axis);
+  const Vec<D> touching = disk.position - branch;
+  const IntVec<D>& to = disks_[disk.disk].cell;
+  IntVec<D> from = to;
+  from[axis] = paths_.cell_at(touching)[axis];
+  arise(from, given<D>(disk));
+  transport(touching, branch, from, to, given<D>(disk));
+}
+
+template <int D>
+void Balance<D>::on_kick(const Kick<D>& kick) {
+  follow(kick.disk.disk, kick.disk.before, kick.time);
+  weigh(kick.disk);
+  arise(disks_[kick.disk.disk].cell, given<D>(kick.disk));
+}
+
+template <int D>
+void Balance<D>::on_base_moved(double shift) {
+  window_start_ -= shift;
+}
+
+// What the cells gained, from the disks' states; the next window starts from these.
+template <int D>
+std::vector<Conserved<D>> Balance<D>::take_changes(double now) {
+  const Vec<D>& gravity = simulation_.model().gravity;
+  std::vector<Conserved<D>> changes(booked_.sources.size(), Conserved<D>::Zero());
+  for (std::uint32_t i = 0; i < disks_.size(); ++i) {
+    const Flight<D>& flight = simulation_.disks()[i].flight;
+    const Vec<D> v = flight.velocity_at(now, gravity);
+    Tracked& disk = disks_[i];
+    // The cell to which it was followed decides where rounding would; a disk that is elsewhere was
+    // followed wrongly, which must show.
+    const Vec<D> r = flight.at(now, gravity);
+    if (!paths_.holds(disk.cell, r)) disk.cell = paths_.cell_at(r);
+    if (disk.cell == disk.first_cell) {
+      changes[paths_.index(disk.cell)] += gained(disk, v, spin(i));
+    } else {
+      changes[paths_.index(disk.cell)] += carried(v, spin(i));
+      changes[paths_.index(disk.first_cell)] -= carried(disk.first_velocity, disk.first_spin);
+    }
+    disk = {disk.cell, disk.cell, v, spin(i)};
+  }
+  return changes;
+}
+
+// The lowest faces along an axis are the highest ones: they are where the axis is periodic, and
+// nothing passes through either where it is walled.
+template <int D>
+Booked<D> Balance<D>::booked_at(std::size_t index) const {
+  const IntVec<D> cell = paths_.cell(index);
+  Booked<D> booked = booked_.sources[index];
+  booked.size += booked_.weights[index];
+  for (int axis = 0; axis < D; ++axis) {
+    const Booked<D>& in = booked_.faces[axis][paths_.index(paths_.beyond(cell, axis, -1))];
+    const Booked<D>& out = booked_.faces[axis][index];
+    booked.net += in.net - out.net;
+    booked.size += in.size + out.size;
+  }
+  return booked;
+}
+
+template <int D>
+static Conserved<D> residual(const Conserved<D>& change, const Booked<D>& booked) {
+  Conserved<D> residual = (change - booked.net).cwiseAbs();
+  for (int k = 0; k < D + 2; ++k) {
+    if (residual[k] != 0.0) residual[k] = booked.size[k] > 0.0 ? residual[k] / booked.size[k] : 1.0;
+  }
+  return residual;
+}
+
+template <int D>
+BalanceResiduals<D> Balance<D>::close_window() {
+  const double now = simulation_.base_time();
+  for (std::uint32_t i = 0; i < disks_.size(); ++i) follow(i, simulation_.disks()[i].flight, now);
+  const std::vector<Conserved<D>> changes = take_changes(now);
+  window_start_ = now;
+  BalanceResiduals<D> residuals;
+  for (std::size_t index = 0; index < changes.size(); ++index) {
+    const Conserved<D> cell = residual<D>(changes[index], booked_at(index));
+    residuals.mass.push_back(cell[0]);
+    for (int axis = 0; axis < D; ++axis) residuals.momentum[axis].push_back(cell[1 + axis]);
+    residuals.energy.push_back(cell[D + 1]);
+    residuals.largest = residuals.largest.cwiseMax(cell);
+  }
+  residuals.booked = std::move(booked_);
+  clear();
+  return residuals;
+}
+
+template class Balance<2>;
+
+}  // namespace clatter

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/observer.h"
+#include "engine/dynamics/simulation.h"
+#include "engine/measure/cell_path.h"
+
+namespace clatter {
+
+/// What the balance equations account for: mass, the D components of momentum, and energy, of
+/// motion and of spin.
+template <int D>
+using Conserved = Eigen::Matrix<double, D + 2, 1>;
+
+/// A sum of bookings.
+template <int D>
+struct Booked {
+  Conserved<D> net = Conserved<D>::Zero();
+  Conserved<D> size = Conserved<D>::Zero();  ///< sum of what was booked, each without its sign
+};
+
+/// All that was booked in one window of time; [cells] each, cell (i, j) at i + j cells.x().
+template <int D>
+struct Bookings {
+  /// What passed in the direction of each axis through the cells' upper faces across it: disks, and
+  /// what collisions carry along their branch.
+  std::array<std::vector<Booked<D>>, D> faces;
+  /// What arose in the cells: dissipation, gravity, kicks, and what came in through walls.
+  std::vector<Booked<D>> sources;
+  /// Sizes of what changed the motion of the disks inside, in events and by gravity: what the faces
+  /// and sources brought, before any of it cancelled.
+  std::vector<Conserved<D>> weights;
+};
+
+/// How far the balance equations (4.1)-(4.3) are from closing in one window of time; [cells] each,
+/// cell (i, j) at i + j cells.x().
+///
+/// |change of what the cell holds - booked|, over the sum of the sizes of all that was booked at
+/// the cell: through its faces, as its sources, and the weights. 0 where nothing was booked, or 1
+/// if the cell changed all the same.
+template <int D>
+struct BalanceResiduals {
+  std::vector<double> mass;
+  std::array<std::vector<double>, D> momentum;  ///< by component
+  std::vector<double> energy;
+  Conserved<D> largest = Conserved<D>::Zero();  ///< over all cells, of each equation
+  Bookings<D> booked;                           ///< what the cells' changes were compared with
+};
+
+/// Closes the balance equations (4.1)-(4.3) on a grid of equal cells over the whole box, section 6,
+/// "Exact closure": what the cells hold, from the disks' states at a window's two ends, against
+/// what was booked at faces and as sources in between.
+template <int D>
+class Balance : public Observer<D> {
+ public:
+  /// Watches a simulation from now on with the given number of cells along each axis.
+  Balance(const Simulation<D>& simulation, const IntVec<D>& cells);
+
+  void on_collision(const PairCollision<D>& collision) override;
+  void on_wall(const WallCollision<D>& collision) override;
+  void on_kick(const Kick<D>& kick) override;
+  void on_base_moved(double shift) override;
+
+  /// The balance since the last call, or since the start.
+  BalanceResiduals<D> close_window();
+
+  /// Number of cells along each axis.
+  const IntVec<D>& cells() const { return paths_.cells(); }
+
+ private:
+  /// A disk as far as it has been followed, and what it was at the window's start.
+  struct Tracked {
+    IntVec<D> cell;
+    IntVec<D> first_cell;
+    Vec<D> first_velocity;
+    Spin<D> first_spin;
+  };
+
+  double half_inertia() const;
+  Spin<D> spin(std::uint32_t disk) const;
+  Conserved<D> carried(const Vec<D>& velocity, const Spin<D>& spin) const;
+  Conserved<D> gained(const Tracked& disk, const Vec<D>& velocity, const Spin<D>& spin) const;
+  void follow(std::uint32_t disk, const Flight<D>& flight, double end);
+  void fall(const IntVec<D>& cell, const Flight<D>& flight, double begin, double end);
+  void weigh(const DiskChange<D>& change);
+  void transport(const Vec<D>& start, const Vec<D>& branch, IntVec<D> from, const IntVec<D>& to,
+                 const Conserved<D>& amount);
+  void pass(const IntVec<D>& cell, int axis, int step, const Conserved<D>& amount);
+  void arise(const IntVec<D>& cell, const Conserved<D>& amount);
+  void clear();
+  std::vector<Conserved<D>> take_changes(double now);
+  Booked<D> booked_at(std::size_t index) const;
+
+  const Simulation<D>& simulation_;
+  CellPath<D> paths_;
+  std::vector<Tracked> disks_;  // [N]
+  double window_start_;
+  Bookings<D> booked_;
+};
+
+extern template class Balance<2>;
+
+}  // namespace clatter
