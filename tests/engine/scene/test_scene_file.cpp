@@ -98,6 +98,11 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.measure.series_interval == b.measure.series_interval);
   CHECK(a.measure.fields == b.measure.fields);
   CHECK(a.measure.cells == b.measure.cells);
+  CHECK(a.measure.profile_axis == b.measure.profile_axis);
+  CHECK(a.measure.estimator == b.measure.estimator);
+  CHECK(a.measure.interval == b.measure.interval);
+  CHECK(a.measure.kernel == b.measure.kernel);
+  CHECK(a.measure.width == b.measure.width);
   CHECK(a.view.colour_by == b.view.colour_by);
   CHECK(a.view.field == b.view.field);
   CHECK(a.view.window == b.view.window);
@@ -139,6 +144,11 @@ Scene unusual_scene() {
   scene.measure.series_interval = 5e-324;
   scene.measure.fields = {Field::VelocityX, Field::VelocityY, Field::TemperatureY, Field::Density};
   scene.measure.cells = {3, 7};
+  scene.measure.profile_axis = Axis::Y;
+  scene.measure.estimator = Estimator::Snapshot;
+  scene.measure.interval = 0.3;
+  scene.measure.kernel = Kernel::Gaussian;
+  scene.measure.width = 123456.7;
   scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field::TemperatureX,
                 .window = 0.125,
@@ -184,6 +194,11 @@ TEST_CASE("every key arrives at its place") {
     [measure]
     fields = ["velocity", "density", "velocity"]
     cells = [4, 5]
+    profile_axis = "y"
+    estimator = "snapshot"
+    interval = 0.5
+    kernel = "gaussian"
+    width = 1.5
     [view]
     field = "velocity_y"
     range = [0, 3]
@@ -215,6 +230,11 @@ TEST_CASE("every key arrives at its place") {
   const std::vector<Field> fields = {Field::VelocityX, Field::VelocityY, Field::Density};
   CHECK(scene.measure.fields == fields);
   CHECK(scene.measure.cells == std::array{4, 5});
+  CHECK(scene.measure.profile_axis == Axis::Y);
+  CHECK(scene.measure.estimator == Estimator::Snapshot);
+  CHECK(scene.measure.interval == 0.5);
+  CHECK(scene.measure.kernel == Kernel::Gaussian);
+  CHECK(scene.measure.width == 1.5);
   CHECK(scene.view.field == Field::VelocityY);
   CHECK(scene.view.range == std::array{0.0, 3.0});
 }
@@ -248,7 +268,8 @@ TEST_CASE("a scene as JSON has the keys of the file") {
         R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
         R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
         R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
-        R"("fields": ["velocity", "temperature"], "cells": [20, 20]}, )"
+        R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
+        R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
         R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
         R"("range": "auto", "overlay": true}})");
 }
@@ -341,8 +362,8 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {kDisks + "[view]\npalette = \"virdis\"\n",
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\"; did "
        "you mean \"viridis\"?"},
-      {kDisks + "[measure]\nfields = [\"density\", \"stress\"]\n",
-       "s.toml:4:1: 'measure.fields' cannot be \"stress\"; give one of \"density\", \"velocity\""},
+      {kDisks + "[measure]\nfields = [\"density\", \"pressure\"]\n",
+       "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", \"velocity\""},
       // walls
       {kDisks + "[walls.left]\nkind = \"static\"\n",
        "s.toml:3:1: [walls.left] has no wall opposite; add [walls.right], or remove this one"},
