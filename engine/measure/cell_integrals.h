@@ -89,6 +89,7 @@ class CellIntegrals : public Observer<D> {
   FieldGrid<D> grid_;
   MomentLayout<D> layout_;
   Estimator estimator_;
+  bool lossless_;  // whether no collision of disks dissipates
   std::optional<GaussianKernel<D>> gaussian_;
   double window_start_;
   CellSums sums_;

@@ -9,6 +9,7 @@
 #include "engine/embedded_file.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
 
 using namespace clatter;
 
@@ -244,6 +245,26 @@ TEST_CASE("area_fraction becomes the nearest count") {
   CHECK(scene.disks.count == 38);  // 0.3 * 400 / pi = 38.197
 }
 
+TEST_CASE("a name of a field stands for its components, and each may stand alone") {
+  const auto fields = [](const std::string& list) {
+    return parse_scene(kDisks + "disks.friction = 0.5\nmeasure.fields = " + list, "s.toml")
+        .measure.fields;
+  };
+  CHECK(fields(R"(["stress"])") == std::vector{Field::StressXx, Field::StressYy, Field::StressXy});
+  CHECK(fields(R"(["heat_flux_kinetic", "spin"])") ==
+        std::vector{Field::HeatFluxXKinetic, Field::HeatFluxYKinetic, Field::Spin});
+  CHECK(fields(R"(["temperature_y"])") == std::vector{Field::TemperatureY});
+  CHECK(fields(R"(["temperature"])") ==
+        std::vector{Field::Temperature, Field::TemperatureX, Field::TemperatureY});
+  // Each is written as it can be read.
+  for (const auto& [name, field] : kProfiles) {
+    Scene scene = parse_scene(kDisks + "disks.friction = 0.5\n", "s.toml");
+    scene.measure.fields = fields("[\"" + std::string(name) + "\"]");
+    CHECK(std::ranges::find(scene.measure.fields, field) != scene.measure.fields.end());
+    CHECK(parse_scene(scene_to_toml(scene), "s.toml").measure.fields == scene.measure.fields);
+  }
+}
+
 TEST_CASE("a scene in which all differs from the defaults survives writing and reading") {
   check_equal(parse_scene(scene_to_toml(unusual_scene()), "s.toml"), unusual_scene());
   Scene plain;
@@ -363,7 +384,32 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\"; did "
        "you mean \"viridis\"?"},
       {kDisks + "[measure]\nfields = [\"density\", \"pressure\"]\n",
-       "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", \"velocity\""},
+       "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", "
+       "\"velocity\""},
+      {kDisks + "[measure]\nfields = [\"density\", \"spin\"]\n",
+       "s.toml:4:1: a field of spins has no meaning where nothing spins; choose another, or make"},
+      {kDisks + "[view]\nfield = \"spin_temperature\"\n",
+       "s.toml:4:1: a field of spins has no meaning where nothing spins"},
+      {kDisks + "[measure]\ninterval = 1.0\n",
+       "s.toml:4:1: 'measure.interval' has no meaning for the exact estimator, which counts "
+       "flights "
+       "as a whole; remove it, or set measure.estimator = \"snapshot\""},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\n",
+       "s.toml:3:1: 'measure.interval' is missing"},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 0\n",
+       "s.toml:5:1: 'measure.interval' cannot be 0"},
+      {kDisks + "[measure]\nwidth = 1.0\n",
+       "s.toml:4:1: 'measure.width' has no meaning for the box kernel"},
+      {kDisks + "[measure]\nkernel = \"gaussian\"\nwidth = 2.0\n",
+       "s.toml:4:1: a Gaussian spreads disks where they are now and then, not flights; set "
+       "measure.estimator = \"snapshot\""},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n",
+       "s.toml:3:1: 'measure.width' is missing"},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n"
+                "width = 0.25\n",
+       "s.toml:7:1: the Gaussian falls between the centres of cells of 1"},
+      {kDisks + "[measure]\nprofile_axis = \"z\"\n",
+       "s.toml:4:1: 'measure.profile_axis' cannot be \"z\"; give one of \"x\", \"y\""},
       // walls
       {kDisks + "[walls.left]\nkind = \"static\"\n",
        "s.toml:3:1: [walls.left] has no wall opposite; add [walls.right], or remove this one"},
