@@ -4,8 +4,10 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/measure/fields.h"
 #include "engine/measure/live_field.h"
 #include "tests/engine/measure/scenes.h"
+#include "tests/engine/measure/sums.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -35,6 +37,30 @@ TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere
   // A disk stays in a cell for about 0.8, so its time there averages over 2000/0.8 * 0.31 visits:
   // 4 % with independent visits, less since disks exclude each other. 96 cells, 5 standard errors.
   for (const double density : map.values) CHECK(std::fabs(density / (30.0 / 96.0) - 1.0) < 0.2);
+}
+
+TEST_CASE("LiveField: every field is that of its cells over the window") {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness.friction = 0.4;
+  for (const Field field : all_fields()) {
+    CAPTURE(static_cast<int>(field));
+    const auto simulation = simulation_of(scene, 34);
+    LiveField live(*simulation, view_of(field, 2.0));
+    CellIntegrals<2> integrals(*simulation, {9, 8}, full_layout());
+    simulation->add_observer(integrals);
+    simulation->run_until(0.3);
+    live.map();
+    simulation->run_until(1.9);
+    const FieldMap map = live.map();
+    const CellSums sums = integrals.close_window();
+    REQUIRE(map.field == field);
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      CAPTURE(i);
+      const double expected = field_value(field, averages_of(integrals.layout(), sums, i, 1.0));
+      CHECK(std::isnan(map.values[i]) == std::isnan(expected));
+      if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
+    }
+  }
 }
 
 TEST_CASE("LiveField: cells that no disk visited are gaps") {

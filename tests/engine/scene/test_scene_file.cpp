@@ -247,7 +247,7 @@ TEST_CASE("area_fraction becomes the nearest count") {
 
 TEST_CASE("a name of a field stands for its components, and each may stand alone") {
   const auto fields = [](const std::string& list) {
-    return parse_scene(kDisks + "disks.friction = 0.5\nmeasure.fields = " + list, "s.toml")
+    return parse_scene(kDisks + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;
   };
   CHECK(fields(R"(["stress"])") == std::vector{Field::StressXx, Field::StressYy, Field::StressXy});
@@ -258,7 +258,7 @@ TEST_CASE("a name of a field stands for its components, and each may stand alone
         std::vector{Field::Temperature, Field::TemperatureX, Field::TemperatureY});
   // Each is written as it can be read.
   for (const auto& [name, field] : kProfiles) {
-    Scene scene = parse_scene(kDisks + "disks.friction = 0.5\n", "s.toml");
+    Scene scene = parse_scene(kDisks + "friction = 0.5\n", "s.toml");
     scene.measure.fields = fields("[\"" + std::string(name) + "\"]");
     CHECK(std::ranges::find(scene.measure.fields, field) != scene.measure.fields.end());
     CHECK(parse_scene(scene_to_toml(scene), "s.toml").measure.fields == scene.measure.fields);
