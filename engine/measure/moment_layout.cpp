@@ -10,7 +10,7 @@ struct Needs {
   bool spin = false, spin_energy = false;
   bool transfer = false, energy_transfer = false, dissipation = false;
 
-  // The means that all but the density and the collisional parts take off or divide by.
+  // Of a normal component, or of a shear.
   void add_kinetic_stress(bool shear) {
     velocity = true;
     (shear ? shears : squares) = true;

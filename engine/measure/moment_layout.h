@@ -28,8 +28,6 @@ struct MomentLayout {
   int along_branch = 1;           ///< from `kinetic` up to here numbers spread along branch vectors
   int dissipation = kAbsent;      ///< 1: sum (dE_1 + dE_2)/2, at either end
   int size = 1;                   ///< numbers in a row
-
-  bool operator==(const MomentLayout&) const = default;
 };
 
 /// The sums that these fields need; `spins`: whether the disks spin, and so carry energy.

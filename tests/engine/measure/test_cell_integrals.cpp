@@ -456,3 +456,35 @@ TEST_CASE("CellIntegrals: a Gaussian spreads what box cells hold, and keeps its 
   CHECK(difference(total(sharp), total(wide)) < 1e-5 * total(sharp).products.trace());
   CHECK(difference(sharp, wide) > 1.0);
 }
+
+TEST_CASE("CellIntegrals: a Gaussian along the branch, at its ends, and at the disks") {
+  // Head-on at t = 1/2, where the centres are at x = 2.5 and 3.5: 1 gains (-3/2, 0) and loses 3/8.
+  Scene scene = gas(6.0, 5.0, 2, 0.5);
+  Simulation<2> simulation(model_of(scene, 1),
+                           State<2>{{{2.0, 2.4}, {4.0, 2.4}}, {{1, 0}, {-1, 0}}});
+  CellIntegrals<2> integrals(simulation, {6, 5}, full_layout(), {Estimator::Snapshot, 0.8});
+  simulation.add_observer(integrals);
+  simulation.run_until(0.25);
+  integrals.sample();
+  simulation.run_until(1.0);
+  const Grid grid = close(integrals);
+  REQUIRE(simulation.counts().disk_disk == 1);
+  const GaussianKernel<2> kernel(integrals.grid(), 0.8);
+  Grid expected(grid.size());
+  kernel.along({2.5, 2.4}, {1.0, 0.0},
+               [&](std::size_t i, double weight) { expected[i].transfer(0, 0) += 1.5 * weight; });
+  for (const double x : {2.5, 3.5}) {
+    kernel.at({x, 2.4},
+              [&](std::size_t i, double weight) { expected[i].dissipation -= 0.375 * weight; });
+  }
+  for (const double x : {2.25, 3.75}) {
+    const double v = x < 3.0 ? 1.0 : -1.0;
+    kernel.at({x, 2.4}, [&](std::size_t i, double weight) {
+      expected[i].count += weight;
+      expected[i].velocity.x() += weight * v;
+      expected[i].products(0, 0) += weight;
+      expected[i].energy_flux.x() += 0.5 * weight * v;
+    });
+  }
+  CHECK(difference(grid, expected) < 1e-12);
+}

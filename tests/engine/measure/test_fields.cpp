@@ -209,3 +209,14 @@ TEST_CASE("moment_layout: what the fields asked for do not need is not stored") 
   CHECK(size(all_fields(), false) == 15);
   CHECK(size(all_fields(), true) == 17);
 }
+
+TEST_CASE("averages_of: kinetic sums go by their weight, sums over events by time") {
+  const Field fields[] = {Field::VelocityX, Field::Dissipation, Field::StressXxCollisional};
+  const MomentLayout<2> layout = moment_layout<2>(fields, false);
+  CellSums sums{4.0, 2.0, std::vector<double>(static_cast<std::size_t>(layout.size), 12.0)};
+  const auto cell = averages_of(layout, sums, 0, 0.5);
+  CHECK(cell.density == 12.0);
+  CHECK(cell.momentum[0] == 12.0);
+  CHECK(cell.dissipation == 6.0);
+  CHECK(cell.transfer[0][0] == 6.0);
+}

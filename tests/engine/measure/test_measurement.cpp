@@ -259,6 +259,21 @@ TEST_CASE("Measurement: snapshots at the interval, collisions all the time") {
   }
 }
 
+TEST_CASE("Measurement: a density that cannot vary has no error, however snapshots fall") {
+  Measure measure = measure_for(1.0, 50.0);
+  measure.fields = {Field::Density};
+  measure.cells = {1, 1};
+  measure.estimator = Estimator::Snapshot;
+  for (const double interval : {0.03, 0.17, 0.9}) {  // windows are 50/512
+    CAPTURE(interval);
+    measure.interval = interval;
+    const auto simulation = simulation_of(gas(5.0, 4.0, 8, 1.0), 52);
+    const Estimate density = measured(*simulation, measure).profile->at(Field::Density)[0];
+    CHECK(density.mean == doctest::Approx(0.4));
+    CHECK(density.standard_error < 1e-12);
+  }
+}
+
 TEST_CASE("Measurement: errors are the scatter of runs") {
   // The scatter of 40 runs has an uncertainty of 11 %, the mean of their errors less. A current of
   // what is conserved fluctuates back and forth, so that its error by blocking is a bound only.
