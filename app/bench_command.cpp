@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/bench_fields.h"
 #include "app/commands.h"
 #include "app/flag_checks.h"
 #include "app/resources.h"
@@ -90,16 +91,21 @@ int bench_engine(const BenchOptions& options) {
 void add_bench_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = program.add_subcommand("bench", "Print performance tables");
-  command->add_option("name", options->name, "Which table")
-      ->check(CLI::IsMember({"engine"}))
+  command
+      ->add_option("name", options->name,
+                   "Which table: engine, how fast collisions are; fields, what they cost")
+      ->check(CLI::IsMember({"engine", "fields"}))
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the table to a file, too")->type_name("FILE");
-  command->add_option("--count", options->count, "One cell of the table: number of disks")
+  command->add_option("--count", options->count, "One cell of the engine's table: number of disks")
       ->check(CLI::Range(2, 100'000'000));
-  command->add_option("--area-fraction", options->area_fraction, "One cell of the table: phi")
+  command
+      ->add_option("--area-fraction", options->area_fraction, "One cell of the engine's table: phi")
       ->check(number_between(1e-6, 0.9))
       ->capture_default_str();
-  command->callback([options, &exit_code] { exit_code = bench_engine(*options); });
+  command->callback([options, &exit_code] {
+    exit_code = options->name == "fields" ? bench_fields(options->json) : bench_engine(*options);
+  });
 }
 
 }  // namespace clatter

@@ -66,6 +66,11 @@ int measure(const MeasureOptions& options) {
         "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
         "choose at least " + number_text(end / kMostSamples));
   }
+  if (spec.estimator == Estimator::Snapshot &&
+      (end - spec.burn_in) / spec.interval > kMostSamples) {
+    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
+                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
+  }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.csv.empty()) {
     require_folder_of(options.csv, "--csv");

@@ -9,7 +9,7 @@
 #include "app/run.h"
 #include "app/write_file.h"
 #include "engine/error.h"
-#include "engine/measure/fields.h"
+#include "engine/measure/live_field.h"
 #include "engine/publish/publish.h"
 #include "engine/scene/text.h"
 #include "render/canvas.h"

@@ -7,6 +7,7 @@
 
 #include "engine/physics/theory.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 
@@ -74,25 +75,17 @@ static Json theory_json(const Scene& scene) {
   return json;
 }
 
-static Json profile_json(const Profile& profile, const std::vector<Field>& fields) {
-  const auto asked = [&](Field field) {
-    for (const Field f : fields) {
-      if (f == field || (f == Field::Temperature && field != Field::Density)) return true;
-    }
-    return false;
-  };
-  Json json{{"axis", "x"}, {"edges", profile.edges}};
+static Json profile_json(const Profile& profile) {
+  Json json{{"axis", name_of(profile.axis, kAxes)}, {"edges", profile.edges}};
   Json errors = Json::object();
-  const auto add = [&](const char* name, const std::vector<Estimate>& column) {
-    // A column that was never visited has no temperature: null.
-    for (const Estimate& e : column) {
+  for (const Field field : profile.fields) {
+    const std::string name(name_of(field, kHeatmaps));
+    for (const Estimate& e : profile.at(field)) {
+      // A column that was never visited has no temperature: null.
       json[name].push_back(std::isfinite(e.mean) ? Json(e.mean) : Json(nullptr));
       errors[name].push_back(e.standard_error);
     }
-  };
-  if (asked(Field::Density)) add("density", profile.density);
-  if (asked(Field::TemperatureX)) add("temperature_x", profile.temperature_x);
-  if (asked(Field::TemperatureY)) add("temperature_y", profile.temperature_y);
+  }
   json["standard_error"] = errors;
   return json;
 }
@@ -133,7 +126,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   }
   if (Json pressure = pressure_json(measured); !pressure.empty()) json["pressure"] = pressure;
   json["theory"] = theory_json(scene);
-  if (measured.profile) json["profile"] = profile_json(*measured.profile, scene.measure.fields);
+  if (measured.profile) json["profile"] = profile_json(*measured.profile);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
   if (scene.contact_time) {

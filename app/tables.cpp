@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/write_file.h"
+#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 
@@ -15,6 +16,65 @@ namespace clatter {
   std::vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   text += line;
+}
+
+// Units in terms of disk diameter a, disk mass m and the scene's time unit t.
+static const char* unit_of(Field field) {
+  switch (field) {
+    case Field::Density:
+      return "1/a^2";
+    case Field::VelocityX:
+    case Field::VelocityY:
+      return "a/t";
+    case Field::Temperature:
+    case Field::TemperatureX:
+    case Field::TemperatureY:
+    case Field::SpinTemperature:
+      return "m a^2/t^2";
+    case Field::StressXx:
+    case Field::StressYy:
+    case Field::StressXy:
+    case Field::StressXxKinetic:
+    case Field::StressYyKinetic:
+    case Field::StressXyKinetic:
+    case Field::StressXxCollisional:
+    case Field::StressYyCollisional:
+    case Field::StressXyCollisional:
+      return "m/t^2";
+    case Field::HeatFluxX:
+    case Field::HeatFluxY:
+    case Field::HeatFluxXKinetic:
+    case Field::HeatFluxYKinetic:
+    case Field::HeatFluxXCollisional:
+    case Field::HeatFluxYCollisional:
+      return "m a/t^3";
+    case Field::Dissipation:
+      return "m/t^3";
+    case Field::Spin:
+      return "1/t";
+  }
+  return "";
+}
+
+static std::string profile_table(const Profile& profile) {
+  const std::string axis(name_of(profile.axis, kAxes));
+  std::string units =
+      "# units, a: disk diameter, m: disk mass, t: time unit of the scene; " + axis + ": a";
+  std::string header = axis + "_low," + axis + "_high";
+  for (const Field field : profile.fields) {
+    const std::string name(name_of(field, kHeatmaps));
+    units += ", " + name + ": " + unit_of(field);
+    header += "," + name + "," + name + "_error";
+  }
+  std::string table = units + "\n" + header + "\n";
+  for (std::size_t i = 0; i + 1 < profile.edges.size(); ++i) {
+    append(table, "%.17g,%.17g", profile.edges[i], profile.edges[i + 1]);
+    for (const auto& column : profile.values) {
+      append(table, ",%.17g,%.17g", column[i].mean, column[i].standard_error);
+    }
+    table += '\n';
+  }
+  return table;
 }
 
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
@@ -30,21 +90,7 @@ void write_tables(const std::filesystem::path& folder, const Measured& measured)
   }
   write_file(folder / "temperature_series.csv", series);
 
-  if (!measured.profile) return;
-  const Profile& profile = *measured.profile;
-  std::string table =
-      "# units: disk diameter, disk mass and the scene's velocity unit are 1; density: disks per "
-      "area\n"
-      "x_low,x_high,density,density_error,temperature_x,temperature_x_error,temperature_y,"
-      "temperature_y_error\n";
-  for (std::size_t i = 0; i < profile.density.size(); ++i) {
-    append(table, "%.17g,%.17g", profile.edges[i], profile.edges[i + 1]);
-    for (const auto* column : {&profile.density, &profile.temperature_x, &profile.temperature_y}) {
-      append(table, ",%.17g,%.17g", (*column)[i].mean, (*column)[i].standard_error);
-    }
-    table += '\n';
-  }
-  write_file(folder / "profile.csv", table);
+  if (measured.profile) write_file(folder / "profile.csv", profile_table(*measured.profile));
 }
 
 }  // namespace clatter

@@ -43,6 +43,42 @@ Quantity quantity_of(Field field) {
       return {"temperature T", "x"};
     case Field::TemperatureY:
       return {"temperature T", "y"};
+    case Field::StressXx:
+      return {"stress σ", "xx", true};
+    case Field::StressYy:
+      return {"stress σ", "yy", true};
+    case Field::StressXy:
+      return {"stress σ", "xy", true};
+    case Field::StressXxKinetic:
+      return {"kinetic stress σ", "xx", true};
+    case Field::StressYyKinetic:
+      return {"kinetic stress σ", "yy", true};
+    case Field::StressXyKinetic:
+      return {"kinetic stress σ", "xy", true};
+    case Field::StressXxCollisional:
+      return {"collisional stress σ", "xx", true};
+    case Field::StressYyCollisional:
+      return {"collisional stress σ", "yy", true};
+    case Field::StressXyCollisional:
+      return {"collisional stress σ", "xy", true};
+    case Field::HeatFluxX:
+      return {"heat flux q", "x", true};
+    case Field::HeatFluxY:
+      return {"heat flux q", "y", true};
+    case Field::HeatFluxXKinetic:
+      return {"kinetic heat flux q", "x", true};
+    case Field::HeatFluxYKinetic:
+      return {"kinetic heat flux q", "y", true};
+    case Field::HeatFluxXCollisional:
+      return {"collisional heat flux q", "x", true};
+    case Field::HeatFluxYCollisional:
+      return {"collisional heat flux q", "y", true};
+    case Field::Dissipation:
+      return {"dissipation ζ", "", true};
+    case Field::Spin:
+      return {"mean spin ω", "", true};
+    case Field::SpinTemperature:
+      return {"spin temperature T", "rot"};
   }
   return {""};
 }

@@ -7,45 +7,112 @@
 
 namespace clatter {
 
-template <int D>
-CellMoments<D>& CellMoments<D>::operator+=(const CellMoments& other) {
-  count += other.count;
-  velocity += other.velocity;
-  velocity_squared += other.velocity_squared;
+CellSums& CellSums::operator+=(const CellSums& other) {
+  time += other.time;
+  kinetic_weight += other.kinetic_weight;
+  if (rows.empty()) rows.resize(other.rows.size());
+  for (std::size_t i = 0; i < other.rows.size(); ++i) rows[i] += other.rows[i];
   return *this;
 }
 
 template <int D>
-CellIntegrals<D>::CellIntegrals(const Simulation<D>& simulation, const IntVec<D>& cells)
+CellIntegrals<D>::CellIntegrals(const Simulation<D>& simulation, const IntVec<D>& cells,
+                                const MomentLayout<D>& layout, const Coarsening& coarsening)
     : simulation_(simulation),
-      cells_(cells),
-      widths_(simulation.model().box.cwiseQuotient(cells.template cast<double>())),
-      window_start_(simulation.base_time()),
-      moments_(static_cast<std::size_t>(cells.prod())) {}
+      grid_(simulation.model(), cells),
+      layout_(layout),
+      estimator_(coarsening.estimator),
+      lossless_(simulation.model().restitution == 1.0 && !simulation.model().roughness.any()),
+      window_start_(simulation.base_time()) {
+  if (coarsening.gaussian_width) gaussian_.emplace(grid_, *coarsening.gaussian_width);
+  sums_.rows.resize(grid_.size() * static_cast<std::size_t>(layout_.size));
+}
 
-// Walks the flight from border to border. Cells are counted on without end along periodic axes and
-// folded back into the box; along walled ones the edge cells take what lies beyond.
 template <int D>
-void CellIntegrals<D>::add_flight(const Flight<D>& flight, double end) {
-  const Vec<D>& gravity = simulation_.model().gravity;
-  double time = std::max(flight.time, window_start_);
-  if (!(end > time)) return;
-  std::array<long, D> cell;
-  const Vec<D> from = flight.at(time, gravity);
-  for (int axis = 0; axis < D; ++axis) {
-    cell[axis] = static_cast<long>(std::floor(from[axis] / widths_[axis]));
+void CellIntegrals<D>::add(std::size_t cell, int begin, int end, const double* numbers,
+                           double weight) {
+  double* const row = sums_.rows.data() + cell * static_cast<std::size_t>(layout_.size);
+  for (int k = begin; k < end; ++k) row[k] += weight * numbers[k - begin];
+}
+
+template <int D>
+template <class Visit>
+void CellIntegrals<D>::spread(const Vec<D>& place, Visit&& visit) const {
+  if (gaussian_) return gaussian_->at(place, visit);
+  visit(grid_.index_of(grid_.cell_at(place)), 1.0);
+}
+
+template <int D>
+template <class Visit>
+void CellIntegrals<D>::spread(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
+  if (gaussian_) return gaussian_->along(from, along, visit);
+  grid_.cut(from, along, visit);
+}
+
+// What a disk adds to the kinetic sums per time, averaged over a time in which its velocity changes
+// by `change` at a constant rate and is `v` half-way: then the mean of v_k v_l is that of the
+// middle plus change_k change_l / 12, and that of three factors follows in the same way.
+template <int D>
+typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Vec<D>& v, const Vec<D>& change,
+                                                            const Spin<D>& spin) const {
+  const MomentLayout<D>& at = layout_;
+  Rates rates;
+  rates[at.count] = 1.0;
+  if (at.velocity >= 0) {
+    for (int k = 0; k < D; ++k) rates[at.velocity + k] = v[k];
   }
-  while (time < end) {
+  if (at.squares >= 0) {
+    for (int k = 0; k < D; ++k) {
+      rates[at.squares + k] = v[k] * v[k] + change[k] * change[k] / 12.0;
+    }
+  }
+  if (at.shears >= 0) {
+    int place = at.shears;
+    for (int k = 0; k < D; ++k) {
+      for (int l = k + 1; l < D; ++l) rates[place++] = v[k] * v[l] + change[k] * change[l] / 12.0;
+    }
+  }
+  if (at.spin >= 0) {
+    for (int k = 0; k < Spin<D>::SizeAtCompileTime; ++k) rates[at.spin + k] = spin[k];
+  }
+  const Model<D>& model = simulation_.model();
+  const double spin_energy =
+      0.125 * model.inertia * model.diameter * model.diameter * spin.squaredNorm();
+  if (at.spin_energy >= 0) rates[at.spin_energy] = spin_energy;
+  if (at.energy_flux >= 0) {
+    const double energy = 0.5 * v.squaredNorm() + change.squaredNorm() / 24.0 + spin_energy;
+    const double mixed = v.dot(change) / 12.0;
+    for (int k = 0; k < D; ++k) rates[at.energy_flux + k] = energy * v[k] + mixed * change[k];
+  }
+  return rates;
+}
+
+template <int D>
+void CellIntegrals<D>::add_flight(const Flight<D>& flight, const Spin<D>& spin, double end) {
+  const Vec<D>& gravity = simulation_.model().gravity;
+  const double begin = std::max(flight.time, window_start_);
+  const double spent = end - begin;
+  if (!(spent > 0.0)) return;
+  if ((gravity.array() != 0.0).any()) return add_fall(flight, spin, begin, end);
+  const Rates rates = rates_of(flight.v, Vec<D>::Zero(), spin);
+  grid_.cut(flight.at(begin, gravity), flight.v * spent, [&](std::size_t cell, double share) {
+    add(cell, 0, layout_.kinetic, rates.data(), share * spent);
+  });
+}
+
+// Walks a parabola from border to border.
+template <int D>
+void CellIntegrals<D>::add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin,
+                                double end) {
+  const Vec<D>& gravity = simulation_.model().gravity;
+  auto cell = grid_.cell_at(flight.at(begin, gravity));
+  for (double time = begin; time < end;) {
     const Crossing next = next_crossing(flight, cell, time);
     const double until = std::min(next.time, end);
     const double spent = until - time;
-    const Vec<D> v = flight.velocity_at(time, gravity);
-    CellMoments<D>& moments = moments_[index_of(cell)];
-    moments.count += spent;
-    moments.velocity += spent * (v + 0.5 * spent * gravity);
-    moments.velocity_squared +=
-        spent *
-        (v.cwiseAbs2() + spent * (v.cwiseProduct(gravity) + spent / 3.0 * gravity.cwiseAbs2()));
+    const Vec<D> v = flight.velocity_at(time + 0.5 * spent, gravity);
+    const Rates rates = rates_of(v, spent * gravity, spin);
+    add(grid_.index_of(cell), 0, layout_.kinetic, rates.data(), spent);
     time = until;
     cell[next.axis] += next.step;
   }
@@ -53,16 +120,15 @@ void CellIntegrals<D>::add_flight(const Flight<D>& flight, double end) {
 
 // Along each axis a straight flight has one border ahead, a parabola may return to the one behind.
 template <int D>
-typename CellIntegrals<D>::Crossing CellIntegrals<D>::next_crossing(const Flight<D>& flight,
-                                                                    const std::array<long, D>& cell,
-                                                                    double time) const {
+typename CellIntegrals<D>::Crossing CellIntegrals<D>::next_crossing(
+    const Flight<D>& flight, const typename FieldGrid<D>::Cell& cell, double time) const {
   const Vec<D>& gravity = simulation_.model().gravity;
   const Vec<D> r = flight.at(time, gravity);
   const Vec<D> v = flight.velocity_at(time, gravity);
   Crossing next;
   for (int axis = 0; axis < D; ++axis) {
     for (const int step : {-1, 1}) {
-      const double border = static_cast<double>(cell[axis] + (step > 0)) * widths_[axis];
+      const double border = static_cast<double>(cell[axis] + (step > 0)) * grid_.widths()[axis];
       const double crossing =
           time + fall_time(step * (border - r[axis]), -step * v[axis], -step * gravity[axis]);
       if (crossing < next.time) next = {crossing, axis, step};
@@ -72,30 +138,68 @@ typename CellIntegrals<D>::Crossing CellIntegrals<D>::next_crossing(const Flight
 }
 
 template <int D>
-std::size_t CellIntegrals<D>::index_of(const std::array<long, D>& cell) const {
-  std::size_t index = 0;
-  for (int k = D - 1; k >= 0; --k) {
-    const long n = cells_[k];
-    const long folded =
-        simulation_.model().periodic(k) ? ((cell[k] % n) + n) % n : std::clamp(cell[k], 0L, n - 1);
-    index = index * static_cast<std::size_t>(n) + static_cast<std::size_t>(folded);
+void CellIntegrals<D>::end_flight(const DiskChange<D>& disk, double time) {
+  if (estimator_ == Estimator::Exact) add_flight(disk.before, disk.spin, time);
+}
+
+// Momentum and energy that go over a branch vector, Eqs. (4.22)-(4.24), (4.34).
+template <int D>
+void CellIntegrals<D>::add_transfer(const Vec<D>& from, const Vec<D>& branch,
+                                    const Vec<D>& momentum, double energy) {
+  std::array<double, D * D + D> numbers;
+  int count = 0;
+  if (layout_.transfer >= 0) {
+    for (int k = 0; k < D; ++k) {
+      for (int l = 0; l < D; ++l) numbers[count++] = branch[k] * momentum[l];
+    }
   }
-  return index;
+  if (layout_.energy_transfer >= 0) {
+    for (int k = 0; k < D; ++k) numbers[count++] = branch[k] * energy;
+  }
+  if (count == 0) return;
+  spread(from, branch, [&](std::size_t cell, double share) {
+    add(cell, layout_.kinetic, layout_.along_branch, numbers.data(), share);
+  });
+}
+
+template <int D>
+void CellIntegrals<D>::add_dissipation(const Vec<D>& place, double energy) {
+  spread(place, [&](std::size_t cell, double share) {
+    add(cell, layout_.dissipation, layout_.dissipation + 1, &energy, share);
+  });
 }
 
 template <int D>
 void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
-  for (const DiskChange<D>& disk : collision.disks) add_flight(disk.before, collision.time);
+  const auto& [a, b] = collision.disks;
+  end_flight(a, collision.time);
+  end_flight(b, collision.time);
+  // The partner at the image that touches.
+  const Vec<D> partner = a.position - collision.separation;
+  add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy - b.energy));
+  // Where nothing is lost, zeta is 0 and not the rounding of energies that cancel.
+  if (layout_.dissipation >= 0 && !lossless_ && !collision.elasticised) {
+    const double lost = 0.5 * (a.energy + b.energy);
+    add_dissipation(a.position, lost);
+    add_dissipation(partner, lost);
+  }
 }
 
+// The contact point on the wall is the partner. What a wall takes belongs to its power, not to the
+// dissipation.
 template <int D>
 void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
-  add_flight(collision.disk.before, collision.time);
+  const DiskChange<D>& disk = collision.disk;
+  end_flight(disk, collision.time);
+  Vec<D> branch = Vec<D>::Zero();
+  branch[collision.side / 2] =
+      0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side);
+  add_transfer(disk.position - branch, branch, disk.gain.momentum, disk.energy);
 }
 
 template <int D>
 void CellIntegrals<D>::on_kick(const Kick<D>& kick) {
-  add_flight(kick.disk.before, kick.time);
+  end_flight(kick.disk, kick.time);
 }
 
 template <int D>
@@ -104,16 +208,38 @@ void CellIntegrals<D>::on_base_moved(double shift) {
 }
 
 template <int D>
-std::vector<CellMoments<D>> CellIntegrals<D>::close_window() {
+void CellIntegrals<D>::sample() {
+  const State<D> state = simulation_.state();
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Spin<D> spin = state.spins.empty() ? Spin<D>(Spin<D>::Zero()) : state.spins[i];
+    const Rates rates = rates_of(state.velocities[i], Vec<D>::Zero(), spin);
+    spread(state.positions[i], [&](std::size_t cell, double weight) {
+      add(cell, 0, layout_.kinetic, rates.data(), weight);
+    });
+  }
+  sums_.kinetic_weight += 1.0;
+}
+
+template <int D>
+CellSums CellIntegrals<D>::close_window() {
   const double now = simulation_.base_time();
-  for (const Disk<D>& disk : simulation_.disks()) add_flight(disk.flight, now);
+  const double span = now - window_start_;
+  if (estimator_ == Estimator::Exact) {
+    const LargeArray<Spin<D>>& spins = simulation_.spins();
+    for (std::size_t i = 0; i < simulation_.disks().size(); ++i) {
+      add_flight(simulation_.disks()[i].flight, spins.empty() ? Spin<D>(Spin<D>::Zero()) : spins[i],
+                 now);
+    }
+    sums_.kinetic_weight = span;
+  }
+  sums_.time = span;
   window_start_ = now;
-  std::vector<CellMoments<D>> closed(moments_.size());
-  closed.swap(moments_);
+  CellSums closed;
+  closed.rows.resize(sums_.rows.size());
+  std::swap(closed, sums_);
   return closed;
 }
 
-template struct CellMoments<2>;
 template class CellIntegrals<2>;
 
 }  // namespace clatter

@@ -1,57 +1,80 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/measure/field_grid.h"
+#include "engine/measure/gaussian_kernel.h"
+#include "engine/measure/moment_layout.h"
 
 namespace clatter {
 
-/// Integrals over time and cell of what the disks in it carry: each free flight is cut at the cell
-/// borders and counts the time spent in each cell, times 1, v_k and v_k^2 (the track-length
-/// estimator). With a window Dt and cell area A, density is count/(Dt A).
-template <int D>
-struct CellMoments {
-  double count = 0.0;                        ///< integral of the number of disks
-  Vec<D> velocity = Vec<D>::Zero();          ///< integral of sum v_k
-  Vec<D> velocity_squared = Vec<D>::Zero();  ///< integral of sum v_k^2
+/// What a grid has summed up over a window of time, Eqs. (4.4)-(4.34) before the division by time
+/// and area. With box cells a kinetic sum of disks in a cell is an integral over time, and one over
+/// events has the share of the branch vector that lies in the cell as its weight.
+struct CellSums {
+  double time = 0.0;  ///< the window's length, by which sums over events are to be divided
+  /// What kinetic sums are to be divided by: that length too, or the number of samples.
+  double kinetic_weight = 0.0;
+  std::vector<double> rows;  ///< [cells][MomentLayout::size]
 
-  CellMoments& operator+=(const CellMoments& other);
+  CellSums& operator+=(const CellSums& other);
 };
 
-template <class Archive, int D>
-void visit(Archive& io, CellMoments<D>& moments) {
-  auto& [count, velocity, velocity_squared] = moments;
-  io(count, velocity, velocity_squared);
+template <class Archive>
+void visit(Archive& io, CellSums& sums) {
+  auto& [time, kinetic_weight, rows] = sums;
+  io(time, kinetic_weight, rows);
 }
 
-/// Accumulates CellMoments on a grid of equal cells over the whole box.
+/// How disks and collisions are spread over cells.
+struct Coarsening {
+  Estimator estimator = Estimator::Exact;
+  std::optional<double> gaussian_width;  ///< absent: box cells
+};
+
+/// Sums up what fields need on a grid of equal cells over the whole box. Exact: each free flight is
+/// cut at the cell borders and counts the time spent in each cell, times 1, v_k, v_k v_l and so on
+/// (the track-length estimator). Snapshot: disks count where they are whenever sample() is called.
+/// Collisions count at once, along the branch vector from disk 2, or from the contact point on a
+/// wall, to disk 1.
 template <int D>
 class CellIntegrals : public Observer<D> {
  public:
-  /// Watches a simulation from now on with the given number of cells along each axis.
-  CellIntegrals(const Simulation<D>& simulation, const IntVec<D>& cells);
+  /// Watches a simulation from now on with the given number of cells along each axis. A Gaussian
+  /// is for the snapshot estimator only.
+  CellIntegrals(const Simulation<D>& simulation, const IntVec<D>& cells,
+                const MomentLayout<D>& layout, const Coarsening& coarsening = {});
 
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
-  /// The integrals since the last call, or since the start; cell (i, j) at index i + j cells.x().
-  std::vector<CellMoments<D>> close_window();
+  /// Counts every disk where it is at the simulation's time; of the snapshot estimator.
+  void sample();
 
-  /// Number of cells along each axis.
-  const IntVec<D>& cells() const { return cells_; }
+  /// The sums since the last call, or since the start.
+  CellSums close_window();
+
+  /// The cells.
+  const FieldGrid<D>& grid() const { return grid_; }
+  /// Which sums stand where.
+  const MomentLayout<D>& layout() const { return layout_; }
 
   /// What a checkpoint keeps, of a simulation that goes on at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [simulation, cells, widths, window_start, moments] = *this;
-    io(window_start, moments);
+    auto& [simulation, grid, layout, estimator, lossless, gaussian, window_start, sums] = *this;
+    io(window_start, sums);
   }
 
  private:
+  /// A row of kinetic sums, per disk.
+  using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + Spin<D>::SizeAtCompileTime>;
   /// A flight's way out of a cell.
   struct Crossing {
     double time = kNever;
@@ -59,16 +82,29 @@ class CellIntegrals : public Observer<D> {
     int step = 0;  // +1 or -1
   };
 
-  Crossing next_crossing(const Flight<D>& flight, const std::array<long, D>& cell,
+  Rates rates_of(const Vec<D>& v, const Vec<D>& change, const Spin<D>& spin) const;
+  void add_flight(const Flight<D>& flight, const Spin<D>& spin, double end);
+  void add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin, double end);
+  Crossing next_crossing(const Flight<D>& flight, const typename FieldGrid<D>::Cell& cell,
                          double time) const;
-  std::size_t index_of(const std::array<long, D>& cell) const;
-  void add_flight(const Flight<D>& flight, double end);
+  void end_flight(const DiskChange<D>& disk, double time);
+  void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
+                    double energy);
+  void add_dissipation(const Vec<D>& place, double energy);
+  void add(std::size_t cell, int begin, int end, const double* numbers, double weight);
+  template <class Visit>
+  void spread(const Vec<D>& place, Visit&& visit) const;
+  template <class Visit>
+  void spread(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const;
 
   const Simulation<D>& simulation_;
-  IntVec<D> cells_;
-  Vec<D> widths_;
+  FieldGrid<D> grid_;
+  MomentLayout<D> layout_;
+  Estimator estimator_;
+  bool lossless_;  // whether no collision of disks dissipates
+  std::optional<GaussianKernel<D>> gaussian_;
   double window_start_;
-  std::vector<CellMoments<D>> moments_;
+  CellSums sums_;
 };
 
 extern template class CellIntegrals<2>;

@@ -1,45 +1,56 @@
 #pragma once
 
-#include <deque>
-#include <vector>
+#include <array>
 
 #include "engine/measure/cell_integrals.h"
-#include "engine/publish/snapshot.h"
+#include "engine/measure/dual.h"
+#include "engine/measure/moment_layout.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
 
-/// Value of a field in a cell, Eqs. (4.4)-(4.16): density rho, velocity V, T_k = <v_k^2> - V_k^2,
-/// T = (T_x + T_y)/2. `measure` is the averaging time times the cell's area. NaN for all but the
-/// density where no disk ever was.
-double field_value(Field field, const CellMoments<2>& moments, double measure);
+/// What a cell holds per area, averaged over time; S is a number, or a Dual. Sums that are not kept
+/// are 0.
+template <int D, class S>
+struct CellAverages {
+  using Vector = std::array<S, D>;
+  using Tensor = std::array<std::array<S, D>, D>;  ///< [k][l]
 
-/// A field averaged over the last window of time, as the view shows it while a run goes on.
-class LiveField {
- public:
-  /// Watches the simulation through `view.field`, which the view must have, on cells of about one
-  /// diameter (at most 512 along an axis); the average reaches back by view.window, or by up to an
-  /// eighth more.
-  LiveField(Simulation<2>& simulation, const View& view);
+  S density{};               ///< rho
+  Vector momentum{};         ///< sum v_k
+  Tensor momentum_flux{};    ///< sum v_k v_l
+  Vector energy_flux{};      ///< sum (v^2 + I omega^2)/2 v_k
+  S spin{};                  ///< sum omega
+  S spin_energy{};           ///< sum I omega^2 / 2
+  Tensor transfer{};         ///< of momentum l along k in collisions, per time
+  Vector energy_transfer{};  ///< of energy, likewise
+  S dissipation{};           ///< energy that collisions of disks gave, per time
 
-  /// The field averaged over the window up to the simulation's time, or since the start where that
-  /// is less.
-  FieldMap map();
-
- private:
-  static constexpr int kParts = 8;  // the window moves on by one part at a time
-  using Grid = std::vector<CellMoments<2>>;
-
-  void close_part();
-
-  const Simulation<2>& simulation_;
-  Field field_;
-  CellIntegrals<2> integrals_;
-  std::deque<Grid> parts_;    // closed parts, oldest first
-  std::deque<double> spans_;  // their durations
-  Grid open_;                 // the part under way, up to open_until_
-  double open_span_ = 0.0;
-  double open_until_ = 0.0;  // simulation time
+  /// E = sum (v^2 + I omega^2)/2.
+  S energy() const {
+    S twice = 2.0 * spin_energy;
+    for (int k = 0; k < D; ++k) twice = twice + momentum_flux[k][k];
+    return 0.5 * twice;
+  }
 };
+
+/// The averages that a cell's row of sums, divided by time and area, stands for.
+template <class S>
+CellAverages<2, S> averages_of(const MomentLayout<2>& layout, const S* row);
+
+/// Those of a cell of this area, from the sums of a window.
+CellAverages<2, double> averages_of(const MomentLayout<2>& layout, const CellSums& sums,
+                                    std::size_t cell, double area);
+
+/// Value of a field, Sec. 4; NaN where it has none: velocities, temperatures, spins and the kinetic
+/// parts of stress and heat flux where no disk ever was, and the whole stress and heat flux where
+/// no collision passed anything on either. T_rot = I <omega^2>.
+template <class S>
+S field_value(Field field, const CellAverages<2, S>& cell);
+
+extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
+extern template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
+extern template double field_value(Field, const CellAverages<2, double>&);
+extern template Dual field_value(Field, const CellAverages<2, Dual>&);
 
 }  // namespace clatter

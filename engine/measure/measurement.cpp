@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace clatter {
 
@@ -42,12 +41,12 @@ std::string Measurement::save() {
 template <class Archive>
 void Measurement::visit(Archive& io) {
   auto& [simulation, measure, totals, cells, series_start, averages_start, window, started,
-         counts_at_start, windows, columns, series_time, series_temperature,
+         counts_at_start, windows, columns, samples, series_time, series_temperature,
          series_spin_temperature] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     series_time, series_temperature, series_spin_temperature);
+     samples, series_time, series_temperature, series_spin_temperature);
   if (!started || measure.fields.empty()) return;
-  if (!cells) cells.emplace(simulation, IntVec<2>(measure.cells[0], measure.cells[1]));
+  if (!cells) open_cells();
   io(*cells);
 }
 
@@ -57,6 +56,16 @@ void Measurement::observe() {
   simulation_.every(
       series_start_, measure_.series_interval, [this](double time) { sample(time); },
       series_time_.size());
+  // Before the windows, so that a sample at the end of one belongs to it.
+  if (measure_.estimator == Estimator::Snapshot && !measure_.fields.empty()) {
+    simulation_.every(
+        averages_start_ + measure_.interval, measure_.interval,
+        [this](double) {
+          ++samples_;
+          cells_->sample();
+        },
+        samples_);
+  }
   simulation_.every(
       averages_start_, window_, [this](double) { started_ ? close_window() : start(); },
       started_ ? windows_.size() + 1 : 0);
@@ -75,20 +84,22 @@ void Measurement::start() {
   started_ = true;
   totals_.close_window();
   counts_at_start_ = simulation_.counts();
-  if (!measure_.fields.empty()) {
-    cells_.emplace(simulation_, IntVec<2>(measure_.cells[0], measure_.cells[1]));
-    simulation_.add_observer(*cells_);
-  }
+  if (measure_.fields.empty()) return;
+  open_cells();
+  simulation_.add_observer(*cells_);
+}
+
+void Measurement::open_cells() {
+  Coarsening coarsening{measure_.estimator, {}};
+  if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
+  cells_.emplace(simulation_, IntVec<2>(measure_.cells[0], measure_.cells[1]),
+                 moment_layout<2>(measure_.fields, simulation_.model().spins), coarsening);
 }
 
 void Measurement::close_window() {
   windows_.push_back(totals_.close_window());
   if (!cells_) return;
-  const std::vector<CellMoments<2>> cells = cells_->close_window();
-  const auto width = static_cast<std::size_t>(cells_->cells().x());
-  std::vector<CellMoments<2>> columns(width);
-  for (std::size_t i = 0; i < cells.size(); ++i) columns[i % width] += cells[i];
-  columns_.push_back(std::move(columns));
+  columns_.push_back(columns_of(cells_->close_window(), cells_->grid(), measure_.profile_axis));
 }
 
 // A quantity that each window has.
@@ -111,41 +122,6 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<2>>& windows, int
     fourth[k] = (fourth[k] / (m2 * m2) - 2.0 * m4 * second[k] / (m2 * m2 * m2)) / 3.0;
   }
   return {m4 / (3.0 * m2 * m2) - 1.0, blocked_error(std::move(fourth))};
-}
-
-// T_k = <v_k^2> - V_k^2 of one column, linearised likewise for its error.
-static Estimate column_temperature(const std::vector<std::vector<CellMoments<2>>>& windows,
-                                   std::size_t column, int axis) {
-  const auto of = [&](const auto& part) {
-    return series_of(windows, [&](const auto& columns) { return part(columns[column]); });
-  };
-  const auto count = of([](const CellMoments<2>& m) { return m.count; });
-  const auto first = of([&](const CellMoments<2>& m) { return m.velocity[axis]; });
-  auto second = of([&](const CellMoments<2>& m) { return m.velocity_squared[axis]; });
-  if (mean_estimate(count).mean == 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-  const double velocity = ratio_estimate(first, count).mean;
-  const double square = ratio_estimate(second, count).mean;
-  for (std::size_t k = 0; k < second.size(); ++k) {
-    second[k] += -2.0 * velocity * first[k] + (2.0 * velocity * velocity - square) * count[k];
-  }
-  return {square - velocity * velocity, ratio_estimate(second, count).standard_error};
-}
-
-static Profile profile_of(const std::vector<std::vector<CellMoments<2>>>& windows, const Vec2& box,
-                          double window) {
-  const std::size_t columns = windows.front().size();
-  const double measure = window * box.prod() / static_cast<double>(columns);
-  Profile profile;
-  for (std::size_t i = 0; i <= columns; ++i) {
-    profile.edges.push_back(box.x() * static_cast<double>(i) / static_cast<double>(columns));
-  }
-  for (std::size_t i = 0; i < columns; ++i) {
-    profile.density.push_back(
-        mean_estimate(series_of(windows, [&](const auto& c) { return c[i].count / measure; })));
-    profile.temperature_x.push_back(column_temperature(windows, i, 0));
-    profile.temperature_y.push_back(column_temperature(windows, i, 1));
-  }
-  return profile;
 }
 
 Measured Measurement::result() {
@@ -212,7 +188,10 @@ Measured Measurement::result() {
     measured.compressibility = ratio_estimate(virial, thermal);
     measured.compressibility->mean += 1.0;
   }
-  if (!columns_.empty()) measured.profile = profile_of(columns_, model.box, window_);
+  if (!columns_.empty()) {
+    measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,
+                                  measure_.profile_axis);
+  }
   return measured;
 }
 

@@ -8,19 +8,11 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/estimate.h"
+#include "engine/measure/profile.h"
 #include "engine/measure/totals.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
-
-/// Profiles across x, averaged over y and time; [columns] each. The temperature of a column that
-/// was never visited is NaN.
-struct Profile {
-  std::vector<double> edges;  ///< [columns + 1] along x
-  std::vector<Estimate> density;
-  std::vector<Estimate> temperature_x;
-  std::vector<Estimate> temperature_y;
-};
 
 /// What a run measured, over the time after the burn-in. Parts that the scene does not have are
 /// absent.
@@ -46,9 +38,9 @@ struct Measured {
   double ledger_residual = 0.0;                     ///< see Totals::ledger_residual
   std::array<std::optional<Estimate>, 4> pressure;  ///< on each Side: momentum per time and length
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
-  std::optional<Profile> profile;
-  std::vector<double> series_time;              ///< 0, series_interval, ...; burn-in included
-  std::vector<double> series_temperature;       ///< T at those times
+  std::optional<Profile> profile;           ///< where fields are asked for
+  std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
+  std::vector<double> series_temperature;   ///< T at those times
   std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
 };
 
@@ -73,6 +65,7 @@ class Measurement {
   template <class Archive>
   void visit(Archive& io);
   void start();
+  void open_cells();
   void close_window();
 
   Simulation<2>& simulation_;
@@ -85,7 +78,8 @@ class Measurement {
   bool started_ = false;
   EventCounts counts_at_start_;
   std::vector<WindowTotals<2>> windows_;
-  std::vector<std::vector<CellMoments<2>>> columns_;  // [windows][columns]
+  std::vector<CellSums> columns_;  // [windows]
+  std::uint64_t samples_ = 0;      // that the snapshot estimator has taken
   std::vector<double> series_time_;
   std::vector<double> series_temperature_;
   std::vector<double> series_spin_temperature_;

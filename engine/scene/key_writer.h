@@ -38,7 +38,7 @@ class KeyWriter {
   template <class E, std::size_t N>
   void choice(std::string_view key, E chosen, const std::array<Named<E>, N>& names,
               Presence = kOptional) {
-    write(key, value_text(name_of(chosen, names)));
+    write(key, value_text(std::string(name_of(chosen, names))));
   }
 
   template <class E, std::size_t N>
@@ -52,7 +52,7 @@ class KeyWriter {
     std::string list;
     std::string last;
     for (const E one : chosen) {
-      const std::string name = name_of(one, names);
+      const std::string name(name_of(one, names));
       if (name != last) list += (list.empty() ? "" : ", ") + value_text(name);
       last = name;
     }
@@ -79,14 +79,6 @@ class KeyWriter {
   virtual void write(std::string_view key, const std::string& value) = 0;
   virtual void open(std::string_view key) = 0;
   virtual void close() = 0;
-
-  template <class E, std::size_t N>
-  static std::string name_of(E chosen, const std::array<Named<E>, N>& names) {
-    for (const auto& [name, value] : names) {
-      if (value == chosen) return std::string(name);
-    }
-    return {};
-  }
 };
 
 /// Writes a scene file.

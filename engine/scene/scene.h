@@ -85,8 +85,42 @@ struct BulkDrive {
   double kick_spin = 0.0;   ///< standard deviation of the change of spin
 };
 
-/// A field over the box, chapter 4, and what a disk contributes to it.
-enum class Field { Density, VelocityX, VelocityY, Temperature, TemperatureX, TemperatureY };
+/// A field over the box, chapter 4; what is not called kinetic or collisional is the sum of both.
+enum class Field {
+  Density,    ///< rho, disks per area
+  VelocityX,  ///< V, their mean velocity
+  VelocityY,
+  Temperature,  ///< T = (T_x + T_y)/2, about V
+  TemperatureX,
+  TemperatureY,
+  StressXx,  ///< sigma, minus the pressure tensor; xy: of momentum along y, through x
+  StressYy,
+  StressXy,
+  StressXxKinetic,
+  StressYyKinetic,
+  StressXyKinetic,
+  StressXxCollisional,
+  StressYyCollisional,
+  StressXyCollisional,
+  HeatFluxX,  ///< q, about V
+  HeatFluxY,
+  HeatFluxXKinetic,
+  HeatFluxYKinetic,
+  HeatFluxXCollisional,
+  HeatFluxYCollisional,
+  Dissipation,     ///< zeta <= 0, energy per time and area that collisions of disks give
+  Spin,            ///< mean angular velocity
+  SpinTemperature  ///< T_rot = I <omega^2>
+};
+
+/// How disks come to count in fields: their flights exactly, or where they are now and then.
+enum class Estimator { Exact, Snapshot };
+
+/// Over what a disk spreads in fields, Sec. 4: the cell that it is in, or a Gaussian.
+enum class Kernel { Box, Gaussian };
+
+/// An axis of the box.
+enum class Axis { X, Y };
 
 /// What `clatter measure` averages.
 struct Measure {
@@ -95,6 +129,11 @@ struct Measure {
   double series_interval = 1.0;         ///< spacing of temperature_series, > 0
   std::vector<Field> fields;            ///< profiles asked for; empty: none
   std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
+  Axis profile_axis = Axis::X;          ///< along which profiles go
+  Estimator estimator = Estimator::Exact;
+  double interval = 1.0;  ///< between samples of the snapshot estimator, > 0
+  Kernel kernel = Kernel::Box;
+  double width = 1.0;  ///< standard deviation of the Gaussian per axis, > 0
 };
 
 /// What a disk's colour shows.

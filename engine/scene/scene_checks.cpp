@@ -1,5 +1,6 @@
 #include "engine/scene/scene_checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -64,11 +65,48 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
                   "choose another, or make the disks or a wall rough");
 }
 
+static bool of_spins(Field field) {
+  return field == Field::Spin || field == Field::SpinTemperature;
+}
+
+/// Throws where a field of spins is asked for and nothing spins.
+static void check_fields(const Scene& scene, const toml::table& root, const std::string& file) {
+  if (scene.spins()) return;
+  const auto refuse = [&](const char* path) {
+    throw UserError(place_of(root, path, file),
+                    std::string("a field of spins ") + kNotWithoutSpins.reason,
+                    "choose another, or make the disks or a wall rough");
+  };
+  if (std::ranges::any_of(scene.measure.fields, of_spins)) refuse("measure.fields");
+  if (scene.view.field && of_spins(*scene.view.field)) refuse("view.field");
+}
+
+/// Throws where a Gaussian stands with flights, which it cannot spread, or is so narrow that the
+/// cells' centres miss it.
+static void check_kernel(const Scene& scene, const toml::table& root, const std::string& file) {
+  const Measure& measure = scene.measure;
+  if (measure.kernel == Kernel::Box) return;
+  if (measure.estimator == Estimator::Exact) {
+    throw UserError(place_of(root, "measure.kernel", file),
+                    "a Gaussian spreads disks where they are now and then, not flights",
+                    "set measure.estimator = \"snapshot\" and measure.interval, or remove it");
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const double cell = scene.box[axis] / measure.cells[static_cast<std::size_t>(axis)];
+    if (2.0 * measure.width >= cell) continue;
+    throw UserError(place_of(root, "measure.width", file),
+                    "the Gaussian falls between the centres of cells of " + number_text(cell),
+                    "choose at least " + number_text(0.5 * cell) + ", or more cells");
+  }
+}
+
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
   check_pairs(scene, root, file);
   check_speeds(scene, root, file);
   check_room(scene, root, file);
   check_colour(scene, root, file);
+  check_fields(scene, root, file);
+  check_kernel(scene, root, file);
 }
 
 /// The number of disks that a scene's two keys ask for; nothing where there is neither.

@@ -9,8 +9,9 @@
 namespace clatter {
 
 /// Throws UserError where keys that are each allowed make no scene together: walls without one
-/// opposite, too fast or with no room between them, a colour for spins where nothing spins. `root`
-/// is what the input was read from, and `file` the name that errors carry.
+/// opposite, too fast or with no room between them, a colour or a field for spins where nothing
+/// spins, a Gaussian that has nothing to spread or misses the cells. `root` is what the input was
+/// read from, and `file` the name that errors carry.
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file);
 
 /// The number of disks that the input asks for; throws UserError where it asks twice, not at all,

@@ -80,12 +80,28 @@ inline constexpr Presence kNotWithoutSpins = {
     "remove it, or make the disks or a wall rough: give friction above 0, or "
     "tangential_restitution above -1"};
 
+inline constexpr Presence kNotOfExact = {
+    Presence::Forbidden, "has no meaning for the exact estimator, which counts flights as a whole",
+    "remove it, or set measure.estimator = \"snapshot\""};
+inline constexpr Presence kNotOfBox = {Presence::Forbidden,
+                                       "has no meaning for the box kernel: cells have their size",
+                                       "remove it, or set measure.kernel = \"gaussian\""};
+
 /// What an enumerator is called in scene files.
 template <class E>
 struct Named {
   std::string_view name;
   E value;
 };
+
+/// The first name of an enumerator; empty where it has none.
+template <class E, std::size_t N>
+constexpr std::string_view name_of(E chosen, const std::array<Named<E>, N>& names) {
+  for (const auto& [name, value] : names) {
+    if (value == chosen) return name;
+  }
+  return {};
+}
 
 inline constexpr std::array<Named<Layout>, 3> kLayouts = {
     {{"random", Layout::Random}, {"lattice", Layout::Lattice}, {"file", Layout::File}}};
@@ -106,21 +122,70 @@ inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourB
 inline constexpr std::array<Named<Palette>, 2> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}}};
 
-/// Heatmaps, one component each.
-inline constexpr std::array<Named<Field>, 6> kHeatmaps = {{{"density", Field::Density},
-                                                           {"velocity_x", Field::VelocityX},
-                                                           {"velocity_y", Field::VelocityY},
-                                                           {"temperature", Field::Temperature},
-                                                           {"temperature_x", Field::TemperatureX},
-                                                           {"temperature_y", Field::TemperatureY}}};
+/// Fields one by one: heatmaps, and the columns of profiles.
+inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
+    {{"density", Field::Density},
+     {"velocity_x", Field::VelocityX},
+     {"velocity_y", Field::VelocityY},
+     {"temperature", Field::Temperature},
+     {"temperature_x", Field::TemperatureX},
+     {"temperature_y", Field::TemperatureY},
+     {"stress_xx", Field::StressXx},
+     {"stress_yy", Field::StressYy},
+     {"stress_xy", Field::StressXy},
+     {"stress_xx_kinetic", Field::StressXxKinetic},
+     {"stress_yy_kinetic", Field::StressYyKinetic},
+     {"stress_xy_kinetic", Field::StressXyKinetic},
+     {"stress_xx_collisional", Field::StressXxCollisional},
+     {"stress_yy_collisional", Field::StressYyCollisional},
+     {"stress_xy_collisional", Field::StressXyCollisional},
+     {"heat_flux_x", Field::HeatFluxX},
+     {"heat_flux_y", Field::HeatFluxY},
+     {"heat_flux_x_kinetic", Field::HeatFluxXKinetic},
+     {"heat_flux_y_kinetic", Field::HeatFluxYKinetic},
+     {"heat_flux_x_collisional", Field::HeatFluxXCollisional},
+     {"heat_flux_y_collisional", Field::HeatFluxYCollisional},
+     {"dissipation", Field::Dissipation},
+     {"spin", Field::Spin},
+     {"spin_temperature", Field::SpinTemperature}}};
 
-/// Measured fields; a name stands for all the components in its rows.
-inline constexpr std::array<Named<Field>, 6> kProfiles = {{{"density", Field::Density},
-                                                           {"velocity", Field::VelocityX},
-                                                           {"velocity", Field::VelocityY},
-                                                           {"temperature", Field::Temperature},
-                                                           {"temperature_x", Field::TemperatureX},
-                                                           {"temperature_y", Field::TemperatureY}}};
+/// Measured fields; a name stands for all the components in its rows. The whole of a temperature
+/// comes after its components, so that one of these alone is written by its own name.
+inline constexpr std::array<Named<Field>, 26> kProfiles = {
+    {{"density", Field::Density},
+     {"velocity", Field::VelocityX},
+     {"velocity", Field::VelocityY},
+     {"temperature_x", Field::TemperatureX},
+     {"temperature_y", Field::TemperatureY},
+     {"temperature", Field::Temperature},
+     {"temperature", Field::TemperatureX},
+     {"temperature", Field::TemperatureY},
+     {"stress", Field::StressXx},
+     {"stress", Field::StressYy},
+     {"stress", Field::StressXy},
+     {"stress_kinetic", Field::StressXxKinetic},
+     {"stress_kinetic", Field::StressYyKinetic},
+     {"stress_kinetic", Field::StressXyKinetic},
+     {"stress_collisional", Field::StressXxCollisional},
+     {"stress_collisional", Field::StressYyCollisional},
+     {"stress_collisional", Field::StressXyCollisional},
+     {"heat_flux", Field::HeatFluxX},
+     {"heat_flux", Field::HeatFluxY},
+     {"heat_flux_kinetic", Field::HeatFluxXKinetic},
+     {"heat_flux_kinetic", Field::HeatFluxYKinetic},
+     {"heat_flux_collisional", Field::HeatFluxXCollisional},
+     {"heat_flux_collisional", Field::HeatFluxYCollisional},
+     {"dissipation", Field::Dissipation},
+     {"spin", Field::Spin},
+     {"spin_temperature", Field::SpinTemperature}}};
+
+inline constexpr std::array<Named<Axis>, 2> kAxes = {{{"x", Axis::X}, {"y", Axis::Y}}};
+
+inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
+    {{"exact", Estimator::Exact}, {"snapshot", Estimator::Snapshot}}};
+
+inline constexpr std::array<Named<Kernel>, 2> kKernels = {
+    {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
 
 /// What a scene file says: the scene, and the keys that are resolved when it is read.
 struct SceneInput {
@@ -198,6 +263,13 @@ void visit_measure(Visitor& io, Measure& measure) {
   io.value("series_interval", measure.series_interval, above(0.0));
   io.choice("fields", measure.fields, kProfiles);
   io.value("cells", measure.cells, between(1, 2000));
+  io.choice("profile_axis", measure.profile_axis, kAxes);
+  io.choice("estimator", measure.estimator, kEstimators);
+  const bool exact = measure.estimator == Estimator::Exact;
+  io.value("interval", measure.interval, above(0.0), exact ? kNotOfExact : kRequired);
+  io.choice("kernel", measure.kernel, kKernels);
+  const bool box = measure.kernel == Kernel::Box;
+  io.value("width", measure.width, above(0.0), box ? kNotOfBox : kRequired);
 }
 
 template <class Visitor>

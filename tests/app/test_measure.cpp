@@ -143,6 +143,63 @@ TEST_CASE("Results and tables go into the files asked for") {
   CHECK(std::ranges::count(profile, '\n') == 22);
 }
 
+TEST_CASE("Profiles have every field that was asked for, and no other") {
+  const Shell shell;
+  const auto profile = [&](const std::string& flags) {
+    const Outcome outcome = shell.run(
+        "clatter measure vibrated --set measure.burn_in=5 --until 30 --csv tables "
+        "--set measure.cells=[10,5] " +
+        flags);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return json::parse(outcome.out).at("profile");
+  };
+  const auto keys = [](const json& object) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : object.items()) names.push_back(key);
+    return names;
+  };
+  const json all = profile(
+      "--set 'measure.fields=[\"density\",\"velocity\",\"temperature\",\"stress\","
+      "\"stress_kinetic\",\"stress_collisional\",\"heat_flux\",\"heat_flux_kinetic\","
+      "\"heat_flux_collisional\",\"dissipation\",\"spin\",\"spin_temperature\"]' "
+      "--set disks.friction=0.5");
+  for (const char* key :
+       {"density", "velocity_x", "velocity_y", "temperature", "temperature_x", "temperature_y",
+        "stress_xx", "stress_yy", "stress_xy", "stress_xx_kinetic", "stress_xy_collisional",
+        "heat_flux_x", "heat_flux_y", "heat_flux_x_kinetic", "heat_flux_y_collisional",
+        "dissipation", "spin", "spin_temperature"}) {
+    CAPTURE(key);
+    REQUIRE(all.at(key).size() == 10);
+    CHECK(all.at("standard_error").at(key).size() == 10);
+    CHECK(all.at("standard_error").at(key)[4] > 0.0);
+    CHECK(all.at(key)[4].is_number());
+  }
+  CHECK(all.at("stress_xx")[4].get<double>() ==
+        doctest::Approx(all.at("stress_xx_kinetic")[4].get<double>() +
+                        all.at("stress_xx_collisional")[4].get<double>()));
+  const std::string table = shell.read("tables/profile.csv");
+  CHECK(table.starts_with("# units"));
+  CHECK(table.find("heat_flux_x: m a/t^3") != std::string::npos);
+  CHECK(table.find("\nx_low,x_high,density,density_error,velocity_x,") != std::string::npos);
+  CHECK(std::ranges::count(table, '\n') == 12);
+
+  const json along_y = profile("--set 'measure.fields=[\"stress\"]' --set measure.profile_axis=y");
+  CHECK(along_y.at("axis") == "y");
+  CHECK(along_y.at("edges") == json({0.0, 5.0, 10.0, 15.0, 20.0, 25.0}));
+  CHECK(keys(along_y) == std::vector<std::string>{"axis", "edges", "standard_error", "stress_xx",
+                                                  "stress_xy", "stress_yy"});
+  CHECK(shell.read("tables/profile.csv").find("\ny_low,y_high,stress_xx,") != std::string::npos);
+
+  const json snapshots = profile(
+      "--set measure.estimator=snapshot --set measure.interval=0.5 "
+      "--set measure.kernel=gaussian --set measure.width=2.5");
+  double disks = 0.0;
+  for (const json& density : snapshots.at("density")) disks += density.get<double>() * 50.0;
+  CHECK(disks < 200.0);  // some lies beyond the walls
+  CHECK(disks > 150.0);
+}
+
 TEST_CASE("A state that was saved is where another run starts") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--quiet --out r.json --save-state end.csv").code == 0);

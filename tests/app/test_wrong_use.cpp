@@ -106,6 +106,10 @@ TEST_CASE("What would fill the memory or never end is refused") {
   const Shell shell;
   check_refused(shell, "clatter measure vibrated --set measure.series_interval=1e-300",
                 {"measure.series_interval", "samples", "choose at least"});
+  check_refused(shell,
+                "clatter measure vibrated --set measure.estimator=snapshot "
+                "--set measure.interval=1e-300",
+                {"measure.interval", "snapshots", "choose at least"});
   check_refused(shell, "clatter measure vibrated --set measure.duration=1e308", {"samples"});
   check_refused(shell, "clatter render vibrated --out x.png --set view.window=1e-300",
                 {"view.window", "choose at least"});

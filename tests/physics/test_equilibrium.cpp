@@ -6,8 +6,8 @@
 
 #include "engine/dynamics/start.h"
 #include "engine/physics/theory.h"
-#include "tests/support/statistics.h"
 #include "tests/physics/experiment.h"
+#include "tests/support/statistics.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -104,7 +104,8 @@ TEST_CASE("elastic gas: the pressure on walls is that of the equation of state")
   scene.measure.cells = {10, 1};
   const Measured result = run(scene, 50.0, 6000.0, 107);
   double density = 0.0;
-  for (int column = 2; column < 8; ++column) density += result.profile->density[column].mean / 6.0;
+  for (int column = 2; column < 8; ++column)
+    density += result.profile->at(Field::Density)[column].mean / 6.0;
   const double fraction = density * std::numbers::pi / 4.0;
   const double expected = density * result.temperature.mean * compressibility(fraction, 1.0);
   for (const int side : {kLeft, kRight}) {

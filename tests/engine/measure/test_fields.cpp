@@ -1,150 +1,222 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numeric>
+#include <deque>
 #include <vector>
 
 #include "engine/measure/fields.h"
 #include "tests/engine/measure/scenes.h"
+#include "tests/engine/measure/sums.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
 
-View view_of(Field field, double window) {
-  View view;
-  view.field = field;
-  view.window = window;
-  return view;
+/// Disks that share a cell, and what collisions passed on in it.
+struct Content {
+  std::vector<Vec2> velocities = {{1.0, 2.0}, {3.0, -2.5}, {-0.5, 0.25}};
+  std::vector<double> spin_energies = {0.5, 0.125, 2.0};
+  std::vector<double> spins = {2.0, -1.0, 4.0};  // I = 1/4
+  Eigen::Matrix2d transfer{{0.7, -0.2}, {0.3, 1.1}};
+  Vec2 energy_transfer = {0.4, -0.6};
+  double dissipation = -0.9;
+};
+
+/// Its averages over an area.
+CellAverages<2, double> averages(const Content& content, double area) {
+  CellAverages<2, double> cell;
+  for (std::size_t i = 0; i < content.velocities.size(); ++i) {
+    const Vec2& v = content.velocities[i];
+    const double energy = 0.5 * v.squaredNorm() + content.spin_energies[i];
+    cell.density += 1.0 / area;
+    cell.spin += content.spins[i] / area;
+    cell.spin_energy += content.spin_energies[i] / area;
+    for (int k = 0; k < 2; ++k) {
+      cell.momentum[k] += v[k] / area;
+      cell.energy_flux[k] += energy * v[k] / area;
+      for (int l = 0; l < 2; ++l) cell.momentum_flux[k][l] += v[k] * v[l] / area;
+    }
+  }
+  for (int k = 0; k < 2; ++k) {
+    cell.energy_transfer[k] = content.energy_transfer[k] / area;
+    for (int l = 0; l < 2; ++l) cell.transfer[k][l] = content.transfer(k, l) / area;
+  }
+  cell.dissipation = content.dissipation / area;
+  return cell;
+}
+
+bool needs_visitors(Field field) {
+  switch (field) {
+    case Field::Density:
+    case Field::StressXxCollisional:
+    case Field::StressYyCollisional:
+    case Field::StressXyCollisional:
+    case Field::HeatFluxXCollisional:
+    case Field::HeatFluxYCollisional:
+    case Field::Dissipation:
+      return false;
+    default:
+      return true;
+  }
 }
 
 }  // namespace
 
-TEST_CASE("field_value: every field by hand, Eqs. (4.4)-(4.16)") {
-  // Two disks over 3 time units in a cell of area 0.5, velocities (1, 2) and (3, -2).
-  CellMoments<2> moments;
-  moments.count = 2.0 * 3.0;
-  moments.velocity = Vec2(4.0, 0.0) * 3.0;
-  moments.velocity_squared = Vec2(10.0, 8.0) * 3.0;
-  const double measure = 3.0 * 0.5;
-  CHECK(field_value(Field::Density, moments, measure) == doctest::Approx(4.0));
-  CHECK(field_value(Field::VelocityX, moments, measure) == doctest::Approx(2.0));
-  CHECK(field_value(Field::VelocityY, moments, measure) == 0.0);
-  CHECK(field_value(Field::TemperatureX, moments, measure) == doctest::Approx(5.0 - 4.0));
-  CHECK(field_value(Field::TemperatureY, moments, measure) == doctest::Approx(4.0));
-  CHECK(field_value(Field::Temperature, moments, measure) == doctest::Approx(2.5));
-}
-
-TEST_CASE("field_value: where no disk ever was only the density is known") {
-  const CellMoments<2> nothing;
-  CHECK(field_value(Field::Density, nothing, 1.0) == 0.0);
-  for (const Field field : {Field::VelocityX, Field::VelocityY, Field::Temperature,
-                            Field::TemperatureX, Field::TemperatureY}) {
-    CHECK(std::isnan(field_value(field, nothing, 1.0)));
+TEST_CASE("field_value: every field by its definition, with the mean taken off disk by disk") {
+  const Content content;
+  const double area = 0.5;
+  const CellAverages<2, double> cell = averages(content, area);
+  const auto value = [&](Field field) { return field_value(field, cell); };
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& v : content.velocities) mean += v / 3.0;
+  Eigen::Matrix2d kinetic = Eigen::Matrix2d::Zero();  // Eq. (4.26)
+  Vec2 heat = Vec2::Zero();                           // Eq. (4.29), with spins
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 own = content.velocities[i] - mean;
+    kinetic -= own * own.transpose() / area;
+    heat += (0.5 * own.squaredNorm() + content.spin_energies[i]) * own / area;
   }
-}
+  const Eigen::Matrix2d collisional = -content.transfer / area;
+  const Vec2 heat_collisional = content.energy_transfer / area + collisional * mean;
 
-TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere") {
-  const Scene scene = gas(12.0, 8.0, 30, 1.0);
-  const auto simulation = simulation_of(scene, 31);
-  LiveField live(*simulation, view_of(Field::Density, 2000.0));
-  simulation->run_until(2000.0);
-  const FieldMap map = live.map();
-  REQUIRE(map.cells == std::array<int, 2>{12, 8});
-  REQUIRE(map.values.size() == 96);
-  // Cells of area 1: exactly N disks in all.
-  CHECK(std::accumulate(map.values.begin(), map.values.end(), 0.0) ==
-        doctest::Approx(30.0).epsilon(1e-10));
-  // A disk stays in a cell for about 0.8, so its time there averages over 2000/0.8 * 0.31 visits:
-  // 4 % with independent visits, less since disks exclude each other. 96 cells, 5 standard errors.
-  for (const double density : map.values) CHECK(std::fabs(density / (30.0 / 96.0) - 1.0) < 0.2);
-}
-
-TEST_CASE("LiveField: cells that no disk visited are gaps") {
-  const auto simulation = lone_disk(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
-  LiveField live(*simulation, view_of(Field::VelocityX, 100.0));
-  CHECK(std::isnan(live.map().values[12]));  // no time has passed
-  simulation->run_until(3.0);                // visits the columns 0 to 3 of row 2
-  const FieldMap map = live.map();
-  for (std::size_t i = 0; i < map.values.size(); ++i) {
-    CAPTURE(i);
-    if (i >= 12 && i < 16) {
-      CHECK(map.values[i] == doctest::Approx(1.0));
-    } else {
-      CHECK(std::isnan(map.values[i]));
-    }
-  }
-}
-
-TEST_CASE("LiveField: the window reaches back by its length and by one part more at most") {
-  // One disk at speed 1 in a row of 16 cells leaves its density in the columns of the last 4 time
-  // units; parts are 0.5 long.
-  const auto simulation = lone_disk(gas(16.0, 1.0, 1, 1.0), {0.0, 0.5}, {1.0, 0.0});
-  LiveField live(*simulation, view_of(Field::Density, 4.0));
-  const auto check = [&](double now, double reaches_back) {
-    simulation->run_until(now);
-    const FieldMap map = live.map();
-    for (int column = 0; column < 16; ++column) {
-      const double inside =
-          std::min(column + 1.0, now) - std::max<double>(column, now - reaches_back);
-      CAPTURE(now);
-      CAPTURE(column);
-      CHECK(std::fabs(map.values[column] - std::max(0.0, inside) / reaches_back) < 1e-12);
-    }
+  CHECK(value(Field::Density) == doctest::Approx(6.0));
+  CHECK(value(Field::VelocityX) == doctest::Approx(mean.x()));
+  CHECK(value(Field::VelocityY) == doctest::Approx(mean.y()));
+  CHECK(value(Field::TemperatureX) == doctest::Approx(-kinetic(0, 0) / 6.0));
+  CHECK(value(Field::TemperatureY) == doctest::Approx(-kinetic(1, 1) / 6.0));
+  CHECK(value(Field::Temperature) == doctest::Approx(-0.5 * kinetic.trace() / 6.0));
+  const auto check = [&](Field field, double expected) {
+    CAPTURE(static_cast<int>(field));
+    CHECK(value(field) == doctest::Approx(expected).epsilon(1e-13));
   };
-  check(1.25, 1.25);  // shorter than the window: since the start
-  check(4.0, 4.0);
-  check(4.25, 4.25);
-  check(12.0, 4.0);
-  check(12.25, 4.25);  // eight parts and the one under way
-  check(12.45, 4.45);
+  check(Field::StressXxKinetic, kinetic(0, 0));
+  check(Field::StressYyKinetic, kinetic(1, 1));
+  check(Field::StressXyKinetic, kinetic(0, 1));
+  check(Field::StressXxCollisional, collisional(0, 0));
+  check(Field::StressYyCollisional, collisional(1, 1));
+  check(Field::StressXyCollisional, collisional(0, 1));
+  check(Field::StressXx, kinetic(0, 0) + collisional(0, 0));
+  check(Field::StressYy, kinetic(1, 1) + collisional(1, 1));
+  check(Field::StressXy, kinetic(0, 1) + collisional(0, 1));
+  check(Field::HeatFluxXKinetic, heat.x());
+  check(Field::HeatFluxYKinetic, heat.y());
+  check(Field::HeatFluxXCollisional, heat_collisional.x());
+  check(Field::HeatFluxYCollisional, heat_collisional.y());
+  check(Field::HeatFluxX, heat.x() + heat_collisional.x());
+  check(Field::HeatFluxY, heat.y() + heat_collisional.y());
+  check(Field::Dissipation, -1.8);
+  check(Field::Spin, 5.0 / 3.0);
+  check(Field::SpinTemperature, 2.0 * 2.625 / 3.0);
 }
 
-TEST_CASE("LiveField: watching and asking change nothing") {
-  const Scene scene = rough_mixture(20);
-  const auto alone = simulation_of(scene, 32);
-  alone->run_until(60.0);
-
-  const auto watched = simulation_of(scene, 32);
-  LiveField live(*watched, view_of(Field::Temperature, 1.7));
-  for (int frame = 1; frame <= 600; ++frame) {
-    watched->run_until(0.1 * frame);
-    live.map();
+TEST_CASE("field_value: where no disk ever was only densities and collisional parts are known") {
+  const CellAverages<2, double> nothing;
+  for (const Field field : all_fields()) {
+    CAPTURE(static_cast<int>(field));
+    const double value = field_value(field, nothing);
+    CHECK((needs_visitors(field) ? std::isnan(value) : value == 0.0));
   }
-  watched->run_until(60.0);
-  CHECK(watched->state_hash() == alone->state_hash());
-  CHECK(watched->counts().disk_disk == alone->counts().disk_disk);
+  // Between a wall and the centres that touch it collisions pass on all there is.
+  Content content;
+  content.velocities.clear();
+  const CellAverages<2, double> wall_layer = averages(content, 0.5);
+  CHECK(field_value(Field::StressXx, wall_layer) == doctest::Approx(-1.4));
+  CHECK(field_value(Field::StressXy, wall_layer) == doctest::Approx(0.4));
+  CHECK(field_value(Field::HeatFluxY, wall_layer) == doctest::Approx(-1.2));
+  CHECK(std::isnan(field_value(Field::StressXxKinetic, wall_layer)));
+  CHECK(std::isnan(field_value(Field::HeatFluxYKinetic, wall_layer)));
 }
 
-TEST_CASE("LiveField: does not depend on how often it is asked") {
-  const auto often = simulation_of(rough_mixture(20), 33);
-  const auto once = simulation_of(rough_mixture(20), 33);
-  LiveField asked_often(*often, view_of(Field::Density, 3.0));
-  LiveField asked_once(*once, view_of(Field::Density, 3.0));
-  for (int frame = 1; frame <= 400; ++frame) {
-    often->run_until(0.05 * frame);
-    asked_often.map();
+TEST_CASE("Dual: derivatives of all fields as finite differences have them") {
+  const auto row_of = [](const CellAverages<2, double>& a) {
+    const MomentLayout<2> layout = full_layout();
+    std::vector<double> row(static_cast<std::size_t>(layout.size));
+    row[0] = a.density;
+    row[layout.spin] = a.spin;
+    row[layout.spin_energy] = a.spin_energy;
+    row[layout.shears] = a.momentum_flux[0][1];
+    row[layout.dissipation] = a.dissipation;
+    for (int k = 0; k < 2; ++k) {
+      row[layout.velocity + k] = a.momentum[k];
+      row[layout.squares + k] = a.momentum_flux[k][k];
+      row[layout.energy_flux + k] = a.energy_flux[k];
+      row[layout.energy_transfer + k] = a.energy_transfer[k];
+      for (int l = 0; l < 2; ++l) row[layout.transfer + 2 * k + l] = a.transfer[k][l];
+    }
+    return row;
+  };
+  const MomentLayout<2> layout = full_layout();
+  const std::vector<double> row = row_of(averages(Content{}, 0.5));
+  for (const Field field : all_fields()) {
+    for (int k = 0; k < layout.size; ++k) {
+      CAPTURE(static_cast<int>(field));
+      CAPTURE(k);
+      std::vector<Dual> dual(row.begin(), row.end());
+      dual[k].slope = 1.0;
+      const double slope = field_value(field, averages_of(layout, dual.data())).slope;
+      const double step = 1e-5;
+      std::vector<double> up = row, down = row;
+      up[k] += step;
+      down[k] -= step;
+      const double expected = (field_value(field, averages_of(layout, up.data())) -
+                               field_value(field, averages_of(layout, down.data()))) /
+                              (2.0 * step);
+      CHECK(std::fabs(slope - expected) < 1e-7);
+    }
   }
-  once->run_until(0.05 * 400);
-  const FieldMap a = asked_often.map();
-  const FieldMap b = asked_once.map();
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    CHECK(a.values[i] == doctest::Approx(b.values[i]).epsilon(1e-10));
+}
+
+TEST_CASE("moment_layout: every field has what it needs, and no field keeps all") {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness.friction = 0.4;
+  scene.disks.start.spin_temperature = 1.0;
+  const auto simulation = simulation_of(scene, 61);
+  CellIntegrals<2> all(*simulation, {6, 5}, full_layout());
+  std::deque<CellIntegrals<2>> singles;
+  for (const Field field : all_fields()) {
+    singles.emplace_back(*simulation, IntVec<2>(6, 5), moment_layout<2>({&field, 1}, true));
+    simulation->add_observer(singles.back());
+  }
+  simulation->add_observer(all);
+  simulation->run_until(10.0);
+  const CellSums expected = all.close_window();
+  for (std::size_t f = 0; f < singles.size(); ++f) {
+    const Field field = all_fields()[f];
+    const MomentLayout<2>& layout = singles[f].layout();
+    const CellSums sums = singles[f].close_window();
+    CHECK(layout.size < all.layout().size);
+    for (std::size_t i = 0; i < 30; ++i) {
+      CAPTURE(f);
+      CAPTURE(i);
+      const double value = field_value(field, averages_of(layout, sums, i, 2.4));
+      const double full = field_value(field, averages_of(all.layout(), expected, i, 2.4));
+      CHECK(value == full);
+    }
   }
 }
 
-TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
-  const auto simulation = simulation_of(gas(5.0, 5.0, 0, 1.0), 1);
-  LiveField density(*simulation, view_of(Field::Density, 1.0));
-  LiveField temperature(*simulation, view_of(Field::Temperature, 1.0));
-  simulation->run_until(3.0);
-  for (const double value : density.map().values) CHECK(value == 0.0);
-  for (const double value : temperature.map().values) CHECK(std::isnan(value));
+TEST_CASE("moment_layout: what the fields asked for do not need is not stored") {
+  const auto size = [](std::vector<Field> fields, bool spins) {
+    return moment_layout<2>(fields, spins).size;
+  };
+  CHECK(size({Field::Density}, true) == 1);
+  CHECK(size({Field::VelocityX}, true) == 3);
+  CHECK(size({Field::Temperature, Field::TemperatureX}, true) == 5);
+  CHECK(size({Field::StressXyKinetic}, false) == 4);
+  CHECK(size({Field::Dissipation}, false) == 2);
+  CHECK(size({Field::HeatFluxX}, true) == size({Field::HeatFluxX}, false) + 1);
+  CHECK(size(all_fields(), false) == 15);
+  CHECK(size(all_fields(), true) == 17);
 }
 
-TEST_CASE("LiveField: at most 512 cells along an axis, at least one") {
-  const auto simulation = lone_disk(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
-  LiveField live(*simulation, view_of(Field::Density, 1.0));
-  CHECK(live.map().cells == std::array<int, 2>{512, 1});
+TEST_CASE("averages_of: kinetic sums go by their weight, sums over events by time") {
+  const Field fields[] = {Field::VelocityX, Field::Dissipation, Field::StressXxCollisional};
+  const MomentLayout<2> layout = moment_layout<2>(fields, false);
+  CellSums sums{4.0, 2.0, std::vector<double>(static_cast<std::size_t>(layout.size), 12.0)};
+  const auto cell = averages_of(layout, sums, 0, 0.5);
+  CHECK(cell.density == 12.0);
+  CHECK(cell.momentum[0] == 12.0);
+  CHECK(cell.dissipation == 6.0);
+  CHECK(cell.transfer[0][0] == 6.0);
 }

@@ -139,7 +139,8 @@ TEST_CASE("Measurement: one that starts in the midst of a run averages from then
   CHECK(measured.duration == doctest::Approx(kEnd - 10.0));
   CHECK(measured.series_time.front() == doctest::Approx(10.5));
   double disks = 0.0;
-  for (const Estimate& density : measured.profile->density) disks += density.mean * 9.0 / 5.0 * 8.0;
+  for (const Estimate& density : measured.profile->at(Field::Density))
+    disks += density.mean * 9.0 / 5.0 * 8.0;
   CHECK(disks == doctest::Approx(20.0));
 }
 

@@ -9,6 +9,7 @@
 #include "engine/embedded_file.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
 
 using namespace clatter;
 
@@ -98,6 +99,11 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.measure.series_interval == b.measure.series_interval);
   CHECK(a.measure.fields == b.measure.fields);
   CHECK(a.measure.cells == b.measure.cells);
+  CHECK(a.measure.profile_axis == b.measure.profile_axis);
+  CHECK(a.measure.estimator == b.measure.estimator);
+  CHECK(a.measure.interval == b.measure.interval);
+  CHECK(a.measure.kernel == b.measure.kernel);
+  CHECK(a.measure.width == b.measure.width);
   CHECK(a.view.colour_by == b.view.colour_by);
   CHECK(a.view.field == b.view.field);
   CHECK(a.view.window == b.view.window);
@@ -139,6 +145,11 @@ Scene unusual_scene() {
   scene.measure.series_interval = 5e-324;
   scene.measure.fields = {Field::VelocityX, Field::VelocityY, Field::TemperatureY, Field::Density};
   scene.measure.cells = {3, 7};
+  scene.measure.profile_axis = Axis::Y;
+  scene.measure.estimator = Estimator::Snapshot;
+  scene.measure.interval = 0.3;
+  scene.measure.kernel = Kernel::Gaussian;
+  scene.measure.width = 123456.7;
   scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field::TemperatureX,
                 .window = 0.125,
@@ -184,6 +195,11 @@ TEST_CASE("every key arrives at its place") {
     [measure]
     fields = ["velocity", "density", "velocity"]
     cells = [4, 5]
+    profile_axis = "y"
+    estimator = "snapshot"
+    interval = 0.5
+    kernel = "gaussian"
+    width = 1.5
     [view]
     field = "velocity_y"
     range = [0, 3]
@@ -215,6 +231,11 @@ TEST_CASE("every key arrives at its place") {
   const std::vector<Field> fields = {Field::VelocityX, Field::VelocityY, Field::Density};
   CHECK(scene.measure.fields == fields);
   CHECK(scene.measure.cells == std::array{4, 5});
+  CHECK(scene.measure.profile_axis == Axis::Y);
+  CHECK(scene.measure.estimator == Estimator::Snapshot);
+  CHECK(scene.measure.interval == 0.5);
+  CHECK(scene.measure.kernel == Kernel::Gaussian);
+  CHECK(scene.measure.width == 1.5);
   CHECK(scene.view.field == Field::VelocityY);
   CHECK(scene.view.range == std::array{0.0, 3.0});
 }
@@ -222,6 +243,26 @@ TEST_CASE("every key arrives at its place") {
 TEST_CASE("area_fraction becomes the nearest count") {
   const Scene scene = parse_scene("box.size = [10, 10]\ndisks.area_fraction = 0.3\n", "s.toml");
   CHECK(scene.disks.count == 38);  // 0.3 * 400 / pi = 38.197
+}
+
+TEST_CASE("a name of a field stands for its components, and each may stand alone") {
+  const auto fields = [](const std::string& list) {
+    return parse_scene(kDisks + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
+        .measure.fields;
+  };
+  CHECK(fields(R"(["stress"])") == std::vector{Field::StressXx, Field::StressYy, Field::StressXy});
+  CHECK(fields(R"(["heat_flux_kinetic", "spin"])") ==
+        std::vector{Field::HeatFluxXKinetic, Field::HeatFluxYKinetic, Field::Spin});
+  CHECK(fields(R"(["temperature_y"])") == std::vector{Field::TemperatureY});
+  CHECK(fields(R"(["temperature"])") ==
+        std::vector{Field::Temperature, Field::TemperatureX, Field::TemperatureY});
+  // Each is written as it can be read.
+  for (const auto& [name, field] : kProfiles) {
+    Scene scene = parse_scene(kDisks + "friction = 0.5\n", "s.toml");
+    scene.measure.fields = fields("[\"" + std::string(name) + "\"]");
+    CHECK(std::ranges::find(scene.measure.fields, field) != scene.measure.fields.end());
+    CHECK(parse_scene(scene_to_toml(scene), "s.toml").measure.fields == scene.measure.fields);
+  }
 }
 
 TEST_CASE("a scene in which all differs from the defaults survives writing and reading") {
@@ -248,7 +289,8 @@ TEST_CASE("a scene as JSON has the keys of the file") {
         R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
         R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
         R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
-        R"("fields": ["velocity", "temperature"], "cells": [20, 20]}, )"
+        R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
+        R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
         R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
         R"("range": "auto", "overlay": true}})");
 }
@@ -341,8 +383,33 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {kDisks + "[view]\npalette = \"virdis\"\n",
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\"; did "
        "you mean \"viridis\"?"},
-      {kDisks + "[measure]\nfields = [\"density\", \"stress\"]\n",
-       "s.toml:4:1: 'measure.fields' cannot be \"stress\"; give one of \"density\", \"velocity\""},
+      {kDisks + "[measure]\nfields = [\"density\", \"pressure\"]\n",
+       "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", "
+       "\"velocity\""},
+      {kDisks + "[measure]\nfields = [\"density\", \"spin\"]\n",
+       "s.toml:4:1: a field of spins has no meaning where nothing spins; choose another, or make"},
+      {kDisks + "[view]\nfield = \"spin_temperature\"\n",
+       "s.toml:4:1: a field of spins has no meaning where nothing spins"},
+      {kDisks + "[measure]\ninterval = 1.0\n",
+       "s.toml:4:1: 'measure.interval' has no meaning for the exact estimator, which counts "
+       "flights "
+       "as a whole; remove it, or set measure.estimator = \"snapshot\""},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\n",
+       "s.toml:3:1: 'measure.interval' is missing"},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 0\n",
+       "s.toml:5:1: 'measure.interval' cannot be 0"},
+      {kDisks + "[measure]\nwidth = 1.0\n",
+       "s.toml:4:1: 'measure.width' has no meaning for the box kernel"},
+      {kDisks + "[measure]\nkernel = \"gaussian\"\nwidth = 2.0\n",
+       "s.toml:4:1: a Gaussian spreads disks where they are now and then, not flights; set "
+       "measure.estimator = \"snapshot\""},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n",
+       "s.toml:3:1: 'measure.width' is missing"},
+      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n"
+                "width = 0.25\n",
+       "s.toml:7:1: the Gaussian falls between the centres of cells of 1"},
+      {kDisks + "[measure]\nprofile_axis = \"z\"\n",
+       "s.toml:4:1: 'measure.profile_axis' cannot be \"z\"; give one of \"x\", \"y\""},
       // walls
       {kDisks + "[walls.left]\nkind = \"static\"\n",
        "s.toml:3:1: [walls.left] has no wall opposite; add [walls.right], or remove this one"},

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace clatter {
+
+/// Prints what fields cost and how precise they are: for the vibrated scene, CPU time over a bare
+/// run, variance of the profile of T at equal simulated time, and their product, for the exact
+/// estimator and for snapshots at several intervals. Writes the table to `json` too, unless that is
+/// empty; returns the exit code.
+int bench_fields(const std::string& json);
+
+}  // namespace clatter

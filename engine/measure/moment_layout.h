@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "engine/physics/spin.h"
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// Which sums of chapter 4 a grid keeps, and where each stands in the row of numbers that a cell
+/// has: what the fields asked for do not need is not stored. In rising order come the kinetic sums,
+/// over disks and time; the sums over events that spread along a branch vector; and the one that
+/// stays at its ends.
+template <int D>
+struct MomentLayout {
+  static constexpr int kAbsent = -1;
+
+  int count = 0;                  ///< 1: the number of disks, always kept
+  int velocity = kAbsent;         ///< D: sum v_k
+  int squares = kAbsent;          ///< D: sum v_k^2
+  int shears = kAbsent;           ///< D(D-1)/2: sum v_k v_l, k < l
+  int energy_flux = kAbsent;      ///< D: sum (v^2 + I omega^2)/2 v_k
+  int spin = kAbsent;             ///< of Spin<D>: sum omega
+  int spin_energy = kAbsent;      ///< 1: sum I omega^2 / 2
+  int kinetic = 1;                ///< numbers up to here are kinetic
+  int transfer = kAbsent;         ///< D^2, [k][l]: sum r_12,k dp_1,l
+  int energy_transfer = kAbsent;  ///< D: sum (dE_1 - dE_2)/2 r_12,k; at walls dE_1 (r_1 - r_w)_k
+  int along_branch = 1;           ///< from `kinetic` up to here numbers spread along branch vectors
+  int dissipation = kAbsent;      ///< 1: sum (dE_1 + dE_2)/2, at either end
+  int size = 1;                   ///< numbers in a row
+};
+
+/// The sums that these fields need; `spins`: whether the disks spin, and so carry energy.
+template <int D>
+MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins);
+
+extern template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool);
+
+}  // namespace clatter

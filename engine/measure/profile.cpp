@@ -1,0 +1,118 @@
+#include "engine/measure/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/measure/dual.h"
+#include "engine/measure/fields.h"
+
+namespace clatter {
+
+namespace {
+
+// The windows' sums in one column, and how a field follows from their totals.
+class Column {
+ public:
+  Column(std::span<const CellSums> windows, const MomentLayout<2>& layout, std::size_t column,
+         double measure)
+      : windows_(windows),
+        layout_(layout),
+        begin_(column * static_cast<std::size_t>(layout.size)),
+        measure_(measure),
+        totals_(static_cast<std::size_t>(layout.size)) {
+    for (const CellSums& window : windows) {
+      time_ += window.time;
+      kinetic_weight_ += window.kinetic_weight;
+      for (int k = 0; k < layout.size; ++k) totals_[k] += row(window)[k];
+    }
+  }
+
+  // Windows are blocked by what each adds to the field, which is that of all of them, linear in
+  // their sums: a window's sum k less the share that its length has in the total.
+  Estimate estimate(Field field) const {
+    const double mean = field_value(field, averages_of(layout_, along(-1).data())).value;
+    if (std::isnan(mean)) return {mean, 0.0};
+    std::vector<double> parts(windows_.size());
+    const auto count = static_cast<double>(windows_.size());
+    for (int k = 0; k < layout_.size; ++k) {
+      const double slope = field_value(field, averages_of(layout_, along(k).data())).slope;
+      if (slope == 0.0) continue;
+      const double average = totals_[k] / total_weight(k);
+      const double scale = slope * count / (total_weight(k) * measure_);
+      for (std::size_t w = 0; w < parts.size(); ++w) {
+        const CellSums& window = windows_[w];
+        parts[w] += scale * (row(window)[k] - average * weight(k, window));
+      }
+    }
+    return {mean, blocked_error(std::move(parts))};
+  }
+
+ private:
+  const double* row(const CellSums& window) const { return window.rows.data() + begin_; }
+  double weight(int k, const CellSums& window) const {
+    return k < layout_.kinetic ? window.kinetic_weight : window.time;
+  }
+  double total_weight(int k) const { return k < layout_.kinetic ? kinetic_weight_ : time_; }
+
+  // The averages per area, with number k as the variable.
+  std::vector<Dual> along(int variable) const {
+    std::vector<Dual> averages;
+    for (int k = 0; k < layout_.size; ++k) {
+      averages.emplace_back(totals_[k] / (total_weight(k) * measure_), k == variable ? 1.0 : 0.0);
+    }
+    return averages;
+  }
+
+  std::span<const CellSums> windows_;
+  const MomentLayout<2>& layout_;
+  std::size_t begin_;  // of the column's rows
+  double measure_;     // area of the column
+  double time_ = 0.0;
+  double kinetic_weight_ = 0.0;
+  std::vector<double> totals_;
+};
+
+}  // namespace
+
+const std::vector<Estimate>& Profile::at(Field field) const {
+  const auto found = std::ranges::find(fields, field);
+  if (found == fields.end()) throw std::out_of_range("no profile of this field");
+  return values[static_cast<std::size_t>(found - fields.begin())];
+}
+
+CellSums columns_of(const CellSums& cells, const FieldGrid<2>& grid, Axis axis) {
+  const auto width = static_cast<std::size_t>(grid.cells().x());
+  const std::size_t size = cells.rows.size() / grid.size();
+  const auto count = static_cast<std::size_t>(grid.cells()[static_cast<int>(axis)]);
+  CellSums columns{cells.time, cells.kinetic_weight, std::vector<double>(count * size)};
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const std::size_t column = axis == Axis::X ? i % width : i / width;
+    for (std::size_t k = 0; k < size; ++k) {
+      columns.rows[column * size + k] += cells.rows[i * size + k];
+    }
+  }
+  return columns;
+}
+
+Profile profile_of(std::span<const CellSums> windows, const FieldGrid<2>& grid,
+                   const MomentLayout<2>& layout, std::span<const Field> fields, Axis axis) {
+  const int along = static_cast<int>(axis);
+  const int columns = grid.cells()[along];
+  const double measure = grid.cell_measure() * grid.cells()[1 - along];
+  Profile profile;
+  profile.axis = axis;
+  profile.fields.assign(fields.begin(), fields.end());
+  profile.values.resize(fields.size());
+  const double length = columns * grid.widths()[along];
+  for (int i = 0; i <= columns; ++i) profile.edges.push_back(length * i / columns);
+  for (int i = 0; i < columns; ++i) {
+    const Column column(windows, layout, static_cast<std::size_t>(i), measure);
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      profile.values[f].push_back(column.estimate(fields[f]));
+    }
+  }
+  return profile;
+}
+
+}  // namespace clatter

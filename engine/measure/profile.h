@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/measure/cell_integrals.h"
+#include "engine/measure/estimate.h"
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// Fields along one axis, averaged over the other and over time, with standard errors by blocking.
+/// Where a field has no value (see field_value) its mean is NaN.
+struct Profile {
+  Axis axis = Axis::X;
+  std::vector<double> edges;                  ///< [columns + 1] along the axis
+  std::vector<Field> fields;                  ///< those asked for
+  std::vector<std::vector<Estimate>> values;  ///< [fields][columns]
+
+  /// The values of a field that was asked for; throws std::out_of_range for another.
+  const std::vector<Estimate>& at(Field field) const;
+};
+
+/// A window's sums on a grid added up across an axis: the rows of `grid.cells()[axis]` columns.
+CellSums columns_of(const CellSums& cells, const FieldGrid<2>& grid, Axis axis);
+
+/// The profile that windows of time give, each with the rows of all columns, from columns_of().
+Profile profile_of(std::span<const CellSums> windows, const FieldGrid<2>& grid,
+                   const MomentLayout<2>& layout, std::span<const Field> fields, Axis axis);
+
+}  // namespace clatter

@@ -1,0 +1,152 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "engine/measure/fields.h"
+#include "engine/measure/live_field.h"
+#include "tests/engine/measure/scenes.h"
+#include "tests/engine/measure/sums.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+View view_of(Field field, double window) {
+  View view;
+  view.field = field;
+  view.window = window;
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere") {
+  const Scene scene = gas(12.0, 8.0, 30, 1.0);
+  const auto simulation = simulation_of(scene, 31);
+  LiveField live(*simulation, view_of(Field::Density, 2000.0));
+  simulation->run_until(2000.0);
+  const FieldMap map = live.map();
+  REQUIRE(map.cells == std::array<int, 2>{12, 8});
+  REQUIRE(map.values.size() == 96);
+  // Cells of area 1: exactly N disks in all.
+  CHECK(std::accumulate(map.values.begin(), map.values.end(), 0.0) ==
+        doctest::Approx(30.0).epsilon(1e-10));
+  // A disk stays in a cell for about 0.8, so its time there averages over 2000/0.8 * 0.31 visits:
+  // 4 % with independent visits, less since disks exclude each other. 96 cells, 5 standard errors.
+  for (const double density : map.values) CHECK(std::fabs(density / (30.0 / 96.0) - 1.0) < 0.2);
+}
+
+TEST_CASE("LiveField: every field is that of its cells over the window") {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness.friction = 0.4;
+  for (const Field field : all_fields()) {
+    CAPTURE(static_cast<int>(field));
+    const auto simulation = simulation_of(scene, 34);
+    LiveField live(*simulation, view_of(field, 2.0));
+    CellIntegrals<2> integrals(*simulation, {9, 8}, full_layout());
+    simulation->add_observer(integrals);
+    simulation->run_until(0.3);
+    live.map();
+    simulation->run_until(1.9);
+    const FieldMap map = live.map();
+    const CellSums sums = integrals.close_window();
+    REQUIRE(map.field == field);
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      CAPTURE(i);
+      const double expected = field_value(field, averages_of(integrals.layout(), sums, i, 1.0));
+      CHECK(std::isnan(map.values[i]) == std::isnan(expected));
+      if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("LiveField: cells that no disk visited are gaps") {
+  const auto simulation = lone_disk(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
+  LiveField live(*simulation, view_of(Field::VelocityX, 100.0));
+  CHECK(std::isnan(live.map().values[12]));  // no time has passed
+  simulation->run_until(3.0);                // visits the columns 0 to 3 of row 2
+  const FieldMap map = live.map();
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    CAPTURE(i);
+    if (i >= 12 && i < 16) {
+      CHECK(map.values[i] == doctest::Approx(1.0));
+    } else {
+      CHECK(std::isnan(map.values[i]));
+    }
+  }
+}
+
+TEST_CASE("LiveField: the window reaches back by its length and by one part more at most") {
+  // One disk at speed 1 in a row of 16 cells leaves its density in the columns of the last 4 time
+  // units; parts are 0.5 long.
+  const auto simulation = lone_disk(gas(16.0, 1.0, 1, 1.0), {0.0, 0.5}, {1.0, 0.0});
+  LiveField live(*simulation, view_of(Field::Density, 4.0));
+  const auto check = [&](double now, double reaches_back) {
+    simulation->run_until(now);
+    const FieldMap map = live.map();
+    for (int column = 0; column < 16; ++column) {
+      const double inside =
+          std::min(column + 1.0, now) - std::max<double>(column, now - reaches_back);
+      CAPTURE(now);
+      CAPTURE(column);
+      CHECK(std::fabs(map.values[column] - std::max(0.0, inside) / reaches_back) < 1e-12);
+    }
+  };
+  check(1.25, 1.25);  // shorter than the window: since the start
+  check(4.0, 4.0);
+  check(4.25, 4.25);
+  check(12.0, 4.0);
+  check(12.25, 4.25);  // eight parts and the one under way
+  check(12.45, 4.45);
+}
+
+TEST_CASE("LiveField: watching and asking change nothing") {
+  const Scene scene = rough_mixture(20);
+  const auto alone = simulation_of(scene, 32);
+  alone->run_until(60.0);
+
+  const auto watched = simulation_of(scene, 32);
+  LiveField live(*watched, view_of(Field::Temperature, 1.7));
+  for (int frame = 1; frame <= 600; ++frame) {
+    watched->run_until(0.1 * frame);
+    live.map();
+  }
+  watched->run_until(60.0);
+  CHECK(watched->state_hash() == alone->state_hash());
+  CHECK(watched->counts().disk_disk == alone->counts().disk_disk);
+}
+
+TEST_CASE("LiveField: does not depend on how often it is asked") {
+  const auto often = simulation_of(rough_mixture(20), 33);
+  const auto once = simulation_of(rough_mixture(20), 33);
+  LiveField asked_often(*often, view_of(Field::Density, 3.0));
+  LiveField asked_once(*once, view_of(Field::Density, 3.0));
+  for (int frame = 1; frame <= 400; ++frame) {
+    often->run_until(0.05 * frame);
+    asked_often.map();
+  }
+  once->run_until(0.05 * 400);
+  const FieldMap a = asked_often.map();
+  const FieldMap b = asked_once.map();
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    CHECK(a.values[i] == doctest::Approx(b.values[i]).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
+  const auto simulation = simulation_of(gas(5.0, 5.0, 0, 1.0), 1);
+  LiveField density(*simulation, view_of(Field::Density, 1.0));
+  LiveField temperature(*simulation, view_of(Field::Temperature, 1.0));
+  simulation->run_until(3.0);
+  for (const double value : density.map().values) CHECK(value == 0.0);
+  for (const double value : temperature.map().values) CHECK(std::isnan(value));
+}
+
+TEST_CASE("LiveField: at most 512 cells along an axis, at least one") {
+  const auto simulation = lone_disk(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
+  LiveField live(*simulation, view_of(Field::Density, 1.0));
+  CHECK(live.map().cells == std::array<int, 2>{512, 1});
+}
