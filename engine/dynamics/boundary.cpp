@@ -32,14 +32,22 @@ double Boundary<D>::touching_place(int side, double time) const {
 }
 
 template <int D>
-double Boundary<D>::contact_time(int side, const Flight<D>& flight) const {
+double Boundary<D>::contact_time(int side, const Flight<D>& flight, double now) const {
   const int axis = side / 2;
   const double plane = model_.wall_plane(axis, side % 2);
   if (!motions_[side]) {
     return plane_contact_time<D>(flight, axis, plane, inward(side), model_.gravity);
   }
-  return moving_wall_contact(*motions_[side], flight.time, inward(side) * (flight.r[axis] - plane),
-                             inward(side) * flight.v[axis], inward(side) * model_.gravity[axis]);
+  const auto contact_from = [&](double time) {
+    const double place = flight.at(time, model_.gravity)[axis];
+    const double speed = flight.velocity_at(time, model_.gravity)[axis];
+    return moving_wall_contact(*motions_[side], time, inward(side) * (place - plane),
+                               inward(side) * speed, inward(side) * model_.gravity[axis]);
+  };
+  // A disk that left the wall, or passed it, within rounding seems to have touched it when the base
+  // has moved since, for the wall's phase is rounded anew. What is past has not happened.
+  const double contact = contact_from(flight.time);
+  return contact < now ? contact_from(now) : contact;
 }
 
 template <int D>

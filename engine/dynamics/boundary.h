@@ -25,8 +25,8 @@ class Boundary {
   WallState wall(int side, double time) const;
   /// Coordinate along the wall's axis of a disk that touches it, as the contact times have it.
   double touching_place(int side, double time) const;
-  /// Time at which a flight touches a wall, or kNever.
-  double contact_time(int side, const Flight<D>& flight) const;
+  /// Time at which a flight that is under way at `now` touches a wall, or kNever.
+  double contact_time(int side, const Flight<D>& flight, double now) const;
   /// The farthest from its place that a wall comes into the box.
   double innermost_travel(int side) const;
 

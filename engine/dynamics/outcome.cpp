@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
+#include "engine/physics/contact.h"
 #include "engine/physics/random.h"
 #include "engine/physics/walls.h"
 
@@ -40,13 +43,21 @@ static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& a
   return departure;
 }
 
-// A wholly inelastic wall that presses upon a disk brings it to rest, and then there is nothing
-// left for the TC model to reflect. So that the contact does not return for ever at one time, the
-// disk leaves fast enough to stay away for half of t_c.
+// Where a wall presses upon a disk that rests on it, the TC model has nothing left to reflect. So
+// that the contact does not return for ever at one time, the disk leaves fast enough to stay away
+// for half of t_c, or of the time that a swinging wall presses.
 template <int D>
-static double least_rebound(const Model<D>& model, int side, const WallState& wall) {
+static double rebound_from_rest(const Model<D>& model, int side, const WallState& wall,
+                                double approach) {
+  const Wall& spec = *model.walls[side];
+  const double rounding = kApproachRounding * (approach + 2.0 * std::fabs(wall.velocity));
+  if (approach > rounding) return 0.0;
   const double pressing = wall.acceleration - Boundary<D>::inward(side) * model.gravity[side / 2];
-  return std::max(0.0, 0.25 * *model.contact_time * pressing);
+  double away = 0.5 * *model.contact_time;
+  if (spec.kind == WallKind::Sinusoidal && spec.frequency > 0.0) {
+    away = std::min(away, 0.5 / (2.0 * std::numbers::pi * spec.frequency));
+  }
+  return std::max(0.0, 0.5 * pressing * away);
 }
 
 template <int D>
@@ -64,8 +75,8 @@ Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall
           ? reflect_moving<D>(arrival.velocity, axis, inward, law.restitution, wall.velocity)
           : reflect<D>(arrival.velocity, axis, inward, law.restitution, spec.drive_speed);
   if (elastic) {
-    const double least = wall.velocity + least_rebound<D>(model, side, wall);
-    departure.velocity[axis] = inward * std::max(inward * departure.velocity[axis], least);
+    const double approach = std::fabs(inward * arrival.velocity[axis] - wall.velocity);
+    departure.velocity[axis] += inward * rebound_from_rest<D>(model, side, wall, approach);
   }
   const Impulse<D> friction = wall_friction<D>(arrival.velocity, departure.velocity, arrival.spin,
                                                axis, inward, law, model.inertia, model.diameter);

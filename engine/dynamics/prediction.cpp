@@ -26,7 +26,7 @@ template <int D>
 void Prediction<D>::plan(std::uint32_t disk, double now, Plan<D>& plan) const {
   plan.contact = kNever;
   look_at_disks(disk, {}, plan);
-  look_at_walls(disk, plan);
+  look_at_walls(disk, now, plan);
   gravity_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
 }
 
@@ -36,7 +36,7 @@ void Prediction<D>::plan_entered(std::uint32_t disk, double now, int axis, int s
   typename CellGrid<D>::Stencil ahead;
   ahead.from[axis] = ahead.to[axis] = step;
   look_at_disks(disk, ahead, plan);
-  look_at_walls(disk, plan);
+  look_at_walls(disk, now, plan);
   gravity_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
 }
 
@@ -151,13 +151,13 @@ void Prediction<D>::offer_disk(std::uint32_t disk, const Neighbours<D>& near, in
 }
 
 template <int D>
-void Prediction<D>::look_at_walls(std::uint32_t disk, Plan<D>& plan) const {
+void Prediction<D>::look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const {
   for (int axis = 0; axis < D; ++axis) {
     if (model_.periodic(axis)) continue;
     for (const int side : {2 * axis, 2 * axis + 1}) {
       const int cells_off = side % 2 ? grid_.counts()[axis] - 1 - plan.cell[axis] : plan.cell[axis];
       if (cells_off > reach_[side]) continue;
-      offer(boundary_.contact_time(side, disks_[disk].flight), disk,
+      offer(boundary_.contact_time(side, disks_[disk].flight, now), disk,
             kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }
   }

@@ -64,7 +64,7 @@ class Prediction {
   void weigh(std::uint32_t disk, const Neighbours<D>& near, int size, Plan<D>& plan) const;
   void offer_disk(std::uint32_t disk, const Neighbours<D>& near, int i, double time,
                   Plan<D>& plan) const;
-  void look_at_walls(std::uint32_t disk, Plan<D>& plan) const;
+  void look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const;
   void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
   void look_at_borders_falling(std::uint32_t disk, double now, Plan<D>& plan) const;
   void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,

@@ -22,13 +22,17 @@ static constexpr std::size_t kFetchAheadFrom = 20000;
 // Overlap that a start state may have from the rounding of its positions, in diameters.
 static constexpr double kStartRounding = 1e-12;
 
-// Whether collisions can take energy from the gas, or walls give it ever more: where time may come
-// to a standstill.
+// Whether collisions can take energy from the gas, walls give it ever more, or disks come to rest
+// on walls: where time may come to a standstill.
 template <int D>
 static bool may_stand_still(const Model<D>& model) {
+  const bool falls = (model.gravity.array() != 0.0).any();
   bool may = model.restitution < 1.0 || model.roughness.any();
   for (const auto& wall : model.walls) {
-    may = may || (wall && (wall->restitution != 1.0 || wall->roughness.any()));
+    if (!wall) continue;
+    const bool holds = wall->kind == WallKind::Thermal && wall->temperature == 0.0;
+    may = may || falls || holds || wall->moves() || wall->restitution != 1.0 ||
+          wall->roughness.any();
   }
   return may;
 }
@@ -214,7 +218,7 @@ void Simulation<D>::fire(Timer& timer) {
 template <int D>
 void Simulation<D>::process(const Event& event) {
   checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
-  now_ = event.time;
+  now_ = std::max(now_, event.time);
   if (event.partner == kCellBorder) {
     enter_next_cell(event.disk);
   } else if (event.partner >= kWall) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "engine/physics/encounter.h"
 #include "engine/physics/fall_time.h"
 #include "engine/physics/flight.h"

@@ -45,7 +45,7 @@ bool Reference::step() {
       kick();
       return true;
     }
-    now_ = next.event.time;
+    now_ = std::max(now_, next.event.time);
     if (next.event.partner < kWall) {
       collide(next);
     } else {
@@ -93,7 +93,7 @@ void Reference::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Nex
 void Reference::weigh_walls(std::uint32_t i, Next& first) const {
   for (int side = 0; side < 4; ++side) {
     if (!model_.walls[side]) continue;
-    const double time = boundary_.contact_time(side, flights_[i]);
+    const double time = boundary_.contact_time(side, flights_[i], now_);
     const Event event{time, i, kWall + static_cast<std::uint32_t>(side)};
     if (time < kNever && before(event, first.event)) first = {event, {0, 0}};
   }
