@@ -52,6 +52,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
     return;
   }
   simulation_ = std::make_unique<Simulation<2>>(model_of(scene, seed_), resumed_->checkpoint.saved);
+  had_spins_ = !resumed_->checkpoint.saved.spins.empty();
   resumed_->checkpoint.saved = {};  // some memory
   const std::string laws = changed_laws(*resumed_);
   if (!laws.empty() && !quiet_) {
@@ -60,11 +61,20 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   }
 }
 
-// Averages go on if there are any. Under another gravity they cannot: what flights contribute is
-// booked at their end, by the gravity of that time.
+// Averages go on if there are any. Under another gravity they cannot, for what flights contribute
+// is booked at their end, by the gravity of that time; nor where walls move otherwise, which starts
+// flights anew; nor where spins come or go, for fields then need other sums.
 bool Run::measures_anew() const {
-  return resumed_ &&
-         (resumed_->checkpoint.measurement.empty() || differs(*resumed_, "gravity.acceleration"));
+  if (!resumed_) return false;
+  if (resumed_->checkpoint.measurement.empty()) return true;
+  if (!scene_.measure.fields.empty() && scene_.spins() != had_spins_) return true;
+  std::vector<std::string> keys = {"gravity.acceleration"};
+  for (const char* side : kSideNames) {
+    for (const char* key : {"kind", "stroke", "frequency", "phase"}) {
+      keys.push_back(std::string("walls.") + side + '.' + key);
+    }
+  }
+  return std::ranges::any_of(keys, [&](const std::string& key) { return differs(*resumed_, key); });
 }
 
 Measurement& Run::measure(double end) {
@@ -86,13 +96,14 @@ Measurement& Run::measure(double end) {
 
 bool Run::until(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
-  std::uint64_t slice = 1024;  // collisions, found while running
+  std::uint64_t slice = 1024;  // steps, found while running
   ended_early_ = true;
   try {
     for (bool arrived = false; !arrived; progress.update(simulation_->time())) {
       if (interrupted()) return false;
       const auto began = Clock::now();
-      arrived = simulation_->run_until(time, simulation_->counts().collisions() + slice);
+      arrived = simulation_->run_until(time, Simulation<2>::kNoLimit,
+                                       simulation_->counts().steps() + slice);
       slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();

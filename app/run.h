@@ -57,6 +57,7 @@ class Run {
   CheckpointOptions options_;
   std::filesystem::path file_;  // the checkpoint, asked for or not
   std::optional<Resumed> resumed_;
+  bool had_spins_ = false;  // whether the run that is resumed carried spins
   std::uint64_t seed_;
   std::unique_ptr<Simulation<2>> simulation_;
   std::optional<Measurement> measurement_;

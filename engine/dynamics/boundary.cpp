@@ -5,19 +5,30 @@
 namespace clatter {
 
 template <int D>
+std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
+  std::array<WallMotion, 2 * D> motions;
+  for (int side = 0; side < 2 * D; ++side) {
+    const auto& wall = model.walls[side];
+    if (!wall || !wall->moves()) continue;
+    const bool ramps = wall->kind == WallKind::Sawtooth;
+    motions[side] = {ramps ? WallPath::Sawtooth : WallPath::Sinusoidal, wall->stroke,
+                     wall->frequency, wall->phase};
+  }
+  return motions;
+}
+
+template <int D>
 Boundary<D>::Boundary(const Model<D>& model, const Clock& clock) : model_(model) {
   move_base(clock);
 }
 
 template <int D>
 void Boundary<D>::move_base(const Clock& clock) {
+  const std::array<WallMotion, 2 * D> motions = wall_motions<D>(model_);
   for (int side = 0; side < 2 * D; ++side) {
-    const auto& wall = model_.walls[side];
-    if (!wall || !wall->moves()) continue;
-    const WallPath path =
-        wall->kind == WallKind::Sawtooth ? WallPath::Sawtooth : WallPath::Sinusoidal;
-    motions_[side] = {path, wall->stroke, wall->frequency,
-                      clock.periods(wall->frequency, wall->phase)};
+    if (!model_.walls[side] || !model_.walls[side]->moves()) continue;
+    motions_[side] = motions[side];
+    motions_[side]->phase = clock.periods(motions[side].frequency, motions[side].phase);
   }
 }
 
@@ -55,6 +66,7 @@ double Boundary<D>::innermost_travel(int side) const {
   return model_.walls[side] ? model_.walls[side]->innermost_travel() : 0.0;
 }
 
+template std::array<WallMotion, 4> wall_motions<2>(const Model<2>&);
 template class Boundary<2>;
 
 }  // namespace clatter

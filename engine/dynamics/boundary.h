@@ -10,6 +10,10 @@
 
 namespace clatter {
 
+/// How each wall moves, with its phase at simulation time 0; one without stroke stays in its place.
+template <int D>
+std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
+
 /// Where the walls of a run are, at times on its moving base. Places are those of the centres of
 /// disks that touch.
 template <int D>

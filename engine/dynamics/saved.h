@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "engine/dynamics/clock.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/spin.h"
+#include "engine/physics/wall_motion.h"
 
 namespace clatter {
 
@@ -21,6 +23,8 @@ struct EventCounts {
 
   /// Collisions with disks and with walls.
   std::uint64_t collisions() const { return disk_disk + disk_wall; }
+  /// All that takes the loop some work.
+  std::uint64_t steps() const { return collisions() + kicks + cell_crossings + stale; }
 };
 
 /// What a run checks of itself at every event.
@@ -36,7 +40,9 @@ struct RunChecks {
 /// other laws, too.
 template <int D>
 struct Saved {
-  Vec<D> gravity = Vec<D>::Zero();      ///< of the flights
+  Vec<D> gravity = Vec<D>::Zero();  ///< of the flights
+  /// Of the walls that the flights are under way between; phases at simulation time 0.
+  std::array<WallMotion, 2 * D> wall_motions;
   LongTime base;                        ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
   std::vector<Flight<D>> flights;       ///< [N] in original order
@@ -71,6 +77,14 @@ void visit(Archive& io, LongTime& time) {
   io(high, low);
 }
 
+template <class Archive>
+void visit(Archive& io, WallMotion& motion) {
+  auto& [path, stroke, frequency, phase] = motion;
+  bool ramps = path == WallPath::Sawtooth;
+  io(ramps, stroke, frequency, phase);
+  path = ramps ? WallPath::Sawtooth : WallPath::Sinusoidal;
+}
+
 template <class Archive, int D>
 void visit(Archive& io, Flight<D>& flight) {
   auto& [r, v, time, number] = flight;
@@ -79,10 +93,10 @@ void visit(Archive& io, Flight<D>& flight) {
 
 template <class Archive, int D>
 void visit(Archive& io, Saved<D>& saved) {
-  auto& [gravity, base, now, flights, spins, last_collisions, until_base_moves, kick_interval,
-         kick_origin, kicks_since_origin, counts, checks] = saved;
-  io(gravity, base, now, flights, spins, last_collisions, until_base_moves, kick_interval,
-     kick_origin, kicks_since_origin, counts, checks);
+  auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
+         kick_interval, kick_origin, kicks_since_origin, counts, checks] = saved;
+  io(gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
+     kick_interval, kick_origin, kicks_since_origin, counts, checks);
 }
 
 }  // namespace clatter

@@ -36,10 +36,10 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Processes every event up to and at a simulation time, timers included, and returns true; or
-  /// halts before, right after the collision, once `collisions` with disks and walls have happened
-  /// since the start, and returns false. Throws PhysicalStop where time stands still, or speeds
-  /// diverge; the state is then sound, that of the last collision.
-  bool run_until(double time, std::uint64_t collisions = kNoLimit);
+  /// halts before, once `collisions` with disks and walls have happened since the start, or `steps`
+  /// of any kind (EventCounts::steps), and returns false. Throws PhysicalStop where time stands
+  /// still, or speeds diverge; the state is then sound, that of the last collision.
+  bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... once run_until() gets
   /// there, after the physical events of the same time, kicks included. interval = 0: once. A run
@@ -94,7 +94,7 @@ class Simulation {
   /// Why advance() came back.
   enum class Halt { Time, Collisions, BaseMoved };
 
-  Halt advance(double stop, std::uint64_t collisions);
+  Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
   Timer* due_timer(double stop);
   void fire(Timer& timer);
   void process(const Event& event);
@@ -103,8 +103,9 @@ class Simulation {
   void kick();
   double next_kick() const;
   bool within_contact_time(std::uint32_t number) const;
-  void count_collision(std::uint32_t disk, std::uint32_t partner);
+  bool outruns_clock(std::uint32_t number) const;
   [[noreturn]] void stop_at_standstill() const;
+  [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
   void renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity);
   void schedule(std::uint32_t disk);
@@ -128,6 +129,7 @@ class Simulation {
   Prediction<D> prediction_;
   EventQueue queue_;
   std::uint64_t until_base_moves_;    // physical events left
+  bool heats_ = false;                // whether a wall has a restitution > 1
   std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
   std::uint64_t fetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;

@@ -37,20 +37,32 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
   return std::max(kShare * watchdog.mean_collision_time(), 10.0 * model.contact_time.value_or(0.0));
 }
 
+PhysicalStop divergence(double time, double temperature) {
+  return PhysicalStop("the temperature diverges at t = " + rounded(time) + ", having reached " +
+                      rounded(temperature) +
+                      "; walls with restitution > 1 give more than the gas loses");
+}
+
+// Whether a partner is a wall that emits disks without any speed, which no t_c changes.
+template <int D>
+static bool is_cold_wall(const Model<D>& model, std::uint32_t partner) {
+  return partner >= kWall && model.walls[partner - kWall]->kind == WallKind::Thermal;
+}
+
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature) {
-  const std::string when = "time stands still at t = " + rounded(time);
-  if (diverges<D>(model, watchdog, temperature)) {
-    return PhysicalStop(when + ": the temperature diverges, having reached " +
-                        rounded(temperature) +
-                        "; walls with restitution > 1 give more than the gas loses");
-  }
+  if (diverges<D>(model, watchdog, temperature)) return divergence(time, temperature);
   const auto [disk, partner] = watchdog.busiest_pair();
+  const std::string what = "time stands still at t = " + rounded(time) + ": disk " +
+                           std::to_string(disk) + " and " + partner_name(partner) +
+                           " collide without end";
+  if (is_cold_wall<D>(model, partner)) {
+    return PhysicalStop(what + "; a wall of temperature 0 lets no disk go, give it some");
+  }
   const std::string contact_time = rounded(helpful_contact_time<D>(model, watchdog));
-  return PhysicalStop(when + ": inelastic collapse of disk " + std::to_string(disk) + " and " +
-                          partner_name(partner) + "; collapse.contact_time = " + contact_time +
-                          " or more would carry on",
+  return PhysicalStop(what + " (inelastic collapse, or rest); collapse.contact_time = " +
+                          contact_time + " or more would carry on",
                       "collapse.contact_time=" + contact_time);
 }
 

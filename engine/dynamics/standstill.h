@@ -11,4 +11,7 @@ template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature);
 
+/// What stops a run in which walls with restitution > 1 have made the speeds diverge.
+PhysicalStop divergence(double time, double temperature);
+
 }  // namespace clatter

@@ -14,6 +14,8 @@ struct WallMotion {
   double stroke = 0.0;     ///< length between the wall's extreme places, >= 0; 0 keeps it at rest
   double frequency = 0.0;  ///< periods per time, >= 0; 0 keeps it at rest
   double phase = 0.0;      ///< periods done at time 0 of the engine's moving base, in [0,1)
+
+  friend bool operator==(const WallMotion&, const WallMotion&) = default;
 };
 
 /// Place and motion of a wall at an instant, along its normal into the box.

@@ -401,7 +401,7 @@ TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is re
     const std::string message = stop_of(simulation, 1e6);
     const double end = 4.0 * (1.0 + restitution) / (1.0 - restitution);
     CAPTURE(message);
-    CHECK(message.find("inelastic collapse of disk 0 and the bottom wall") != std::string::npos);
+    CHECK(message.find("disk 0 and the bottom wall collide without end") != std::string::npos);
     CHECK(simulation.time() == doctest::Approx(end).epsilon(1e-5));
     CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
     // With the t_c that the message advises it hops on.
@@ -454,7 +454,7 @@ TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on
     Simulation<2> simulation(model, start);
     const std::string message = stop_of(simulation, 1000.0);
     MESSAGE(message);
-    CHECK(message.find("inelastic collapse of disk ") != std::string::npos);
+    CHECK(message.find("inelastic collapse") != std::string::npos);
     CHECK(message.find(" and disk ") != std::string::npos);
     CHECK(simulation.deepest_overlap() < 1e-11);
     model.contact_time = advised_contact_time(message);
