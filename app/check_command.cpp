@@ -15,20 +15,11 @@ namespace clatter {
 static constexpr double kBytesPerDisk =
     sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
 
-// T at time 0.
-static double start_temperature(const Start& start) {
-  if (start.layout != Layout::File) return start.temperature;
-  double sum = 0.0;
-  for (const Vec2& velocity : start.state.velocities) sum += velocity.squaredNorm();
-  const auto count = static_cast<double>(start.state.velocities.size());
-  return count > 0.0 ? sum / (2.0 * count) : 0.0;
-}
-
 static int check(const CommonOptions& options) {
   const Scene scene = load(options);
   print(scene_to_toml(scene));
   const double count = scene.disks.count;
-  const double temperature = start_temperature(scene.disks.start);
+  const double temperature = scene.start_temperature();
   const double end = options.until.value_or(scene.measure.burn_in + scene.measure.duration);
   const double rate = 0.5 * count * enskog_rate(scene.area_fraction(), temperature);
   std::fprintf(

@@ -68,7 +68,7 @@ static Json theory_json(const Scene& scene) {
   }
   // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
   if (wall.drive_speed == 0.0) {
-    const double rate = gas.haff_rate_corrected(scene.disks.start.temperature);
+    const double rate = gas.haff_rate_corrected(scene.start_temperature());
     json["haff_rate"] = rate;
     if (rate < 0.0) json["divergence_time"] = divergence_time(rate);
   }

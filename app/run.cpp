@@ -139,6 +139,16 @@ void Run::put_aside() {
   }
 }
 
+// Throws where disks have overlapped by more than rounding: then events were lost.
+static void require_no_overlap(double deepest) {
+  constexpr double kRounding = 1e-9;  // diameters
+  if (deepest <= kRounding) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", deepest);
+  throw PhysicalStop(std::string("disks overlapped by ") + text +
+                     " diameters: events were lost; please report this scene and seed");
+}
+
 int Run::end() {
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
@@ -146,6 +156,7 @@ int Run::end() {
                                             ? "; go on with --resume " + file_.string() + remedy
                                             : "; no checkpoint is left: " + failure_));
   }
+  require_no_overlap(simulation_->checks().deepest_overlap);
   if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -105,8 +106,11 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
   // What a run bore at contacts, it bears when it goes on.
   const double borne = kStartRounding + checks_.deepest_overlap;
   if (const double overlap = deepest_overlap(); overlap > borne) {
-    throw PhysicalStop("disks overlap at the start, the deepest by " + std::to_string(overlap) +
-                       " diameters; move them apart");
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", overlap);
+    throw PhysicalStop(
+        std::string("disks overlap each other or a wall at the start, the deepest by ") + text +
+        " diameters; move them apart");
   }
   plan_all();
 }
@@ -163,8 +167,10 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     process(event);
     const bool stands_still = watchdog_ && counts_.collisions() != before &&
                               watchdog_->sees_standstill(now_, event.disk, event.partner);
+    const bool diverges = heats_ && event.partner >= kWall && outruns_clock(event.disk);
     const bool base_moves = until_base_moves_ == 0;
     if (base_moves) move_base();
+    if (diverges) stop_at_divergence();
     if (stands_still) stop_at_standstill();
     if (base_moves) return Halt::BaseMoved;
   }

@@ -60,7 +60,11 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
   if (is_cold_wall<D>(model, partner)) {
     return PhysicalStop(what + "; a wall of temperature 0 lets no disk go, give it some");
   }
-  const std::string contact_time = rounded(helpful_contact_time<D>(model, watchdog));
+  const double helpful = helpful_contact_time<D>(model, watchdog);
+  if (helpful == 0.0) {
+    return PhysicalStop(what + " since the start; a collapse.contact_time would carry on");
+  }
+  const std::string contact_time = rounded(helpful);
   return PhysicalStop(what + " (inelastic collapse, or rest); collapse.contact_time = " +
                           contact_time + " or more would carry on",
                       "collapse.contact_time=" + contact_time);

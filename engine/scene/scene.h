@@ -171,6 +171,8 @@ struct Scene {
   bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }
+  /// T at time 0, that of a start state's file where there is one.
+  double start_temperature() const;
   /// phi = N pi / (4 Lx Ly).
   double area_fraction() const;
   /// How far into the box the near walls of both axes move at most.
