@@ -43,15 +43,16 @@ static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& a
   return departure;
 }
 
-// Where a wall presses upon a disk that rests on it, the TC model has nothing left to reflect. So
-// that the contact does not return for ever at one time, the disk leaves fast enough to stay away
-// for half of t_c, or of the time that a swinging wall presses.
+// Where a wall presses upon a disk that rests on it, or that it holds without any restitution, the
+// TC model has nothing left to reflect. So that the contact does not return for ever at one time,
+// the disk leaves fast enough to stay away for half of t_c, or of the time that a swinging wall
+// presses.
 template <int D>
-static double rebound_from_rest(const Model<D>& model, int side, const WallState& wall,
-                                double approach) {
+static double least_rebound(const Model<D>& model, int side, const WallState& wall,
+                            double approach) {
   const Wall& spec = *model.walls[side];
   const double rounding = kApproachRounding * (approach + 2.0 * std::fabs(wall.velocity));
-  if (approach > rounding) return 0.0;
+  if (spec.restitution > 0.0 && approach > rounding) return 0.0;
   const double pressing = wall.acceleration - Boundary<D>::inward(side) * model.gravity[side / 2];
   double away = 0.5 * *model.contact_time;
   if (spec.kind == WallKind::Sinusoidal && spec.frequency > 0.0) {
@@ -76,7 +77,8 @@ Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall
           : reflect<D>(arrival.velocity, axis, inward, law.restitution, spec.drive_speed);
   if (elastic) {
     const double approach = std::fabs(inward * arrival.velocity[axis] - wall.velocity);
-    departure.velocity[axis] += inward * rebound_from_rest<D>(model, side, wall, approach);
+    const double least = wall.velocity + least_rebound<D>(model, side, wall, approach);
+    departure.velocity[axis] = inward * std::max(inward * departure.velocity[axis], least);
   }
   const Impulse<D> friction = wall_friction<D>(arrival.velocity, departure.velocity, arrival.spin,
                                                axis, inward, law, model.inertia, model.diameter);
