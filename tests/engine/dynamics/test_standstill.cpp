@@ -1,0 +1,141 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/error.h"
+#include "tests/engine/support/gas.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+// Runs that may not go on, or that must although little is left of their motion.
+
+namespace {
+
+const Wall kStatic{};
+const Wall kShaking{
+    .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 1e-4, .frequency = 1e4};
+
+std::optional<PhysicalStop> stop_of(Simulation<2>& simulation, double time) {
+  try {
+    simulation.run_until(time);
+  } catch (const PhysicalStop& stop) {
+    return stop;
+  }
+  return std::nullopt;
+}
+
+bool says(const std::optional<PhysicalStop>& stop, const std::string& words) {
+  return stop && std::string(stop->what()).find(words) != std::string::npos;
+}
+
+}  // namespace
+
+// The lone disk's speed grows by the factor in every bounce, long before time can stand still.
+TEST_CASE("standstill: speeds that diverge stop the run before times lose their meaning") {
+  for (const double restitution : {1.2, 2.0, 10.0}) {
+    for (const int count : {1, 3, 100}) {
+      CAPTURE(restitution);
+      CAPTURE(count);
+      const Model<2> model = with_walls(periodic_box(20.0, 25.0), 0, {.restitution = restitution});
+      Simulation<2> simulation(model, random_gas(model, count, 951));
+      CHECK(says(stop_of(simulation, 1e5), "diverges"));
+      CHECK(simulation.checks().deepest_overlap < 1e-9);
+      CHECK(std::isfinite(simulation.kinetic_energy()));
+      CHECK(finite_and_inside(model, simulation.state()));
+    }
+  }
+}
+
+TEST_CASE("standstill: elastic disks at rest on a floor are seen, and t_c lets them rest") {
+  Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, kStatic);
+  model.gravity = {0.0, -1.0};
+  const State<2> start{{{2.0, 0.5}, {5.0, 0.5}}, {{0.0, 0.0}, {0.0, 0.0}}};
+  Simulation<2> simulation(model, start);
+  CHECK(says(stop_of(simulation, 1.0), "the bottom wall"));
+  model.contact_time = 0.01;
+  Simulation<2> resting(model, start);
+  resting.run_until(10.0);
+  CHECK(resting.time() == doctest::Approx(10.0));
+  CHECK(resting.kinetic_energy() < 1e-4);
+  check_sound(resting);
+}
+
+TEST_CASE("standstill: no t_c is advised against a thermal wall that gives no speed") {
+  Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, kStatic);
+  model.walls[kBottom] = Wall{.kind = WallKind::Thermal, .temperature = 0.0};
+  model.gravity = {0.0, -1.0};
+  Simulation<2> simulation(model, random_gas(model, 3, 952));
+  const auto stop = stop_of(simulation, 100.0);
+  CHECK(says(stop, "temperature 0"));
+  REQUIRE(stop);
+  CHECK(stop->remedy().empty());
+}
+
+// Kicks, and crossings of cells, are steps although nothing collides.
+TEST_CASE("standstill: a limit on steps halts what never collides") {
+  Model<2> kicked = periodic_box(9.0, 8.0);
+  kicked.bulk_drive = BulkDrive{1e-9, 0.1, 0.0};
+  Simulation<2> tight(kicked, random_gas(kicked, 2, 953));
+  CHECK_FALSE(tight.run_until(1.0, Simulation<2>::kNoLimit, 1000));
+  CHECK(tight.counts().steps() == 1000);
+  const Model<2> free = periodic_box(9.0, 8.0);
+  Simulation<2> lone(free, random_gas(free, 1, 954));
+  CHECK_FALSE(lone.run_until(kNever, Simulation<2>::kNoLimit, 1000));
+  CHECK(lone.counts().cell_crossings == 1000);
+}
+
+// A t_c of many periods must not add energy of its own: what the walls do within t_c is elastic,
+// no more. Without it T = 8; the bound leaves room for what elastic hits keep.
+TEST_CASE("standstill: t_c does not heat a gas between walls that shake faster") {
+  Model<2> model = with_walls(periodic_box(20.0, 25.0), 0, kShaking);
+  model.restitution = 0.9;
+  State<2> start = random_gas(model, 100, 955);
+  for (Vec2& r : start.positions) r.x() += 0.5 * (10.0 - r.x()) * 1e-3;
+  for (const double contact_time : {1e-3, 1e-2}) {
+    model.contact_time = contact_time;
+    Simulation<2> simulation(model, start);
+    double energy = 0.0;
+    for (int k = 1; k <= 100; ++k) {
+      simulation.run_until(50.0 + k);
+      energy += simulation.kinetic_energy() / 100.0;
+    }
+    const double temperature = energy / 100.0;
+    MESSAGE("t_c = ", contact_time, ": T = ", temperature);
+    CHECK(temperature < 12.0);
+    check_sound(simulation);
+  }
+}
+
+// A wholly inelastic wall lets disks go with its own velocity, so each grazes it at the start of
+// its flight; after a move of the base that must not count as a contact in the past.
+TEST_CASE("standstill: the clock never steps back at moving walls that disks just left") {
+  for (std::uint64_t seed = 956; seed < 962; ++seed) {
+    Model<2> model = with_walls(with_walls(periodic_box(20.0, 25.0), 0, kStatic), 1, kStatic);
+    model.walls[kBottom] =
+        Wall{.kind = WallKind::Sinusoidal, .restitution = 0.0, .stroke = 0.1, .frequency = 20.0};
+    model.restitution = 0.8;
+    model.gravity = {0.0, -1.0};
+    model.contact_time = 1e-5;
+    State<2> start = random_gas(model, 100, seed);
+    for (Vec2& r : start.positions) r.y() += 0.05 * (24.5 - r.y()) / 24.0;
+    Simulation<2> simulation(model, start);
+    simulation.run_until(20.0);
+    check_sound(simulation);
+  }
+}
+
+TEST_CASE("standstill: a run goes on between walls that move otherwise") {
+  const Model<2> before = with_walls(periodic_box(20.0, 25.0), 0, kStatic);
+  Simulation<2> first(before, random_gas(before, 100, 963));
+  first.run_until(20.0);
+  Model<2> after = before;
+  after.walls[kLeft] =
+      Wall{.kind = WallKind::Sawtooth, .stroke = 2.0, .frequency = 1.0, .phase = 0.0};
+  Simulation<2> second(after, first.save());  // t = 20: the wall is about to leave its place
+  second.run_until(30.0);
+  check_sound(second);
+}
