@@ -90,6 +90,13 @@ static Json profile_json(const Profile& profile) {
   return json;
 }
 
+// The largest of Eqs. (4.1)-(4.3), of momentum that of its components.
+static Json balance_json(const Residuals& residuals) {
+  const Conserved<2> largest = residuals.largest();
+  return {
+      {"mass", largest[0]}, {"momentum", std::max(largest[1], largest[2])}, {"energy", largest[3]}};
+}
+
 Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,
                  const Measured& measured, const Performance& performance) {
   char hash[17];
@@ -127,6 +134,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   if (Json pressure = pressure_json(measured); !pressure.empty()) json["pressure"] = pressure;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
+  if (measured.residuals) json["balance"] = balance_json(*measured.residuals);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
   if (scene.contact_time) {

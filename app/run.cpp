@@ -63,12 +63,13 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
 
 // Averages go on if there are any. Under another gravity they cannot, for what flights contribute
 // is booked at their end, by the gravity of that time; nor where walls move otherwise, which starts
-// flights anew; nor where spins come or go, for fields then need other sums.
+// flights anew; nor where spins come or go or get another inertia, for fields then need other sums
+// and cells hold another energy.
 bool Run::measures_anew() const {
   if (!resumed_) return false;
   if (resumed_->checkpoint.measurement.empty()) return true;
   if (!scene_.measure.fields.empty() && scene_.spins() != had_spins_) return true;
-  std::vector<std::string> keys = {"gravity.acceleration"};
+  std::vector<std::string> keys = {"gravity.acceleration", "disks.inertia"};
   for (const char* side : kSideNames) {
     for (const char* key : {"kind", "stroke", "frequency", "phase"}) {
       keys.push_back(std::string("walls.") + side + '.' + key);

@@ -79,6 +79,14 @@ Quantity quantity_of(Field field) {
       return {"mean spin ω", "", true};
     case Field::SpinTemperature:
       return {"spin temperature T", "rot"};
+    case Field::BalanceMass:
+      return {"mass residual", "", true};
+    case Field::BalanceMomentumX:
+      return {"momentum residual", "x", true};
+    case Field::BalanceMomentumY:
+      return {"momentum residual", "y", true};
+    case Field::BalanceEnergy:
+      return {"energy residual", "", true};
   }
   return {""};
 }

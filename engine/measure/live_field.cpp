@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "engine/measure/fields.h"
+#include "engine/measure/residuals.h"
 
 namespace clatter {
 
@@ -19,32 +19,56 @@ static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
   return cells;
 }
 
+LiveField::Watch LiveField::watch_of(const Simulation<2>& simulation, Field field,
+                                     const IntVec<2>& cells) {
+  if (is_residual(field)) return Closure{Balance<2>(simulation, cells), {}};
+  const MomentLayout<2> layout = moment_layout<2>({&field, 1}, simulation.model().spins);
+  return Average{CellIntegrals<2>(simulation, cells, layout), {}};
+}
+
 LiveField::LiveField(Simulation<2>& simulation, const View& view)
     : field_(*view.field),
-      integrals_(simulation, cells_of_one_diameter(simulation.model()),
-                 moment_layout<2>({&field_, 1}, simulation.model().spins)) {
-  simulation.add_observer(integrals_);
-  const double part = view.window / kParts;
+      cells_(cells_of_one_diameter(simulation.model())),
+      watch_(watch_of(simulation, field_, cells_)) {
+  std::visit([&](auto& watch) { simulation.add_observer(watch.observer); }, watch_);
+  const double part = view.window / kWindowParts;
   simulation.every(simulation.time() + part, part, [this](double) {
-    open_ += integrals_.close_window();
-    parts_.push_back(std::exchange(open_, {}));
-    if (parts_.size() > kParts) parts_.pop_front();
+    std::visit(
+        [](auto& watch) {
+          watch.look();
+          watch.sums.next_part();
+        },
+        watch_);
   });
 }
 
 FieldMap LiveField::map() {
-  open_ += integrals_.close_window();
-  CellSums sum = open_;
-  for (const CellSums& part : parts_) sum += part;
-  const FieldGrid<2>& grid = integrals_.grid();
-  FieldMap map{field_, {grid.cells().x(), grid.cells().y()}, std::vector<double>(grid.size())};
-  for (std::size_t i = 0; i < map.values.size(); ++i) {
-    map.values[i] =
-        sum.time > 0.0
-            ? field_value(field_, averages_of(integrals_.layout(), sum, i, grid.cell_measure()))
-            : std::numeric_limits<double>::quiet_NaN();
-  }
+  FieldMap map{field_, {cells_.x(), cells_.y()}, {}};
+  std::visit(
+      [&](auto& watch) {
+        watch.look();
+        map.values = watch.values(field_);
+      },
+      watch_);
   return map;
+}
+
+std::vector<double> LiveField::Average::values(Field field) const {
+  const CellSums sum = sums.sum();
+  const FieldGrid<2>& grid = observer.grid();
+  std::vector<double> values(grid.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!(sum.time > 0.0)) return values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = field_value(field, averages_of(observer.layout(), sum, i, grid.cell_measure()));
+  }
+  return values;
+}
+
+std::vector<double> LiveField::Closure::values(Field field) const {
+  const Imbalances<2> sum = sums.sum();
+  std::vector<double> values(sum.gaps.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = sum.residual(i)[equation_of(field)];
+  return values;
 }
 
 }  // namespace clatter

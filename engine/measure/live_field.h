@@ -1,32 +1,51 @@
 #pragma once
 
-#include <deque>
+#include <variant>
 
+#include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
+#include "engine/measure/moving_sum.h"
 #include "engine/publish/snapshot.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
 
-/// A field averaged over the last window of time, as the view shows it while a run goes on.
+/// A field over the last window of time, as the view shows it while a run goes on: an average, or
+/// how balance equations close.
 class LiveField {
  public:
   /// Watches the simulation through `view.field`, which the view must have, on cells of about one
-  /// diameter (at most 512 along an axis); the average reaches back by view.window, or by up to an
+  /// diameter (at most 512 along an axis); the window reaches back by view.window, or by up to an
   /// eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
 
-  /// The field averaged over the window up to the simulation's time, or since the start where that
-  /// is less.
+  /// The field of the window up to the simulation's time, or since the start where that is less.
   FieldMap map();
 
  private:
-  static constexpr int kParts = 8;  // the window moves on by one part at a time
+  /// Of a field that is an average.
+  struct Average {
+    CellIntegrals<2> observer;
+    MovingSum<CellSums> sums;
+
+    void look() { sums.add(observer.close_window()); }
+    std::vector<double> values(Field field) const;
+  };
+  /// Of one that is a residual.
+  struct Closure {
+    Balance<2> observer;
+    MovingSum<Imbalances<2>> sums;
+
+    void look() { sums.add(observer.close_window().imbalances); }
+    std::vector<double> values(Field field) const;
+  };
+  using Watch = std::variant<Average, Closure>;
+
+  static Watch watch_of(const Simulation<2>& simulation, Field field, const IntVec<2>& cells);
 
   Field field_;
-  CellIntegrals<2> integrals_;
-  std::deque<CellSums> parts_;  // closed parts, oldest first
-  CellSums open_;               // the part under way, up to the last look
+  IntVec<2> cells_;
+  Watch watch_;
 };
 
 }  // namespace clatter

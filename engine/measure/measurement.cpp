@@ -9,10 +9,14 @@ namespace clatter {
 // series.
 static constexpr double kLeastWindows = 512.0;
 static constexpr double kMostWindows = 8192.0;
+// Balances close over longer ones: beside what little a weak gravity books in a short time, the
+// rounding of what a disk carries would show.
+static constexpr std::size_t kWindowsPerBalance = 32;
 
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, double end)
     : simulation_(simulation),
       measure_(measure),
+      balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
       series_start_(std::ceil(simulation.time() / measure.series_interval) *
                     measure.series_interval),
@@ -24,7 +28,10 @@ Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, doub
 }
 
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, ArchiveReader saved)
-    : simulation_(simulation), measure_(measure), totals_(simulation) {
+    : simulation_(simulation),
+      measure_(measure),
+      balanced_(std::erase_if(measure_.fields, is_residual) > 0),
+      totals_(simulation) {
   visit(saved);
   saved.finish();
   // Where other laws have brought or taken spins: there were none, or there are none.
@@ -40,19 +47,19 @@ std::string Measurement::save() {
 
 template <class Archive>
 void Measurement::visit(Archive& io) {
-  auto& [simulation, measure, totals, cells, series_start, averages_start, window, started,
-         counts_at_start, windows, columns, samples, series_time, series_temperature,
-         series_spin_temperature] = *this;
+  auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
+         window, started, counts_at_start, windows, columns, residuals, samples, series_time,
+         series_temperature, series_spin_temperature] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     samples, series_time, series_temperature, series_spin_temperature);
-  if (!started || measure.fields.empty()) return;
-  if (!cells) open_cells();
-  io(*cells);
+     residuals, samples, series_time, series_temperature, series_spin_temperature);
+  if (started && !cells && !balance) open_cells();
+  if (cells) io(*cells);
+  if (balance) io(*balance);
 }
 
 void Measurement::observe() {
   simulation_.add_observer(totals_);
-  if (cells_) simulation_.add_observer(*cells_);
+  observe_cells();
   simulation_.every(
       series_start_, measure_.series_interval, [this](double time) { sample(time); },
       series_time_.size());
@@ -84,22 +91,35 @@ void Measurement::start() {
   started_ = true;
   totals_.close_window();
   counts_at_start_ = simulation_.counts();
-  if (measure_.fields.empty()) return;
   open_cells();
-  simulation_.add_observer(*cells_);
+  observe_cells();
 }
 
 void Measurement::open_cells() {
+  const IntVec<2> cells(measure_.cells[0], measure_.cells[1]);
+  if (balanced_) balance_.emplace(simulation_, cells);
+  if (measure_.fields.empty()) return;
   Coarsening coarsening{measure_.estimator, {}};
   if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
-  cells_.emplace(simulation_, IntVec<2>(measure_.cells[0], measure_.cells[1]),
-                 moment_layout<2>(measure_.fields, simulation_.model().spins), coarsening);
+  cells_.emplace(simulation_, cells, moment_layout<2>(measure_.fields, simulation_.model().spins),
+                 coarsening);
+}
+
+void Measurement::observe_cells() {
+  if (cells_) simulation_.add_observer(*cells_);
+  if (balance_) simulation_.add_observer(*balance_);
 }
 
 void Measurement::close_window() {
   windows_.push_back(totals_.close_window());
-  if (!cells_) return;
-  columns_.push_back(columns_of(cells_->close_window(), cells_->grid(), measure_.profile_axis));
+  if (cells_) {
+    columns_.push_back(columns_of(cells_->close_window(), cells_->grid(), measure_.profile_axis));
+  }
+  if (balance_ && windows_.size() % kWindowsPerBalance == 0) close_balance();
+}
+
+void Measurement::close_balance() {
+  residuals_.include(balance_->close_window().imbalances);
 }
 
 // A quantity that each window has.
@@ -187,6 +207,10 @@ Measured Measurement::result() {
     });
     measured.compressibility = ratio_estimate(virial, thermal);
     measured.compressibility->mean += 1.0;
+  }
+  if (balance_) {
+    if (windows_.size() % kWindowsPerBalance != 0) close_balance();
+    measured.residuals = residuals_;
   }
   if (!columns_.empty()) {
     measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,

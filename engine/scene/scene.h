@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -108,10 +109,23 @@ enum class Field {
   HeatFluxYKinetic,
   HeatFluxXCollisional,
   HeatFluxYCollisional,
-  Dissipation,     ///< zeta <= 0, energy per time and area that collisions of disks give
-  Spin,            ///< mean angular velocity
-  SpinTemperature  ///< T_rot = I <omega^2>
+  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of disks give
+  Spin,             ///< mean angular velocity
+  SpinTemperature,  ///< T_rot = I <omega^2>
+  BalanceMass,  ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked, see Imbalances
+  BalanceMomentumX,
+  BalanceMomentumY,
+  BalanceEnergy
 };
+
+/// The fields that are residuals of balance equations, in the order of Conserved<2>.
+inline constexpr std::array<Field, 4> kResiduals = {Field::BalanceMass, Field::BalanceMomentumX,
+                                                    Field::BalanceMomentumY, Field::BalanceEnergy};
+
+/// Whether a field is one of these, and no average over disks and collisions.
+constexpr bool is_residual(Field field) {
+  return std::ranges::find(kResiduals, field) != kResiduals.end();
+}
 
 /// How disks come to count in fields: their flights exactly, or where they are now and then.
 enum class Estimator { Exact, Snapshot };
@@ -127,7 +141,7 @@ struct Measure {
   double burn_in = 100.0;               ///< time before averages start, >= 0
   double duration = 1000.0;             ///< time averaged over, > 0
   double series_interval = 1.0;         ///< spacing of temperature_series, > 0
-  std::vector<Field> fields;            ///< profiles asked for; empty: none
+  std::vector<Field> fields;            ///< profiles and residuals asked for; empty: none
   std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
   Axis profile_axis = Axis::X;          ///< along which profiles go
   Estimator estimator = Estimator::Exact;

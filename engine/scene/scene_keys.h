@@ -123,7 +123,7 @@ inline constexpr std::array<Named<Palette>, 2> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}}};
 
 /// Fields one by one: heatmaps, and the columns of profiles.
-inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
+inline constexpr std::array<Named<Field>, 28> kHeatmaps = {
     {{"density", Field::Density},
      {"velocity_x", Field::VelocityX},
      {"velocity_y", Field::VelocityY},
@@ -147,11 +147,15 @@ inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
      {"heat_flux_y_collisional", Field::HeatFluxYCollisional},
      {"dissipation", Field::Dissipation},
      {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature}}};
+     {"spin_temperature", Field::SpinTemperature},
+     {"balance_mass", Field::BalanceMass},
+     {"balance_momentum_x", Field::BalanceMomentumX},
+     {"balance_momentum_y", Field::BalanceMomentumY},
+     {"balance_energy", Field::BalanceEnergy}}};
 
 /// Measured fields; a name stands for all the components in its rows. The whole of a temperature
 /// comes after its components, so that one of these alone is written by its own name.
-inline constexpr std::array<Named<Field>, 26> kProfiles = {
+inline constexpr std::array<Named<Field>, 30> kProfiles = {
     {{"density", Field::Density},
      {"velocity", Field::VelocityX},
      {"velocity", Field::VelocityY},
@@ -177,7 +181,11 @@ inline constexpr std::array<Named<Field>, 26> kProfiles = {
      {"heat_flux_collisional", Field::HeatFluxYCollisional},
      {"dissipation", Field::Dissipation},
      {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature}}};
+     {"spin_temperature", Field::SpinTemperature},
+     {"balance", Field::BalanceMass},
+     {"balance", Field::BalanceMomentumX},
+     {"balance", Field::BalanceMomentumY},
+     {"balance", Field::BalanceEnergy}}};
 
 inline constexpr std::array<Named<Axis>, 2> kAxes = {{{"x", Axis::X}, {"y", Axis::Y}}};
 

@@ -6,6 +6,7 @@
 
 #include "engine/measure/fields.h"
 #include "engine/measure/live_field.h"
+#include "engine/measure/residuals.h"
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
 
@@ -61,6 +62,48 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
       if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
     }
   }
+}
+
+TEST_CASE("LiveField: every residual is that of its cells over the window") {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness.friction = 0.4;
+  scene.gravity = Vec2(0.2, -0.5);
+  for (const Field field : kResiduals) {
+    CAPTURE(static_cast<int>(field));
+    const auto simulation = simulation_of(scene, 35);
+    LiveField live(*simulation, view_of(field, 8.0));
+    Balance<2> balance(*simulation, {9, 8});
+    simulation->add_observer(balance);
+    simulation->run_until(0.4);
+    live.map();
+    Imbalances<2> sum = balance.close_window().imbalances;
+    simulation->run_until(0.9);
+    sum += balance.close_window().imbalances;
+    const FieldMap map = live.map();
+    REQUIRE(map.field == field);
+    REQUIRE(map.values.size() == 72);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      CHECK(map.values[i] == sum.residual(i)[equation_of(field)]);
+      largest = std::max(largest, std::fabs(map.values[i]));
+    }
+    CHECK(largest < 1e-12);
+    CHECK((largest > 0.0) == (field != Field::BalanceMass));
+  }
+}
+
+TEST_CASE("MovingSum: of the last eight parts and of what came since") {
+  MovingSum<int> window;
+  CHECK(window.sum() == 0);
+  for (const int part : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
+    window.add(part);
+    CHECK(window.sum() == 2 * part - 1);
+    window.next_part();
+  }
+  CHECK(window.sum() == 510);
+  window.add(1000);
+  window.add(1);
+  CHECK(window.sum() == 1511);
 }
 
 TEST_CASE("LiveField: cells that no disk visited are gaps") {

@@ -88,6 +88,8 @@ void check_same(const Run& a, const Run& b) {
   CHECK(x.ledger_residual == y.ledger_residual);
   CHECK(x.series_time == y.series_time);
   CHECK(x.series_temperature == y.series_temperature);
+  REQUIRE(x.residuals.has_value() == y.residuals.has_value());
+  if (x.residuals) CHECK(x.residuals->cells == y.residuals->cells);
   CHECK(same(a.measurement->save(), b.measurement->save()));
 }
 
@@ -95,7 +97,8 @@ void check_same(const Run& a, const Run& b) {
 
 TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
   for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
-    for (const Measure& measure : {measure_of({Field::Density}), measure_of({})}) {
+    for (const Measure& measure :
+         {measure_of({Field::Density}), measure_of({}), measure_of({Field::BalanceEnergy})}) {
       const Run straight = started(scene, measure);
       straight.simulation->run_until(kEnd);
       Run halted = started(scene, measure);
@@ -116,7 +119,7 @@ TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
 }
 
 TEST_CASE("Measurement: taken up for longer it goes on with windows of the same length") {
-  const Measure measure = measure_of({Field::Density});
+  const Measure measure = measure_of({Field::Density, Field::BalanceMass});
   const Run first = started(rough_mixture(20), measure);
   first.simulation->run_until(kEnd);
   const Run longer = taken_up(rough_mixture(20), measure, first);
@@ -127,6 +130,7 @@ TEST_CASE("Measurement: taken up for longer it goes on with windows of the same 
   CHECK(measured.duration == doctest::Approx(3.0 * span));
   CHECK(measured.series_time.back() == doctest::Approx(kBurnIn + 3.0 * span).epsilon(0.01));
   CHECK(measured.ledger_residual < 1e-12);
+  CHECK(measured.residuals->largest().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("Measurement: one that starts in the midst of a run averages from then on") {
