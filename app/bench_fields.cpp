@@ -18,7 +18,6 @@ namespace clatter {
 namespace {
 
 constexpr double kBurnIn = 200.0;
-constexpr double kDuration = 10000.0;
 constexpr int kRepetitions = 3;
 
 // How a run is observed: no fields, no observer.
@@ -40,7 +39,7 @@ double mean_variance(const std::vector<Estimate>& column) {
   return sum / static_cast<double>(column.size());
 }
 
-Outcome observe(const Scene& scene, const Observation& how) {
+Outcome observe(const Scene& scene, double duration, const Observation& how) {
   constexpr double kWindows = 512.0;
   const auto simulation = simulation_of(scene, 1);
   simulation->run_until(kBurnIn);
@@ -56,13 +55,13 @@ Outcome observe(const Scene& scene, const Observation& how) {
       simulation->every(kBurnIn + *how.interval, *how.interval,
                         [&](double) { integrals.sample(); });
     }
-    const double window = kDuration / kWindows;
+    const double window = duration / kWindows;
     simulation->every(kBurnIn + window, window, [&](double) {
       windows.push_back(columns_of(integrals.close_window(), integrals.grid(), Axis::X));
     });
   }
   const double began = cpu_seconds();
-  simulation->run_until(kBurnIn + kDuration);
+  simulation->run_until(kBurnIn + duration);
   Outcome outcome;
   outcome.cpu_seconds = cpu_seconds() - began;
   outcome.collisions = static_cast<double>(simulation->counts().disk_disk) - collisions_before;
@@ -75,11 +74,12 @@ Outcome observe(const Scene& scene, const Observation& how) {
 }
 
 // One after the other again and again, so that all meet the same load; the least time counts.
-std::vector<Outcome> observe_all(const Scene& scene, const std::vector<Observation>& ways) {
+std::vector<Outcome> observe_all(const Scene& scene, double duration,
+                                 const std::vector<Observation>& ways) {
   std::vector<Outcome> outcomes(ways.size());
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
     for (std::size_t k = 0; k < ways.size(); ++k) {
-      const Outcome outcome = observe(scene, ways[k]);
+      const Outcome outcome = observe(scene, duration, ways[k]);
       const double best = outcomes[k].cpu_seconds;
       outcomes[k] = outcome;
       if (repetition > 0) outcomes[k].cpu_seconds = std::min(best, outcome.cpu_seconds);
@@ -100,7 +100,7 @@ std::vector<Field> averages_without_spins() {
 
 }  // namespace
 
-int bench_fields(const std::string& json) {
+int bench_fields(double duration, const std::string& json) {
   Scene scene = load_scene("vibrated", {});
   scene.measure.cells = {20, 25};  // of one diameter
   const std::vector<Field> temperature = {Field::Temperature};
@@ -116,8 +116,8 @@ int bench_fields(const std::string& json) {
                "vibrated scene, cells of one diameter, %g time units; the field is T but for the "
                "second row\ncost: CPU time over that of a bare run; variance: of the profile of T, "
                "mean over its columns\n",
-               kDuration);
-  const std::vector<Outcome> outcomes = observe_all(scene, ways);
+               duration);
+  const std::vector<Outcome> outcomes = observe_all(scene, duration, ways);
   const Outcome& bare = outcomes.front();
   std::printf("%-18s %8s %13s %12s %16s\n", "estimator", "cost", "ns/collision", "variance",
               "cost x variance");

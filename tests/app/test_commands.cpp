@@ -88,7 +88,7 @@ TEST_CASE("Every command explains each of its flags") {
            Command{"measure", true, {"--resume", "--checkpoint", "--out", "--csv", "--save-state"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
-           Command{"bench", false, {"--json", "--count", "--area-fraction"}},
+           Command{"bench", false, {"--json", "--count", "--area-fraction", "--duration"}},
        }) {
     const Outcome outcome = shell.run("clatter " + command.name + " --help");
     CAPTURE(command.name);
