@@ -64,10 +64,15 @@ std::vector<double> LiveField::Average::values(Field field) const {
   return values;
 }
 
+// Where nothing was booked nothing was tried.
 std::vector<double> LiveField::Closure::values(Field field) const {
   const Imbalances<2> sum = sums.sum();
-  std::vector<double> values(sum.gaps.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = sum.residual(i)[equation_of(field)];
+  std::vector<double> values(sum.gaps.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Conserved<2> residual = sum.residual(i);
+    if (!sum.sizes[i].isZero(0.0) || !residual.isZero(0.0))
+      values[i] = residual[equation_of(field)];
+  }
   return values;
 }
 
