@@ -68,8 +68,11 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
 bool Run::measures_anew() const {
   if (!resumed_) return false;
   if (resumed_->checkpoint.measurement.empty()) return true;
-  if (!scene_.measure.fields.empty() && scene_.spins() != had_spins_) return true;
-  std::vector<std::string> keys = {"gravity.acceleration", "disks.inertia"};
+  if (!scene_.measure.fields.empty() &&
+      (scene_.spins() != had_spins_ || differs(*resumed_, "disks.inertia"))) {
+    return true;
+  }
+  std::vector<std::string> keys = {"gravity.acceleration"};
   for (const char* side : kSideNames) {
     for (const char* key : {"kind", "stroke", "frequency", "phase"}) {
       keys.push_back(std::string("walls.") + side + '.' + key);

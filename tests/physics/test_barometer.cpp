@@ -203,7 +203,7 @@ TEST_CASE("barometer: a thin gas has the barometric profile at one temperature")
 }
 
 TEST_CASE("barometer: the stress of every layer carries the weight above it") {
-  // dp/dy = -rho g. 160 disks over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.02 below
+  // dp/dy = -rho g. 160 disks over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04 below
   // the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum forgets
   // itself within some collisions, the column its swinging. Densities in sub-layers of 1/16, which
   // miss the weight within a layer by some 1e-4 of it where contacts with the floor order the gas.
@@ -245,8 +245,7 @@ TEST_CASE("barometer: the stress of every layer carries the weight above it") {
       below = excess;
     }
   }
-  // A step weighs the momentum from the middle of a layer to that of the next but one: every other
-  // step has its own disks.
+  // A step is about the disks of two layers: every other has its own.
   double chi_squared = 0.0, least = 1.0, most = 0.0;
   for (std::size_t i = 0; i < kLayers; ++i) {
     CAPTURE(i);
