@@ -15,7 +15,7 @@ namespace clatter {
 // A file is: the magic, the head, the body, and the CRC-32 of all before.
 static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
 // To be raised when a struct that it keeps changes.
-static constexpr std::uint32_t kVersion = 1;
+static constexpr std::uint32_t kVersion = 2;
 
 template <class Archive>
 static void visit(Archive& io, Checkpoint& checkpoint) {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "engine/measure/fields.h"
+#include "engine/measure/field_maps.h"
 
 namespace clatter {
 
@@ -36,15 +35,7 @@ FieldMap LiveField::map() {
   open_ += integrals_.close_window();
   CellSums sum = open_;
   for (const CellSums& part : parts_) sum += part;
-  const FieldGrid<2>& grid = integrals_.grid();
-  FieldMap map{field_, {grid.cells().x(), grid.cells().y()}, std::vector<double>(grid.size())};
-  for (std::size_t i = 0; i < map.values.size(); ++i) {
-    map.values[i] =
-        sum.time > 0.0
-            ? field_value(field_, averages_of(integrals_.layout(), sum, i, grid.cell_measure()))
-            : std::numeric_limits<double>::quiet_NaN();
-  }
-  return map;
+  return field_map(field_, sum, integrals_.grid(), integrals_.layout());
 }
 
 }  // namespace clatter

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clatter {
 
@@ -41,10 +42,10 @@ std::string Measurement::save() {
 template <class Archive>
 void Measurement::visit(Archive& io) {
   auto& [simulation, measure, totals, cells, series_start, averages_start, window, started,
-         counts_at_start, windows, columns, samples, series_time, series_temperature,
+         counts_at_start, windows, columns, parts, samples, series_time, series_temperature,
          series_spin_temperature] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     samples, series_time, series_temperature, series_spin_temperature);
+     parts, samples, series_time, series_temperature, series_spin_temperature);
   if (!started || measure.fields.empty()) return;
   if (!cells) open_cells();
   io(*cells);
@@ -99,7 +100,32 @@ void Measurement::open_cells() {
 void Measurement::close_window() {
   windows_.push_back(totals_.close_window());
   if (!cells_) return;
-  columns_.push_back(columns_of(cells_->close_window(), cells_->grid(), measure_.profile_axis));
+  CellSums window = cells_->close_window();
+  columns_.push_back(columns_of(window, cells_->grid(), measure_.profile_axis));
+  parts_.add(std::move(window));
+}
+
+void Measurement::add_maps(Measured& measured) const {
+  const auto maps_of = [&](const CellSums& sums, double begin, double end) {
+    FieldMaps maps{begin, end, cells_->grid().widths(), {}};
+    for (const Field field : measure_.fields) {
+      maps.maps.push_back(field_map(field, sums, cells_->grid(), cells_->layout()));
+    }
+    return maps;
+  };
+  const auto time_of = [&](std::uint64_t windows) {
+    return averages_start_ +
+           static_cast<double>(std::min<std::uint64_t>(windows, windows_.size())) * window_;
+  };
+  CellSums sum;
+  std::uint64_t windows = 0;
+  for (const CellSums& part : parts_.parts()) {
+    const double begin = time_of(windows);
+    windows += parts_.windows_per_part();
+    measured.map_series.push_back(maps_of(part, begin, time_of(windows)));
+    sum += part;
+  }
+  measured.maps = maps_of(sum, averages_start_, time_of(windows));
 }
 
 // A quantity that each window has.
@@ -191,6 +217,7 @@ Measured Measurement::result() {
   if (!columns_.empty()) {
     measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,
                                   measure_.profile_axis);
+    add_maps(measured);
   }
   return measured;
 }

@@ -8,6 +8,7 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/estimate.h"
+#include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/totals.h"
 #include "engine/scene/scene.h"
@@ -39,6 +40,8 @@ struct Measured {
   std::array<std::optional<Estimate>, 4> pressure;  ///< on each Side: momentum per time and length
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
   std::optional<Profile> profile;           ///< where fields are asked for
+  std::optional<FieldMaps> maps;            ///< likewise, over `duration`
+  std::vector<FieldMaps> map_series;        ///< of the parts of `duration`, see PartSums
   std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
   std::vector<double> series_temperature;   ///< T at those times
   std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
@@ -67,6 +70,7 @@ class Measurement {
   void start();
   void open_cells();
   void close_window();
+  void add_maps(Measured& measured) const;
 
   Simulation<2>& simulation_;
   Measure measure_;
@@ -79,6 +83,7 @@ class Measurement {
   EventCounts counts_at_start_;
   std::vector<WindowTotals<2>> windows_;
   std::vector<CellSums> columns_;  // [windows]
+  PartSums parts_;                 // of the windows
   std::uint64_t samples_ = 0;      // that the snapshot estimator has taken
   std::vector<double> series_time_;
   std::vector<double> series_temperature_;
