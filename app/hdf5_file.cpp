@@ -3,6 +3,8 @@
 #include <H5Cpp.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -40,20 +42,20 @@ H5::DataSpace space_of(const Shape& shape) {
 }
 
 template <class T>
-void write_attribute(const H5::H5Object& object, const std::string& name, const H5::DataType& type,
-                     const T* values, const H5::DataSpace& space) {
-  object.createAttribute(name, type, space).write(type, values);
+void write_value(const H5::H5Object& object, const std::string& name, const H5::DataType& type,
+                 const T& value) {
+  object.createAttribute(name, type, H5::DataSpace()).write(type, &value);
 }
 
 void write_text(const H5::H5Object& object, const std::string& name, const std::string& text) {
-  const char* start = text.c_str();
-  write_attribute(object, name, text_type(), &start, H5::DataSpace());
+  write_value(object, name, text_type(), text.c_str());
 }
 
 template <class T>
 void write_list(const H5::H5Object& object, const std::string& name, const H5::DataType& type,
                 const std::vector<T>& values) {
-  write_attribute(object, name, type, values.data(), space_of({values.size()}));
+  const H5::Attribute attribute = object.createAttribute(name, type, space_of({values.size()}));
+  if (!values.empty()) attribute.write(type, values.data());
 }
 
 void write_list(const H5::H5Object& object, const std::string& name, const Json& list) {
@@ -81,30 +83,25 @@ void write_object(const H5::Group& group, const Json& object) {
     } else if (value.is_string()) {
       write_text(group, name, value.get_ref<const std::string&>());
     } else if (value.is_boolean()) {
-      const std::int8_t flag = value.get<bool>();
-      write_attribute(group, name, flag_type(), &flag, H5::DataSpace());
+      write_value(group, name, flag_type(), static_cast<std::int8_t>(value.get<bool>()));
     } else if (value.is_number_unsigned()) {
-      const auto number = value.get<std::uint64_t>();
-      write_attribute(group, name, H5::PredType::NATIVE_UINT64, &number, H5::DataSpace());
+      write_value(group, name, H5::PredType::NATIVE_UINT64, value.get<std::uint64_t>());
     } else if (value.is_number_integer()) {
-      const auto number = value.get<std::int64_t>();
-      write_attribute(group, name, H5::PredType::NATIVE_INT64, &number, H5::DataSpace());
+      write_value(group, name, H5::PredType::NATIVE_INT64, value.get<std::int64_t>());
     } else {
-      // What is not finite JSON has as null.
+      // What is not finite, JSON may have as null.
       const double number =
           value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-      write_attribute(group, name, H5::PredType::NATIVE_DOUBLE, &number, H5::DataSpace());
+      write_value(group, name, H5::PredType::NATIVE_DOUBLE, number);
     }
   }
 }
 
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values, const Shape& shape) {
-  H5::DSetCreatPropList properties;
-  H5Pset_obj_track_times(properties.getId(), false);  // equal results are equal files
   const H5::DataSet dataset =
-      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape), properties);
-  dataset.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape));
+  if (!values.empty()) dataset.write(values.data(), H5::PredType::NATIVE_DOUBLE);
   write_text(dataset, "units", unit);
 }
 
