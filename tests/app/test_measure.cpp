@@ -133,8 +133,8 @@ TEST_CASE("A result says what theory predicts of a gas in a periodic box") {
   CHECK_FALSE(theory("vibrated --set measure.burn_in=0").contains("compressibility"));
 }
 
-// 100 disks at phi = 0.1 with alpha = 0.9 and beta = 0.5 for 400 time units after 50: the
-// standard error of T is about 0.5 %. Enskog's theory with Gaussian velocities is good to a few
+// 100 disks at phi = 0.1 with alpha = 0.9 and beta = 0.5 for 4000 time units after 50:
+// standard errors are about 0.5 %. Enskog's theory with Gaussian velocities is good to a few
 // percent here; at most 5 % may be off.
 TEST_CASE("Bulk driving gives the power and the temperatures that the result's theory predicts") {
   const Shell shell;
@@ -142,7 +142,7 @@ TEST_CASE("Bulk driving gives the power and the temperatures that the result's t
               "box.size = [28.02, 28.02]\n"
               "disks = { count = 100, restitution = 0.9, tangential_restitution = 0.5 }\n"
               "bulk_drive = { interval = 0.05, kick_speed = 0.1 }\n"
-              "measure = { burn_in = 50.0, duration = 400.0 }\n");
+              "measure = { burn_in = 50.0, duration = 4000.0 }\n");
   const json result = json::parse(shell.run("clatter measure s.toml --quiet --seed 3").out);
   const json& theory = result.at("theory");
   const json& bulk_in = result.at("energy").at("bulk_in");
