@@ -137,8 +137,10 @@ void write_profile(const H5::Group& group, const Profile& profile) {
 // The edges of a grid's cells along both axes.
 void write_edges(const H5::Group& group, const FieldMaps& maps) {
   for (int axis = 0; axis < 2; ++axis) {
+    const int cells = maps.maps.front().cells[axis];
+    const double length = cells * maps.cell[axis];
     std::vector<double> edges;
-    for (int i = 0; i <= maps.maps.front().cells[axis]; ++i) edges.push_back(i * maps.cell[axis]);
+    for (int i = 0; i <= cells; ++i) edges.push_back(length * i / cells);  // as those of profiles
     write_dataset(group, axis == 0 ? "x_edges" : "y_edges", "a", edges);
   }
 }
