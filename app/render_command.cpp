@@ -114,6 +114,8 @@ int render(const RenderOptions& options) {
     throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
                     "choose at least " + number_text(times.last() / kMostWindows));
   }
+  const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
+  require_distinct(outputs);
   require_folder_of(options.out, "--out");
   catch_interrupts();
 

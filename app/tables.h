@@ -6,8 +6,8 @@
 
 namespace clatter {
 
-/// Writes the series and the profiles of a measurement as CSV tables into a folder:
-/// temperature_series.csv, and profile.csv where there is one. Units stand in a "#" line.
+/// Writes a measurement as CSV tables into a folder: temperature_series.csv, and, where there are
+/// fields, profile.csv and maps.csv, a line per cell. Units stand in a "#" line, nan in gaps.
 void write_tables(const std::filesystem::path& folder, const Measured& measured);
 
 }  // namespace clatter

@@ -64,10 +64,30 @@ void require_writable_file(const std::filesystem::path& path, const char* flag) 
   if (access(folder.c_str(), W_OK) != 0) throw_unwritable(path);
 }
 
-void make_folder(const std::filesystem::path& folder) {
+void make_folder(const std::filesystem::path& folder, const char* flag) {
+  require_folder_of(folder, flag);
   std::error_code error;
   std::filesystem::create_directory(folder, error);
   if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
+}
+
+// One name of a place, however it is written.
+static std::filesystem::path whole_name(const std::filesystem::path& path) {
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+}
+
+void require_distinct(std::span<const Output> outputs) {
+  for (std::size_t k = 1; k < outputs.size(); ++k) {
+    const auto& [flag, path] = outputs[k];
+    if (path.empty() || is_special(path)) continue;
+    for (const Output& other : outputs.first(k)) {
+      if (other.path.empty() || whole_name(other.path) != whole_name(path)) continue;
+      throw UserError({flag, 0, 0}, path.string() + " is what " + other.flag + " writes",
+                      "give each a name of its own");
+    }
+  }
 }
 
 }  // namespace clatter

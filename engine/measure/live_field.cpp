@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/measure/fields.h"
+#include "engine/measure/field_maps.h"
 #include "engine/measure/residuals.h"
 
 namespace clatter {
@@ -19,17 +19,16 @@ static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
   return cells;
 }
 
-LiveField::Watch LiveField::watch_of(const Simulation<2>& simulation, Field field,
-                                     const IntVec<2>& cells) {
+LiveField::Watch LiveField::watch_of(const Simulation<2>& simulation, Field field) {
+  const Model<2>& model = simulation.model();
+  const IntVec<2> cells = cells_of_one_diameter(model);
   if (is_residual(field)) return Closure{Balance<2>(simulation, cells), {}};
-  const MomentLayout<2> layout = moment_layout<2>({&field, 1}, simulation.model().spins);
+  const MomentLayout<2> layout = moment_layout<2>({&field, 1}, model.spins);
   return Average{CellIntegrals<2>(simulation, cells, layout), {}};
 }
 
 LiveField::LiveField(Simulation<2>& simulation, const View& view)
-    : field_(*view.field),
-      cells_(cells_of_one_diameter(simulation.model())),
-      watch_(watch_of(simulation, field_, cells_)) {
+    : field_(*view.field), watch_(watch_of(simulation, field_)) {
   std::visit([&](auto& watch) { simulation.add_observer(watch.observer); }, watch_);
   const double part = view.window / kWindowParts;
   simulation.every(simulation.time() + part, part, [this](double) {
@@ -43,37 +42,29 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view)
 }
 
 FieldMap LiveField::map() {
-  FieldMap map{field_, {cells_.x(), cells_.y()}, {}};
-  std::visit(
+  return std::visit(
       [&](auto& watch) {
         watch.look();
-        map.values = watch.values(field_);
+        return watch.map(field_);
       },
       watch_);
-  return map;
 }
 
-std::vector<double> LiveField::Average::values(Field field) const {
-  const CellSums sum = sums.sum();
-  const FieldGrid<2>& grid = observer.grid();
-  std::vector<double> values(grid.size(), std::numeric_limits<double>::quiet_NaN());
-  if (!(sum.time > 0.0)) return values;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = field_value(field, averages_of(observer.layout(), sum, i, grid.cell_measure()));
-  }
-  return values;
+FieldMap LiveField::Average::map(Field field) const {
+  return field_map(field, sums.sum(), observer.grid(), observer.layout());
 }
 
 // Where nothing was booked nothing was tried.
-std::vector<double> LiveField::Closure::values(Field field) const {
+FieldMap LiveField::Closure::map(Field field) const {
   const Imbalances<2> sum = sums.sum();
-  std::vector<double> values(sum.gaps.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  FieldMap map{field, {observer.cells().x(), observer.cells().y()}, {}};
+  map.values.assign(sum.gaps.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
     const Conserved<2> residual = sum.residual(i);
     if (!sum.sizes[i].isZero(0.0) || !residual.isZero(0.0))
-      values[i] = residual[equation_of(field)];
+      map.values[i] = residual[equation_of(field)];
   }
-  return values;
+  return map;
 }
 
 }  // namespace clatter

@@ -29,7 +29,7 @@ class LiveField {
     MovingSum<CellSums> sums;
 
     void look() { sums.add(observer.close_window()); }
-    std::vector<double> values(Field field) const;
+    FieldMap map(Field field) const;
   };
   /// Of one that is a residual.
   struct Closure {
@@ -37,14 +37,13 @@ class LiveField {
     MovingSum<Imbalances<2>> sums;
 
     void look() { sums.add(observer.close_window().imbalances); }
-    std::vector<double> values(Field field) const;
+    FieldMap map(Field field) const;
   };
   using Watch = std::variant<Average, Closure>;
 
-  static Watch watch_of(const Simulation<2>& simulation, Field field, const IntVec<2>& cells);
+  static Watch watch_of(const Simulation<2>& simulation, Field field);
 
   Field field_;
-  IntVec<2> cells_;
   Watch watch_;
 };
 

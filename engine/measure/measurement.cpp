@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clatter {
 
@@ -48,10 +49,10 @@ std::string Measurement::save() {
 template <class Archive>
 void Measurement::visit(Archive& io) {
   auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
-         window, started, counts_at_start, windows, columns, residuals, samples, series_time,
+         window, started, counts_at_start, windows, columns, parts, residuals, samples, series_time,
          series_temperature, series_spin_temperature] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     residuals, samples, series_time, series_temperature, series_spin_temperature);
+     parts, residuals, samples, series_time, series_temperature, series_spin_temperature);
   if (started && !cells && !balance) open_cells();
   if (cells) io(*cells);
   if (balance) io(*balance);
@@ -113,13 +114,43 @@ void Measurement::observe_cells() {
 void Measurement::close_window() {
   windows_.push_back(totals_.close_window());
   if (cells_) {
-    columns_.push_back(columns_of(cells_->close_window(), cells_->grid(), measure_.profile_axis));
+    CellSums window = cells_->close_window();
+    columns_.push_back(columns_of(window, cells_->grid(), measure_.profile_axis));
+    parts_.add(std::move(window));
   }
   if (balance_ && windows_.size() % kWindowsPerBalance == 0) close_balance();
 }
 
 void Measurement::close_balance() {
   residuals_.include(balance_->close_window().imbalances);
+}
+
+void Measurement::add_maps(Measured& measured) const {
+  const FieldGrid<2> grid(simulation_.model(), {measure_.cells[0], measure_.cells[1]});
+  const auto maps_of = [&](const CellSums& sums, double begin, double end) {
+    FieldMaps maps{begin, end, grid.widths(), {}};
+    for (const Field field : measure_.fields) {
+      maps.maps.push_back(field_map(field, sums, grid, cells_->layout()));
+    }
+    return maps;
+  };
+  const auto time_of = [&](std::uint64_t windows) {
+    return averages_start_ +
+           static_cast<double>(std::min<std::uint64_t>(windows, windows_.size())) * window_;
+  };
+  CellSums sum;
+  std::uint64_t windows = 0;
+  for (const CellSums& part : parts_.parts()) {
+    const double begin = time_of(windows);
+    windows += parts_.windows_per_part();
+    measured.map_series.push_back(maps_of(part, begin, time_of(windows)));
+    sum += part;
+  }
+  measured.maps = maps_of(sum, averages_start_, time_of(windows_.size()));
+  if (!balanced_) return;
+  for (const Field field : kResiduals) {
+    measured.maps->maps.push_back({field, measure_.cells, residuals_.map(field)});
+  }
 }
 
 // A quantity that each window has.
@@ -212,10 +243,11 @@ Measured Measurement::result() {
     if (windows_.size() % kWindowsPerBalance != 0) close_balance();
     measured.residuals = residuals_;
   }
-  if (!columns_.empty()) {
+  if (cells_) {
     measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,
                                   measure_.profile_axis);
   }
+  if (cells_ || balance_) add_maps(measured);
   return measured;
 }
 

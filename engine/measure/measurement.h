@@ -9,6 +9,7 @@
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/estimate.h"
+#include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/residuals.h"
 #include "engine/measure/totals.h"
@@ -42,6 +43,8 @@ struct Measured {
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
   std::optional<Profile> profile;           ///< where fields are asked for that are averages
   std::optional<Residuals> residuals;       ///< where residuals are asked for
+  std::optional<FieldMaps> maps;            ///< of all that is asked for, over `duration`
+  std::vector<FieldMaps> map_series;        ///< of averages, in the parts of it, see PartSums
   std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
   std::vector<double> series_temperature;   ///< T at those times
   std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
@@ -72,6 +75,7 @@ class Measurement {
   void observe_cells();
   void close_window();
   void close_balance();
+  void add_maps(Measured& measured) const;
 
   Simulation<2>& simulation_;
   Measure measure_;  // its fields without residuals
@@ -86,6 +90,7 @@ class Measurement {
   EventCounts counts_at_start_;
   std::vector<WindowTotals<2>> windows_;
   std::vector<CellSums> columns_;  // [windows]
+  PartSums parts_;                 // of the windows
   Residuals residuals_;
   std::uint64_t samples_ = 0;  // that the snapshot estimator has taken
   std::vector<double> series_time_;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -63,6 +64,10 @@ Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
   return run;
 }
 
+std::uint64_t bits(double number) {
+  return std::bit_cast<std::uint64_t>(number);
+}
+
 // All but the cell crossings and the stale predictions before the averages, two neighbouring
 // counts: a run that is taken up plans anew, so that it may have others.
 bool same(const std::string& a, const std::string& b) {
@@ -74,6 +79,13 @@ bool same(const std::string& a, const std::string& b) {
     last = i;
   }
   return first == a.size() || last - first < 2 * sizeof(std::uint64_t);
+}
+
+bool same(const FieldMaps& a, const FieldMaps& b) {
+  return a.begin == b.begin && a.end == b.end &&
+         std::ranges::equal(a.maps, b.maps, [](const FieldMap& x, const FieldMap& y) {
+           return x.cells == y.cells && std::ranges::equal(x.values, y.values, {}, bits, bits);
+         });
 }
 
 void check_same(const Run& a, const Run& b) {
@@ -90,6 +102,10 @@ void check_same(const Run& a, const Run& b) {
   CHECK(x.series_temperature == y.series_temperature);
   REQUIRE(x.residuals.has_value() == y.residuals.has_value());
   if (x.residuals) CHECK(x.residuals->cells == y.residuals->cells);
+  CHECK(x.maps.has_value() == y.maps.has_value());
+  if (x.maps) CHECK(same(*x.maps, *y.maps));
+  CHECK(
+      std::ranges::equal(x.map_series, y.map_series, [](auto& a, auto& b) { return same(a, b); }));
   CHECK(same(a.measurement->save(), b.measurement->save()));
 }
 

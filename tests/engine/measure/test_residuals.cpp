@@ -101,6 +101,28 @@ TEST_CASE("Measurement: balances close where residuals are asked for, and only t
   CHECK_FALSE(measured(gas(9.0, 8.0, 0, 1.0), measure_of(kBalance)).residuals);
 }
 
+TEST_CASE("Measurement: residuals have maps over the whole time, after those of averages") {
+  std::vector<Field> fields = kBalance;
+  fields.push_back(Field::Density);
+  const Measured both = measured(everything(), measure_of(fields));
+  REQUIRE(both.maps->maps.size() == 5);
+  CHECK(both.maps->maps[0].field == Field::Density);
+  CHECK(both.maps->maps[4].field == Field::BalanceEnergy);
+  CHECK(both.map_series[0].maps.size() == 1);
+
+  const Measured alone = measured(everything(), measure_of(kBalance));
+  CHECK(alone.map_series.empty());
+  CHECK(alone.maps->begin == both.maps->begin);
+  CHECK(alone.maps->end == both.maps->end);
+  CHECK(alone.maps->cell == both.maps->cell);
+  for (std::size_t k = 0; k < kBalance.size(); ++k) {
+    const FieldMap& map = alone.maps->maps.at(k);
+    CHECK(map.field == kBalance[k]);
+    CHECK(map.cells == std::array{5, 4});
+    CHECK(map.values == alone.residuals->map(kBalance[k]));
+  }
+}
+
 // 32 averaging windows make one of the balance; of 520, 8 are left over for the last.
 TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
   const Measure measure = measure_of(kBalance);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "engine/measure/measurement.h"
+
+namespace clatter {
+
+/// Writes the maps of a measurement as VTK ImageData with cell data into a folder: fields.vti, the
+/// averages over the whole time, and residuals; series.pvd, the averages' course, and
+/// series_00.vti,
+/// ..., which it lists. Velocity and heat flux are vectors, stress is a symmetric tensor; NaN in
+/// gaps. `origin` says in every file what made it; no "--" in it. Writes nothing of what there is
+/// not.
+void write_vtk(const std::filesystem::path& folder, const Measured& measured,
+               const std::string& origin);
+
+}  // namespace clatter
