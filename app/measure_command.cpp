@@ -56,7 +56,9 @@ void require_closed_balance(const Measured& measured) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", largest);
   throw RunError(std::string("the balance equations do not close: residuals are as large as ") +
-                 text + "; please report this scene and seed");
+                 text +
+                 "; unless gravity is too weak to change velocities, please report this scene and "
+                 "seed");
 }
 
 // Sees to it, before a long run, that its results can be written.
