@@ -9,6 +9,7 @@
 #include "app/resources.h"
 #include "app/run.h"
 #include "app/write_file.h"
+#include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
@@ -20,11 +21,12 @@ namespace {
 constexpr double kBurnIn = 200.0;
 constexpr int kRepetitions = 3;
 
-// How a run is observed: no fields, no observer.
+// How a run is observed: no fields and no balance, no observer.
 struct Observation {
   const char* name;
   std::vector<Field> fields;
   std::optional<double> interval = {};  // of snapshots; absent: exact
+  bool balance = false;
 };
 
 struct Outcome {
@@ -40,13 +42,20 @@ double mean_variance(const std::vector<Estimate>& column) {
 }
 
 Outcome observe(const Scene& scene, double duration, const Observation& how) {
-  constexpr double kWindows = 512.0;
+  constexpr double kWindows = 512.0, kWindowsPerBalance = 32.0;
   const auto simulation = simulation_of(scene, 1);
   simulation->run_until(kBurnIn);
   const auto collisions_before = static_cast<double>(simulation->counts().disk_disk);
   const bool samples = how.interval.has_value();
-  CellIntegrals<2> integrals(*simulation, {scene.measure.cells[0], scene.measure.cells[1]},
-                             moment_layout<2>(how.fields, false),
+  const IntVec<2> cells(scene.measure.cells[0], scene.measure.cells[1]);
+  const double window = duration / kWindows;
+  std::optional<Balance<2>> balance;
+  if (how.balance) {
+    simulation->add_observer(balance.emplace(*simulation, cells));
+    const double longer = kWindowsPerBalance * window;
+    simulation->every(kBurnIn + longer, longer, [&](double) { balance->close_window(); });
+  }
+  CellIntegrals<2> integrals(*simulation, cells, moment_layout<2>(how.fields, false),
                              {samples ? Estimator::Snapshot : Estimator::Exact, {}});
   std::vector<CellSums> windows;
   if (!how.fields.empty()) {
@@ -55,7 +64,6 @@ Outcome observe(const Scene& scene, double duration, const Observation& how) {
       simulation->every(kBurnIn + *how.interval, *how.interval,
                         [&](double) { integrals.sample(); });
     }
-    const double window = duration / kWindows;
     simulation->every(kBurnIn + window, window, [&](double) {
       windows.push_back(columns_of(integrals.close_window(), integrals.grid(), Axis::X));
     });
@@ -111,11 +119,12 @@ int bench_fields(double duration, const std::string& json) {
                                          {"snapshot 0.3", temperature, 0.3},
                                          {"snapshot 1", temperature, 1.0},
                                          {"snapshot 3", temperature, 3.0},
-                                         {"snapshot 10", temperature, 10.0}};
+                                         {"snapshot 10", temperature, 10.0},
+                                         {"balance", {}, {}, true}};
   std::fprintf(stderr,
                "vibrated scene, cells of one diameter, %g time units; the field is T but for the "
-               "second row\ncost: CPU time over that of a bare run; variance: of the profile of T, "
-               "mean over its columns\n",
+               "second row, and the last books all balance equations\ncost: CPU time over that of "
+               "a bare run; variance: of the profile of T, mean over its columns\n",
                duration);
   const std::vector<Outcome> outcomes = observe_all(scene, duration, ways);
   const Outcome& bare = outcomes.front();
