@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/hdf5_file.h"
@@ -64,13 +66,21 @@ void require_closed_balance(const Measured& measured) {
 // Sees to it, before a long run, that its results can be written.
 void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
   const std::string& checkpoint = options.checkpoints.file;
-  const Output outputs[] = {{"--out", options.out},
-                            {"--csv", options.csv},
-                            {"--vtk", options.vtk},
-                            {"--hdf5", options.hdf5},
-                            {"--save-state", options.save_state},
-                            {"--checkpoint", checkpoint},
-                            {"--checkpoint", checkpoint.empty() ? "" : checkpoint + ".previous"}};
+  std::vector<Output> outputs = {
+      {"--out", options.out},
+      {"--csv", options.csv},
+      {"--vtk", options.vtk},
+      {"--hdf5", options.hdf5},
+      {"--save-state", options.save_state},
+      {"--checkpoint", checkpoint},
+      {"--checkpoint", checkpoint.empty() ? "" : checkpoint + ".previous"}};
+  const auto add_files = [&](const char* flag, const std::filesystem::path& folder,
+                             const auto& names) {
+    if (folder.empty()) return;
+    for (const auto& name : names) outputs.push_back({flag, folder / name});
+  };
+  add_files("--csv", options.csv, kTableNames);
+  add_files("--vtk", options.vtk, vtk_names());
   require_distinct(outputs);
   if (!options.vtk.empty() && spec.fields.empty()) {
     throw UserError({"--vtk", 0, 0}, "the scene asks for no fields",

@@ -75,9 +75,10 @@ static std::string maps_table(const FieldMaps& maps) {
 }
 
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
-  write_file(folder / "temperature_series.csv", series_table(measured));
-  if (measured.profile) write_file(folder / "profile.csv", profile_table(*measured.profile));
-  if (measured.maps) write_file(folder / "maps.csv", maps_table(*measured.maps));
+  const auto [series, profile, maps] = kTableNames;
+  write_file(folder / series, series_table(measured));
+  if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
+  if (measured.maps) write_file(folder / maps, maps_table(*measured.maps));
 }
 
 }  // namespace clatter

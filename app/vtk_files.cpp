@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <vector>
 
 #include "app/units.h"
 #include "app/write_file.h"
@@ -14,6 +13,9 @@
 namespace clatter {
 
 namespace {
+
+constexpr const char* kFieldsFile = "fields.vti";
+constexpr const char* kSeriesFile = "series.pvd";
 
 // How VTK stores a field with as many components in the plane: what lies off it is 0.
 struct Shape {
@@ -110,23 +112,37 @@ std::string image_data(const FieldMaps& maps, const std::string& origin) {
          data + "</AppendedData>\n</VTKFile>\n";
 }
 
+std::string part_name(std::size_t part) {
+  char name[32];
+  std::snprintf(name, sizeof name, "series_%02zu.vti", part);
+  return name;
+}
+
+void write_series(const std::filesystem::path& folder, const std::vector<FieldMaps>& series,
+                  const std::string& origin) {
+  std::string collection = head("Collection", origin) + "  <Collection>\n";
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    write_file(folder / part_name(k), image_data(series[k], origin));
+    collection += "    <DataSet timestep=\"" +
+                  number_text(0.5 * (series[k].begin + series[k].end)) + "\" file=\"" +
+                  part_name(k) + "\"/>\n";
+  }
+  write_file(folder / kSeriesFile, collection + "  </Collection>\n</VTKFile>\n");
+}
+
 }  // namespace
+
+std::vector<std::string> vtk_names() {
+  std::vector<std::string> names = {kFieldsFile, kSeriesFile};
+  for (std::size_t k = 0; k < PartSums::kMostParts; ++k) names.push_back(part_name(k));
+  return names;
+}
 
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin) {
   if (!measured.maps) return;
-  write_file(folder / "fields.vti", image_data(*measured.maps, origin));
-  if (measured.map_series.empty()) return;
-  std::string collection = head("Collection", origin) + "  <Collection>\n";
-  for (std::size_t k = 0; k < measured.map_series.size(); ++k) {
-    const FieldMaps& maps = measured.map_series[k];
-    char name[32];
-    std::snprintf(name, sizeof name, "series_%02zu.vti", k);
-    write_file(folder / name, image_data(maps, origin));
-    collection += "    <DataSet timestep=\"" + number_text(0.5 * (maps.begin + maps.end)) +
-                  "\" file=\"" + name + "\"/>\n";
-  }
-  write_file(folder / "series.pvd", collection + "  </Collection>\n</VTKFile>\n");
+  write_file(folder / kFieldsFile, image_data(*measured.maps, origin));
+  if (!measured.map_series.empty()) write_series(folder, measured.map_series, origin);
 }
 
 }  // namespace clatter

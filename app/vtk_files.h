@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/measure/measurement.h"
 
@@ -15,5 +16,8 @@ namespace clatter {
 /// not.
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin);
+
+/// The names of all files that it may write.
+std::vector<std::string> vtk_names();
 
 }  // namespace clatter

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <string>
 
 #include "engine/error.h"
@@ -79,14 +80,13 @@ static std::filesystem::path whole_name(const std::filesystem::path& path) {
 }
 
 void require_distinct(std::span<const Output> outputs) {
-  for (std::size_t k = 1; k < outputs.size(); ++k) {
-    const auto& [flag, path] = outputs[k];
+  std::map<std::filesystem::path, const char*> flags;
+  for (const auto& [flag, path] : outputs) {
     if (path.empty() || is_special(path)) continue;
-    for (const Output& other : outputs.first(k)) {
-      if (other.path.empty() || whole_name(other.path) != whole_name(path)) continue;
-      throw UserError({flag, 0, 0}, path.string() + " is what " + other.flag + " writes",
-                      "give each a name of its own");
-    }
+    const auto [other, first] = flags.emplace(whole_name(path), flag);
+    if (first) continue;
+    throw UserError({flag, 0, 0}, path.string() + " is what " + other->second + " writes",
+                    "give each a name of its own");
   }
 }
 

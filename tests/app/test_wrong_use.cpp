@@ -165,8 +165,21 @@ TEST_CASE("Outputs that would replace each other are refused") {
   check_refused(shell, "clatter measure vibrated --until 1e6 --csv x/ --vtk x", {"--vtk", "--csv"});
   check_refused(shell, "clatter measure vibrated --until 1e6 --checkpoint c --out c.previous",
                 {"--checkpoint", "c.previous", "--out"});
+  for (const std::string file :
+       {"--csv d --out d/temperature_series.csv", "--csv d --hdf5 d/profile.csv",
+        "--csv d --save-state d/maps.csv", "--vtk d --out d/fields.vti",
+        "--vtk d --checkpoint d/series.pvd", "--vtk d --out d/series_63.vti"}) {
+    const std::string name = file.substr(file.rfind("d/"));
+    check_refused(shell, "clatter measure vibrated --until 1e6 " + file,
+                  {file.substr(0, 5), name + " is what", "name of its own"});
+  }
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.mp4 --checkpoint x.mp4",
                 {"--checkpoint", "--out"});
+  REQUIRE(shell.run("mkdir tables").code == 0);
+  CHECK(shell
+            .run("clatter measure vibrated --set measure.burn_in=0 --until 1 --quiet "
+                 "--csv tables --out tables/r.json --save-state tables/series_00.vti")
+            .code == 0);
   CHECK(shell
             .run("clatter measure vibrated --set measure.burn_in=0 --until 1 --quiet "
                  "--out /dev/null --save-state /dev/null")
