@@ -173,9 +173,11 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   command->add_option("--csv", options->csv, "Folder for tables of series, profiles and maps")
       ->type_name("DIR");
   command
-      ->add_option("--vtk", options->vtk,
-                   "Folder for maps of the fields, as ParaView opens them: fields.vti, averages "
-                   "over the whole time and residuals, and series.pvd, the averages' course")
+      ->add_option(
+          "--vtk", options->vtk,
+          "Folder for maps of the fields, as ParaView opens them: fields.vti, averages "
+          "over the whole time and residuals, and series.pvd, the averages' course; those of an "
+          "earlier run are replaced")
       ->type_name("DIR");
   command
       ->add_option("--hdf5", options->hdf5,

@@ -4,6 +4,9 @@
 #include <bit>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <system_error>
 
 #include "app/units.h"
 #include "app/write_file.h"
@@ -130,6 +133,20 @@ void write_series(const std::filesystem::path& folder, const std::vector<FieldMa
   write_file(folder / kSeriesFile, collection + "  </Collection>\n</VTKFile>\n");
 }
 
+// The parts that a series in a folder has, from number `first` on.
+std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& folder,
+                                                std::size_t first) {
+  std::ifstream stream(folder / kSeriesFile);
+  const std::string list(std::istreambuf_iterator<char>(stream), {});
+  std::vector<std::filesystem::path> parts;
+  for (std::size_t k = first; k < PartSums::kMostParts; ++k) {
+    if (list.find("file=\"" + part_name(k) + "\"") != std::string::npos) {
+      parts.push_back(folder / part_name(k));
+    }
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<std::string> vtk_names() {
@@ -141,8 +158,16 @@ std::vector<std::string> vtk_names() {
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin) {
   if (!measured.maps) return;
+  // ParaView opens series_*.vti as one: those of a longer series would pass for this one's.
+  std::vector<std::filesystem::path> stale = parts_listed(folder, measured.map_series.size());
   write_file(folder / kFieldsFile, image_data(*measured.maps, origin));
-  if (!measured.map_series.empty()) write_series(folder, measured.map_series, origin);
+  if (!measured.map_series.empty()) {
+    write_series(folder, measured.map_series, origin);
+  } else if (!stale.empty()) {
+    stale.insert(stale.begin(), folder / kSeriesFile);
+  }
+  std::error_code ignored;
+  for (const std::filesystem::path& file : stale) std::filesystem::remove(file, ignored);
 }
 
 }  // namespace clatter

@@ -13,7 +13,7 @@ namespace clatter {
 /// series_00.vti,
 /// ..., which it lists. Velocity and heat flux are vectors, stress is a symmetric tensor; NaN in
 /// gaps. `origin` says in every file what made it; no "--" in it. Writes nothing of what there is
-/// not.
+/// not, and removes the parts of an earlier series in the folder that this one does not replace.
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin);
 

@@ -176,6 +176,29 @@ TEST_CASE("VTK reads the series of maps, whose parts make up the whole") {
   }
 }
 
+TEST_CASE("A series of maps replaces a longer one, and leaves the files of others") {
+  const Shell shell;
+  REQUIRE(shell.run("mkdir maps && cd maps && touch note series_40.vti series_50.vti").code == 0);
+  shell.write("maps/series.pvd",
+              "<DataSet timestep=\"1\" file=\"note\"/>"
+              "<DataSet timestep=\"2\" file=\"series_40.vti\"/>");
+  const std::string line =
+      "clatter measure vibrated --quiet --set measure.burn_in=0 --until 5.2 --out r.json "
+      "--vtk maps --set measure.series_interval=0.01 --set measure.fields=";
+  SUBCASE("of more parts") {
+    // Of 520 windows, 16 to a part.
+    REQUIRE(shell.run(line + "'[\"density\"]'").code == 0);
+    CHECK(read(shell, "read_vtk.py", "maps/series.pvd").size() == 33);
+    CHECK(shell.run("cd maps; ls | tail -n 3").out ==
+          "series_31.vti\nseries_32.vti\nseries_50.vti\n");
+    CHECK(shell.run("ls maps/note").code == 0);
+  }
+  SUBCASE("where there is none any more") {
+    REQUIRE(shell.run(line + "'[\"balance\"]'").code == 0);
+    CHECK(shell.run("ls maps").out == "fields.vti\nnote\nseries_50.vti\n");
+  }
+}
+
 TEST_CASE("h5py reads the whole result, the scene as attributes, and the maps") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--seed 9223372036854775809 --out r.json --csv tables --hdf5 r.h5")
