@@ -6,6 +6,7 @@
 #include "app/write_file.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/prediction.h"
+#include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
 
 namespace clatter {
@@ -22,13 +23,14 @@ static int check(const CommonOptions& options) {
   const double temperature = scene.start_temperature();
   const double end = options.until.value_or(scene.measure.burn_in + scene.measure.duration);
   const double rate = 0.5 * count * enskog_rate(scene.area_fraction(), temperature);
+  const double cells = cells_memory(scene.measure, scene.spins());
   std::fprintf(
       stderr,
       "The scene is sound: %d disks, area fraction %.4f.\n"
-      "Memory: about %.3g MB (%.0f bytes a disk).\n"
+      "Memory: about %.3g MB (%.0f bytes a disk; %.3g MB for the cells that are measured).\n"
       "Events: about %.3g disk-disk collisions until t = %g at the start's temperature %g.\n",
-      scene.disks.count, scene.area_fraction(), 1e-6 * count * kBytesPerDisk, kBytesPerDisk,
-      rate * end, end, temperature);
+      scene.disks.count, scene.area_fraction(), 1e-6 * (count * kBytesPerDisk + cells),
+      kBytesPerDisk, 1e-6 * cells, rate * end, end, temperature);
   return kOk;
 }
 

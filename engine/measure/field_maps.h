@@ -33,6 +33,9 @@ class PartSums {
   static constexpr std::size_t kMostParts = 64;
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
+  /// How many there may be where each takes so many bytes; even, so that all have a neighbour.
+  static std::size_t most_parts(std::size_t bytes);
+
   /// Adds a window of time; all have the same length and grid.
   void add(CellSums window);
 

@@ -14,6 +14,34 @@ static constexpr double kMostWindows = 8192.0;
 // rounding of what a disk carries would show.
 static constexpr std::size_t kWindowsPerBalance = 32;
 
+static double windows_in(double span, double series_interval) {
+  return std::clamp(std::ceil(span / series_interval), kLeastWindows, kMostWindows);
+}
+
+double cells_memory(const Measure& measure, bool spins) {
+  std::vector<Field> averages = measure.fields;
+  const bool balanced = std::erase_if(averages, is_residual) > 0;
+  const double cells = static_cast<double>(measure.cells[0]) * measure.cells[1];
+  double bytes = 0.0;
+  if (!averages.empty()) {
+    const double row = moment_layout<2>(averages, spins).size * sizeof(double);
+    const auto parts =
+        static_cast<double>(PartSums::most_parts(static_cast<std::size_t>(cells * row)));
+    const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
+    const int columns = measure.cells[measure.profile_axis == Axis::X ? 0 : 1];
+    // Beside the parts the window under way and the one that is closed, or the parts' sum.
+    bytes += cells * ((parts + 2.0) * row + maps) +
+             windows_in(measure.duration, measure.series_interval) * columns * row;
+  }
+  if (balanced) {
+    // Likewise two windows.
+    constexpr std::size_t kBookings = 3 * sizeof(Booked<2>) + sizeof(Conserved<2>);
+    constexpr std::size_t kResidual = 3 * sizeof(Conserved<2>) + kResiduals.size() * sizeof(double);
+    bytes += cells * static_cast<double>(2 * kBookings + kResidual);
+  }
+  return bytes;
+}
+
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, double end)
     : simulation_(simulation),
       measure_(measure),
@@ -23,8 +51,7 @@ Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, doub
                     measure.series_interval),
       averages_start_(std::max(measure.burn_in, simulation.time())) {
   const double span = end - averages_start_;
-  window_ =
-      span / std::clamp(std::ceil(span / measure.series_interval), kLeastWindows, kMostWindows);
+  window_ = span / windows_in(span, measure.series_interval);
   observe();
 }
 

@@ -50,6 +50,10 @@ struct Measured {
   std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
 };
 
+/// Memory that the cells of fields and balances take in a measurement, about and at most, in bytes;
+/// `spins`: whether the disks spin. 0 where no fields are asked for.
+double cells_memory(const Measure& measure, bool spins);
+
 /// Observes a simulation as the scene's [measure] block asks.
 class Measurement {
  public:

@@ -327,4 +327,24 @@ TEST_CASE("Progress is told on stderr as asked") {
   CHECK(json::accept(outcome.out));
 }
 
+TEST_CASE("Checking a scene foretells the memory that its measurement takes") {
+  const Shell shell;
+  for (const std::string fields : {"\"balance\"", "\"density\"", "\"velocity\", \"balance\""}) {
+    CAPTURE(fields);
+    const std::string rest =
+        " vibrated --set measure.cells=[400,400] --set measure.burn_in=0 "
+        "--set measure.duration=4 --set 'measure.fields=[" +
+        fields + "]' ";
+    const std::string told = shell.run("clatter check" + rest).err;
+    const std::string memory = "Memory: about ";
+    REQUIRE(told.find(memory) != std::string::npos);
+    const double megabytes = std::stod(told.substr(told.find(memory) + memory.size()));
+    REQUIRE(shell.run("clatter measure --quiet --out r.json" + rest).code == 0);
+    const double peak = json::parse(shell.read("r.json")).at("performance").at("peak_memory_bytes");
+    // There may be half as many parts of the run as there may be at most.
+    CHECK(1e6 * megabytes < 1.5 * peak);
+    CHECK(1e6 * megabytes > 0.7 * peak);
+  }
+}
+
 }  // namespace clatter
