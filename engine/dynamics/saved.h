@@ -58,6 +58,7 @@ struct Saved {
 
 // What checkpoints keep of all this, see engine/checkpoint/archive.h.
 
+/// Passes over all members, in order.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
   auto& [disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale] =
@@ -65,18 +66,21 @@ void visit(Archive& io, EventCounts& counts) {
   io(disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale);
 }
 
+/// Likewise.
 template <class Archive>
 void visit(Archive& io, RunChecks& checks) {
   auto& [deepest_overlap, clock_steps_back] = checks;
   io(deepest_overlap, clock_steps_back);
 }
 
+/// Likewise: both parts, so that nothing is rounded.
 template <class Archive>
 void visit(Archive& io, LongTime& time) {
   auto& [high, low] = time;
   io(high, low);
 }
 
+/// Likewise, the path as whether it is a saw-tooth.
 template <class Archive>
 void visit(Archive& io, WallMotion& motion) {
   auto& [path, stroke, frequency, phase] = motion;
@@ -85,12 +89,14 @@ void visit(Archive& io, WallMotion& motion) {
   path = ramps ? WallPath::Sawtooth : WallPath::Sinusoidal;
 }
 
+/// Likewise.
 template <class Archive, int D>
 void visit(Archive& io, Flight<D>& flight) {
   auto& [r, v, time, number] = flight;
   io(r, v, time, number);
 }
 
+/// Likewise.
 template <class Archive, int D>
 void visit(Archive& io, Saved<D>& saved) {
   auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,

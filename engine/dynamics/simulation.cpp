@@ -174,7 +174,7 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     if (stands_still) stop_at_standstill();
     if (base_moves) return Halt::BaseMoved;
   }
-  return Halt::Collisions;
+  return Halt::Limit;
 }
 
 // A disk that walls with restitution > 1 have made so fast that it moves noticeably within the
@@ -199,7 +199,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
     if (kicks) stop = kick_time;
     const Halt halt = advance(stop, collisions, steps);
     if (halt == Halt::BaseMoved) continue;
-    if (halt == Halt::Collisions) return false;
+    if (halt == Halt::Limit) return false;
     if (stop == kNever) return true;
     now_ = std::max(now_, stop);
     if (kicks) {

@@ -126,8 +126,8 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
                       {v, spin(number), number, disk.flight.number}, elastic);
-  const Spin<D> spin_gain = departure.spin - spin(number);
   if (!observers_.empty()) {
+    const Spin<D> spin_gain = departure.spin - spin(number);
     const WallCollision<D> collision{now_, side,
                                      change_of(number, r, v, {departure.velocity - v, spin_gain})};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
