@@ -20,8 +20,6 @@ static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Fetching ahead pays once the disks no longer fit the cache.
 static constexpr std::size_t kFetchAheadFrom = 20000;
-// Overlap that a start state may have from the rounding of its positions, in diameters.
-static constexpr double kStartRounding = 1e-12;
 
 // Whether collisions can take energy from the gas, walls give it ever more, or disks come to rest
 // on walls: where time may come to a standstill.

@@ -17,9 +17,6 @@ namespace clatter {
 
 namespace {
 
-/// Overlaps up to this, in diameters, are rounding: the simulation starts from them.
-constexpr double kRounding = 1e-12;
-
 enum Column { kX, kY, kVx, kVy, kOmega, kColumns };
 constexpr std::array<std::string_view, kColumns> kNames = {"x", "y", "vx", "vy", "omega"};
 constexpr const char* kHeaderAdvice = "begin the file with the line x,y,vx,vy";
@@ -174,7 +171,7 @@ void Reader::check_place(const Cell& cell, int axis, double centre) const {
   if (scene_.periodic(axis)) return;
   const double low = scene_.clear_corner()[axis] + 0.5;
   const double high = scene_.clear_corner()[axis] + scene_.clear_box()[axis] - 0.5;
-  if (centre >= low - kRounding && centre <= high + kRounding) return;
+  if (centre >= low - kStartRounding && centre <= high + kStartRounding) return;
   const int side = 2 * axis + (centre > high ? 1 : 0);
   const bool moves = scene_.walls[side]->moves();
   throw UserError(place_of(cell),
@@ -283,7 +280,7 @@ void Reader::refuse_overlaps(const std::vector<Vec2>& centres) const {
         x[axis] -= scene_.box[axis] * std::round(x[axis] / scene_.box[axis]);
       }
       const double distance = x.norm();
-      if (distance < 1.0 - kRounding) refuse_pair(i, j, distance);
+      if (distance < 1.0 - kStartRounding) refuse_pair(i, j, distance);
     });
   }
 }
