@@ -50,4 +50,23 @@ std::vector<std::string> Shell::files() const {
   return names;
 }
 
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+void check_refused(const Shell& shell, const std::string& line,
+                   const std::vector<std::string>& parts) {
+  CAPTURE(line);
+  const std::vector<std::string> before = shell.files();
+  const Outcome outcome = shell.run(line);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  for (const std::string& part : parts) {
+    CAPTURE(part);
+    CHECK(says(outcome.err, part));
+  }
+  CHECK(shell.files() == before);
+}
+
 }  // namespace clatter

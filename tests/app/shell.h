@@ -36,4 +36,12 @@ class Shell {
   std::filesystem::path folder_;
 };
 
+/// Whether a text has a part.
+bool says(const std::string& text, const std::string& part);
+
+/// Runs a line that must be refused: exit code 2, a message that holds all of `parts`, nothing on
+/// stdout and no file.
+void check_refused(const Shell& shell, const std::string& line,
+                   const std::vector<std::string>& parts);
+
 }  // namespace clatter

@@ -12,10 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 json result_of(const Shell& shell, const std::string& name) {
   json result = json::parse(shell.read(name));
   result.erase("performance");
@@ -34,21 +30,6 @@ Outcome cut_off(const Shell& shell, const std::string& line, const std::string& 
 
 // Some seconds.
 const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --until 3000 --quiet ";
-
-void check_refused(const Shell& shell, const std::string& line,
-                   const std::vector<std::string>& parts) {
-  CAPTURE(line);
-  const std::vector<std::string> before = shell.files();
-  const Outcome outcome = shell.run(line);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.out.empty());
-  for (const std::string& part : parts) {
-    CAPTURE(part);
-    CHECK(says(outcome.err, part));
-  }
-  CHECK(shell.files() == before);
-}
 
 }  // namespace
 
