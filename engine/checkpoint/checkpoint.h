@@ -23,8 +23,8 @@ struct Checkpoint {
 /// RunError.
 void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint);
 
-/// Reads a checkpoint; throws UserError where there is none, or one that is damaged or newer than
-/// this program.
+/// Reads a checkpoint; throws UserError where there is none, or one that is damaged or of another
+/// version, and then says which program wrote it.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 /// What the one before is called.

@@ -57,6 +57,15 @@ std::string refusal(const std::filesystem::path& file) {
   return {};
 }
 
+std::uint32_t crc_32(const std::string& bytes) {
+  std::uint32_t crc = ~0u;
+  for (const char byte : bytes) {
+    crc ^= static_cast<std::uint8_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0u);
+  }
+  return ~crc;
+}
+
 bool says(const std::string& message, const std::string& part) {
   return message.find(part) != std::string::npos;
 }
@@ -187,13 +196,28 @@ TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is
     return refusal(folder / "a");
   };
   const std::size_t version = sound.find('\n', sound.find('\n') + 1) + 1;
-  CHECK(says(refusal_of(version, 2), "newer"));
-  CHECK(says(refusal_of(version, 1), "no longer"));
+  CHECK(says(refusal_of(version, 2), "checksum"));
   CHECK(says(refusal_of(version + 5, 0xff), "cut short"));
   CHECK(says(refusal_of(version + 30, 1), "checksum"));
   CHECK(says(refusal_of(version + 30, 1), "the one before is "));
   std::filesystem::remove(folder / "a");
   CHECK(says(refusal(folder / "a"), "a.previous"));
+}
+
+TEST_CASE("Checkpoint: one of another version names the program that wrote it") {
+  const ScratchFolder folder;
+  Checkpoint checkpoint = example();
+  write_checkpoint(folder / "a", checkpoint);
+  std::string bytes = bytes_of(folder / "a");
+  const std::size_t version = bytes.find('\n', bytes.find('\n') + 1) + 1;
+  bytes[version] = 99;
+  bytes.resize(bytes.size() - 4);
+  const std::uint32_t sum = crc_32(bytes);
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(sum >> shift);
+  write_bytes(folder / "a", bytes);
+  CHECK(
+      says(refusal(folder / "a"), "`measure` of clatter 9.8 wrote this checkpoint, in version 99"));
+  CHECK(says(refusal(folder / "a"), "resume it with clatter 9.8"));
 }
 
 // As a file of another program's structs would, were its checksum right.
