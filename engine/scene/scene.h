@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/physics/wall_motion.h"
 #include "engine/state.h"
 #include "engine/vec.h"
 
@@ -45,6 +46,10 @@ struct Wall {
 
   /// Whether the wall changes its place.
   bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
+  /// The motion of one that moves, its phase at simulation time 0; others stay at rest.
+  WallMotion motion() const;
+  /// How far into the box it is at time 0.
+  double start_travel() const;
   /// How far into the box its motion takes it.
   double innermost_travel() const;
   /// How far out of the box its motion takes it.
