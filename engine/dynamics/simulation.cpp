@@ -15,7 +15,8 @@
 namespace clatter {
 
 // The base moves after this many physical events per disk: rarely enough to cost little (each move
-// plans every disk anew), often enough that times stay below some ten mean free times.
+// plans every disk anew), often enough that times stay below some ten mean free times. See also
+// renew_flight().
 static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Fetching ahead pays once the disks no longer fit the cache.
@@ -82,7 +83,9 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
   spins_.resize(model_.spins ? disks_.size() : 0, Spin<D>::Zero());
   last_collisions_.resize(model_.contact_time ? disks_.size() : 0, -kNever);
   for (const auto& wall : model_.walls) heats_ = heats_ || (wall && wall->restitution > 1.0);
-  if (may_stand_still(model_)) watchdog_.emplace(disks_.size(), now_);
+  if (may_stand_still(model_)) {
+    watchdog_.emplace(disks_.size(), now_, saved.mean_collision_time);
+  }
   if (saved.kick_interval != kick_interval<D>(model_)) {
     kick_origin_ = time();
     kicks_since_origin_ = 0;
@@ -281,6 +284,7 @@ Saved<D> Simulation<D>::save() const {
   saved.spins.assign(spins_.begin(), spins_.end());
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
   saved.until_base_moves = until_base_moves_;
+  if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
   saved.kick_interval = kick_interval<D>(model_);
   saved.kick_origin = kick_origin_;
   saved.kicks_since_origin = kicks_since_origin_;

@@ -145,6 +145,22 @@ TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on
   }
 }
 
+// The run that goes on stands still from its first collision; its own mean time would be far too
+// short.
+TEST_CASE("extremes: a run that goes on from where time stood still is advised the same t_c") {
+  Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
+  model.restitution = 0.3;
+  Simulation<2> first(model, row(12, 1.5));
+  const std::string message = stop_of(first, 1000.0);
+  Simulation<2> second(model, first.save());
+  const std::string again = stop_of(second, 1000.0);
+  CAPTURE(message);
+  CAPTURE(again);
+  CHECK(advised_contact_time(again) == advised_contact_time(message));
+  Simulation<2> third(model, second.save());
+  CHECK(advised_contact_time(stop_of(third, 1000.0)) == advised_contact_time(message));
+}
+
 TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisions before") {
   // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
   // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
