@@ -43,7 +43,7 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
 }
 
 int measure(const MeasureOptions& options) {
-  const Scene scene = load(options.common);
+  Scene scene = load(options.common, options.checkpoints.start_file());
   const Measure& spec = scene.measure;
   const double end = options.common.until.value_or(spec.burn_in + spec.duration);
   if (!(end > spec.burn_in)) {

@@ -101,7 +101,7 @@ long film(Run& run, const View& view, const OverlayText& text, const FrameTimes&
 }
 
 int render(const RenderOptions& options) {
-  const Scene scene = load(options.common);
+  Scene scene = load(options.common, options.checkpoints.start_file());
   View view = scene.view;
   if (options.speed) view.speed = *options.speed;
   view.overlay = view.overlay && !options.no_overlay;

@@ -37,14 +37,6 @@ double Wall::innermost_travel() const {
   return clatter::innermost_travel(motion());
 }
 
-double Scene::start_temperature() const {
-  if (disks.start.layout != Layout::File) return disks.start.temperature;
-  double sum = 0.0;
-  for (const Vec2& velocity : disks.start.state.velocities) sum += velocity.squaredNorm();
-  const auto count = static_cast<double>(disks.start.state.velocities.size());
-  return count > 0.0 ? sum / (2.0 * count) : 0.0;
-}
-
 double Scene::area_fraction() const {
   return disks.count * std::numbers::pi / (4.0 * box.x() * box.y());
 }

@@ -70,7 +70,8 @@ struct Start {
   Layout layout = Layout::Random;
   std::string file;     ///< of layout File: a CSV, see state_file.h, or its name in the gallery
   State<2> state = {};  ///< of layout File: what the file says
-  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed
+  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed;
+                             ///< of layout File: that of the state
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
 };
 
@@ -176,8 +177,8 @@ struct Scene {
   bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// T at time 0, that of a start state's file where there is one.
-  double start_temperature() const;
+  /// T at time 0.
+  double start_temperature() const { return disks.start.temperature; }
   /// phi = N pi / (4 Lx Ly).
   double area_fraction() const;
   /// How far into the box the near walls of both axes move at most.

@@ -34,11 +34,11 @@ Outcome Shell::run(const std::string& line) const {
 }
 
 void Shell::write(const std::string& name, const std::string& text) const {
-  std::ofstream(folder_ / "here" / name, std::ios::binary) << text;
+  std::ofstream(path(name), std::ios::binary) << text;
 }
 
 std::string Shell::read(const std::string& name) const {
-  return bytes_of(folder_ / "here" / name);
+  return bytes_of(path(name));
 }
 
 std::vector<std::string> Shell::files() const {

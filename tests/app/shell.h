@@ -29,6 +29,8 @@ class Shell {
   void write(const std::string& name, const std::string& text) const;
   /// The bytes of a file in the folder.
   std::string read(const std::string& name) const;
+  /// Where a file of the folder is.
+  std::filesystem::path path(const std::string& name) const { return folder_ / "here" / name; }
   /// The names in the folder, sorted.
   std::vector<std::string> files() const;
 

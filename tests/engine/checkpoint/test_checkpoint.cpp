@@ -23,9 +23,9 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 std::string archived(Checkpoint& checkpoint) {
-  auto& [program, command, scene, seed, saved, measurement] = checkpoint;
+  auto& [program, command, scene, start_temperature, seed, saved, measurement] = checkpoint;
   ArchiveWriter writer;
-  writer(program, command, scene, seed, saved, measurement);
+  writer(program, command, scene, start_temperature, seed, saved, measurement);
   return writer.written();
 }
 
@@ -39,12 +39,13 @@ Checkpoint example() {
   saved.spins = {Spin<2>(0.125), Spin<2>(-8.0)};
   saved.last_collisions = {-HUGE_VAL, 2.5};
   saved.until_base_moves = 11;
+  saved.mean_collision_time = 11.5;
   saved.kick_interval = 0.0625;
   saved.kick_origin = 12.0;
   saved.kicks_since_origin = 13;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
-  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 42, saved, std::string("\0bytes", 6)};
+  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6)};
 }
 
 // What reading the file says; empty where it is read.
@@ -97,6 +98,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { c.program += '!'; },
       [](Checkpoint& c) { c.command += '!'; },
       [](Checkpoint& c) { c.scene += '!'; },
+      [](Checkpoint& c) { c.start_temperature += 1.0; },
       [](Checkpoint& c) { ++c.seed; },
       [](Checkpoint& c) { c.measurement += '!'; },
       [](Checkpoint& c) { c.saved.gravity.x() += 1.0; },
@@ -110,6 +112,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { c.saved.spins[1][0] += 1.0; },
       [](Checkpoint& c) { c.saved.last_collisions[1] += 1.0; },
       [](Checkpoint& c) { ++c.saved.until_base_moves; },
+      [](Checkpoint& c) { c.saved.mean_collision_time += 1.0; },
       [](Checkpoint& c) { c.saved.kick_interval += 1.0; },
       [](Checkpoint& c) { c.saved.kick_origin += 1.0; },
       [](Checkpoint& c) { ++c.saved.kicks_since_origin; },
