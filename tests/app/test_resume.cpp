@@ -106,6 +106,7 @@ TEST_CASE(
   CHECK(shell.run(render + "--to 30 --set view.window=0.5 --resume c --out resumed.png").code == 0);
   CHECK(shell.read("resumed.png") == shell.read("whole.png"));
   check_refused(shell, render + "--to 20 --resume c --out x.png", {"--to", "25", "--resume"});
+  check_refused(shell, render + "--from 20 --resume c --out x.png", {"--from", "25"});
 
   const Outcome film =
       shell.run(render + "--to 26 --resume c --fps 4 --speed 1 --out f/ --checkpoint d");
