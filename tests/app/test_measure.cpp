@@ -237,10 +237,10 @@ TEST_CASE("Where t_c makes all collisions elastic, it is said which other one wo
               "box.size = [10, 20]\ndisks = { count = 20, restitution = 0.5 }\n"
               "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
               "walls.top = { kind = 'static' }\ngravity.acceleration = [0, -1]\n"
-              "collapse.contact_time = 1e-3\nmeasure.burn_in = 50\n");
-  const Outcome resting = shell.run("clatter measure pile.toml --until 80");
+              "collapse.contact_time = 1e-2\nmeasure.burn_in = 20\n");
+  const Outcome resting = shell.run("clatter measure pile.toml --until 40");
   CHECK(resting.code == 0);
-  CHECK(says(resting.err, "a larger one, say 0.01, would run faster"));
+  CHECK(says(resting.err, "a larger one, say 0.1, would run faster"));
 }
 
 TEST_CASE("An interrupted measurement keeps what it has") {
