@@ -104,7 +104,7 @@ class Simulation {
   void kick();
   double next_kick() const;
   bool within_contact_time(std::uint32_t number) const;
-  bool outruns_clock(std::uint32_t number) const;
+  bool is_too_fast(std::uint32_t number) const;
   [[noreturn]] void stop_at_standstill() const;
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
