@@ -39,7 +39,7 @@ static void add_vibrated(Json& json, const Scene& scene) {
   }
   // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
   if (wall.drive_speed == 0.0) {
-    const double rate = gas.haff_rate_corrected(scene.start_temperature());
+    const double rate = gas.haff_rate_corrected(scene.disks.start.temperature);
     json["haff_rate"] = rate;
     if (rate < 0.0) json["divergence_time"] = divergence_time(rate);
   }
@@ -61,7 +61,7 @@ static void add_homogeneous(Json& json, const Scene& scene) {
   const RoughGas gas{disks.restitution, beta, disks.inertia};
   if (!scene.bulk_drive) {
     if (!rough) {
-      json["haff_rate"] = haff_rate_periodic(phi, disks.restitution, scene.start_temperature());
+      json["haff_rate"] = haff_rate_periodic(phi, disks.restitution, scene.disks.start.temperature);
     } else if (constant_beta) {
       json["temperature_ratio"] = gas.cooling_ratio();
     }
