@@ -24,9 +24,11 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-double SteadyExtent::follow(double extent) {
+double SteadyExtent::follow(double extent, bool hold) {
   const bool fits = 0.5 * current_ <= extent && extent <= 1.05 * current_;
-  if (extent > 0.0 && !fits) current_ = round_up(extent);
+  const bool kept = hold && held_;
+  if (extent > 0.0 && !fits && !kept) current_ = round_up(extent);
+  held_ = hold && (held_ || extent > 0.0);
   return current_ > 0.0 ? current_ : 1.0;
 }
 

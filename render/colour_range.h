@@ -16,11 +16,15 @@ double round_up(double value);
 /// over a film a colour keeps its meaning as long as it can.
 class SteadyExtent {
  public:
-  /// The end to use for values of this robust extent.
-  double follow(double extent);
+  /// The end to use for values of this robust extent; `hold` keeps it from moving after the first
+  /// extent above 0 that comes with it.
+  double follow(double extent, bool hold = false);
+  /// Whether it moves no more as long as it is held.
+  bool held() const { return held_; }
 
  private:
   double current_ = 0.0;  ///< 0: nothing seen yet
+  bool held_ = false;
 };
 
 /// Round values in [low, high], about `count` of them, in rising order.

@@ -25,20 +25,28 @@ class Renderer {
             const OverlayText& text);
 
  private:
-  struct Scales {
-    ColourScale disks, field;
+  /// The range of a quantity's colours, as far as it follows the snapshots.
+  struct Followed {
+    Quantity quantity;
+    SteadyExtent extent;
+
+    Legend legend(const Quantity& shown, const ColourRange& range, ColourMap map,
+                  double robust_extent, bool lockable);
   };
-  Scales scales_for(const Snapshot& snapshot, const View& view);
-  static std::vector<Legend> legends(const Snapshot& snapshot, const View& view,
-                                     const Scales& scales);
+  struct Legends {
+    std::optional<Legend> disks, field;
+
+    std::vector<Legend> all() const;
+  };
+  Legends legends_for(const Snapshot& snapshot, const View& view);
 
   const Gl* gl_;
   FieldLayer field_;
   WallLayer walls_;
   DiskLayer disks_;
   Overlay overlay_;
-  SteadyExtent disk_extent_;
-  SteadyExtent field_extent_;
+  Followed disk_range_;
+  Followed field_range_;
 };
 
 }  // namespace clatter

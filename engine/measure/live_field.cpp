@@ -37,7 +37,10 @@ FieldMap LiveField::map() {
   CellSums sum = open_;
   for (const CellSums& part : parts_) sum += part;
   const FieldGrid<2>& grid = integrals_.grid();
-  FieldMap map{field_, {grid.cells().x(), grid.cells().y()}, std::vector<double>(grid.size())};
+  FieldMap map{field_,
+               {grid.cells().x(), grid.cells().y()},
+               std::vector<double>(grid.size()),
+               parts_.size() == kParts};
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     map.values[i] =
         sum.time > 0.0

@@ -15,6 +15,7 @@ struct FieldMap {
   Field field = Field::Density;
   std::array<int, 2> cells = {0, 0};  ///< along x and y
   std::vector<double> values;  ///< [cells_y][cells_x], row by row from y = 0; NaN: never visited
+  bool whole_window = false;   ///< averaged over the whole window, not less for want of time
 };
 
 /// The gas at one instant, evaluated exactly: all that the renderer knows of the engine.

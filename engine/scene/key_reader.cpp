@@ -143,12 +143,19 @@ std::string KeyReader::read(const toml::node& node, Limits limits, std::array<in
   return "";
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits,
-                            std::optional<std::array<double, 2>>& range) {
-  const bool automatic = node.value<std::string_view>() == "auto";
-  range = pair_in(node, limits);
-  const bool ascends = range && (*range)[0] < (*range)[1];
-  return automatic || ascends ? "" : "\"auto\" or two numbers [low, high] with low < high";
+std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& range) {
+  const auto name = node.value<std::string_view>();
+  const auto ends = pair_in(node, limits);
+  if (name == "auto") {
+    range = {ColourRange::Auto};
+  } else if (name == "locked") {
+    range = {ColourRange::Locked};
+  } else if (ends && (*ends)[0] < (*ends)[1]) {
+    range = {ColourRange::Given, *ends};
+  } else {
+    return "\"auto\", \"locked\" or two numbers [low, high] with low < high";
+  }
+  return "";
 }
 
 }  // namespace clatter

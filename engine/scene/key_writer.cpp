@@ -38,8 +38,16 @@ std::string value_text(const std::array<int, 2>& numbers) {
   return pair_text(numbers[0], numbers[1]);
 }
 
-std::string value_text(const std::optional<std::array<double, 2>>& range) {
-  return range ? pair_text((*range)[0], (*range)[1]) : quoted("auto");
+std::string value_text(const ColourRange& range) {
+  switch (range.kind) {
+    case ColourRange::Auto:
+      return quoted("auto");
+    case ColourRange::Locked:
+      return quoted("locked");
+    case ColourRange::Given:
+      return pair_text(range.ends[0], range.ends[1]);
+  }
+  return "";
 }
 
 void TomlWriter::write(std::string_view key, const std::string& value) {

@@ -18,7 +18,7 @@ std::string value_text(bool flag);
 std::string value_text(const std::string& text);
 std::string value_text(const Vec2& vector);
 std::string value_text(const std::array<int, 2>& numbers);
-std::string value_text(const std::optional<std::array<double, 2>>& range);  ///< absent: "auto"
+std::string value_text(const ColourRange& range);
 
 /// Visitor that writes every key which a scene has; the subclasses know the syntax around them.
 class KeyWriter {

@@ -140,7 +140,20 @@ struct Measure {
 enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
-enum class Palette { Viridis, Inferno };
+enum class Palette { Viridis, Inferno, Cividis };
+
+/// From which value to which a colour scale reaches.
+struct ColourRange {
+  enum Kind {
+    Auto,    ///< follows what is shown, in round steps
+    Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
+    Given    ///< the ends
+  };
+  Kind kind = Auto;
+  std::array<double, 2> ends = {0.0, 1.0};  ///< low < high, of Given
+
+  bool operator==(const ColourRange&) const = default;
+};
 
 /// What is drawn.
 struct View {
@@ -149,9 +162,11 @@ struct View {
       field;            ///< the heatmap below the disks; absent: none, and nothing is averaged
   double window = 5.0;  ///< averaging time of the live field, > 0
   double speed = 1.0;   ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;          ///< of the disks
-  std::optional<std::array<double, 2>> range;  ///< colour range of the disks; absent: automatic
-  bool overlay = true;                         ///< time, title, colour bar, scale bar
+  Palette palette = Palette::Viridis;    ///< of the disks' magnitudes
+  ColourRange range;                     ///< of the disks' colours
+  std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
+  ColourRange field_range;               ///< of the heatmap's colours
+  bool overlay = true;                   ///< time, title, colour bar, scale bar
 };
 
 /// A complete, validated description of a run: what the scene file says, resolved, nothing derived.

@@ -119,8 +119,8 @@ inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourB
                                                                 {"velocity_y", ColourBy::VelocityY},
                                                                 {"spin", ColourBy::Spin}}};
 
-inline constexpr std::array<Named<Palette>, 2> kPalettes = {
-    {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}}};
+inline constexpr std::array<Named<Palette>, 3> kPalettes = {
+    {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
 
 /// Fields one by one: heatmaps, and the columns of profiles.
 inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
@@ -280,6 +280,8 @@ void visit_view(Visitor& io, View& view) {
   io.value("speed", view.speed, above(0.0));
   io.choice("palette", view.palette, kPalettes);
   io.value("range", view.range);
+  io.choice("field_palette", view.field_palette, kPalettes);
+  io.value("field_range", view.field_range);
   io.value("overlay", view.overlay);
 }
 

@@ -87,6 +87,7 @@ TEST_CASE("LiveField: the window reaches back by its length and by one part more
   const auto check = [&](double now, double reaches_back) {
     simulation->run_until(now);
     const FieldMap map = live.map();
+    CHECK(map.whole_window == (now >= 4.0));
     for (int column = 0; column < 16; ++column) {
       const double inside =
           std::min(column + 1.0, now) - std::max<double>(column, now - reaches_back);

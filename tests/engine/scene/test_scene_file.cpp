@@ -110,6 +110,8 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.speed == b.view.speed);
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
+  CHECK(a.view.field_palette == b.view.field_palette);
+  CHECK(a.view.field_range == b.view.field_range);
   CHECK(a.view.overlay == b.view.overlay);
 }
 
@@ -155,7 +157,9 @@ Scene unusual_scene() {
                 .window = 0.125,
                 .speed = 1e-7,
                 .palette = Palette::Inferno,
-                .range = {{-1.5, 2.0}},
+                .range = {ColourRange::Given, {-1.5, 2.0}},
+                .field_palette = Palette::Cividis,
+                .field_range = {ColourRange::Locked},
                 .overlay = false};
   return scene;
 }
@@ -203,6 +207,7 @@ TEST_CASE("every key arrives at its place") {
     [view]
     field = "velocity_y"
     range = [0, 3]
+    field_range = "locked"
   )",
                                   "s.toml");
   CHECK(scene.title == "T");
@@ -237,7 +242,8 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.measure.kernel == Kernel::Gaussian);
   CHECK(scene.measure.width == 1.5);
   CHECK(scene.view.field == Field::VelocityY);
-  CHECK(scene.view.range == std::array{0.0, 3.0});
+  CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
+  CHECK(scene.view.field_range.kind == ColourRange::Locked);
 }
 
 TEST_CASE("area_fraction becomes the nearest count") {
@@ -292,7 +298,7 @@ TEST_CASE("a scene as JSON has the keys of the file") {
         R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
         R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
         R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
-        R"("range": "auto", "overlay": true}})");
+        R"("range": "auto", "field_range": "auto", "overlay": true}})");
 }
 
 TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
@@ -377,12 +383,12 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "2000"},
       {kDisks + "[measure]\ncells = [2.0, 3]\n", "s.toml:4:1: 'measure.cells' cannot be"},
       {kDisks + "[view]\nrange = [3, 3]\n",
-       "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\" or two numbers [low, high] with "
-       "low < high"},
+       "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\", \"locked\" or two numbers "
+       "[low, high] with low < high"},
       {kDisks + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
       {kDisks + "[view]\npalette = \"virdis\"\n",
-       "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\"; did "
-       "you mean \"viridis\"?"},
+       "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\", "
+       "\"cividis\"; did you mean \"viridis\"?"},
       {kDisks + "[measure]\nfields = [\"density\", \"pressure\"]\n",
        "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", "
        "\"velocity\""},
@@ -574,7 +580,7 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
   CHECK(scene.disks.count == 50);
   CHECK(scene.walls[kLeft]->drive_speed == 0.0);
   CHECK(scene.walls[kRight]->kind == WallKind::Thermal);
-  CHECK(scene.view.range == std::array{0.0, 3.0});
+  CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
   CHECK(scene.view.palette == Palette::Inferno);
   CHECK(scene.view.field == Field::Density);
   CHECK(scene.view.speed == 2.0);
