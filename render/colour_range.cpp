@@ -24,6 +24,14 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
+double round_down(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (double step : {5.0, 2.0}) {
+    if (step * power <= value) return step * power;
+  }
+  return power;
+}
+
 double SteadyExtent::follow(double extent, bool hold) {
   const bool fits = 0.5 * current_ <= extent && extent <= 1.05 * current_;
   const bool kept = hold && held_;

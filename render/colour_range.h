@@ -12,6 +12,9 @@ double robust_extent(std::vector<double> values);
 /// The next round number at or above `value` > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten.
 double round_up(double value);
 
+/// The last round number at or below `value` > 0: 1, 2 or 5 times a power of ten.
+double round_down(double value);
+
 /// The end of an automatic colour range. It moves in round steps and only when it must, so that
 /// over a film a colour keeps its meaning as long as it can.
 class SteadyExtent {

@@ -87,6 +87,11 @@ std::string typeset(std::string unit) {
   return unit;
 }
 
+Quantity without_subscript(Quantity quantity) {
+  quantity.subscript.clear();
+  return quantity;
+}
+
 }  // namespace
 
 Quantity quantity_of(ColourBy colour_by) {
@@ -100,6 +105,16 @@ Quantity quantity_of(Field field) {
   Quantity quantity = name_of(field);
   quantity.unit = typeset(unit_of(field));
   return quantity;
+}
+
+Quantity quantity_of(Arrows arrows) {
+  switch (arrows) {
+    case Arrows::Velocity:
+      return without_subscript(quantity_of(Field::VelocityX));
+    case Arrows::HeatFlux:
+      return without_subscript(quantity_of(Field::HeatFluxX));
+  }
+  return {""};
 }
 
 }  // namespace clatter

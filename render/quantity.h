@@ -23,5 +23,7 @@ struct Quantity {
 Quantity quantity_of(ColourBy colour_by);
 /// What a heatmap shows.
 Quantity quantity_of(Field field);
+/// What arrows show, without its components.
+Quantity quantity_of(Arrows arrows);
 
 }  // namespace clatter

@@ -10,6 +10,15 @@ namespace {
 // Alpha of a heatmap's colours below disks that have colours of their own.
 constexpr std::uint8_t kBelowColouredDisks = 115;
 
+// Alpha of lines that are to stay in the background: of a grid, and of cells without a value.
+constexpr std::uint8_t kGrid = 140;
+constexpr std::uint8_t kHatch = 70;
+
+Colour thin(Colour colour, std::uint8_t alpha) {
+  colour.alpha = alpha;
+  return colour;
+}
+
 // Without its darkest eighth: slow disks would be lost against the background.
 ColourMap disk_map(const View& view) {
   if (quantity_of(view.colour_by).sign == Sign::Either) return diverging_map();
@@ -45,34 +54,36 @@ double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
   return robust_extent(std::move(values));
 }
 
+double arrow_extent(const ArrowMap& map) {
+  std::vector<double> sizes;
+  for (const ArrowMap::Arrow& arrow : map.arrows) sizes.push_back(arrow.value.norm());
+  return robust_extent(std::move(sizes));
+}
+
 bool shows_field(const Snapshot& snapshot, const View& view) {
   return view.field && snapshot.field;
 }
 
 }  // namespace
 
-Renderer::Renderer(const Gl& gl) : gl_(&gl), field_(gl), walls_(gl), disks_(gl), overlay_(gl) {}
+Renderer::Renderer(const Gl& gl)
+    : gl_(&gl), field_(gl), grid_(gl), walls_(gl), disks_(gl), arrows_(gl), overlay_(gl) {}
 
 Legend Renderer::Followed::legend(const Quantity& shown, const ColourRange& range, ColourMap map,
                                   double robust_extent, bool lockable) {
   if (range.kind == ColourRange::Given) {
     return {shown, scale_from(range.ends[0], range.ends[1], shown.sign, map), "given"};
   }
+  const double extent = end(shown, robust_extent, range.kind == ColourRange::Locked && lockable);
+  return {shown, scale_to(extent, shown.sign, map), followed.held() ? "locked" : "auto"};
+}
+
+double Renderer::Followed::end(const Quantity& shown, double robust_extent, bool hold) {
   if (!(quantity == shown)) *this = {shown, {}};
-  const bool lock = range.kind == ColourRange::Locked && lockable;
-  const double end = extent.follow(robust_extent, lock);
-  return {shown, scale_to(end, shown.sign, map), extent.held() ? "locked" : "auto"};
+  return followed.follow(robust_extent, hold);
 }
 
-std::vector<Legend> Renderer::Legends::all() const {
-  std::vector<Legend> list;
-  for (const auto& legend : {disks, field}) {
-    if (legend) list.push_back(*legend);
-  }
-  return list;
-}
-
-Renderer::Legends Renderer::legends_for(const Snapshot& snapshot, const View& view) {
+Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double scale) {
   Legends legends;
   if (view.colour_by != ColourBy::None) {
     legends.disks = disk_range_.legend(quantity_of(view.colour_by), view.range, disk_map(view),
@@ -84,6 +95,12 @@ Renderer::Legends Renderer::legends_for(const Snapshot& snapshot, const View& vi
         field_range_.legend(quantity_of(map.field), view.field_range, field_map(map.field, view),
                             robust_extent(map.values), map.whole_window);
     if (legends.disks) legends.field->scale.opacity = kBelowColouredDisks;
+  }
+  if (view.arrows && snapshot.arrows) {
+    const Quantity quantity = quantity_of(snapshot.arrows->quantity);
+    const double longest = snapshot.arrows->cell.minCoeff() * scale;
+    legends.arrows = {quantity,
+                      longest / arrow_range_.end(quantity, arrow_extent(*snapshot.arrows))};
   }
   return legends;
 }
@@ -99,7 +116,7 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
   const double wall = wall_thickness(size);
   Margins margins{wall, wall, wall, wall};
   if (view.overlay) {
-    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view).all(), text);
+    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
   }
   return Camera::fit(faces.low - overhang, faces.high + overhang, size, margins);
 }
@@ -107,21 +124,29 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
                     const OverlayText& text) {
   const Projection projection{camera, size};
-  const Legends legends = legends_for(snapshot, view);
+  const Legends legends = legends_for(snapshot, view, projection.scale());
+  const ThemeColours theme = theme_of(view);
   gl_->Viewport(0, 0, size.width, size.height);
-  gl_->ClearColor(theme::kBackground.red / 255.0f, theme::kBackground.green / 255.0f,
-                  theme::kBackground.blue / 255.0f, 1.0f);
+  const Colour background = theme.background;
+  gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
+                  1.0f);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
   gl_->Enable(GL_BLEND);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
   if (legends.field) {
-    field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale);
+    field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
+                thin(theme.static_wall, kHatch));
   }
-  walls_.draw(snapshot, projection);
+  if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
+  walls_.draw(snapshot, projection, theme);
   disks_.draw(snapshot, projection, view.colour_by,
-              legends.disks ? legends.disks->scale : ColourScale{});
-  if (view.overlay) overlay_.draw(snapshot, projection, legends.all(), text);
+              legends.disks ? legends.disks->scale : ColourScale{}, theme.disk);
+  if (legends.arrows) {
+    arrows_.draw(*snapshot.arrows, projection, legends.arrows->pixels, theme.text,
+                 theme.background);
+  }
+  if (view.overlay) overlay_.draw(snapshot, projection, legends, text, theme);
 }
 
 }  // namespace clatter

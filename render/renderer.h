@@ -3,8 +3,10 @@
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
 #include "render/colour_range.h"
+#include "render/layers/arrow_layer.h"
 #include "render/layers/disk_layer.h"
 #include "render/layers/field_layer.h"
+#include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
 #include "render/layers/wall_layer.h"
 
@@ -28,25 +30,25 @@ class Renderer {
   /// The range of a quantity's colours, as far as it follows the snapshots.
   struct Followed {
     Quantity quantity;
-    SteadyExtent extent;
+    SteadyExtent followed;
+
+    double end(const Quantity& shown, double robust_extent, bool hold = false);
 
     Legend legend(const Quantity& shown, const ColourRange& range, ColourMap map,
                   double robust_extent, bool lockable);
   };
-  struct Legends {
-    std::optional<Legend> disks, field;
-
-    std::vector<Legend> all() const;
-  };
-  Legends legends_for(const Snapshot& snapshot, const View& view);
+  Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
 
   const Gl* gl_;
   FieldLayer field_;
+  GridLayer grid_;
   WallLayer walls_;
   DiskLayer disks_;
+  ArrowLayer arrows_;
   Overlay overlay_;
   Followed disk_range_;
   Followed field_range_;
+  Followed arrow_range_;
 };
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #include "engine/scene/key_reader.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "engine/scene/scene_document.h"
@@ -154,6 +155,18 @@ std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& 
     range = {ColourRange::Given, *ends};
   } else {
     return "\"auto\", \"locked\" or two numbers [low, high] with low < high";
+  }
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits, Rgb& colour) {
+  const std::string wanted = "a colour as \"#rrggbb\", for instance \"#ffffff\"";
+  const auto text = node.value<std::string_view>();
+  if (!text || text->size() != 7 || text->front() != '#') return wanted;
+  std::uint8_t* const channels[] = {&colour.red, &colour.green, &colour.blue};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char* begin = text->data() + 1 + 2 * i;
+    if (std::from_chars(begin, begin + 2, *channels[i], 16).ptr != begin + 2) return wanted;
   }
   return "";
 }

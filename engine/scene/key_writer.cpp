@@ -1,6 +1,7 @@
 #include "engine/scene/key_writer.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "engine/scene/text.h"
 
@@ -48,6 +49,12 @@ std::string value_text(const ColourRange& range) {
       return pair_text(range.ends[0], range.ends[1]);
   }
   return "";
+}
+
+std::string value_text(const Rgb& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.red, colour.green, colour.blue);
+  return quoted(text);
 }
 
 void TomlWriter::write(std::string_view key, const std::string& value) {

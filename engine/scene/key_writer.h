@@ -19,6 +19,7 @@ std::string value_text(const std::string& text);
 std::string value_text(const Vec2& vector);
 std::string value_text(const std::array<int, 2>& numbers);
 std::string value_text(const ColourRange& range);
+std::string value_text(const Rgb& colour);
 
 /// Visitor that writes every key which a scene has; the subclasses know the syntax around them.
 class KeyWriter {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -142,6 +143,24 @@ enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno, Cividis };
 
+/// What arrows over the box show.
+enum class Arrows {
+  Velocity,  ///< V
+  HeatFlux   ///< q
+};
+
+/// The colours of all that does not show a value.
+enum class Theme { Dark, Light, Projector };
+
+/// A colour in sRGB.
+struct Rgb {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+
+  bool operator==(const Rgb&) const = default;
+};
+
 /// From which value to which a colour scale reaches.
 struct ColourRange {
   enum Kind {
@@ -166,7 +185,14 @@ struct View {
   ColourRange range;                     ///< of the disks' colours
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
   ColourRange field_range;               ///< of the heatmap's colours
-  bool overlay = true;                   ///< time, title, colour bar, scale bar
+  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
+  Theme theme = Theme::Dark;
+  std::optional<Rgb> background;  ///< absent: that of the theme
+  bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;            ///< time, title, colour bar, scale bar
+
+  /// Whether it shows what has to be averaged over time.
+  bool shows_averages() const { return field || arrows; }
 };
 
 /// A complete, validated description of a run: what the scene file says, resolved, nothing derived.

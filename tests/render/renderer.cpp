@@ -35,7 +35,9 @@ TEST_CASE("The overlay writes on every size of picture, and neither on the box n
       CAPTURE(box.x());
       Snapshot snapshot = driven_box();
       snapshot.box = box;
+      snapshot.arrows = ArrowMap{Arrows::HeatFlux, box / 20.0, {{0.5 * box, {1.0, 0.0}}}};
       View view = view_with_field();
+      view.arrows = Arrows::HeatFlux;
       const Camera camera = renderer.fit(snapshot, size, view, kText);
       const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
       view.overlay = false;
@@ -217,6 +219,71 @@ TEST_CASE("Magnitudes have the palette, their bright end far from zero; signed f
     CHECK(colour(field, 1.0) == diverging_map().back());
     CHECK(colour(field, -1.0) == diverging_map().front());
   }
+}
+
+TEST_CASE("Arrows lie over the box as long as their legend says") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
+  View view;
+  view.overlay = false;
+  const auto width_of_arrow = [&] {
+    const Image image =
+        draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
+    int width = 0;
+    for (int x = 0; x < 400; ++x) width += difference(pixel(image, x, 200), kDarkTheme.text) < 100;
+    return width;
+  };
+  CHECK(width_of_arrow() == 0);  // not asked for
+  view.arrows = Arrows::Velocity;
+  // The greatest value there is fills a cell of 160 pixels.
+  CHECK(std::abs(width_of_arrow() - 160) <= 4);
+}
+
+TEST_CASE("A theme has its colours, and a background of one's own goes before them") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{5.0, 5.0}};
+  snapshot.velocities = {{0.0, 0.0}};
+  View view;
+  view.colour_by = ColourBy::None;
+  const auto drawn = [&] {
+    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 20.0}, {400, 400}, view);
+  };
+  for (const auto& [name, colours] : {std::pair(Theme::Dark, kDarkTheme),
+                                      {Theme::Light, kLightTheme},
+                                      {Theme::Projector, kProjectorTheme}}) {
+    view.theme = name;
+    const Image image = drawn();
+    CHECK(pixel(image, 399, 200) == colours.background);
+    CHECK(pixel(image, 200, 200) == colours.disk);
+    // Letters of the title.
+    int letters = 0;
+    for (int x = 0; x < 200; ++x) {
+      for (int y = 0; y < 40; ++y) letters += difference(pixel(image, x, y), colours.text) < 60;
+    }
+    CHECK(letters > 20);
+  }
+  view.background = Rgb{1, 2, 3};
+  CHECK(pixel(drawn(), 399, 200) == Colour{1, 2, 3});
+}
+
+TEST_CASE("A grid is drawn where it is asked for") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  View view;
+  view.overlay = false;
+  const Camera camera{{5.0, 5.0}, 20.0};
+  const Image without = draw(renderer, context->gl(), snapshot, camera, {400, 400}, view);
+  view.grid = true;
+  CHECK(difference(without, draw(renderer, context->gl(), snapshot, camera, {400, 400}, view)) >
+        20);
 }
 
 TEST_CASE("An empty box is drawn too") {

@@ -112,6 +112,10 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.range == b.view.range);
   CHECK(a.view.field_palette == b.view.field_palette);
   CHECK(a.view.field_range == b.view.field_range);
+  CHECK(a.view.arrows == b.view.arrows);
+  CHECK(a.view.theme == b.view.theme);
+  CHECK(a.view.background == b.view.background);
+  CHECK(a.view.grid == b.view.grid);
   CHECK(a.view.overlay == b.view.overlay);
 }
 
@@ -160,6 +164,10 @@ Scene unusual_scene() {
                 .range = {ColourRange::Given, {-1.5, 2.0}},
                 .field_palette = Palette::Cividis,
                 .field_range = {ColourRange::Locked},
+                .arrows = Arrows::HeatFlux,
+                .theme = Theme::Projector,
+                .background = Rgb{0, 10, 255},
+                .grid = true,
                 .overlay = false};
   return scene;
 }
@@ -287,18 +295,19 @@ TEST_CASE("a scene as JSON has the keys of the file") {
     walls.top = { kind = "thermal", temperature = 2 }
     measure.fields = ["velocity", "temperature"])",
                             "s.toml");
-  CHECK(scene_to_json(scene) ==
-        R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", )"
-        R"("box": {"size": [2.5, 20.0]}, )"
-        R"("disks": {"count": 3, "restitution": 1.0, )"
-        R"("start": {"layout": "random", "temperature": 1.0}}, )"
-        R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
-        R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
-        R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
-        R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
-        R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
-        R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
-        R"("range": "auto", "field_range": "auto", "overlay": true}})");
+  CHECK(
+      scene_to_json(scene) ==
+      R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", )"
+      R"("box": {"size": [2.5, 20.0]}, )"
+      R"("disks": {"count": 3, "restitution": 1.0, )"
+      R"("start": {"layout": "random", "temperature": 1.0}}, )"
+      R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
+      R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
+      R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
+      R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
+      R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
+      R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
+      R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
 }
 
 TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
@@ -385,6 +394,10 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {kDisks + "[view]\nrange = [3, 3]\n",
        "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\", \"locked\" or two numbers "
        "[low, high] with low < high"},
+      {kDisks + "[view]\nbackground = \"#12345\"\n",
+       "s.toml:4:1: 'view.background' cannot be \"#12345\"; give a colour as \"#rrggbb\", for "
+       "instance \"#ffffff\""},
+      {kDisks + "[view]\nbackground = \"#12345x\"\n", "s.toml:4:1: 'view.background' cannot be"},
       {kDisks + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
       {kDisks + "[view]\npalette = \"virdis\"\n",
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\", "
