@@ -182,14 +182,14 @@ struct View {
   double window = 5.0;  ///< averaging time of the live field, > 0
   double speed = 1.0;   ///< simulation time per second of film, > 0
   Palette palette = Palette::Viridis;    ///< of the disks' magnitudes
-  ColourRange range;                     ///< of the disks' colours
+  ColourRange range;                     ///< of the disks' colours; locked: as first shown
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
   ColourRange field_range;               ///< of the heatmap's colours
   std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
-  Theme theme = Theme::Dark;
-  std::optional<Rgb> background;  ///< absent: that of the theme
-  bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
-  bool overlay = true;            ///< time, title, colour bar, scale bar
+  Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
+  std::optional<Rgb> background;         ///< absent: that of the theme
+  bool grid = false;    ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;  ///< time, title, colour bar, scale bar
 
   /// Whether it shows what has to be averaged over time.
   bool shows_averages() const { return field || arrows; }

@@ -77,10 +77,10 @@ TEST_CASE("Arrows end at two cells, and vanishing values have none") {
 
 TEST_CASE("A short arrow keeps its form") {
   const auto context = open_context(Backend::Osmesa);
-  const Extent small = extent_of(draw(context->gl(), {{{10.05, 10.05}, {0.25, 0.0}}}, 20.0));
+  const Extent small = extent_of(draw(context->gl(), {{{10.05, 10.05}, {0.2, 0.0}}}, 20.0));
   REQUIRE(small.count > 0);
-  CHECK(small.high.x() - small.low.x() <= 6.0);
-  CHECK(small.high.y() - small.low.y() <= 6.0);
+  CHECK(small.high.x() - small.low.x() <= 4.0);
+  CHECK(small.high.y() - small.low.y() <= 3.0);
 }
 
 }  // namespace clatter
