@@ -52,7 +52,7 @@ std::vector<double> round_ticks(double low, double high, int count) {
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
     ticks.push_back(k * step + 0.0);  // + 0: no -0
   }
-  return ticks;
+  return ticks.size() > 1 ? ticks : round_ticks(low, high, count + 1);
 }
 
 std::string tick_text(double value, double step) {

@@ -30,7 +30,7 @@ class SteadyExtent {
   bool held_ = false;
 };
 
-/// Round values in [low, high], about `count` of them, in rising order.
+/// Round values in [low, high], about `count` of them and at least two, in rising order.
 std::vector<double> round_ticks(double low, double high, int count);
 
 /// A tick's value, with as many digits as ticks `step` apart need.

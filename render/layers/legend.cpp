@@ -83,10 +83,10 @@ void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
             theme.faint_ink(), unit_and_range(legend, legend.range.c_str()));
   draw_bar(list, legend.scale, low, high);
 
-  const int count = std::clamp(static_cast<int>((high.y - low.y) / (2.2f * unit)), 2, 5);
+  const int count = std::clamp(static_cast<int>((high.y - low.y) / (2.2f * unit)), 1, 5);
   const auto [least, most] = std::minmax(legend.scale.low, legend.scale.high);
   const auto ticks = round_ticks(least, most, count);
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : most - least;
+  const double step = ticks[1] - ticks[0];
   for (double tick : ticks) {
     const double share = (tick - legend.scale.low) / (legend.scale.high - legend.scale.low);
     const float y = std::round(high.y - 1.0f - share * (high.y - low.y - 1.0f));

@@ -51,6 +51,8 @@ TEST_CASE("A held extent stays as it was first seen") {
 TEST_CASE("Ticks are round and say no more digits than they need") {
   CHECK(round_ticks(0.0, 3.0, 4) == std::vector<double>{0, 1, 2, 3});
   CHECK(round_ticks(-2.0, 2.0, 5) == std::vector<double>{-2, -1, 0, 1, 2});
+  // Steps of 5 would leave 0 alone.
+  CHECK(round_ticks(-4.0, 4.0, 3) == std::vector<double>{-4, -2, 0, 2, 4});
   CHECK_FALSE(std::signbit(round_ticks(0.0, 3.0, 4).front()));
   CHECK(tick_text(0.4, 0.2) == "0.4");
   CHECK(tick_text(-2.0, 1.0) == "−2");
