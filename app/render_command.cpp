@@ -93,13 +93,13 @@ long film(Run& run, const View& view, const OverlayText& text, const FrameTimes&
   canvas.bind();
   Renderer renderer(context.gl());
   std::optional<LiveField> field;
-  if (view.field) field.emplace(simulation, view);
+  if (view.shows_averages()) field.emplace(simulation, view);
   std::optional<Camera> camera;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
     if (!run.until(time, progress)) return k;
     Snapshot snapshot = snapshot_of(simulation);
-    if (field) snapshot.field = field->map();
+    if (field) field->publish(snapshot);
     if (!camera) camera = renderer.fit(snapshot, size, view, text);
     renderer.draw(snapshot, *camera, size, view, text);
     sink.add(canvas.read(), time);
@@ -117,7 +117,7 @@ int render(const RenderOptions& options) {
   const FrameTimes times = frame_times(options, resumed ? resumed->time() : 0.0, view.speed);
   const Size size = parse_size(options.size);
   constexpr double kMostWindows = 1e7;
-  if (view.field && times.last() / view.window > kMostWindows) {
+  if (view.shows_averages() && times.last() / view.window > kMostWindows) {
     throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
                     "choose at least " + number_text(times.last() / kMostWindows));
   }

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <string>
 
-#include "app/units.h"
 #include "app/write_file.h"
 #include "engine/scene/scene_keys.h"
+#include "engine/scene/unit.h"
 
 namespace clatter {
 

@@ -8,10 +8,10 @@
 #include <iterator>
 #include <system_error>
 
-#include "app/units.h"
 #include "app/write_file.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/text.h"
+#include "engine/scene/unit.h"
 
 namespace clatter {
 

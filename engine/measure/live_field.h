@@ -1,6 +1,6 @@
 #pragma once
 
-#include <variant>
+#include <optional>
 
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
@@ -10,41 +10,39 @@
 
 namespace clatter {
 
-/// A field over the last window of time, as the view shows it while a run goes on: an average, or
+/// Fields over the last window of time, as the view shows them while a run goes on: averages, or
 /// how balance equations close.
 class LiveField {
  public:
-  /// Watches the simulation through `view.field`, which the view must have, on cells of about one
-  /// diameter (at most 512 along an axis); the window reaches back by view.window, or by up to an
-  /// eighth more.
+  /// Watches the simulation through `view.field` and `view.arrows`, of which the view must have
+  /// one, on cells of about one diameter (at most 512 along an axis); the window reaches back by
+  /// view.window, or by up to an eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
 
-  /// The field of the window up to the simulation's time, or since the start where that is less.
-  FieldMap map();
+  /// Puts into the snapshot what the view shows, over the window up to the simulation's time, or
+  /// since the start where that is less.
+  void publish(Snapshot& snapshot);
 
  private:
-  /// Of a field that is an average.
-  struct Average {
+  struct Averages {
     CellIntegrals<2> observer;
     MovingSum<CellSums> sums;
-
-    void look() { sums.add(observer.close_window()); }
-    FieldMap map(Field field) const;
   };
-  /// Of one that is a residual.
   struct Closure {
     Balance<2> observer;
     MovingSum<Imbalances<2>> sums;
 
-    void look() { sums.add(observer.close_window().imbalances); }
     FieldMap map(Field field) const;
   };
-  using Watch = std::variant<Average, Closure>;
 
-  static Watch watch_of(const Simulation<2>& simulation, Field field);
+  static std::optional<Averages> averages_for(const Simulation<2>& simulation, const View& view);
+  static std::optional<Closure> closure_for(const Simulation<2>& simulation, const View& view);
+  void look();
 
-  Field field_;
-  Watch watch_;
+  std::optional<Field> field_;
+  std::optional<Arrows> arrows_;
+  std::optional<Averages> averages_;  // where there are arrows, or the field is an average
+  std::optional<Closure> closure_;    // where the field is a residual
 };
 
 }  // namespace clatter

@@ -26,6 +26,8 @@ class MovingSum {
     for (const Sums& part : parts_) sum += part;
     return sum;
   }
+  /// Whether that reaches back by a whole window.
+  bool whole() const { return parts_.size() == kWindowParts; }
 
  private:
   std::deque<Sums> parts_;  // closed, oldest first

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -160,7 +161,38 @@ struct Measure {
 enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
-enum class Palette { Viridis, Inferno };
+enum class Palette { Viridis, Inferno, Cividis };
+
+/// What arrows over the box show.
+enum class Arrows {
+  Velocity,  ///< V
+  HeatFlux   ///< q
+};
+
+/// The colours of all that does not show a value.
+enum class Theme { Dark, Light, Projector };
+
+/// A colour in sRGB.
+struct Rgb {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+
+  bool operator==(const Rgb&) const = default;
+};
+
+/// From which value to which a colour scale reaches.
+struct ColourRange {
+  enum Kind {
+    Auto,    ///< follows what is shown, in round steps
+    Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
+    Given    ///< the ends
+  };
+  Kind kind = Auto;
+  std::array<double, 2> ends = {0.0, 1.0};  ///< low < high, of Given
+
+  bool operator==(const ColourRange&) const = default;
+};
 
 /// What is drawn.
 struct View {
@@ -169,9 +201,18 @@ struct View {
       field;            ///< the heatmap below the disks; absent: none, and nothing is averaged
   double window = 5.0;  ///< averaging time of the live field, > 0
   double speed = 1.0;   ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;          ///< of the disks
-  std::optional<std::array<double, 2>> range;  ///< colour range of the disks; absent: automatic
-  bool overlay = true;                         ///< time, title, colour bar, scale bar
+  Palette palette = Palette::Viridis;    ///< of the disks' magnitudes
+  ColourRange range;                     ///< of the disks' colours; locked: as first shown
+  std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
+  ColourRange field_range;               ///< of the heatmap's colours
+  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
+  Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
+  std::optional<Rgb> background;         ///< absent: that of the theme
+  bool grid = false;    ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;  ///< time, title, colour bar, scale bar
+
+  /// Whether it shows what has to be averaged over time.
+  bool shows_averages() const { return field || arrows; }
 };
 
 /// A complete, validated description of a run: what the scene file says, resolved, nothing derived.

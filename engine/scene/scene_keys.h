@@ -122,8 +122,14 @@ inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourB
                                                                 {"velocity_y", ColourBy::VelocityY},
                                                                 {"spin", ColourBy::Spin}}};
 
-inline constexpr std::array<Named<Palette>, 2> kPalettes = {
-    {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}}};
+inline constexpr std::array<Named<Palette>, 3> kPalettes = {
+    {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
+
+inline constexpr std::array<Named<Arrows>, 2> kArrows = {
+    {{"velocity", Arrows::Velocity}, {"heat_flux", Arrows::HeatFlux}}};
+
+inline constexpr std::array<Named<Theme>, 3> kThemes = {
+    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"projector", Theme::Projector}}};
 
 /// Fields one by one: heatmaps, and the columns of profiles.
 inline constexpr std::array<Named<Field>, 28> kHeatmaps = {
@@ -297,6 +303,12 @@ void visit_view(Visitor& io, View& view) {
   io.value("speed", view.speed, above(0.0));
   io.choice("palette", view.palette, kPalettes);
   io.value("range", view.range);
+  io.choice("field_palette", view.field_palette, kPalettes);
+  io.value("field_range", view.field_range);
+  io.choice("arrows", view.arrows, kArrows);
+  io.choice("theme", view.theme, kThemes);
+  io.value("background", view.background, Limits{});
+  io.value("grid", view.grid);
   io.value("overlay", view.overlay);
 }
 

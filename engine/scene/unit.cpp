@@ -1,4 +1,4 @@
-#include "app/units.h"
+#include "engine/scene/unit.h"
 
 namespace clatter {
 

@@ -7,7 +7,7 @@ namespace clatter {
 /// What the letters in units stand for.
 inline constexpr const char* kUnits = "a: disk diameter, m: disk mass, t: time unit of the scene";
 
-/// Unit of a field's values in terms of these, for instance "m a^2/t^2".
+/// The unit of a field in terms of these, in plain text such as "m a^2/t^2"; "1" of bare numbers.
 const char* unit_of(Field field);
 
 }  // namespace clatter
