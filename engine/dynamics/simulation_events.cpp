@@ -77,7 +77,10 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   const Vec<D> v_b = b.flight.velocity_at(now_, model_.gravity);
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = v_a - v_b;
-  checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
+  const double least = (1.0 - checks_.deepest_overlap) * model_.diameter;
+  if (x.squaredNorm() < least * least) {
+    checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
+  }
   // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
   // event counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;

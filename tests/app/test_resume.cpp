@@ -247,7 +247,7 @@ TEST_CASE("A collapse leaves results, a checkpoint and the way on") {
   const Shell shell;
   const std::string scene =
       "cooling --set disks.restitution=0.1 --set disks.count=300 "
-      "--set box.size=[25,25] --until 1000 ";
+      "--set box.size=[25,25] --set measure.series_interval=0.125 --until 1000 ";
   const Outcome stopped = shell.run("clatter measure " + scene + "--quiet --out r.json");
   CHECK(stopped.code == 3);
   CHECK(says(stopped.err, "inelastic collapse"));
