@@ -9,8 +9,6 @@
 #include "app/run.h"
 #include "app/write_file.h"
 #include "engine/error.h"
-#include "engine/measure/live_field.h"
-#include "engine/publish/publish.h"
 #include "engine/scene/text.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
@@ -80,18 +78,15 @@ FrameTimes frame_times(const RenderOptions& options, double from, double speed) 
 // Draws one frame after the other; fewer than there are times where the run ended early.
 long film(Run& run, const View& view, const OverlayText& text, const FrameTimes& times,
           GlContext& context, Size size, FrameSink& sink, Progress& progress) {
-  Simulation<2>& simulation = run.simulation();
   Canvas canvas(context.gl(), size);
   canvas.bind();
   Renderer renderer(context.gl());
-  std::optional<LiveField> field;
-  if (view.field) field.emplace(simulation, view);
+  run.scheduled().show(view);
   std::optional<Camera> camera;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
     if (!run.until(time, progress)) return k;
-    Snapshot snapshot = snapshot_of(simulation);
-    if (field) snapshot.field = field->map();
+    const Snapshot snapshot = run.scheduled().snapshot();
     if (!camera) camera = renderer.fit(snapshot, size, view, text);
     renderer.draw(snapshot, *camera, size, view, text);
     sink.add(canvas.read(), time);

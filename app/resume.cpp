@@ -60,9 +60,4 @@ std::string changed_laws(const Resumed& resumed) {
   return keys;
 }
 
-bool differs(const Resumed& resumed, const std::string& key) {
-  return std::ranges::find(resumed.differences, key, &KeyDifference::key) !=
-         resumed.differences.end();
-}
-
 }  // namespace clatter

@@ -32,7 +32,4 @@ void require_same_measure(const Resumed& resumed);
 /// The keys of all laws that differ, separated by commas; empty: none does.
 std::string changed_laws(const Resumed& resumed);
 
-/// Whether a key differs.
-bool differs(const Resumed& resumed, const std::string& key);
-
 }  // namespace clatter

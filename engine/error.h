@@ -16,7 +16,16 @@ struct Place {
 /// do". The program prints it and exits with 2.
 class UserError : public std::runtime_error {
  public:
-  UserError(const Place& place, const std::string& what, const std::string& advice);
+  UserError(const Place& place, const std::string& problem, const std::string& advice);
+
+  /// What is wrong, without the place.
+  const std::string& problem() const { return problem_; }
+  /// What to do.
+  const std::string& advice() const { return advice_; }
+
+ private:
+  std::string problem_;
+  std::string advice_;
 };
 
 /// What a person asked for cannot go on although nothing is wrong with the input (a full disk, a

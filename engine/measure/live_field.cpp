@@ -22,14 +22,34 @@ static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
 LiveField::LiveField(Simulation<2>& simulation, const View& view)
     : field_(*view.field),
       integrals_(simulation, cells_of_one_diameter(simulation.model()),
-                 moment_layout<2>({&field_, 1}, simulation.model().spins)) {
+                 moment_layout<2>({&field_, 1}, simulation.model().spins)),
+      start_(simulation.time() + view.window / kParts) {
+  close_parts(simulation, view.window / kParts);
+}
+
+LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& before)
+    : field_(*view.field),
+      integrals_(simulation, cells_of_one_diameter(simulation.model()),
+                 moment_layout<2>({&field_, 1}, simulation.model().spins)),
+      start_(before.start_),
+      closed_(before.closed_) {
+  before.open_ += before.integrals_.close_window();
+  if (before.integrals_.layout().size == integrals_.layout().size) {
+    parts_ = std::move(before.parts_);
+    open_ = std::move(before.open_);
+  }
+  close_parts(simulation, view.window / kParts);
+}
+
+void LiveField::close_parts(Simulation<2>& simulation, double part) {
   simulation.add_observer(integrals_);
-  const double part = view.window / kParts;
-  simulation.every(simulation.time() + part, part, [this](double) {
+  const auto close = [this](double) {
+    ++closed_;
     open_ += integrals_.close_window();
     parts_.push_back(std::exchange(open_, {}));
     if (parts_.size() > kParts) parts_.pop_front();
-  });
+  };
+  simulation.every(start_, part, close, closed_);
 }
 
 FieldMap LiveField::map() {

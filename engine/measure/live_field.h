@@ -15,6 +15,9 @@ class LiveField {
   /// diameter (at most 512 along an axis); the average reaches back by view.window, or by up to an
   /// eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
+  /// Goes on where that of the simulation before ended: this one has its disks at its time, under
+  /// other laws.
+  LiveField(Simulation<2>& simulation, const View& view, LiveField&& before);
 
   /// The field averaged over the window up to the simulation's time, or since the start where that
   /// is less.
@@ -23,10 +26,14 @@ class LiveField {
  private:
   static constexpr int kParts = 8;  // the window moves on by one part at a time
 
+  void close_parts(Simulation<2>& simulation, double part);
+
   Field field_;
   CellIntegrals<2> integrals_;
   std::deque<CellSums> parts_;  // closed parts, oldest first
   CellSums open_;               // the part under way, up to the last look
+  double start_;                // simulation time from which parts are counted
+  std::uint64_t closed_ = 0;    // parts since then
 };
 
 }  // namespace clatter

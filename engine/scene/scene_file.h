@@ -9,12 +9,6 @@
 
 namespace clatter {
 
-/// One `--set key=value` of the command line: a dotted key of the scene file and a TOML value.
-struct Override {
-  std::string key;
-  std::string value;
-};
-
 /// Reads the scene at a path, or the gallery scene of that name, applies the overrides, and
 /// validates the whole. Throws UserError with file, line, column, what is wrong and what to do.
 Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {});
@@ -26,6 +20,10 @@ Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>&
 /// that the scene names.
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides = {});
+
+/// The scene with keys set anew, and the same start state. Throws UserError where that makes no
+/// scene.
+Scene with_settings(const Scene& scene, const std::vector<Override>& settings);
 
 /// The scene as a file that parses back to the same scene, every default written out.
 std::string scene_to_toml(const Scene& scene);
