@@ -172,9 +172,11 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command->add_flag("--overwrite", options->overwrite,
                     "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
-      ->transform(one_of<Backend>(
-          {{"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
-      ->type_name("auto|egl|osmesa");
+      ->transform(one_of<Backend>({{"auto", Backend::Auto},
+                                   {"egl", Backend::Egl},
+                                   {"osmesa", Backend::Osmesa},
+                                   {"glfw", Backend::Glfw}}))
+      ->type_name("auto|glfw|egl|osmesa");
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }
 

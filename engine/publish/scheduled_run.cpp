@@ -31,13 +31,15 @@ bool ScheduledRun::run_until(double time, std::uint64_t collisions, std::uint64_
   return simulation_->run_until(time, collisions, steps);
 }
 
-void ScheduledRun::change(const std::vector<Override>& laws) {
-  // A little later no event of the same time is left, however the run is halted when it is played.
+void ScheduledRun::settle() {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
-  const double time = simulation_->time() * (1.0 + kRoundings);
-  run_until(time);
+  run_until(simulation_->time() * (1.0 + kRoundings));
+}
+
+void ScheduledRun::change(const std::vector<Override>& laws) {
+  settle();
   Schedule changed = schedule_;
-  changed.add({.time = time, .set = laws});
+  changed.add({.time = simulation_->time(), .set = laws});
   changed.advance();
   change_laws(std::move(changed));
 }

@@ -36,6 +36,9 @@ class ScheduledRun {
   /// can go on under new laws; the old ones then hold.
   bool run_until(double time, std::uint64_t collisions = Simulation<2>::kNoLimit,
                  std::uint64_t steps = Simulation<2>::kNoLimit);
+  /// Goes on by a few roundings of its time: however a run was halted before, one that runs until
+  /// simulation().time() now has come through the same events.
+  void settle();
   /// Laws that hold from the simulation's time on, and are among the scene's changes. Throws
   /// UserError or PhysicalStop where they cannot; nothing has then happened.
   void change(const std::vector<Override>& laws);

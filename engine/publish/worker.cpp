@@ -82,6 +82,7 @@ class Work {
   void obey(const command::Play& asked) {
     halt();
     plays_ = asked.on;
+    if (watched_ && !plays_) gas().settle();
   }
   void obey(const command::Step& asked) {
     halt();
@@ -156,6 +157,7 @@ class Work {
   void halt_at_collision() {
     halt();
     partners_ = watched_->partners();
+    gas().settle();
   }
 
   void publish() {

@@ -180,3 +180,21 @@ TEST_CASE("Worker: ends within 200 ms, also in the midst of a collapse") {
     CHECK(worker.stop_within(200ms));
   }
 }
+
+TEST_CASE("Worker: where it halts, a run without it has the same hash") {
+  const Scene scene = scene_at_speed("vibrated", 20.0);
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 23});
+  for (std::uint64_t command = 2; command < 12; command += 2) {
+    worker.send(command::Play{true});
+    std::this_thread::sleep_for(20ms);
+    if (command % 4 == 0) worker.send(command::StepCollision{});
+    if (command % 4 != 0) worker.send(command::Play{false});
+    const Frame halted = wait_for(worker, [&](const Frame& frame) {
+      return frame.handled == command + 1 && frame.state_hash;
+    });
+    const auto simulation = simulation_of(scene, 23);
+    simulation->run_until(halted.snapshot.time);
+    CHECK(simulation->state_hash() == *halted.state_hash);
+  }
+}

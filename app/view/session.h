@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/script_log.h"
+#include "engine/publish/worker.h"
+
+namespace clatter {
+
+/// What a person changed at once, and can take back at once.
+struct Edit {
+  std::vector<Override> before;
+  std::vector<Override> after;
+};
+
+/// The gas that a person watches, and what they have done to it. It asks the engine, and never
+/// waits for it.
+class Session {
+ public:
+  Session(Worker& worker, ScriptLog& log) : worker_(worker), log_(log) {}
+
+  /// Takes the newest frame; whether there was one.
+  bool update();
+  /// The newest frame; its run is 0 until there is one.
+  const Frame& frame() const { return worker_.frames().front(); }
+  /// The scene with the laws as they are being set: what the panels show.
+  const Scene& scene() const { return scene_; }
+  /// The scene as it was opened.
+  const Scene& opened() const { return opened_; }
+  /// What is drawn.
+  const View& view() const { return view_; }
+  /// The scene from which what is on screen can be made again: as the gas was started, with all
+  /// that has changed since, up to the newest frame.
+  Scene recorded() const;
+
+  /// Starts a scene.
+  void open(const Scene& scene, std::uint64_t seed, bool plays = true);
+  /// Starts the scene anew with the laws as they are now.
+  void restart();
+  /// Likewise with other random numbers.
+  void restart_with_new_seed();
+  void play(bool on);
+  void step_frame();
+  void step_collision();
+  void set_speed(double speed);
+
+  /// Sets keys: laws on the gas that moves, others by starting it anew. What cannot be is told.
+  void set(const std::vector<Override>& settings);
+  /// Keeps what has been set, to be taken back; forgets what was taken back before.
+  void remember(Edit edit);
+  void undo();
+  void redo();
+  bool can_undo() const { return !done_.empty(); }
+  bool can_redo() const { return !undone_.empty(); }
+
+  void set_view(const View& view);
+
+  /// Something to tell the person, until they have seen it.
+  void tell(const std::string& message);
+  const std::string& message() const { return message_; }
+  /// Seconds since it was told.
+  double message_age() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void send(Command command);
+
+  Worker& worker_;
+  ScriptLog& log_;
+  Scene scene_;
+  Scene opened_;
+  Scene started_;  // as the gas was started last
+  View view_;
+  std::uint64_t seed_ = 1;
+  bool plays_ = true;
+  double speed_ = 1.0;
+  std::uint64_t sent_ = 0;
+  std::shared_ptr<const Scene> seen_;
+  std::uint64_t messages_ = 0;
+  std::vector<Edit> done_;
+  std::vector<Edit> undone_;
+  std::string message_;
+  Clock::time_point told_;
+  Clock::time_point logged_;
+};
+
+}  // namespace clatter
