@@ -1,8 +1,10 @@
 #include "app/view/controls.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "app/view/style.h"
 #include "engine/scene/key_writer.h"
@@ -31,13 +33,13 @@ static void explain(const Slider& slider, double usual) {
   ImGui::EndTooltip();
 }
 
-// A round arrow, at the right end of a line; whether it was clicked.
-static bool reset_button(const char* help) {
+// A round arrow at the right end of a line; whether it was clicked.
+static bool reset_button() {
   const float size = ImGui::GetFontSize();
   ImGui::SameLine(ImGui::GetContentRegionMax().x - size);
   const bool clicked = ImGui::InvisibleButton("reset", ImVec2(size, size));
   const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 centre(low.x + 0.5f * size, low.y + 0.55f * size);
+  const ImVec2 centre(low.x + 0.5f * size, low.y + 0.58f * size);
   const ImU32 ink =
       ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -47,32 +49,60 @@ static bool reset_button(const char* help) {
   const ImVec2 tip(centre.x + r * std::cos(-0.9f), centre.y + r * std::sin(-0.9f));
   list.AddTriangleFilled(ImVec2(tip.x - 0.28f * size, tip.y), ImVec2(tip.x + 0.1f * size, tip.y),
                          ImVec2(tip.x + 0.02f * size, tip.y - 0.34f * size), ink);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Back to the scene's value");
   return clicked;
+}
+
+// Name and symbol at the left of a line, the value at its right, before the arrow's place.
+static void headline(const Slider& slider, double value) {
+  ImGui::TextUnformatted(slider.name);
+  if (*slider.symbol) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", slider.symbol);
+  }
+  char text[64];
+  const int length = std::snprintf(text, sizeof text, slider.format, value);
+  std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), "%s%s",
+                *slider.unit ? " " : "", slider.unit);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize() -
+                  ImGui::CalcTextSize(text).x);
+  ImGui::TextUnformatted(text);
+}
+
+// To three digits, which is as finely as one can drag.
+static double rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return std::strtod(text, nullptr);
 }
 
 Controls::Moved Controls::draw(const Slider& slider, double& value, double usual) {
   Moved moved;
   ImGui::PushID(slider.key);
   ImGui::PushID(slider.name);
-  ImGui::TextUnformatted(slider.name);
-  if (*slider.symbol) {
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", slider.symbol);
-  }
-  if (value != usual) moved.reset = reset_button("Back to the scene's value");
+  headline(slider, value);
+  if (value != usual) moved.reset = reset_button();
 
   // ImGui types into a slider after a click with Ctrl: here, after a double click too.
   ImGuiIO& io = ImGui::GetIO();
   const bool ctrl = io.KeyCtrl;
   io.KeyCtrl = ctrl || io.MouseDoubleClicked[0];
-  const std::string format = std::string(slider.format) + (*slider.unit ? " " : "") + slider.unit;
+  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
+  if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
   ImGui::SetNextItemWidth(-FLT_MIN);
+  // Its logarithm reaches as far down as the digits of its format.
+  const char* format = slider.logarithmic ? "%.9g" : slider.format;
   const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp | (slider.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+      ImGuiSliderFlags_AlwaysClamp |
+      (slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0);
   const double was = value;
   moved.changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &slider.low,
-                                      &slider.high, format.c_str(), flags);
+                                      &slider.high, format, flags);
+  if (moved.changed && slider.logarithmic) value = rounded(value);
+  if (!typing) ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
   io.KeyCtrl = ctrl;
   moved.taken = ImGui::IsItemActivated();
   moved.let_go = ImGui::IsItemDeactivatedAfterEdit();

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/view/panels.h"
+#include "app/view/plots.h"
 #include "app/view/style.h"
 #include "app/view/top_bar.h"
 #include "app/write_file.h"
@@ -23,8 +24,9 @@ namespace clatter {
 static constexpr float kPanelWidth = 17.0f;
 static constexpr float kPanelShare = 0.175f;
 
-Explorer::Explorer(const GlfwContext& context, Worker& worker, ScriptLog& log)
+Explorer::Explorer(const GlfwContext& context, Keys& keys, Worker& worker, ScriptLog& log)
     : context_(context),
+      keys_(keys),
       log_(log),
       session_(worker, log),
       controls_(session_, log),
@@ -56,7 +58,10 @@ void Explorer::begin() {
 
 void Explorer::draw() {
   begin();
-  if (session_.update()) stage_.redraw();
+  if (session_.update()) {
+    stage_.redraw();
+    history_.add(session_.frame());
+  }
   use_keys();
   panels();
   stage();
@@ -77,17 +82,19 @@ void Explorer::draw() {
   gui_.draw(*ImGui::GetDrawData());
 }
 
+static constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                           ImGuiWindowFlags_NoSavedSettings |
+                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 void Explorer::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
   if (!shown_.panels || shown_.lecture) return;
-  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                      ImGuiWindowFlags_NoSavedSettings |
-                                      ImGuiWindowFlags_NoBringToFrontOnFocus;
-  const float top = std::round(ImGui::GetFrameHeight() + 0.9f * ImGui::GetFontSize());
+  const float unit = ImGui::GetFontSize();
+  const float top = std::round(ImGui::GetFrameHeight() + 0.9f * unit);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
-                      ImVec2(ImGui::GetStyle().WindowPadding.x, 0.45f * ImGui::GetFontSize()));
+                      ImVec2(ImGui::GetStyle().WindowPadding.x, 0.45f * unit));
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(whole.x, top));
   ImGui::Begin("top", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
@@ -95,11 +102,19 @@ void Explorer::panels() {
   ImGui::End();
   ImGui::PopStyleVar();
 
-  const float width =
-      std::round(std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * ImGui::GetFontSize(),
-                            1.3f * kPanelWidth * ImGui::GetFontSize()));
+  const float width = std::round(
+      std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
+  left_panel(top, width);
+  area_ = {ImVec2(width, top), whole};
+  if (shown_.plots && session_.frame().scene) {
+    plots_drawer(top, width);
+    area_.high.x -= width;
+  }
+}
+
+void Explorer::left_panel(float top, float width) {
   ImGui::SetNextWindowPos(ImVec2(0, top));
-  ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
+  ImGui::SetNextWindowSize(ImVec2(width, ImGui::GetIO().DisplaySize.y - top));
   ImGui::Begin("left", nullptr, kFixed);
   gas_panel(session_, controls_);
   box_panel(session_, controls_);
@@ -118,7 +133,18 @@ void Explorer::panels() {
       break;
   }
   ImGui::End();
-  area_ = {ImVec2(width, top), whole};
+}
+
+void Explorer::plots_drawer(float top, float width) {
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(whole.x - width, top));
+  ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
+  ImGui::Begin("plots", nullptr, kFixed);
+  for (const Plot& plot : plots_of(history_, session_.frame())) {
+    draw_plot(plot, std::round(0.62f * width));
+    ImGui::Spacing();
+  }
+  ImGui::End();
 }
 
 void Explorer::stage() {
@@ -140,53 +166,89 @@ void Explorer::stage() {
   if (stage_.picked()) disk_note(frame, *stage_.picked(), stage_.follows(), area_);
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsAnyItemActive() || shown_.gallery) shown_.hint = false;
-  if (shown_.hint) hint(area_);
+  if (shown_.hint && !shown_.help) hint(area_);
   told(session_, area_);
   log_.widget("stage", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }
 
-// Whether the key that types a letter on this keyboard was pressed.
-static bool pressed(char letter) {
-  for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; ++key) {
-    if (!ImGui::IsKeyPressed(key, false)) continue;
-    const char* name = glfwGetKeyName(key, 0);
-    if (name ? name[0] == letter && !name[1] : key - GLFW_KEY_A == letter - 'a') return true;
-  }
-  return false;
-}
-
 void Explorer::use_keys() {
-  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) close_something();
-  if (ImGui::IsKeyPressed(GLFW_KEY_F2, false)) screenshot();
-  if (ImGui::IsKeyPressed(GLFW_KEY_F11, false)) toggle_full_screen();
-  if (ImGui::IsKeyPressed(GLFW_KEY_F1, false)) shown_.help = !shown_.help;
-  if (ImGui::GetIO().WantTextInput) return;
-  if (ImGui::IsKeyPressed(GLFW_KEY_TAB, false)) shown_.panels = !shown_.panels;
-  if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) session_.play(!session_.frame().plays);
-  if (ImGui::IsKeyPressed(GLFW_KEY_PERIOD)) {
-    ImGui::GetIO().KeyShift ? session_.step_collision() : session_.step_frame();
+  for (const std::string& file : keys_.take_dropped()) open_file(file);
+  for (const KeyPress& press : keys_.take_presses()) {
+    use_function_key(press);
+    if (!ImGui::GetIO().WantTextInput) use_key(press);
   }
-  use_letter_keys();
-  use_signs();
+  if (!ImGui::GetIO().WantTextInput) use_signs();
 }
 
-void Explorer::use_letter_keys() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl) {
-    if (pressed('z')) io.KeyShift ? session_.redo() : session_.undo();
-    if (pressed('y')) session_.redo();
-    if (pressed('s')) save_scene();
-    if (pressed('q')) glfwSetWindowShouldClose(context_.window(), GLFW_TRUE);
-    return;
+void Explorer::use_function_key(const KeyPress& press) {
+  switch (press.key) {
+    case GLFW_KEY_ESCAPE:
+      return close_something();
+    case GLFW_KEY_F1:
+      shown_.help = !shown_.help;
+      return;
+    case GLFW_KEY_F2:
+      return screenshot();
+    case GLFW_KEY_F11:
+      return toggle_full_screen();
+    default:
+      return;
   }
-  if (pressed('f')) stage_.fit();
-  if (pressed('g')) shown_.gallery = !shown_.gallery;
-  if (pressed('h')) shown_.help = !shown_.help;
-  if (pressed('l')) shown_.lecture = !shown_.lecture;
-  if (pressed('m')) fix_range();
-  if (pressed('p')) shown_.plots = !shown_.plots;
-  if (pressed('r')) io.KeyShift ? session_.restart_with_new_seed() : session_.restart();
+}
+
+void Explorer::use_key(const KeyPress& press) {
+  if (press.ctrl) return use_control_key(press);
+  switch (press.key) {
+    case GLFW_KEY_TAB:
+      shown_.panels = !shown_.panels;
+      return;
+    case GLFW_KEY_SPACE:
+      return session_.play(!session_.frame().plays);
+    case GLFW_KEY_PERIOD:
+      return press.shift ? session_.step_collision() : session_.step_frame();
+    default:
+      break;
+  }
+  switch (press.letter()) {
+    case 'f':
+      return stage_.fit();
+    case 'g':
+      shown_.gallery = !shown_.gallery;
+      return;
+    case 'h':
+      shown_.help = !shown_.help;
+      return;
+    case 'l':
+      shown_.lecture = !shown_.lecture;
+      return;
+    case 'm':
+      return fix_range();
+    case 'p':
+      shown_.plots = !shown_.plots;
+      return;
+    case 'r':
+      return press.shift ? session_.restart_with_new_seed() : session_.restart();
+    default:
+      return;
+  }
+}
+
+void Explorer::use_control_key(const KeyPress& press) {
+  switch (press.letter()) {
+    case 'z':
+      return press.shift ? session_.redo() : session_.undo();
+    case 'y':
+      return session_.redo();
+    case 's':
+      save_scene();
+      return;
+    case 'q':
+      glfwSetWindowShouldClose(context_.window(), GLFW_TRUE);
+      return;
+    default:
+      return;
+  }
 }
 
 // Signs lie elsewhere on each keyboard.
@@ -212,6 +274,16 @@ void Explorer::close_something() {
 void Explorer::open_gallery_scene(const std::string& name) {
   shown_.gallery = false;
   open(load_scene(name), session_.frame().seed);
+}
+
+// A scene file, or one of our pictures with its scene inside.
+void Explorer::open_file(const std::string& file) {
+  try {
+    const auto inside = png_text(file, "Scene");
+    open(inside ? parse_scene(*inside, file) : load_scene(file), session_.frame().seed);
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
 }
 
 void Explorer::toggle_full_screen() {

@@ -5,6 +5,8 @@
 
 #include "app/view/controls.h"
 #include "app/view/gallery.h"
+#include "app/view/history.h"
+#include "app/view/keys.h"
 #include "app/view/notes.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
@@ -17,7 +19,7 @@ namespace clatter {
 /// What the window shows and does: the stage, the panels around it, the keys.
 class Explorer {
  public:
-  Explorer(const GlfwContext& context, Worker& worker, ScriptLog& log);
+  Explorer(const GlfwContext& context, Keys& keys, Worker& worker, ScriptLog& log);
 
   /// Starts a scene.
   void open(const Scene& scene, std::uint64_t seed);
@@ -36,13 +38,17 @@ class Explorer {
 
   void begin();
   void use_keys();
-  void use_letter_keys();
+  void use_function_key(const KeyPress& press);
+  void use_key(const KeyPress& press);
+  void use_control_key(const KeyPress& press);
   void use_signs();
   void close_something();
   void panels();
   void left_panel(float top, float width);
+  void plots_drawer(float top, float width);
   void stage();
   void open_gallery_scene(const std::string& name);
+  void open_file(const std::string& file);
   void toggle_full_screen();
   void fix_range();
   void screenshot();
@@ -50,11 +56,13 @@ class Explorer {
   void copy_command();
 
   const GlfwContext& context_;
+  Keys& keys_;
   ScriptLog& log_;
   Session session_;
   Controls controls_;
   Stage stage_;
   Gallery gallery_;
+  History history_;
   GuiLayer gui_;
   Shown shown_;
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none

@@ -32,9 +32,10 @@ static void roughness(Session& session, Controls& controls) {
                std::min(rough.friction_in_force(), kMostFriction),
                std::min(usual.any() ? usual.friction_in_force() : 0.5, kMostFriction));
   controls.law({.key = "disks.tangential_restitution",
-                .name = "Tangential restitution",
+                .name = "Tangential",
                 .symbol = "β₀",
-                .help = "Of rolling contacts: -1 keeps the slip, 1 reverses it, Eq. (2.8)",
+                .help = "Tangential restitution of rolling contacts: -1 keeps the slip, 1 reverses "
+                        "it, Eq. (2.8)",
                 .low = -1.0},
                rough.tangential_restitution_in_force(),
                usual.any() ? usual.tangential_restitution_in_force() : 0.5);

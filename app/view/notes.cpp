@@ -10,7 +10,7 @@ static void begin_note(const char* name, ImVec2 place, ImVec2 pivot, float wrap 
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(place, 0, pivot);
   if (wrap > 0.0f) ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(wrap, FLT_MAX));
-  ImGui::SetNextWindowBgAlpha(0.92f);
+  ImGui::SetNextWindowBgAlpha(0.96f);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * unit);
   ImGui::Begin(name, nullptr,

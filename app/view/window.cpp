@@ -70,11 +70,12 @@ void show_window(const WindowOptions& options) {
   GLFWwindow* window = context->window();
   glfwSwapInterval(1);
   ScriptLog log(options.script_log);
+  Keys keys(window);
   const Gui gui(window);
   const double rate = refresh_rate();
   Worker worker(rate, [] { glfwPostEmptyEvent(); });
   {
-    Explorer explorer(*context, worker, log);
+    Explorer explorer(*context, keys, worker, log);
     explorer.open(options.scene, options.seed);
     // Panels settle some pictures after an event, not at once.
     constexpr int kSettle = 4;
