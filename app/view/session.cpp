@@ -44,6 +44,10 @@ bool Session::update() {
     messages_ = now.messages;
     tell(now.message);
   }
+  if (now.handled > handled_) {
+    handled_ = now.handled;
+    log_.event("handled", {{"command", handled_}});
+  }
   // What the panels show is what was asked for last, until the engine has answered.
   if (now.handled == sent_) {
     plays_ = now.plays;

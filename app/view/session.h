@@ -78,6 +78,7 @@ class Session {
   bool plays_ = true;
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;
+  std::uint64_t handled_ = 0;
   std::shared_ptr<const Scene> seen_;
   std::uint64_t messages_ = 0;
   std::vector<Edit> done_;

@@ -41,11 +41,12 @@ void Hands::key(const std::string& name) const {
   tool("key --delay 120 " + name + kPause);
 }
 
-std::vector<json> Hands::events() const {
+std::vector<json> Hands::events(const std::string& name) const {
   std::istringstream log(shell_.read("log"));
   std::vector<json> events;
   for (std::string line; std::getline(log, line) && !log.eof();) {
-    events.push_back(json::parse(line));
+    json event = json::parse(line);
+    if (name.empty() || event["event"] == name) events.push_back(std::move(event));
   }
   return events;
 }

@@ -33,7 +33,9 @@ class Hands {
   nlohmann::json wait_for(
       const std::string& event, std::size_t after = 0,
       const std::function<bool(const nlohmann::json&)>& is_it = [](auto&) { return true; }) const;
-  /// The number of events told so far.
+  /// The events told so far, or those of one name.
+  std::vector<nlohmann::json> events(const std::string& name = "") const;
+  /// How many there are.
   std::size_t told() const { return events().size(); }
   /// The colour of a pixel of the screen: red, green, blue.
   std::vector<int> pixel(int x, int y) const;
@@ -42,7 +44,6 @@ class Hands {
   const Shell& shell() const { return shell_; }
 
  private:
-  std::vector<nlohmann::json> events() const;
   /// Place of a widget: left, top, width, height.
   std::vector<double> place(const std::string& widget) const;
 

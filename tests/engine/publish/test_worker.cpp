@@ -150,10 +150,7 @@ TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
   CHECK(refused.message.find("between 0 and 1") != std::string::npos);
   CHECK(refused.scene->disks.restitution == 0.9);
 
-  worker.send(command::Open{load_scene("collapse", {{"collapse", "{}"},
-                                                    {"box.size", "[20, 20]"},
-                                                    {"disks.count", "130"},
-                                                    {"view.speed", "1000"}})});
+  worker.send(command::Open{load_scene("collapse", {{"collapse", "{}"}, {"view.speed", "1000"}})});
   const Frame stopped = wait_for(worker, [](const Frame& frame) { return frame.messages == 2; });
   CHECK(stopped.run == 2);
   CHECK_FALSE(stopped.plays);
