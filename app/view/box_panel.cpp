@@ -160,7 +160,7 @@ void box_panel(Session& session, Controls& controls) {
                         .name = axis == 0 ? "Width" : "Height",
                         .symbol = axis == 0 ? "Lx" : "Ly",
                         .unit = "d",
-                        .help = "Of the box, in disk diameters; another starts the gas anew",
+                        .help = "Of the box, in disk diameters; disks that no longer fit go",
                         .low = 4.0,
                         .high = longest,
                         .format = "%.1f"},

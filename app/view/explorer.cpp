@@ -16,6 +16,7 @@
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/state_file.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -31,6 +32,7 @@ Explorer::Explorer(const GlfwContext& context, Keys& keys, Worker& worker, Scrip
       session_(worker, log),
       controls_(session_, log),
       stage_(context.gl()),
+      gallery_(context.gl()),
       gui_(context.gl()) {}
 
 void Explorer::open(const Scene& scene, std::uint64_t seed) {
@@ -150,6 +152,8 @@ void Explorer::plots_drawer(float top, float width) {
 void Explorer::stage() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const Frame& frame = session_.frame();
+  if (shown_.gallery != told_gallery_ && shown_.gallery) log_.event("gallery", {{"open", true}});
+  told_gallery_ = shown_.gallery;
   if (shown_.gallery) {
     if (const auto name = gallery_.draw(controls_, whole.x, whole.y)) open_gallery_scene(*name);
   }
@@ -322,11 +326,22 @@ static std::string free_name(const std::string& extension) {
   }
 }
 
+// What is on screen as a scene. A start state that is in no file gets one of that name.
+static Scene recorded_beside(const std::string& file, const Session& session) {
+  Scene scene = session.recorded();
+  Start& start = scene.disks.start;
+  if (start.layout == Layout::File && start.file.empty()) {
+    start.file = std::filesystem::path(file).replace_extension(".csv");
+    write_file(start.file, state_to_csv(start.state));
+  }
+  return scene;
+}
+
 void Explorer::screenshot() {
   if (!session_.frame().scene) return;
   try {
     const std::string name = free_name(".png");
-    const Scene scene = session_.recorded();
+    const Scene scene = recorded_beside(name, session_);
     const std::vector<PngText> texts = {{"Title", scene.title},
                                         {"Software", "clatter " CLATTER_VERSION},
                                         {"Seed", std::to_string(session_.frame().seed)},
@@ -340,9 +355,10 @@ void Explorer::screenshot() {
 }
 
 std::string Explorer::save_scene() {
+  if (!session_.frame().scene) return "";
   try {
     const std::string name = free_name(".toml");
-    write_file(name, scene_to_toml(session_.recorded()));
+    write_file(name, scene_to_toml(recorded_beside(name, session_)));
     log_.event("saved", {{"file", name}});
     session_.tell("Saved: " + name);
     return name;

@@ -65,6 +65,7 @@ class Explorer {
   History history_;
   GuiLayer gui_;
   Shown shown_;
+  bool told_gallery_ = false;         // whether the script log knows that it is open
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none
   float scale_ = 1.0f;                // pixels per unit of the window
   Area area_;                         // of the stage

@@ -1,16 +1,19 @@
 #include "app/view/gallery.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 
 #include "engine/embedded_file.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {
 
-Gallery::Gallery() {
+Gallery::Gallery(const Gl& gl) : thumbnails_(gl, [] { glfwPostEmptyEvent(); }) {
   for (const EmbeddedFile& file : embedded_scenes()) {
     const Scene scene = load_gallery_scene(file);
     entries_.push_back(
@@ -22,6 +25,37 @@ Gallery::Gallery() {
 static std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
+}
+
+// Its picture, its title, and what to watch.
+bool Gallery::draw_card(const Entry& entry, Controls& controls) {
+  const float unit = ImGui::GetFontSize();
+  const float height = 5.6f * unit, edge = 0.4f * unit;
+  const float width = (height - 2.0f * edge) * Thumbnails::kSize.width / Thumbnails::kSize.height;
+  const ImVec2 at = ImGui::GetCursorPos();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::PushID(entry.name.c_str());
+  const bool clicked = controls.card(("gallery." + entry.name).c_str(), height);
+  ImGui::PopID();
+  const ImVec2 after = ImGui::GetCursorPos();
+  if (const GLuint texture = thumbnails_.of(entry.name)) {
+    ImGui::GetWindowDrawList()->AddImageRounded(
+        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)),
+        ImVec2(corner.x + edge, corner.y + edge),
+        ImVec2(corner.x + edge + width, corner.y + height - edge), ImVec2(0, 0), ImVec2(1, 1),
+        IM_COL32_WHITE, 0.3f * unit);
+  }
+  ImGui::SetCursorPos(ImVec2(at.x + width + 3.0f * edge, at.y + 1.2f * edge));
+  ImGui::BeginGroup();
+  ImGui::TextUnformatted(entry.title.c_str());
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextUnformatted(entry.caption.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  ImGui::EndGroup();
+  ImGui::SetCursorPos(after);
+  return clicked;
 }
 
 std::optional<std::string> Gallery::draw(Controls& controls, float width, float height) {
@@ -52,25 +86,7 @@ std::optional<std::string> Gallery::draw(Controls& controls, float width, float 
       continue;
     }
     if (entered && !chosen) chosen = entry.name;
-    const float wrap = ImGui::GetContentRegionAvail().x - unit;
-    const float lines = ImGui::CalcTextSize(entry.caption.c_str(), nullptr, false, wrap).y;
-    const ImVec2 at = ImGui::GetCursorPos();
-    ImGui::PushID(entry.name.c_str());
-    if (controls.card(("gallery." + entry.name).c_str(), 1.3f * unit + lines + 0.9f * unit)) {
-      chosen = entry.name;
-    }
-    ImGui::PopID();
-    const ImVec2 after = ImGui::GetCursorPos();
-    ImGui::SetCursorPos(ImVec2(at.x + 0.5f * unit, at.y + 0.4f * unit));
-    ImGui::BeginGroup();
-    ImGui::TextUnformatted(entry.title.c_str());
-    ImGui::PushTextWrapPos(at.x + 0.5f * unit + wrap);
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextUnformatted(entry.caption.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-    ImGui::EndGroup();
-    ImGui::SetCursorPos(after);
+    if (draw_card(entry, controls)) chosen = entry.name;
   }
   ImGui::EndChild();
   ImGui::End();

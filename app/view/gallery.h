@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "app/view/controls.h"
+#include "app/view/thumbnails.h"
 
 namespace clatter {
 
 /// The scenes that come with the program, to choose from.
 class Gallery {
  public:
-  Gallery();
+  explicit Gallery(const Gl& gl);
 
   /// Draws it over the window, whose extent is given; the name of the scene that was chosen.
   std::optional<std::string> draw(Controls& controls, float width, float height);
@@ -24,6 +25,9 @@ class Gallery {
     std::string name, title, caption;
   };
 
+  bool draw_card(const Entry& entry, Controls& controls);
+
+  Thumbnails thumbnails_;
   std::vector<Entry> entries_;
   std::array<char, 64> search_ = {};
 };

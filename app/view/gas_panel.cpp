@@ -69,12 +69,12 @@ static void contact_time(Session& session, Controls& controls) {
 void gas_panel(Session& session, Controls& controls) {
   if (!group("Gas")) return;
   const Scene& scene = session.scene();
-  if (scene.disks.start.layout != Layout::File) {
+  if (session.opened().disks.start.layout != Layout::File) {
     const int most = std::min(lattice_capacity(start_room(scene)), 100'000);
     controls.whole({.key = "disks.count",
                     .name = "Disks",
                     .symbol = "N",
-                    .help = "Another number starts the gas anew",
+                    .help = "Disks go, or come at random places where there is room",
                     .low = 1.0,
                     .high = static_cast<double>(most),
                     .logarithmic = true,

@@ -27,6 +27,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"plays", frame.plays},
                          {"held", frame.held},
                          {"changes", frame.scene->changes.size()},
+                         {"disks", frame.snapshot.positions.size()},
                          {"restitution", frame.scene->disks.restitution}};
   if (frame.state_hash) {
     char hash[17];
@@ -54,6 +55,7 @@ bool Session::update() {
     if (now.scene && now.scene != seen_) {
       seen_ = now.scene;
       scene_ = *now.scene;
+      scene_.disks.start = opened_.disks.start;
     }
   }
   constexpr std::chrono::milliseconds kStatus{100};
@@ -73,13 +75,12 @@ void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
   done_.clear();
   undone_.clear();
   log_.event("open", {{"title", scene.title}, {"seed", seed}, {"command", sent_ + 1}});
-  started_ = scene;
   send(command::Open{scene, seed, plays});
 }
 
 Scene Session::recorded() const {
-  Scene scene = started_;
-  if (frame().scene) scene.changes = frame().scene->changes;
+  Scene scene = *frame().started;
+  scene.changes = frame().scene->changes;
   scene.view = view_;
   scene.view.speed = speed_;
   if (!scene.spins()) {
@@ -98,8 +99,16 @@ void Session::restart() {
   scene.view = view_;
   scene.view.speed = speed_;
   log_.event("reset", {{"seed", seed_}, {"command", sent_ + 1}});
-  started_ = scene;
   send(command::Open{scene, seed_, plays_});
+}
+
+void Session::refit() {
+  Scene scene = scene_;
+  scene.changes.clear();
+  scene.view = view_;
+  scene.view.speed = speed_;
+  log_.event("refit", {{"command", sent_ + 1}});
+  send(command::Open{scene, seed_, plays_, true});
 }
 
 void Session::restart_with_new_seed() {
@@ -143,7 +152,7 @@ void Session::set(const std::vector<Override>& settings) {
   if (std::ranges::all_of(settings, live)) {
     send(command::SetLaws{settings});
   } else {
-    restart();
+    refit();
   }
 }
 

@@ -32,7 +32,7 @@ class Session {
   /// What is drawn.
   const View& view() const { return view_; }
   /// The scene from which what is on screen can be made again: as the gas was started, with all
-  /// that has changed since, up to the newest frame.
+  /// that has changed since, up to the newest frame. There must be a frame.
   Scene recorded() const;
 
   /// Starts a scene.
@@ -46,7 +46,8 @@ class Session {
   void step_collision();
   void set_speed(double speed);
 
-  /// Sets keys: laws on the gas that moves, others by starting it anew. What cannot be is told.
+  /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas. What
+  /// cannot be is told.
   void set(const std::vector<Override>& settings);
   /// Keeps what has been set, to be taken back; forgets what was taken back before.
   void remember(Edit edit);
@@ -67,12 +68,12 @@ class Session {
   using Clock = std::chrono::steady_clock;
 
   void send(Command command);
+  void refit();
 
   Worker& worker_;
   ScriptLog& log_;
   Scene scene_;
   Scene opened_;
-  Scene started_;  // as the gas was started last
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;

@@ -33,11 +33,13 @@ struct SetLaws {
 struct Show {
   View view;
 };
-/// Starts a scene from its beginning, and plays it or halts there.
+/// Starts a scene, and plays it or halts there: from its beginning, or from as much of the gas
+/// that there is as fits, see refitted().
 struct Open {
   Scene scene;
   std::uint64_t seed = 1;
   bool plays = true;
+  bool keeps_gas = false;
 };
 
 }  // namespace command

@@ -29,6 +29,8 @@ struct Frame {
   Snapshot snapshot;
   Tally tally;
   std::shared_ptr<const Scene> scene;  ///< with the laws in force, and all changes
+  std::shared_ptr<const Scene>
+      started;  ///< as the run was started; a start state may be in no file
   std::uint64_t seed = 1;
   bool plays = false;
   double speed = 1.0;                       ///< asked for, simulation time per second

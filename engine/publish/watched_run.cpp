@@ -2,7 +2,8 @@
 
 namespace clatter {
 
-WatchedRun::WatchedRun(const Scene& scene, std::uint64_t seed) : run_(scene, seed) {
+WatchedRun::WatchedRun(const Scene& scene, std::uint64_t seed)
+    : run_(scene, seed), started_(std::make_shared<const Scene>(scene)) {
   run_.show(scene.view);
   run_.on_change = [this](Simulation<2>& next) {
     close_window();
@@ -35,6 +36,7 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.snapshot = run_.snapshot();
   frame.tally = tally_;
   frame.scene = scene_;
+  frame.started = started_;
   frame.seed = run_.seed();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;

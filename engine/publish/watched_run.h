@@ -36,6 +36,7 @@ class WatchedRun {
   std::optional<Totals<2>> totals_;
   LastCollision last_;
   Tally tally_;
+  std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // as told last
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/dynamics/refit.h"
 #include "engine/error.h"
 #include "engine/publish/pace.h"
 #include "engine/publish/watched_run.h"
@@ -100,7 +101,12 @@ class Work {
     if (watched_) gas().show(asked.view);
   }
   void obey(const command::Open& asked) {
-    auto opened = std::make_unique<WatchedRun>(asked.scene, asked.seed);
+    Scene scene = asked.scene;
+    if (asked.keeps_gas && watched_) {
+      State<2> state = refitted(gas().simulation().state(), scene, asked.seed);
+      scene.disks.start = {.layout = Layout::File, .file = "", .state = std::move(state)};
+    }
+    auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
     halt();
     watched_ = std::move(opened);
     pace_.set_speed(asked.scene.view.speed);

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "tests/app/hands.h"
 
@@ -17,6 +19,8 @@ bool halted(const json& status) {
 }
 
 }  // namespace
+
+TEST_SUITE_BEGIN("window");
 
 TEST_CASE("Window: a gas plays, halts, steps to a frame and to a collision, plays on") {
   const Hands hands("");
@@ -62,19 +66,6 @@ TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") 
       "status", told, [&](const json& status) { return status["temperature"] < 0.4 * hot; });
   CHECK(cold["restitution"].get<double>() == doctest::Approx(0.5).epsilon(0.05));
   CHECK(cold["changes"] > 2);
-  // From a slider's move to the picture of a gas under its law: a frame of the engine, and one of
-  // the window, on a machine that draws on its processor. The median, for it has other work too.
-  std::vector<double> delays;
-  for (const json& set : hands.events("set")) {
-    for (const json& done : hands.events("handled")) {
-      if (done["command"] < set["command"]) continue;
-      delays.push_back(done["at"].get<double>() - set["at"].get<double>());
-      break;
-    }
-  }
-  REQUIRE(delays.size() > 2);
-  std::ranges::sort(delays);
-  CHECK(delays[delays.size() / 2] < 0.05);
   hands.key("ctrl+z");
   hands.wait_for("undo", told);
   hands.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
@@ -84,6 +75,7 @@ TEST_CASE("Window: a scene of the gallery, found by its name") {
   const Hands hands("");
   std::size_t told = hands.told();
   hands.key("g");
+  hands.wait_for("gallery", told);
   hands.tool("type --delay 100 cradle");
   hands.tool("sleep 0.3");
   hands.key("Return");
@@ -92,6 +84,7 @@ TEST_CASE("Window: a scene of the gallery, found by its name") {
                        [](const json& status) { return status["run"] == 2; })["temperature"] > 0.0);
   told = hands.told();
   hands.key("g");
+  hands.wait_for("gallery", told);
   hands.click("gallery.cooling");
   CHECK(hands.wait_for("open", told)["title"] == "Haff's cooling");
 }
@@ -123,6 +116,31 @@ TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays
   CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
 }
 
+TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be saved") {
+  const Hands hands("");
+  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 3.0; });
+  std::size_t told = hands.told();
+  hands.drag("disks.count", 0.8, 0.6);
+  hands.wait_for("refit", told);
+  const json again = hands.wait_for("status", told, [](const json& status) {
+    return status["run"] == 2 && status["time"] > 0.5;
+  });
+  CHECK(again["disks"] < 150);
+  hands.drag("disks.restitution", 0.88, 0.8);
+  hands.key("space");
+  told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.wait_for("saved", told)["file"];
+  const json now = hands.wait_for("status", 0, halted);
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
+                now["time"].get<double>());
+  const Outcome outcome = hands.shell().run(line);
+  CAPTURE(outcome.err);
+  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+}
+
 TEST_CASE("Window: quits at once") {
   const Hands hands("collapse");
   hands.key("ctrl+q");
@@ -137,6 +155,29 @@ TEST_CASE("Window: without a display it says what to do instead") {
     CHECK(outcome.code == 1);
     CHECK(outcome.err.find("clatter render") != std::string::npos);
   }
+}
+
+TEST_SUITE_END();
+
+// It looks at real time, and so needs a machine that has nothing else to do.
+TEST_CASE("Window: a law that a slider sets holds within a frame of the display" *
+          doctest::test_suite("slow")) {
+  const Hands hands("");
+  hands.drag("disks.restitution", 0.88, 0.5);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  std::vector<double> delays;
+  for (const json& set : hands.events("set")) {
+    for (const json& done : hands.events("handled")) {
+      if (done["command"] < set["command"]) continue;
+      delays.push_back(done["at"].get<double>() - set["at"].get<double>());
+      break;
+    }
+  }
+  REQUIRE(delays.size() > 2);
+  std::ranges::sort(delays);
+  MESSAGE("median " << delays[delays.size() / 2] << " s");
+  // Until the engine has it, one of its frames; until the window has that, one of its own.
+  CHECK(delays[delays.size() / 2] < 2.0 / 60.0);
 }
 
 }  // namespace clatter
