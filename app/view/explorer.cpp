@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/view/panels.h"
 #include "app/view/plots.h"
@@ -74,6 +75,7 @@ void Explorer::draw() {
   const Size size{static_cast<int>((area_.high.x - area_.low.x) * scale_),
                   static_cast<int>((area_.high.y - area_.low.y) * scale_)};
   if (size.width > 0 && size.height > 0 && session_.frame().scene) {
+    if (std::exchange(drawn_views_, session_.views()) != session_.views()) stage_.redraw();
     stage_.draw(session_.frame(), session_.view(), size);
     stage_.show(static_cast<int>(area_.low.x * scale_),
                 static_cast<int>((whole.y - area_.high.y) * scale_));
@@ -167,11 +169,12 @@ void Explorer::stage() {
   list.PushClipRect(area_.low, area_.high);
   stage_.mark(list, frame, area_.low, scale_);
   list.PopClipRect();
-  if (stage_.picked()) disk_note(frame, *stage_.picked(), stage_.follows(), area_);
+  if (const auto place = stage_.picked_place(frame, area_.low, scale_)) {
+    disk_note(frame, *stage_.picked(), stage_.follows(), *place, area_);
+  }
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsAnyItemActive() || shown_.gallery) shown_.hint = false;
-  if (shown_.hint && !shown_.help) hint(area_);
-  told(session_, area_);
+  if (!told(session_, area_) && shown_.hint && !shown_.help && !shown_.lecture) hint(area_);
   log_.widget("stage", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }
@@ -315,7 +318,6 @@ void Explorer::fix_range() {
     if (end > 0.0) view.range = {{signs ? -end : 0.0, end}};
   }
   session_.set_view(view);
-  stage_.redraw();
 }
 
 // The first name that is free: "clatter-1.png", "clatter-2.png", ...

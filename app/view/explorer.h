@@ -65,6 +65,7 @@ class Explorer {
   History history_;
   GuiLayer gui_;
   Shown shown_;
+  std::uint64_t drawn_views_ = 0;     // of Session::views()
   bool told_gallery_ = false;         // whether the script log knows that it is open
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none
   float scale_ = 1.0f;                // pixels per unit of the window

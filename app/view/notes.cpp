@@ -1,5 +1,6 @@
 #include "app/view/notes.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -33,24 +34,31 @@ void hint(const Area& area) {
   end_note();
 }
 
-void told(const Session& session, const Area& area) {
-  constexpr double kShown = 8.0;  // seconds
-  if (session.message().empty() || session.message_age() > kShown) return;
+bool told(const Session& session, const Area& area) {
+  constexpr double kShown = 10.0;  // seconds
+  if (session.message().empty() || session.message_age() > kShown) return false;
   const float unit = ImGui::GetFontSize();
   const float wrap = 0.7f * (area.high.x - area.low.x);
-  begin_note("told", ImVec2(0.5f * (area.low.x + area.high.x), area.low.y + unit),
-             ImVec2(0.5f, 0.0f), wrap);
+  begin_note("told", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
+             ImVec2(0.5f, 1.0f), wrap);
   ImGui::PushTextWrapPos(wrap - 2.0f * unit);
   ImGui::TextUnformatted(session.message().c_str());
   ImGui::PopTextWrapPos();
   end_note();
+  return true;
 }
 
-void disk_note(const Frame& frame, std::size_t disk, bool follows, const Area& area) {
+void disk_note(const Frame& frame, std::size_t disk, bool follows, ImVec2 place, const Area& area) {
   const Snapshot& gas = frame.snapshot;
   if (disk >= gas.positions.size()) return;
   const float unit = ImGui::GetFontSize();
-  begin_note("disk", ImVec2(area.low.x + unit, area.low.y + unit), ImVec2(0.0f, 0.0f));
+  // Towards the middle, where there is room for it.
+  const bool left = place.x > 0.5f * (area.low.x + area.high.x);
+  const bool up = place.y > 0.5f * (area.low.y + area.high.y);
+  begin_note("disk",
+             ImVec2(std::clamp(place.x + (left ? -unit : unit), area.low.x, area.high.x),
+                    std::clamp(place.y + (up ? -unit : unit), area.low.y, area.high.y)),
+             ImVec2(left ? 1.0f : 0.0f, up ? 1.0f : 0.0f));
   ImGui::Text("Disk %zu", disk);
   const Vec2 &r = gas.positions[disk], &v = gas.velocities[disk];
   ImGui::TextDisabled("place %.2f, %.2f", r.x(), r.y());

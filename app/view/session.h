@@ -57,6 +57,8 @@ class Session {
   bool can_redo() const { return !undone_.empty(); }
 
   void set_view(const View& view);
+  /// How often the view has changed.
+  std::uint64_t views() const { return views_; }
 
   /// Something to tell the person, until they have seen it.
   void tell(const std::string& message);
@@ -80,6 +82,7 @@ class Session {
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;
   std::uint64_t handled_ = 0;
+  std::uint64_t views_ = 0;
   std::shared_ptr<const Scene> seen_;
   std::uint64_t messages_ = 0;
   std::vector<Edit> done_;

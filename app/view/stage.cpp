@@ -58,6 +58,12 @@ ImVec2 Stage::place(const Vec2& world, ImVec2 corner, float scale) const {
           corner.y + static_cast<float>(canvas_->size().height - pixel.y()) / scale};
 }
 
+std::optional<ImVec2> Stage::picked_place(const Frame& frame, ImVec2 corner, float scale) const {
+  const auto& positions = frame.snapshot.positions;
+  if (!canvas_ || !picked_ || *picked_ >= positions.size()) return std::nullopt;
+  return place(positions[*picked_], corner, scale);
+}
+
 std::optional<std::size_t> Stage::disk_at(const Frame& frame, const Vec2& point) const {
   const auto& positions = frame.snapshot.positions;
   for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -32,10 +32,12 @@ class Stage {
   void fit();
   /// The disk that was clicked; absent: none.
   const std::optional<std::size_t>& picked() const { return picked_; }
+  /// Where it is in the window.
+  std::optional<ImVec2> picked_place(const Frame& frame, ImVec2 corner, float scale) const;
   bool follows() const { return follows_; }
   /// Lets go of the picked disk; whether there was one.
   bool let_go();
-  /// The colours' range as it now is, fixed; or automatic again.
+  /// Draws the next frame anew.
   void redraw() { stale_ = true; }
 
  private:
