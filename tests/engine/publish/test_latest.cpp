@@ -21,6 +21,7 @@ TEST_CASE("Latest: the reader has the newest value, and keeps it until there is 
   CHECK(latest.front() == 3);
   latest.back() = 4;
   CHECK_FALSE(latest.update());
+  CHECK(latest.front() == 3);
   latest.publish();
   CHECK(latest.update());
   CHECK(latest.front() == 4);
