@@ -37,7 +37,9 @@ class Controls {
   /// A list of words under a key of the window's own or of a law; whether another was chosen.
   bool choice(const char* key, const char* name, const char* help,
               const std::vector<std::string>& words, int& chosen);
+  /// A box to tick; whether it was.
   bool toggle(const char* key, const char* name, const char* help, bool& on);
+  /// A button as wide as its label, or so many pixels; whether it was pressed.
   bool button(const char* key, const char* label, const char* help, float width = 0.0f);
 
   /// A wide area to click on, of so many pixels' height, for what is drawn over it.

@@ -24,6 +24,7 @@ class VelocityHistogram {
   static constexpr int kClasses = 61;
   static constexpr double kReach = 5.0;  ///< in standard deviations, to either side
 
+  /// Forgets all.
   void clear() { weights_ = {}; }
   /// Counts all disks of a frame.
   void add(const Snapshot& snapshot);
@@ -42,7 +43,9 @@ class History {
   /// Takes a new frame.
   void add(const Frame& frame);
 
+  /// In order of time.
   const std::vector<Sample>& samples() const { return samples_; }
+  /// Of all disks over the last seconds.
   const VelocityHistogram& velocities() const { return velocities_; }
 
  private:

@@ -26,7 +26,9 @@ class Keys {
   Keys(const Keys&) = delete;
   Keys& operator=(const Keys&) = delete;
 
+  /// The keys pressed since the last call, in order.
   std::vector<KeyPress> take_presses();
+  /// The files dropped since the last call.
   std::vector<std::string> take_dropped();
 
  private:

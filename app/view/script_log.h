@@ -21,6 +21,7 @@ class ScriptLog {
   void event(const char* name, nlohmann::json members);
   /// Tells where a widget is, in pixels of the window, whenever that changes.
   void widget(const std::string& name, float x, float y, float width, float height);
+  /// Whether there is a file.
   bool on() const { return file_ != nullptr; }
 
  private:

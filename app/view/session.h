@@ -41,9 +41,13 @@ class Session {
   void restart();
   /// Likewise with other random numbers.
   void restart_with_new_seed();
+  /// Lets the gas go on, or halts it.
   void play(bool on);
+  /// Goes on by the time between two frames at its speed, and halts.
   void step_frame();
+  /// Goes on to the next collision of disks, and halts.
   void step_collision();
+  /// Simulation time per second.
   void set_speed(double speed);
 
   /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas. What
@@ -51,17 +55,19 @@ class Session {
   void set(const std::vector<Override>& settings);
   /// Keeps what has been set, to be taken back; forgets what was taken back before.
   void remember(Edit edit);
+  /// Takes back what was remembered last.
   void undo();
+  /// Sets again what was taken back last.
   void redo();
-  bool can_undo() const { return !done_.empty(); }
-  bool can_redo() const { return !undone_.empty(); }
 
+  /// Draws otherwise from now on; with another field its averages start anew.
   void set_view(const View& view);
   /// How often the view has changed.
   std::uint64_t views() const { return views_; }
 
   /// Something to tell the person, until they have seen it.
   void tell(const std::string& message);
+  /// What was told last; empty: nothing yet.
   const std::string& message() const { return message_; }
   /// Seconds since it was told.
   double message_age() const;

@@ -34,6 +34,7 @@ class Stage {
   const std::optional<std::size_t>& picked() const { return picked_; }
   /// Where it is in the window.
   std::optional<ImVec2> picked_place(const Frame& frame, ImVec2 corner, float scale) const;
+  /// Whether the camera follows it.
   bool follows() const { return follows_; }
   /// Lets go of the picked disk; whether there was one.
   bool let_go();

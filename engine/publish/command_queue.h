@@ -51,6 +51,7 @@ class CommandQueue {
     std::unique_lock lock(mutex_);
     changed_.wait_until(lock, time, [this] { return is_pending(); });
   }
+  /// Whether close() has been called.
   bool closed() {
     const std::lock_guard lock(mutex_);
     return closed_;

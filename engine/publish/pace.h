@@ -22,6 +22,7 @@ class Pace {
 
   /// Simulation time per second, > 0.
   void set_speed(double speed);
+  /// As set_speed() said; 1 before.
   double speed() const { return speed_; }
   /// The frame after the one before, when it is `now` and simulation time has got to `time`.
   Goal next(Clock::time_point now, double time);

@@ -27,9 +27,10 @@ class ScheduledRun {
 
   /// The simulation, until laws change.
   Simulation<2>& simulation() { return *simulation_; }
-  const Simulation<2>& simulation() const { return *simulation_; }
+  const Simulation<2>& simulation() const { return *simulation_; }  ///< likewise
   /// The scene with the laws in force, and all its changes.
   const Scene& scene() const { return schedule_.scene(); }
+  /// Of every random number of the run.
   std::uint64_t seed() const { return seed_; }
 
   /// As Simulation::run_until: changes of that time are made. Throws PhysicalStop also where no gas

@@ -15,6 +15,7 @@ class WatchedRun {
   /// From the scene's start.
   WatchedRun(const Scene& scene, std::uint64_t seed);
 
+  /// The run itself.
   ScheduledRun& run() { return run_; }
   /// Fills in what it knows; a hash where `halted`.
   void tell(Frame& frame, bool halted);

@@ -82,6 +82,7 @@ class KeyWriter {
     close_list();
   }
 
+  /// A table of keys and their values.
   virtual void settings(std::string_view key, const std::vector<Override>& settings) = 0;
 
  protected:
