@@ -12,6 +12,7 @@
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
+#include "engine/physics/theory.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 
@@ -30,20 +31,32 @@ struct MeasureOptions {
 // Samples of a series: some GB of result file.
 constexpr double kMostSamples = 1e7;
 
-// Grains at rest bounce for ever within t_c, and the run spends its time on that.
+// Where t_c makes nearly all collisions elastic, it may be as long as the time between those of a
+// gas of this density and temperature, so that the gas does not dissipate any more; or short, and
+// grains at rest bounce for ever within it, on which the run spends its time.
 void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   constexpr double kMostElastic = 0.9;
+  constexpr double kLong = 0.1;    // of the time between collisions
+  constexpr double kShort = 1e-3;  // likewise: short against it
   const auto elastic = static_cast<double>(measured.elasticised + measured.elasticised_wall);
   const auto all = static_cast<double>(measured.disk_disk + measured.disk_wall);
   if (!scene.contact_time || elastic <= kMostElastic * all) return;
-  std::fprintf(stderr,
-               "note: collapse.contact_time made %.0f %% of all collisions elastic, as of grains "
-               "that rest on each other; a larger one, say %s, would run faster\n",
-               100.0 * elastic / all, number_text(10.0 * *scene.contact_time).c_str());
+  std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
+               100.0 * elastic / all);
+  const double rate = enskog_rate(scene.area_fraction(), measured.temperature.mean);
+  if (*scene.contact_time * rate > kLong) {
+    std::fprintf(stderr,
+                 "for the gas collides as often; a smaller one, say %.1g, would let it dissipate\n",
+                 kShort / rate);
+  } else {
+    std::fprintf(stderr,
+                 "as of grains that rest on each other; a larger one, say %s, would run faster\n",
+                 number_text(10.0 * *scene.contact_time).c_str());
+  }
 }
 
 int measure(const MeasureOptions& options) {
-  const Scene scene = load(options.common);
+  Scene scene = load(options.common, options.checkpoints.start_file());
   const Measure& spec = scene.measure;
   const double end = options.common.until.value_or(spec.burn_in + spec.duration);
   if (!(end > spec.burn_in)) {

@@ -61,7 +61,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, simulation().model(), scene.measure);
   saved = {};  // some memory
-  const std::string laws = changed_laws(*resumed_);
+  const std::string laws = changed_laws(*resumed_, seed_);
   if (!laws.empty() && !quiet_) {
     std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
                  laws.c_str());
@@ -123,8 +123,13 @@ bool Run::until(double time, Progress& progress) {
 
 // A run does not fail for a checkpoint on the way: the next may succeed.
 void Run::write() {
-  Checkpoint checkpoint{"clatter " CLATTER_VERSION, command_, scene_to_toml(scene_), seed_,
-                        simulation().save(),        {}};
+  Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
+                        .command = command_,
+                        .scene = scene_to_toml(scene_),
+                        .start_temperature = scene_.start_temperature(),
+                        .seed = seed_,
+                        .saved = simulation().save(),
+                        .measurement = {}};
   if (measurement_) checkpoint.measurement = measurement_->save();
   try {
     write_checkpoint(file_, checkpoint);
@@ -162,6 +167,7 @@ int Run::end() {
                                             : "; no checkpoint is left: " + failure_));
   }
   require_no_overlap(simulation().checks().deepest_overlap);
+  // Also of a run that was interrupted: its exit code would say that all there is has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/physics/wall_motion.h"
 #include "engine/state.h"
 #include "engine/vec.h"
 
@@ -45,6 +46,10 @@ struct Wall {
 
   /// Whether the wall changes its place.
   bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
+  /// The motion of one that moves, its phase at simulation time 0; others stay at rest.
+  WallMotion motion() const;
+  /// How far into the box it is at time 0.
+  double start_travel() const;
   /// How far into the box its motion takes it.
   double innermost_travel() const;
   /// How far out of the box its motion takes it.
@@ -65,7 +70,8 @@ struct Start {
   Layout layout = Layout::Random;
   std::string file;     ///< of layout File: a CSV, see state_file.h, or its name in the gallery
   State<2> state = {};  ///< of layout File: what the file says
-  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed
+  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed;
+                             ///< of layout File: that of the state
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
 };
 
@@ -189,8 +195,8 @@ struct Scene {
   bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// T at time 0, that of a start state's file where there is one.
-  double start_temperature() const;
+  /// T at time 0.
+  double start_temperature() const { return disks.start.temperature; }
   /// phi = N pi / (4 Lx Ly).
   double area_fraction() const;
   /// How far into the box the near walls of both axes move at most.

@@ -51,6 +51,13 @@ bool is_file(const std::filesystem::path& path) {
                                : "did you mean '" + near + "'?");
 }
 
+double temperature_of(const State<2>& state) {
+  double sum = 0.0;
+  for (const Vec2& velocity : state.velocities) sum += velocity.squaredNorm();
+  const auto count = static_cast<double>(state.velocities.size());
+  return count > 0.0 ? sum / (2.0 * count) : 0.0;
+}
+
 /// Reads the state that the scene starts from, and makes the name of its file one that is found
 /// from the working directory.
 void load_start_state(Scene& scene, const toml::table& root, const std::string& file,
@@ -71,6 +78,7 @@ void load_start_state(Scene& scene, const toml::table& root, const std::string& 
   } else {
     refuse_missing_state(place, path);
   }
+  start.temperature = temperature_of(start.state);
 }
 
 SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {
@@ -81,8 +89,9 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
   return input;
 }
 
-/// The validated scene of a document; `load_state` reads the start state that it names.
-Scene read_scene(const toml::table& root, const std::string& file,
+/// The validated scene of a document; `load_state` gives it the start state of its file, where that
+/// is read.
+Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
                  const std::function<void(Scene&)>& load_state) {
   SceneInput any;
   KeyLister lister;
@@ -94,7 +103,12 @@ Scene read_scene(const toml::table& root, const std::string& file,
   if (!input.scene.spins()) input = read_keys(root, file, false);
   Scene& scene = input.scene;
   check_scene(scene, root, file);
-  if (scene.disks.start.layout == Layout::File) load_state(scene);
+  const bool from_file = scene.disks.start.layout == Layout::File;
+  if (from_file && start_file == StartFile::Skip) {
+    scene.disks.count = input.count.value_or(0);
+    return scene;
+  }
+  if (from_file) load_state(scene);
   scene.disks.count = resolve_count(input, root, file);
   return scene;
 }
@@ -113,11 +127,11 @@ void check_changes(const Scene& scene, const toml::table& root, const std::strin
 }
 
 Scene parse(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
-            Origin origin) {
+            Origin origin, StartFile start_file) {
   toml::table root = parse_document(text, file);
   for (const Override& change : overrides) apply_override(root, change);
-  const Scene scene =
-      read_scene(root, file, [&](Scene& read) { load_start_state(read, root, file, origin); });
+  const auto load_state = [&](Scene& read) { load_start_state(read, root, file, origin); };
+  const Scene scene = read_scene(root, file, start_file, load_state);
   check_changes(scene, root, file);
   return scene;
 }
@@ -138,7 +152,7 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
 
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides) {
-  return parse(text, file, overrides, Origin::Folder);
+  return parse(text, file, overrides, Origin::Folder, StartFile::Read);
 }
 
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
@@ -146,24 +160,28 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
   without_changes.changes.clear();
   toml::table root = parse_document(scene_to_toml(without_changes), "");
   for (const Override& setting : settings) apply_override(root, setting);
-  Scene made =
-      read_scene(root, "", [&](Scene& read) { read.disks.start.state = scene.disks.start.state; });
+  const Start& start = scene.disks.start;
+  const bool skipped = start.layout == Layout::File && start.state.positions.empty();
+  const auto keep_state = [&](Scene& read) { read.disks.start.state = start.state; };
+  Scene made = read_scene(root, "", skipped ? StartFile::Skip : StartFile::Read, keep_state);
+  if (made.disks.start.layout == Layout::File) made.disks.start.temperature = start.temperature;
   made.changes = scene.changes;
   return made;
 }
 
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides) {
-  return parse(scene.bytes, std::string(scene.name), overrides, Origin::Gallery);
+  return parse(scene.bytes, std::string(scene.name), overrides, Origin::Gallery, StartFile::Read);
 }
 
-Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides) {
+Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
+                 StartFile start_file) {
   if (is_file(path_or_name)) {
-    return parse_scene(read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"),
-                       path_or_name, overrides);
+    return parse(read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"),
+                 path_or_name, overrides, Origin::Folder, start_file);
   }
   for (const std::string& name : {path_or_name, path_or_name + ".toml"}) {
     const EmbeddedFile* scene = find_embedded(embedded_scenes(), name);
-    if (scene) return load_gallery_scene(*scene, overrides);
+    if (scene) return parse(scene->bytes, name, overrides, Origin::Gallery, start_file);
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path_or_name, ignored)) {

@@ -227,6 +227,22 @@ TEST_CASE("A state that was saved is where another run starts") {
   CHECK(shell.run("clatter check from/s.toml").out.find("count = 200\n") != std::string::npos);
 }
 
+TEST_CASE("Where t_c makes all collisions elastic, it is said which other one would help") {
+  const Shell shell;
+  const Outcome frozen = shell.run(
+      "clatter measure cooling --set collapse.contact_time=100 --set measure.burn_in=1 --until 20");
+  CHECK(frozen.code == 0);
+  CHECK(says(frozen.err, "a smaller one, say "));
+  shell.write("pile.toml",
+              "box.size = [10, 20]\ndisks = { count = 20, restitution = 0.5 }\n"
+              "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
+              "walls.top = { kind = 'static' }\ngravity.acceleration = [0, -1]\n"
+              "collapse.contact_time = 1e-2\nmeasure.burn_in = 20\n");
+  const Outcome resting = shell.run("clatter measure pile.toml --until 40");
+  CHECK(resting.code == 0);
+  CHECK(says(resting.err, "a larger one, say 0.1, would run faster"));
+}
+
 TEST_CASE("An interrupted measurement keeps what it has") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";

@@ -53,6 +53,13 @@ TEST_CASE("A picture is the same whenever it is drawn, another seed draws anothe
   CHECK(pixels("a.png") != pixels("c.png"));
 }
 
+TEST_CASE("A picture from a time is the picture at that time") {
+  const Shell shell;
+  shell.run(kRender + "--from 3 --out from.png && " + kRender + "--to 3 --out to.png");
+  REQUIRE_FALSE(shell.read("to.png").empty());
+  CHECK(shell.read("from.png") == shell.read("to.png"));
+}
+
 TEST_CASE("A folder takes a picture for each frame, and keeps what it has unless told otherwise") {
   const Shell shell;
   const std::string line = kRender + "--to 1 --speed 1 --fps 4 --out frames/";

@@ -9,22 +9,6 @@ namespace clatter {
 
 namespace {
 
-// Runs a line that must be refused with a message that holds all of `parts`.
-void check_refused(const Shell& shell, const std::string& line,
-                   const std::vector<std::string>& parts) {
-  CAPTURE(line);
-  const std::vector<std::string> before = shell.files();
-  const Outcome outcome = shell.run(line);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.out.empty());
-  for (const std::string& part : parts) {
-    CAPTURE(part);
-    CHECK(outcome.err.find(part) != std::string::npos);
-  }
-  CHECK(shell.files() == before);
-}
-
 // A scene that is right: a mistake is put in by writing another line 4 or 5.
 std::string scene(const std::string& line_4 = "count = 10",
                   const std::string& line_5 = "restitution = 0.9") {

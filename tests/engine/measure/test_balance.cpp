@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,80 +12,21 @@ using namespace clatter::testing;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const Wall kStatic{};
-const Wall kLossy{.restitution = 0.8};
-const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
-const Roughness kWallFriction{.friction = 0.3, .tangential_restitution = 0.5};
-const Wall kRoughDriven{
-    .kind = WallKind::Driven, .restitution = 0.9, .roughness = kWallFriction, .drive_speed = 1.0};
-const Wall kSawtooth{.kind = WallKind::Sawtooth,
-                     .restitution = 0.9,
-                     .roughness = kWallFriction,
-                     .stroke = 0.3,
-                     .frequency = 2.0,
-                     .phase = 0.25};
-const Wall kSinusoidal{.kind = WallKind::Sinusoidal,
-                       .restitution = 0.8,
-                       .roughness = kWallFriction,
-                       .stroke = 0.4,
-                       .frequency = 1.0,
-                       .phase = 0.125};
-
-Model<2> inelastic(Model<2> model, double restitution) {
-  model.restitution = restitution;
-  return model;
+// What moves is rough here, so that it also hands on what friction gives.
+Wall with_friction(Wall wall) {
+  wall.roughness = {.friction = 0.3, .tangential_restitution = 0.5};
+  return wall;
 }
-
-Model<2> rough(Model<2> model, double friction, double tangential_restitution) {
-  model.roughness = {friction, tangential_restitution};
-  model.spins = true;
-  return model;
-}
+const Wall kRoughSawtooth = with_friction(kSawtooth);
+const Wall kRoughSinusoidal = with_friction(kSinusoidal);
 
 Model<2> with_spins(Model<2> model) {
   model.spins = true;
   return model;
 }
 
-Model<2> falling(Model<2> model, const Vec2& gravity) {
-  model.gravity = gravity;
-  return model;
-}
-
-Model<2> kicked(Model<2> model, double interval, double speed) {
-  model.bulk_drive = BulkDrive{interval, speed, model.spins ? speed : 0.0};
-  return model;
-}
-
-Model<2> with_contact_time(Model<2> model, double contact_time) {
-  model.contact_time = contact_time;
-  return model;
-}
-
 Model<2> between(const Wall& wall, int axis) {
   return with_walls(periodic_box(9.0, 8.0), axis, wall);
-}
-
-Model<2> four(const Wall& sides, const Wall& ends) {
-  return with_walls(between(sides, 0), 1, ends);
-}
-
-// A gas that clears the innermost travel of every wall, with spins where they are carried.
-State<2> gas(const Model<2>& model, int count, std::uint64_t seed) {
-  Model<2> inner = model;
-  Vec2 low = Vec2::Zero();
-  for (int side = 0; side < 4; ++side) {
-    if (!model.walls[side]) continue;
-    const double travel = model.walls[side]->innermost_travel();
-    inner.box[side / 2] -= travel;
-    if (side % 2 == 0) low[side / 2] = travel;
-  }
-  State<2> state = random_gas(inner, count, seed);
-  for (Vec2& r : state.positions) r += low;
-  for (int i = 0; model.spins && i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
-  return state;
 }
 
 class BaseMoves : public Observer<2> {
@@ -123,7 +63,7 @@ void check_closure(const std::string& name, const Model<2>& model, int count = 3
   for (const IntVec<2>& cells : grids) {
     CAPTURE(cells.x());
     CAPTURE(cells.y());
-    Watched run(model, gas(model, count, 84), cells, start_time);
+    Watched run(model, clear_gas(model, count, 84), cells, start_time);
     double time = start_time;
     for (const double duration : {1.0, 0.01, 0.3, 2.5, 0.3}) {
       time += duration;
@@ -180,19 +120,20 @@ TEST_CASE("Balance: closes with every wall, rough and smooth, and at corners") {
   check_closure("thermal, with spins", with_spins(inelastic(between(kThermal, 1), 0.9)));
   check_closure("driven", inelastic(between(kDriven, 0), 0.9));
   check_closure("rough driven", rough(inelastic(between(kRoughDriven, 1), 0.9), 0.3, 0.5));
-  check_closure("saw-tooth", with_spins(inelastic(between(kSawtooth, 0), 0.9)));
-  check_closure("sinusoidal", with_spins(inelastic(between(kSinusoidal, 1), 0.9)));
+  check_closure("saw-tooth", with_spins(inelastic(between(kRoughSawtooth, 0), 0.9)));
+  check_closure("sinusoidal", with_spins(inelastic(between(kRoughSinusoidal, 1), 0.9)));
   check_closure("lossless",
                 rough(four(kStatic, Wall{.roughness = {kInfinity, 1.0}}), kInfinity, 1.0));
   check_closure("corners", inelastic(four(kDriven, kLossy), 0.9));
-  check_closure("rough corners", rough(inelastic(four(kSinusoidal, kSawtooth), 0.9), 0.3, 0.5), 20);
-  Wall swinging = kSinusoidal;
+  check_closure("rough corners",
+                rough(inelastic(four(kRoughSinusoidal, kRoughSawtooth), 0.9), 0.3, 0.5), 20);
+  Wall swinging = kRoughSinusoidal;
   swinging.stroke = 5.0;
   swinging.frequency = 0.2;
   check_closure("a stroke over several cells",
                 with_spins(inelastic(with_walls(periodic_box(14.0, 4.0), 0, swinging), 0.9)), 8);
   check_closure("a shaken floor under gravity",
-                falling(with_spins(inelastic(between(kSinusoidal, 1), 0.9)), {0.0, -1.0}));
+                falling(with_spins(inelastic(between(kRoughSinusoidal, 1), 0.9)), {0.0, -1.0}));
 }
 
 TEST_CASE("Balance: closes with the TC model") {
@@ -200,7 +141,8 @@ TEST_CASE("Balance: closes with the TC model") {
   check_closure(
       "rough, under gravity",
       with_contact_time(
-          falling(rough(inelastic(four(kStatic, kSinusoidal), 0.6), 0.3, 0.3), {0.0, -1.0}), 0.02),
+          falling(rough(inelastic(four(kStatic, kRoughSinusoidal), 0.6), 0.3, 0.3), {0.0, -1.0}),
+          0.02),
       20);
 }
 
@@ -215,7 +157,8 @@ TEST_CASE("Balance: closes where disks touch at images that are not the nearest"
 
 TEST_CASE("Balance: closes with everything at once, at time 0 and at 1e9") {
   const Model<2> model = with_contact_time(
-      kicked(falling(rough(inelastic(four(kSinusoidal, kRoughDriven), 0.8), 0.4, 0.6), {0.2, -0.5}),
+      kicked(falling(rough(inelastic(four(kRoughSinusoidal, kRoughDriven), 0.8), 0.4, 0.6),
+                     {0.2, -0.5}),
              0.17, 0.1),
       0.01);
   check_closure("all", model, 20);
@@ -225,7 +168,7 @@ TEST_CASE("Balance: closes with everything at once, at time 0 and at 1e9") {
 
 TEST_CASE("Balance: closes over windows in which the base moves") {
   const Model<2> model = falling(inelastic(between(kDriven, 1), 0.9), {0.1, -0.5});
-  Watched run(model, gas(model, 12, 85), {9, 8});
+  Watched run(model, clear_gas(model, 12, 85), {9, 8});
   BaseMoves moves;
   run.simulation.add_observer(moves);
   for (int window = 1; window <= 5; ++window) {
@@ -237,8 +180,8 @@ TEST_CASE("Balance: closes over windows in which the base moves") {
 
 TEST_CASE("Balance: a watch that begins in the middle of flights") {
   const Model<2> model =
-      falling(rough(inelastic(four(kRoughDriven, kSinusoidal), 0.9), 0.3, 0.5), {0.1, -0.5});
-  Simulation<2> simulation(model, gas(model, 12, 87));
+      falling(rough(inelastic(four(kRoughDriven, kRoughSinusoidal), 0.9), 0.3, 0.5), {0.1, -0.5});
+  Simulation<2> simulation(model, clear_gas(model, 12, 87));
   simulation.run_until(7.3);
   Balance<2> balance(simulation, {9, 8});
   simulation.add_observer(balance);
@@ -443,7 +386,7 @@ TEST_CASE("Balance: an empty gas and untouched cells have nothing to close") {
 // Spoils what the balance is told: a residual that cannot be anything but 0 would not show it.
 TEST_CASE("Balance: what was not booked shows") {
   const Model<2> model = inelastic(between(kDriven, 0), 0.9);
-  const State<2> start = gas(model, 30, 86);
+  const State<2> start = clear_gas(model, 30, 86);
   Simulation<2> simulation(model, start);
   Balance<2> unheard(simulation, {9, 8});  // is told of no event
   simulation.run_until(2.0);
