@@ -9,7 +9,7 @@
 #include "app/write_file.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/prediction.h"
-#include "engine/measure/moment_layout.h"
+#include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/scene_keys.h"
 
@@ -47,9 +47,7 @@ std::string names_of(const std::vector<Field>& fields) {
 Part fields_of(const Scene& scene) {
   const Measure& measure = scene.measure;
   if (measure.fields.empty()) return {"fields", "no", 0.0};
-  const double cells = static_cast<double>(measure.cells[0]) * measure.cells[1];
-  const int numbers = moment_layout<2>(measure.fields, scene.spins()).size;
-  return {"fields", names_of(measure.fields), cells * numbers * sizeof(double)};
+  return {"fields", names_of(measure.fields), cells_memory(measure, scene.spins())};
 }
 
 std::vector<Part> parts_of(const Scene& scene) {
@@ -78,7 +76,7 @@ void print_parts(const Scene& scene) {
 }
 
 void print_events(const Scene& scene, double end) {
-  const double temperature = scene.start_temperature();
+  const double temperature = scene.disks.start.temperature;
   const double rate = 0.5 * scene.disks.count * enskog_rate(scene.area_fraction(), temperature);
   std::fprintf(stderr, "Events until t = %g: about %.3g disk-disk collisions", end, rate * end);
   if (scene.bulk_drive) {

@@ -112,10 +112,12 @@ int render(const RenderOptions& options) {
   const FrameTimes times = frame_times(options, resumed ? resumed->time() : 0.0, view.speed);
   const Size size = parse_size(options.size);
   constexpr double kMostWindows = 1e7;
-  if (view.field && times.last() / view.window > kMostWindows) {
+  if (view.shows_averages() && times.last() / view.window > kMostWindows) {
     throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
                     "choose at least " + number_text(times.last() / kMostWindows));
   }
+  const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
+  require_distinct(outputs);
   require_folder_of(options.out, "--out");
   catch_interrupts();
 

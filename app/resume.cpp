@@ -67,4 +67,9 @@ std::string changed_laws(const Resumed& resumed, std::uint64_t seed) {
   return keys;
 }
 
+bool differs(const Resumed& resumed, const std::string& key) {
+  return std::ranges::find(resumed.differences, key, &KeyDifference::key) !=
+         resumed.differences.end();
+}
+
 }  // namespace clatter

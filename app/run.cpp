@@ -13,9 +13,12 @@ namespace clatter {
 
 // Whether averages can go on under a model. Under another gravity they cannot, for what flights
 // contribute is booked at their end, by the gravity of that time; nor where walls move otherwise,
-// which starts flights anew; nor where spins come or go, for fields then need other sums.
-static bool averages_go_on(const Saved<2>& saved, const Model<2>& model, const Measure& measure) {
-  const bool same_sums = measure.fields.empty() || saved.spins.empty() != model.spins;
+// which starts flights anew; nor where spins come or go or get another inertia, for fields then
+// need other sums and cells hold another energy.
+static bool averages_go_on(const Saved<2>& saved, bool same_inertia, const Model<2>& model,
+                           const Measure& measure) {
+  const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
+  const bool same_sums = measure.fields.empty() || same_spins;
   return same_sums && saved.gravity == model.gravity &&
          saved.wall_motions == wall_motions<2>(model);
 }
@@ -59,7 +62,8 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   Saved<2>& saved = resumed_->checkpoint.saved;
   run_.emplace(scene, seed_, saved);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
-                    averages_go_on(saved, simulation().model(), scene.measure);
+                    averages_go_on(saved, !differs(*resumed_, "disks.inertia"),
+                                   simulation().model(), scene.measure);
   saved = {};  // some memory
   const std::string laws = changed_laws(*resumed_, seed_);
   if (!laws.empty() && !quiet_) {
@@ -84,7 +88,8 @@ Measurement& Run::measure(double end) {
 }
 
 void Run::measure_on(Simulation<2>& next) {
-  if (averages_go_on(simulation().save(), next.model(), scene_.measure)) {
+  const bool same_inertia = simulation().model().inertia == next.model().inertia;
+  if (averages_go_on(simulation().save(), same_inertia, next.model(), scene_.measure)) {
     const std::string saved = measurement_->save();
     measurement_.emplace(next, scene_.measure, ArchiveReader(saved, command_));
   } else {
@@ -126,7 +131,7 @@ void Run::write() {
   Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
                         .command = command_,
                         .scene = scene_to_toml(scene_),
-                        .start_temperature = scene_.start_temperature(),
+                        .start_temperature = scene_.disks.start.temperature,
                         .seed = seed_,
                         .saved = simulation().save(),
                         .measurement = {}};

@@ -24,9 +24,19 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-double SteadyExtent::follow(double extent) {
+double round_down(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (double step : {5.0, 2.0}) {
+    if (step * power <= value) return step * power;
+  }
+  return power;
+}
+
+double SteadyExtent::follow(double extent, bool hold) {
   const bool fits = 0.5 * current_ <= extent && extent <= 1.05 * current_;
-  if (extent > 0.0 && !fits) current_ = round_up(extent);
+  const bool kept = hold && held_;
+  if (extent > 0.0 && !fits && !kept) current_ = round_up(extent);
+  held_ = hold && (held_ || extent > 0.0);
   return current_ > 0.0 ? current_ : 1.0;
 }
 
@@ -42,15 +52,23 @@ std::vector<double> round_ticks(double low, double high, int count) {
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
     ticks.push_back(k * step + 0.0);  // + 0: no -0
   }
-  return ticks;
+  return ticks.size() > 1 ? ticks : round_ticks(low, high, count + 1);
+}
+
+// The power of ten of the first digit; the slack is for round numbers that are not exact.
+static double order_of(double value) {
+  return std::floor(std::log10(value) + 1e-9);
 }
 
 std::string tick_text(double value, double step) {
-  const double digits = -std::floor(std::log10(step) + 1e-9);
-  const bool plain = std::abs(digits) <= 4.0;
+  const double magnitude = std::abs(value);
+  const double place = order_of(step);  // of the last digit
+  const bool plain = std::abs(place) <= 4.0;
+  if (magnitude == 0.0 && !plain) return "0";
+  const double digits = plain ? -place : order_of(magnitude) - place;
   char text[32];
-  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e",
-                plain ? static_cast<int>(std::max(0.0, digits)) : 0, std::abs(value));
+  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e", static_cast<int>(std::max(0.0, digits)),
+                magnitude);
   return value < 0.0 ? "−" + std::string(text) : text;
 }
 

@@ -26,13 +26,17 @@ constexpr auto kInferno = colours({0x000004, 0x0b0724, 0x210c4a, 0x3c0965, 0x571
                                    0x89226a, 0xa32b61, 0xbb3755, 0xd14644, 0xe35932, 0xf1711e,
                                    0xf98d0a, 0xfcab0f, 0xf9ca32, 0xf2e865, 0xfcffa4});
 
+// J. R. Nuñez, C. R. Anderton and R. S. Renslow, "Optimizing colormaps with consideration for color
+// vision deficiency" (2018), sampled likewise.
+constexpr auto kCividis = colours({0x00224e, 0x002e6a, 0x1a386f, 0x32436d, 0x434e6c, 0x52596d,
+                                   0x61656f, 0x6f7073, 0x7c7b78, 0x8b8778, 0x9b9376, 0xaba072,
+                                   0xbbad6c, 0xccba64, 0xddc958, 0xefd748, 0xfee838});
+
 // K. Moreland, "Diverging Color Maps for Scientific Visualization" (2009): Msh interpolation from
 // (59, 76, 192) to (180, 4, 38), evaluated at 17 equal steps.
 constexpr auto kCoolWarm = colours({0x3b4cc0, 0x4e68d7, 0x6282ea, 0x779af7, 0x8db0fe, 0xa3c2fe,
                                     0xb8d0f9, 0xccd9ee, 0xdddddd, 0xecd3c6, 0xf5c4ad, 0xf7b194,
                                     0xf49a7b, 0xec7f63, 0xde614c, 0xcb3e38, 0xb40426});
-
-constexpr auto kSubdued = colours({0x12181e, 0x2c3e4c, 0x8399a8});
 
 }  // namespace
 
@@ -50,6 +54,8 @@ ColourMap colour_map(Palette palette) {
       return kViridis;
     case Palette::Inferno:
       return kInferno;
+    case Palette::Cividis:
+      return kCividis;
   }
   return {};
 }
@@ -58,15 +64,18 @@ ColourMap diverging_map() {
   return kCoolWarm;
 }
 
-ColourMap subdued_map() {
-  return kSubdued;
-}
-
 Colour ColourScale::operator()(double value) const {
   const double steps = static_cast<double>(map.size() - 1);
-  const double place = steps * std::clamp((value - low) / (high - low), 0.0, 1.0);
+  double share = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  if (about_zero) {
+    const double shown = low + share * (high - low);
+    share = 0.5 + 0.5 * shown / std::max(std::abs(low), std::abs(high));
+  }
+  const double place = steps * share;
   const std::size_t index = std::min(static_cast<std::size_t>(place), map.size() - 2);
-  return mix(map[index], map[index + 1], place - static_cast<double>(index));
+  Colour colour = mix(map[index], map[index + 1], place - static_cast<double>(index));
+  colour.alpha = opacity;
+  return colour;
 }
 
 }  // namespace clatter

@@ -24,20 +24,19 @@ Colour mix(Colour a, Colour b, double t);
 /// Colours at equal steps from the lowest to the highest value; linear between them.
 using ColourMap = std::span<const Colour>;
 
-/// The map of a palette: viridis or inferno.
+/// The map of a palette: viridis, inferno or cividis.
 ColourMap colour_map(Palette palette);
 
 /// For signed values: blue below zero, grey at zero, red above.
 ColourMap diverging_map();
 
-/// From the background to a pale slate, below things of more colour.
-ColourMap subdued_map();
-
 /// From values to colours.
 struct ColourScale {
   ColourMap map;
-  double low = 0.0;   ///< the value at the map's first colour
-  double high = 1.0;  ///< the value at its last, > low
+  double low = 0.0;            ///< the value at the map's first colour
+  double high = 1.0;           ///< the value at its last, other than low
+  bool about_zero = false;     ///< the map's middle stands for 0, whatever the ends
+  std::uint8_t opacity = 255;  ///< alpha of its colours
 
   /// The colour of `value`; beyond the ends, that of the end.
   Colour operator()(double value) const;

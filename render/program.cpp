@@ -28,6 +28,11 @@ std::string name_file_and_line(const std::string& log, std::string_view file) {
 
 }  // namespace
 
+void set_colour(const Gl& gl, const Program& program, const char* uniform, Colour colour) {
+  gl.Uniform4f(program.uniform(uniform), colour.red / 255.0f, colour.green / 255.0f,
+               colour.blue / 255.0f, colour.alpha / 255.0f);
+}
+
 Shader compile_shader(const Gl& gl, GLenum stage, std::string_view file, std::string_view source) {
   Shader shader(gl, gl.CreateShader(stage));
   const char* text = source.data();

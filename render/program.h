@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "render/gl_object.h"
+#include "render/palette.h"
 
 namespace clatter {
 
@@ -21,6 +22,9 @@ class Program {
   const Gl* gl_;
   ShaderProgram program_;
 };
+
+/// Sets a vec4 uniform of the program in use.
+void set_colour(const Gl& gl, const Program& program, const char* uniform, Colour colour);
 
 /// Compiles `source`; throws RunError in which each message of the driver begins with "file:line:".
 Shader compile_shader(const Gl& gl, GLenum stage, std::string_view file, std::string_view source);

@@ -1,103 +1,51 @@
 #include "render/renderer.h"
 
+#include "render/quantity.h"
 #include "render/theme.h"
 
 namespace clatter {
 
 namespace {
 
-// What belongs to a quantity, whatever its values.
-struct Quantity {
-  const char* name;
-  const char* subscript = "";
-  bool is_signed = false;
-};
+// Alpha of a heatmap's colours below disks that have colours of their own.
+constexpr std::uint8_t kBelowColouredDisks = 115;
 
-Quantity quantity_of(ColourBy colour_by) {
-  switch (colour_by) {
-    case ColourBy::None:
-      return {""};
-    case ColourBy::Speed:
-      return {"speed |v|"};
-    case ColourBy::VelocityX:
-      return {"velocity v", "x", true};
-    case ColourBy::VelocityY:
-      return {"velocity v", "y", true};
-    case ColourBy::Spin:
-      return {"spin ω", "", true};
-  }
-  return {""};
-}
+// Alpha of lines that are to stay in the background: of a grid, and of cells without a value.
+constexpr std::uint8_t kGrid = 140;
+constexpr std::uint8_t kHatch = 70;
 
-Quantity quantity_of(Field field) {
-  switch (field) {
-    case Field::Density:
-      return {"density ρ"};
-    case Field::VelocityX:
-      return {"flow u", "x", true};
-    case Field::VelocityY:
-      return {"flow u", "y", true};
-    case Field::Temperature:
-      return {"temperature T"};
-    case Field::TemperatureX:
-      return {"temperature T", "x"};
-    case Field::TemperatureY:
-      return {"temperature T", "y"};
-    case Field::StressXx:
-      return {"stress σ", "xx", true};
-    case Field::StressYy:
-      return {"stress σ", "yy", true};
-    case Field::StressXy:
-      return {"stress σ", "xy", true};
-    case Field::StressXxKinetic:
-      return {"kinetic stress σ", "xx", true};
-    case Field::StressYyKinetic:
-      return {"kinetic stress σ", "yy", true};
-    case Field::StressXyKinetic:
-      return {"kinetic stress σ", "xy", true};
-    case Field::StressXxCollisional:
-      return {"collisional stress σ", "xx", true};
-    case Field::StressYyCollisional:
-      return {"collisional stress σ", "yy", true};
-    case Field::StressXyCollisional:
-      return {"collisional stress σ", "xy", true};
-    case Field::HeatFluxX:
-      return {"heat flux q", "x", true};
-    case Field::HeatFluxY:
-      return {"heat flux q", "y", true};
-    case Field::HeatFluxXKinetic:
-      return {"kinetic heat flux q", "x", true};
-    case Field::HeatFluxYKinetic:
-      return {"kinetic heat flux q", "y", true};
-    case Field::HeatFluxXCollisional:
-      return {"collisional heat flux q", "x", true};
-    case Field::HeatFluxYCollisional:
-      return {"collisional heat flux q", "y", true};
-    case Field::Dissipation:
-      return {"dissipation ζ", "", true};
-    case Field::Spin:
-      return {"mean spin ω", "", true};
-    case Field::SpinTemperature:
-      return {"spin temperature T", "rot"};
-  }
-  return {""};
+Colour thin(Colour colour, std::uint8_t alpha) {
+  colour.alpha = alpha;
+  return colour;
 }
 
 // Without its darkest eighth: slow disks would be lost against the background.
 ColourMap disk_map(const View& view) {
-  if (quantity_of(view.colour_by).is_signed) return diverging_map();
+  if (quantity_of(view.colour_by).sign == Sign::Either) return diverging_map();
   return colour_map(view.palette).subspan(2);
 }
 
-// Below coloured disks the field is subdued; where the disks' colour shows nothing it has the
-// palette.
 ColourMap field_map(Field field, const View& view) {
-  if (quantity_of(field).is_signed) return diverging_map();
-  return view.colour_by == ColourBy::None ? colour_map(view.palette) : subdued_map();
+  if (quantity_of(field).sign == Sign::Either) return diverging_map();
+  return colour_map(view.field_palette.value_or(view.palette));
 }
 
-ColourScale scale_to(double extent, bool is_signed, ColourMap map) {
-  return {map, is_signed ? -extent : 0.0, extent};
+// The map's first colour stands for the least magnitude, or for the least value of either sign.
+ColourScale scale_from(double low, double high, Sign sign, ColourMap map) {
+  switch (sign) {
+    case Sign::Positive:
+      return {map, low, high};
+    case Sign::Negative:
+      return {map, high, low};
+    case Sign::Either:
+      return {.map = map, .low = low, .high = high, .about_zero = true};
+  }
+  return {map};
+}
+
+ColourScale scale_to(double extent, Sign sign, ColourMap map) {
+  return scale_from(sign == Sign::Positive ? 0.0 : -extent, sign == Sign::Negative ? 0.0 : extent,
+                    sign, map);
 }
 
 double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
@@ -106,42 +54,55 @@ double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
   return robust_extent(std::move(values));
 }
 
+double arrow_extent(const ArrowMap& map) {
+  std::vector<double> sizes;
+  for (const ArrowMap::Arrow& arrow : map.arrows) sizes.push_back(arrow.value.norm());
+  return robust_extent(std::move(sizes));
+}
+
 bool shows_field(const Snapshot& snapshot, const View& view) {
   return view.field && snapshot.field;
 }
 
 }  // namespace
 
-Renderer::Renderer(const Gl& gl) : gl_(&gl), field_(gl), walls_(gl), disks_(gl), overlay_(gl) {}
+Renderer::Renderer(const Gl& gl)
+    : gl_(&gl), field_(gl), grid_(gl), walls_(gl), disks_(gl), arrows_(gl), overlay_(gl) {}
 
-Renderer::Scales Renderer::scales_for(const Snapshot& snapshot, const View& view) {
-  Scales scales;
-  if (view.range) {
-    scales.disks = {disk_map(view), (*view.range)[0], (*view.range)[1]};
-  } else if (view.colour_by != ColourBy::None) {
-    scales.disks = scale_to(disk_extent_.follow(disk_extent(snapshot, view.colour_by)),
-                            quantity_of(view.colour_by).is_signed, disk_map(view));
+Legend Renderer::Followed::legend(const Quantity& shown, const ColourRange& range, ColourMap map,
+                                  double robust_extent, bool lockable) {
+  if (range.kind == ColourRange::Given) {
+    return {shown, scale_from(range.ends[0], range.ends[1], shown.sign, map), "given"};
   }
-  if (shows_field(snapshot, view)) {
-    const Field field = snapshot.field->field;
-    scales.field = scale_to(field_extent_.follow(robust_extent(snapshot.field->values)),
-                            quantity_of(field).is_signed, field_map(field, view));
-  }
-  return scales;
+  const double extent = end(shown, robust_extent, range.kind == ColourRange::Locked && lockable);
+  return {shown, scale_to(extent, shown.sign, map), followed.held() ? "locked" : "auto"};
 }
 
-std::vector<Legend> Renderer::legends(const Snapshot& snapshot, const View& view,
-                                      const Scales& scales) {
-  std::vector<Legend> result;
+double Renderer::Followed::end(const Quantity& shown, double robust_extent, bool hold) {
+  if (!(quantity == shown)) *this = {shown, {}};
+  return followed.follow(robust_extent, hold);
+}
+
+Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double scale) {
+  Legends legends;
   if (view.colour_by != ColourBy::None) {
-    const Quantity quantity = quantity_of(view.colour_by);
-    result.push_back({quantity.name, quantity.subscript, scales.disks});
+    legends.disks = disk_range_.legend(quantity_of(view.colour_by), view.range, disk_map(view),
+                                       disk_extent(snapshot, view.colour_by), true);
   }
   if (shows_field(snapshot, view)) {
-    const Quantity quantity = quantity_of(snapshot.field->field);
-    result.push_back({quantity.name, quantity.subscript, scales.field});
+    const FieldMap& map = *snapshot.field;
+    legends.field =
+        field_range_.legend(quantity_of(map.field), view.field_range, field_map(map.field, view),
+                            robust_extent(map.values), map.whole_window);
+    if (legends.disks) legends.field->scale.opacity = kBelowColouredDisks;
   }
-  return result;
+  if (view.arrows && snapshot.arrows) {
+    const Quantity quantity = quantity_of(snapshot.arrows->quantity);
+    const double longest = snapshot.arrows->cell.minCoeff() * scale;
+    legends.arrows = {quantity,
+                      longest / arrow_range_.end(quantity, arrow_extent(*snapshot.arrows))};
+  }
+  return legends;
 }
 
 Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
@@ -155,8 +116,7 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
   const double wall = wall_thickness(size);
   Margins margins{wall, wall, wall, wall};
   if (view.overlay) {
-    // How much room a legend takes does not depend on its values.
-    margins = overlay_.margins(snapshot, size, legends(snapshot, view, {}), text);
+    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
   }
   return Camera::fit(faces.low - overhang, faces.high + overhang, size, margins);
 }
@@ -164,20 +124,29 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
                     const OverlayText& text) {
   const Projection projection{camera, size};
-  const Scales scales = scales_for(snapshot, view);
+  const Legends legends = legends_for(snapshot, view, projection.scale());
+  const ThemeColours theme = theme_of(view);
   gl_->Viewport(0, 0, size.width, size.height);
-  gl_->ClearColor(theme::kBackground.red / 255.0f, theme::kBackground.green / 255.0f,
-                  theme::kBackground.blue / 255.0f, 1.0f);
+  const Colour background = theme.background;
+  gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
+                  1.0f);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
   gl_->Enable(GL_BLEND);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
-  if (shows_field(snapshot, view)) {
-    field_.draw(*snapshot.field, snapshot.box, projection, scales.field);
+  if (legends.field) {
+    field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
+                thin(theme.static_wall, kHatch));
   }
-  walls_.draw(snapshot, projection);
-  disks_.draw(snapshot, projection, view.colour_by, scales.disks);
-  if (view.overlay) overlay_.draw(snapshot, projection, legends(snapshot, view, scales), text);
+  if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
+  walls_.draw(snapshot, projection, theme);
+  disks_.draw(snapshot, projection, view.colour_by,
+              legends.disks ? legends.disks->scale : ColourScale{}, theme.disk);
+  if (legends.arrows) {
+    arrows_.draw(*snapshot.arrows, projection, legends.arrows->pixels, theme.text,
+                 theme.background);
+  }
+  if (view.overlay) overlay_.draw(snapshot, projection, legends, text, theme);
 }
 
 }  // namespace clatter

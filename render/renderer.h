@@ -3,8 +3,10 @@
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
 #include "render/colour_range.h"
+#include "render/layers/arrow_layer.h"
 #include "render/layers/disk_layer.h"
 #include "render/layers/field_layer.h"
+#include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
 #include "render/layers/wall_layer.h"
 
@@ -25,20 +27,28 @@ class Renderer {
             const OverlayText& text);
 
  private:
-  struct Scales {
-    ColourScale disks, field;
+  /// The range of a quantity's colours, as far as it follows the snapshots.
+  struct Followed {
+    Quantity quantity;
+    SteadyExtent followed;
+
+    double end(const Quantity& shown, double robust_extent, bool hold = false);
+
+    Legend legend(const Quantity& shown, const ColourRange& range, ColourMap map,
+                  double robust_extent, bool lockable);
   };
-  Scales scales_for(const Snapshot& snapshot, const View& view);
-  static std::vector<Legend> legends(const Snapshot& snapshot, const View& view,
-                                     const Scales& scales);
+  Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
 
   const Gl* gl_;
   FieldLayer field_;
+  GridLayer grid_;
   WallLayer walls_;
   DiskLayer disks_;
+  ArrowLayer arrows_;
   Overlay overlay_;
-  SteadyExtent disk_extent_;
-  SteadyExtent field_extent_;
+  Followed disk_range_;
+  Followed field_range_;
+  Followed arrow_range_;
 };
 
 }  // namespace clatter

@@ -1,20 +1,43 @@
 #pragma once
 
+#include "engine/scene/scene.h"
 #include "render/palette.h"
 
 namespace clatter {
 
-/// The dark theme: what every layer takes its colours from.
-namespace theme {
+/// The colours of letters: of their strokes and of the halo that keeps them legible.
+struct Ink {
+  Colour colour;
+  Colour halo;
+};
 
-inline constexpr Colour kBackground = {0x10, 0x14, 0x18};
-inline constexpr Colour kText = {0xe6, 0xea, 0xee};
-inline constexpr Colour kFaintText = {0x8c, 0x96, 0xa0};
-inline constexpr Colour kDisk = {0xb4, 0xc0, 0xcc};             ///< where the colour shows nothing
-inline constexpr Colour kStaticWall = {0x78, 0x82, 0x8c};       ///< also of the periodic border
-inline constexpr Colour kWallPlace = {0x78, 0x82, 0x8c, 0x60};  ///< about which a wall moves
-inline constexpr Colour kDrivenWall = {0xf2, 0xa6, 0x3c};
+/// The colours of all that does not show a value.
+struct ThemeColours {
+  Colour background;
+  Colour text;
+  Colour faint_text;
+  Colour disk;         ///< where the colour shows nothing
+  Colour static_wall;  ///< also of the periodic border, and of lines
+  Colour driven_wall;
 
-}  // namespace theme
+  /// Of what is to be read first.
+  Ink ink() const { return {text, background}; }
+  /// Of the rest.
+  Ink faint_ink() const { return {faint_text, background}; }
+};
+
+inline constexpr ThemeColours kDarkTheme = {{0x10, 0x14, 0x18}, {0xe6, 0xea, 0xee},
+                                            {0x8c, 0x96, 0xa0}, {0xb4, 0xc0, 0xcc},
+                                            {0x78, 0x82, 0x8c}, {0xf2, 0xa6, 0x3c}};
+inline constexpr ThemeColours kLightTheme = {{0xf4, 0xf6, 0xf8}, {0x1c, 0x22, 0x28},
+                                             {0x5c, 0x66, 0x70}, {0x6c, 0x7a, 0x88},
+                                             {0x74, 0x7e, 0x88}, {0xc8, 0x74, 0x10}};
+/// For pale projectors: nothing fainter than it must be.
+inline constexpr ThemeColours kProjectorTheme = {{0xff, 0xff, 0xff}, {0x00, 0x00, 0x00},
+                                                 {0x24, 0x24, 0x24}, {0x40, 0x48, 0x50},
+                                                 {0x30, 0x38, 0x40}, {0xb8, 0x50, 0x00}};
+
+/// The colours of the view's theme, with its background where it has one.
+ThemeColours theme_of(const View& view);
 
 }  // namespace clatter

@@ -310,12 +310,12 @@ void Explorer::toggle_full_screen() {
 // A range of round numbers up to twice the thermal speed, or again one that follows.
 void Explorer::fix_range() {
   View view = session_.view();
-  if (view.range) {
-    view.range.reset();
+  if (view.range.kind != ColourRange::Auto) {
+    view.range = {};
   } else {
     const double end = round_up(2.0 * std::sqrt(2.0 * session_.frame().snapshot.temperature));
     const bool signs = view.colour_by != ColourBy::Speed;
-    if (end > 0.0) view.range = {{signs ? -end : 0.0, end}};
+    if (end > 0.0) view.range = {ColourRange::Given, {signs ? -end : 0.0, end}};
   }
   session_.set_view(view);
 }

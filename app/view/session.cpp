@@ -178,7 +178,8 @@ void Session::redo() {
 }
 
 void Session::set_view(const View& view) {
-  const bool averages_anew = view.field != view_.field || view.window != view_.window;
+  const bool averages_anew =
+      view.field != view_.field || view.arrows != view_.arrows || view.window != view_.window;
   view_ = view;
   ++views_;
   if (averages_anew) send(command::Show{view});

@@ -15,15 +15,15 @@ static ImVec4 shade(Colour colour, float alpha = 1.0f) {
 }
 
 static void apply_colours(ImVec4* colours) {
-  const Colour panel = mix(theme::kBackground, theme::kText, 0.05);
-  const Colour field = mix(theme::kBackground, theme::kText, 0.11);
-  const Colour hovered = mix(theme::kBackground, theme::kText, 0.17);
-  const Colour line = mix(theme::kBackground, theme::kText, 0.13);
-  colours[ImGuiCol_Text] = shade(theme::kText);
-  colours[ImGuiCol_TextDisabled] = shade(theme::kFaintText);
+  const Colour panel = mix(kDarkTheme.background, kDarkTheme.text, 0.05);
+  const Colour field = mix(kDarkTheme.background, kDarkTheme.text, 0.11);
+  const Colour hovered = mix(kDarkTheme.background, kDarkTheme.text, 0.17);
+  const Colour line = mix(kDarkTheme.background, kDarkTheme.text, 0.13);
+  colours[ImGuiCol_Text] = shade(kDarkTheme.text);
+  colours[ImGuiCol_TextDisabled] = shade(kDarkTheme.faint_text);
   colours[ImGuiCol_WindowBg] = shade(panel);
   colours[ImGuiCol_ChildBg] = shade(panel, 0.0f);
-  colours[ImGuiCol_PopupBg] = shade(mix(theme::kBackground, theme::kText, 0.08), 0.98f);
+  colours[ImGuiCol_PopupBg] = shade(mix(kDarkTheme.background, kDarkTheme.text, 0.08), 0.98f);
   colours[ImGuiCol_Border] = shade(line);
   colours[ImGuiCol_Separator] = shade(line);
   colours[ImGuiCol_FrameBg] = shade(field);
@@ -43,7 +43,7 @@ static void apply_colours(ImVec4* colours) {
   colours[ImGuiCol_ScrollbarGrabHovered] = shade(hovered);
   colours[ImGuiCol_TextSelectedBg] = shade(accent_colour(), 0.4f);
   colours[ImGuiCol_NavHighlight] = shade(accent_colour());
-  colours[ImGuiCol_ModalWindowDimBg] = shade(theme::kBackground, 0.6f);
+  colours[ImGuiCol_ModalWindowDimBg] = shade(kDarkTheme.background, 0.6f);
 }
 
 void apply_style(float text_size) {

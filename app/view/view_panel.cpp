@@ -7,14 +7,18 @@
 
 namespace clatter {
 
-// The words for an enumeration's values, in the person's spelling.
+// A name in the person's spelling.
+static std::string in_words(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+// The words for an enumeration's values.
 template <class E, std::size_t N>
 static std::vector<std::string> words_of(const std::array<Named<E>, N>& names) {
   std::vector<std::string> words;
-  for (const auto& [name, value] : names) {
-    words.emplace_back(name);
-    std::ranges::replace(words.back(), '_', ' ');
-  }
+  for (const auto& [name, value] : names) words.push_back(in_words(name));
   return words;
 }
 
@@ -29,20 +33,20 @@ static bool spins_only(Field field) {
 }
 
 static bool choose_field(const Session& session, Controls& controls, View& view) {
-  std::vector<std::string> words = words_of(kHeatmaps);
-  // Those of spins stand at the end.
-  if (!session.scene().spins()) {
-    while (spins_only(kHeatmaps[words.size() - 1].value)) words.pop_back();
+  std::vector<std::string> words = {"none"};
+  std::vector<std::optional<Field>> fields = {std::nullopt};
+  for (const auto& [name, field] : kHeatmaps) {
+    if (spins_only(field) && !session.scene().spins()) continue;
+    words.push_back(in_words(name));
+    fields.emplace_back(field);
   }
-  words.insert(words.begin(), "none");
-  int chosen = view.field ? index_of(*view.field, kHeatmaps) + 1 : 0;
-  chosen = std::min(chosen, static_cast<int>(words.size()) - 1);
+  const auto found = std::ranges::find(fields, view.field);
+  int chosen = found == fields.end() ? 0 : static_cast<int>(found - fields.begin());
   if (!controls.choice("view.field", "Heatmap", "The field below the disks, chapter 4", words,
                        chosen)) {
     return false;
   }
-  view.field.reset();
-  if (chosen > 0) view.field = kHeatmaps[static_cast<std::size_t>(chosen) - 1].value;
+  view.field = fields[static_cast<std::size_t>(chosen)];
   return true;
 }
 
@@ -57,7 +61,7 @@ void view_panel(Session& session, Controls& controls) {
                                  "What a disk's colour shows", colours, colour);
   view.colour_by = kColourings[static_cast<std::size_t>(colour)].value;
   changed |= choose_field(session, controls, view);
-  if (view.field) {
+  if (view.shows_averages()) {
     changed |= controls.number({.key = "view.window",
                                 .name = "Averaged over",
                                 .help = "How far back in time the heatmap reaches",

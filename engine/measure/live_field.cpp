@@ -1,11 +1,13 @@
 #include "engine/measure/live_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "engine/measure/field_maps.h"
 #include "engine/measure/fields.h"
+#include "engine/measure/residuals.h"
 
 namespace clatter {
 
@@ -19,52 +21,149 @@ static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
   return cells;
 }
 
+// The components along x and y.
+static std::array<Field, 2> components_of(Arrows arrows) {
+  switch (arrows) {
+    case Arrows::Velocity:
+      return {Field::VelocityX, Field::VelocityY};
+    case Arrows::HeatFlux:
+      return {Field::HeatFluxX, Field::HeatFluxY};
+  }
+  return {};
+}
+
+static std::vector<Field> averages_in(const View& view) {
+  std::vector<Field> fields;
+  if (view.field && !is_residual(*view.field)) fields.push_back(*view.field);
+  if (view.arrows) {
+    for (const Field component : components_of(*view.arrows)) fields.push_back(component);
+  }
+  return fields;
+}
+
+std::optional<LiveField::Averages> LiveField::averages_for(const Simulation<2>& simulation,
+                                                           const View& view) {
+  const std::vector<Field> fields = averages_in(view);
+  if (fields.empty()) return std::nullopt;
+  const Model<2>& model = simulation.model();
+  const MomentLayout<2> layout = moment_layout<2>(fields, model.spins);
+  return Averages{CellIntegrals<2>(simulation, cells_of_one_diameter(model), layout), {}};
+}
+
+std::optional<LiveField::Closure> LiveField::closure_for(const Simulation<2>& simulation,
+                                                         const View& view) {
+  if (!view.field || !is_residual(*view.field)) return std::nullopt;
+  return Closure{Balance<2>(simulation, cells_of_one_diameter(simulation.model())), {}};
+}
+
 LiveField::LiveField(Simulation<2>& simulation, const View& view)
-    : field_(*view.field),
-      integrals_(simulation, cells_of_one_diameter(simulation.model()),
-                 moment_layout<2>({&field_, 1}, simulation.model().spins)),
-      start_(simulation.time() + view.window / kParts) {
-  close_parts(simulation, view.window / kParts);
+    : field_(view.field),
+      arrows_(view.arrows),
+      averages_(averages_for(simulation, view)),
+      closure_(closure_for(simulation, view)),
+      start_(simulation.time() + view.window / kWindowParts) {
+  watch(simulation, view.window / kWindowParts);
 }
 
 LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& before)
-    : field_(*view.field),
-      integrals_(simulation, cells_of_one_diameter(simulation.model()),
-                 moment_layout<2>({&field_, 1}, simulation.model().spins)),
+    : field_(view.field),
+      arrows_(view.arrows),
+      averages_(averages_for(simulation, view)),
+      closure_(closure_for(simulation, view)),
       start_(before.start_),
       closed_(before.closed_) {
-  before.open_ += before.integrals_.close_window();
-  if (before.integrals_.layout().size == integrals_.layout().size) {
-    parts_ = std::move(before.parts_);
-    open_ = std::move(before.open_);
+  before.look();
+  if (averages_ && before.averages_ &&
+      averages_->observer.layout().size == before.averages_->observer.layout().size) {
+    averages_->sums = std::move(before.averages_->sums);
   }
-  close_parts(simulation, view.window / kParts);
+  if (closure_ && before.closure_) closure_->sums = std::move(before.closure_->sums);
+  watch(simulation, view.window / kWindowParts);
 }
 
-void LiveField::close_parts(Simulation<2>& simulation, double part) {
-  simulation.add_observer(integrals_);
+void LiveField::watch(Simulation<2>& simulation, double part) {
+  if (averages_) simulation.add_observer(averages_->observer);
+  if (closure_) simulation.add_observer(closure_->observer);
   const auto close = [this](double) {
     ++closed_;
-    open_ += integrals_.close_window();
-    parts_.push_back(std::exchange(open_, {}));
-    if (parts_.size() > kParts) parts_.pop_front();
+    look();
+    if (averages_) averages_->sums.next_part();
+    if (closure_) closure_->sums.next_part();
   };
   simulation.every(start_, part, close, closed_);
 }
 
-FieldMap LiveField::map() {
-  open_ += integrals_.close_window();
-  CellSums sum = open_;
-  for (const CellSums& part : parts_) sum += part;
-  const FieldGrid<2>& grid = integrals_.grid();
-  FieldMap map{field_, {grid.cells().x(), grid.cells().y()}, std::vector<double>(grid.size())};
+void LiveField::look() {
+  if (averages_) averages_->sums.add(averages_->observer.close_window());
+  if (closure_) closure_->sums.add(closure_->observer.close_window().imbalances);
+}
+
+// Where nothing was booked nothing was tried.
+FieldMap LiveField::Closure::map(Field field) const {
+  const Imbalances<2> sum = sums.sum();
+  FieldMap map{field, {observer.cells().x(), observer.cells().y()}, {}};
+  map.values.assign(sum.gaps.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < map.values.size(); ++i) {
-    map.values[i] =
-        sum.time > 0.0
-            ? field_value(field_, averages_of(integrals_.layout(), sum, i, grid.cell_measure()))
-            : std::numeric_limits<double>::quiet_NaN();
+    const Conserved<2> residual = sum.residual(i);
+    if (!sum.sizes[i].isZero(0.0) || !residual.isZero(0.0))
+      map.values[i] = residual[equation_of(field)];
   }
   return map;
+}
+
+// The sums of the cells from `first` on and before `end`, as those of one cell.
+static CellSums sum_of(const CellSums& sums, const IntVec<2>& cells, const IntVec<2>& first,
+                       const IntVec<2>& end) {
+  const std::size_t size = sums.rows.size() / static_cast<std::size_t>(cells.prod());
+  CellSums block{sums.time, sums.kinetic_weight, std::vector<double>(size)};
+  for (int y = first.y(); y < end.y(); ++y) {
+    for (int x = first.x(); x < end.x(); ++x) {
+      const std::size_t row = size * static_cast<std::size_t>(x + y * cells.x());
+      for (std::size_t k = 0; k < size; ++k) block.rows[k] += sums.rows[row + k];
+    }
+  }
+  return block;
+}
+
+// Blocks of cells have an arrow each, so that few enough are left to be told apart. Sums add up
+// over cells: an arrow is the field of its block as if that were one cell.
+static ArrowMap arrow_map(Arrows arrows, const CellSums& sums, const FieldGrid<2>& grid,
+                          const MomentLayout<2>& layout) {
+  constexpr int kMostArrows = 20;  // along an axis
+  const IntVec<2>& cells = grid.cells();
+  const int side = (cells.maxCoeff() + kMostArrows - 1) / kMostArrows;
+  const auto components = components_of(arrows);
+  ArrowMap map{arrows, side * grid.widths(), {}};
+  if (!(sums.time > 0.0)) return map;
+  for (int y = 0; y < cells.y(); y += side) {
+    for (int x = 0; x < cells.x(); x += side) {
+      const IntVec<2> first(x, y), end = cells.cwiseMin(first + IntVec<2>::Constant(side));
+      const double area = (end - first).prod() * grid.cell_measure();
+      const auto averages = averages_of(layout, sum_of(sums, cells, first, end), 0, area);
+      const Vec2 value(field_value(components[0], averages), field_value(components[1], averages));
+      if (value.hasNaN()) continue;
+      const Vec2 middle = 0.5 * (first + end).cast<double>();
+      map.arrows.push_back({middle.cwiseProduct(grid.widths()), value});
+    }
+  }
+  return map;
+}
+
+void LiveField::publish(Snapshot& snapshot) {
+  look();
+  if (closure_) {
+    snapshot.field = closure_->map(*field_);
+    snapshot.field->whole_window = closure_->sums.whole();
+  }
+  if (!averages_) return;
+  const CellSums sums = averages_->sums.sum();
+  const FieldGrid<2>& grid = averages_->observer.grid();
+  const MomentLayout<2>& layout = averages_->observer.layout();
+  if (field_ && !closure_) {
+    snapshot.field = field_map(*field_, sums, grid, layout);
+    snapshot.field->whole_window = averages_->sums.whole();
+  }
+  if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout);
 }
 
 }  // namespace clatter

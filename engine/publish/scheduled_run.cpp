@@ -56,12 +56,12 @@ void ScheduledRun::change_laws(Schedule changed) {
 void ScheduledRun::show(const View& view) {
   view_ = view;
   field_.reset();
-  if (view.field) field_ = std::make_unique<LiveField>(*simulation_, view);
+  if (view.shows_averages()) field_ = std::make_unique<LiveField>(*simulation_, view);
 }
 
 Snapshot ScheduledRun::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
-  if (field_) snapshot.field = field_->map();
+  if (field_) field_->publish(snapshot);
   return snapshot;
 }
 

@@ -44,7 +44,7 @@ class ScheduledRun {
   /// UserError or PhysicalStop where they cannot; nothing has then happened.
   void change(const std::vector<Override>& laws);
 
-  /// From now on snapshots have the view's field, if it has one.
+  /// From now on snapshots have the averages that the view shows, if any.
   void show(const View& view);
   /// The gas at the simulation's time.
   Snapshot snapshot();

@@ -15,6 +15,20 @@ struct FieldMap {
   Field field = Field::Density;
   std::array<int, 2> cells = {0, 0};  ///< along x and y
   std::vector<double> values;  ///< [cells_y][cells_x], row by row from y = 0; NaN: never visited
+  bool whole_window = false;   ///< averaged over the whole window, not less for want of time
+};
+
+/// A vector field on a coarser grid.
+struct ArrowMap {
+  /// A value and the centre of the cell that it stands for.
+  struct Arrow {
+    Vec2 place;
+    Vec2 value;
+  };
+
+  Arrows quantity = Arrows::Velocity;  ///< what the values are
+  Vec2 cell = {0.0, 0.0};     ///< extent of the cells, but that the last of a row may be smaller
+  std::vector<Arrow> arrows;  ///< of the cells that have a value, row by row
 };
 
 /// The gas at one instant, evaluated exactly: all that the renderer knows of the engine.
@@ -24,12 +38,13 @@ struct Snapshot {
   double diameter = 1.0;                      ///< of every disk
   std::array<std::optional<Wall>, 4> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 4> wall_displacement{};  ///< of each wall into the box at this time
-  std::vector<Vec2> positions;    ///< [N] centres, wrapped into the box, in original order
-  std::vector<Vec2> velocities;   ///< [N]
-  std::vector<double> spins;      ///< [N] angular velocities; empty where none are carried
-  std::optional<FieldMap> field;  ///< averaged over the view's window; absent: not asked for
-  double temperature = 0.0;       ///< granular temperature T = (m/2N) sum v^2
-  std::uint64_t collisions = 0;   ///< disk-disk collisions since time 0
+  std::vector<Vec2> positions;     ///< [N] centres, wrapped into the box, in original order
+  std::vector<Vec2> velocities;    ///< [N]
+  std::vector<double> spins;       ///< [N] angular velocities; empty where none are carried
+  std::optional<FieldMap> field;   ///< averaged over the view's window; absent: not asked for
+  std::optional<ArrowMap> arrows;  ///< likewise
+  double temperature = 0.0;        ///< granular temperature T = (m/2N) sum v^2
+  std::uint64_t collisions = 0;    ///< disk-disk collisions since time 0
 };
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #include "engine/scene/key_reader.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "engine/scene/scene_document.h"
@@ -179,12 +180,31 @@ std::string KeyReader::read(const toml::node& node, Limits limits, std::array<in
   return "";
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits,
-                            std::optional<std::array<double, 2>>& range) {
-  const bool automatic = node.value<std::string_view>() == "auto";
-  range = pair_in(node, limits);
-  const bool ascends = range && (*range)[0] < (*range)[1];
-  return automatic || ascends ? "" : "\"auto\" or two numbers [low, high] with low < high";
+std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& range) {
+  const auto name = node.value<std::string_view>();
+  const auto ends = pair_in(node, limits);
+  if (name == "auto") {
+    range = {ColourRange::Auto};
+  } else if (name == "locked") {
+    range = {ColourRange::Locked};
+  } else if (ends && (*ends)[0] < (*ends)[1]) {
+    range = {ColourRange::Given, *ends};
+  } else {
+    return "\"auto\", \"locked\" or two numbers [low, high] with low < high";
+  }
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits, Rgb& colour) {
+  const std::string wanted = "a colour as \"#rrggbb\", for instance \"#ffffff\"";
+  const auto text = node.value<std::string_view>();
+  if (!text || text->size() != 7 || text->front() != '#') return wanted;
+  std::uint8_t* const channels[] = {&colour.red, &colour.green, &colour.blue};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char* begin = text->data() + 1 + 2 * i;
+    if (std::from_chars(begin, begin + 2, *channels[i], 16).ptr != begin + 2) return wanted;
+  }
+  return "";
 }
 
 }  // namespace clatter

@@ -135,8 +135,8 @@ class KeyReader {
   static std::string read(const toml::node& node, Limits limits, std::string& value);
   static std::string read(const toml::node& node, Limits limits, Vec2& value);
   static std::string read(const toml::node& node, Limits limits, std::array<int, 2>& value);
-  static std::string read(const toml::node& node, Limits limits,
-                          std::optional<std::array<double, 2>>& range);
+  static std::string read(const toml::node& node, Limits limits, ColourRange& range);
+  static std::string read(const toml::node& node, Limits limits, Rgb& colour);
 
   const toml::table& root_;
   const toml::table* table_;  // the one being visited; nullptr: absent, all defaults

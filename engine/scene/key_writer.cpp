@@ -1,6 +1,7 @@
 #include "engine/scene/key_writer.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "engine/scene/text.h"
 
@@ -38,8 +39,22 @@ std::string value_text(const std::array<int, 2>& numbers) {
   return pair_text(numbers[0], numbers[1]);
 }
 
-std::string value_text(const std::optional<std::array<double, 2>>& range) {
-  return range ? pair_text((*range)[0], (*range)[1]) : quoted("auto");
+std::string value_text(const ColourRange& range) {
+  switch (range.kind) {
+    case ColourRange::Auto:
+      return quoted("auto");
+    case ColourRange::Locked:
+      return quoted("locked");
+    case ColourRange::Given:
+      return pair_text(range.ends[0], range.ends[1]);
+  }
+  return "";
+}
+
+std::string value_text(const Rgb& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.red, colour.green, colour.blue);
+  return quoted(text);
 }
 
 void TomlWriter::write(std::string_view key, const std::string& value) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -114,10 +116,23 @@ enum class Field {
   HeatFluxYKinetic,
   HeatFluxXCollisional,
   HeatFluxYCollisional,
-  Dissipation,     ///< zeta <= 0, energy per time and area that collisions of disks give
-  Spin,            ///< mean angular velocity
-  SpinTemperature  ///< T_rot = I <omega^2>
+  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of disks give
+  Spin,             ///< mean angular velocity
+  SpinTemperature,  ///< T_rot = I <omega^2>
+  BalanceMass,  ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked, see Imbalances
+  BalanceMomentumX,
+  BalanceMomentumY,
+  BalanceEnergy
 };
+
+/// The fields that are residuals of balance equations, in the order of Conserved<2>.
+inline constexpr std::array<Field, 4> kResiduals = {Field::BalanceMass, Field::BalanceMomentumX,
+                                                    Field::BalanceMomentumY, Field::BalanceEnergy};
+
+/// Whether a field is one of these, and no average over disks and collisions.
+constexpr bool is_residual(Field field) {
+  return std::ranges::find(kResiduals, field) != kResiduals.end();
+}
 
 /// How disks come to count in fields: their flights exactly, or where they are now and then.
 enum class Estimator { Exact, Snapshot };
@@ -133,7 +148,7 @@ struct Measure {
   double burn_in = 100.0;               ///< time before averages start, >= 0
   double duration = 1000.0;             ///< time averaged over, > 0
   double series_interval = 1.0;         ///< spacing of temperature_series, > 0
-  std::vector<Field> fields;            ///< profiles asked for; empty: none
+  std::vector<Field> fields;            ///< profiles and residuals asked for; empty: none
   std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
   Axis profile_axis = Axis::X;          ///< along which profiles go
   Estimator estimator = Estimator::Exact;
@@ -146,7 +161,38 @@ struct Measure {
 enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
-enum class Palette { Viridis, Inferno };
+enum class Palette { Viridis, Inferno, Cividis };
+
+/// What arrows over the box show.
+enum class Arrows {
+  Velocity,  ///< V
+  HeatFlux   ///< q
+};
+
+/// The colours of all that does not show a value.
+enum class Theme { Dark, Light, Projector };
+
+/// A colour in sRGB.
+struct Rgb {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+
+  bool operator==(const Rgb&) const = default;
+};
+
+/// From which value to which a colour scale reaches.
+struct ColourRange {
+  enum Kind {
+    Auto,    ///< follows what is shown, in round steps
+    Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
+    Given    ///< the ends
+  };
+  Kind kind = Auto;
+  std::array<double, 2> ends = {0.0, 1.0};  ///< low < high, of Given
+
+  bool operator==(const ColourRange&) const = default;
+};
 
 /// What is drawn.
 struct View {
@@ -155,9 +201,18 @@ struct View {
       field;            ///< the heatmap below the disks; absent: none, and nothing is averaged
   double window = 5.0;  ///< averaging time of the live field, > 0
   double speed = 1.0;   ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;          ///< of the disks
-  std::optional<std::array<double, 2>> range;  ///< colour range of the disks; absent: automatic
-  bool overlay = true;                         ///< time, title, colour bar, scale bar
+  Palette palette = Palette::Viridis;    ///< of the disks' magnitudes
+  ColourRange range;                     ///< of the disks' colours; locked: as first shown
+  std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
+  ColourRange field_range;               ///< of the heatmap's colours
+  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
+  Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
+  std::optional<Rgb> background;         ///< absent: that of the theme
+  bool grid = false;    ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;  ///< time, title, colour bar, scale bar
+
+  /// Whether it shows what has to be averaged over time.
+  bool shows_averages() const { return field || arrows; }
 };
 
 /// A key of the scene file set to a TOML value: of a `--set` on the command line, or of a change.
@@ -195,8 +250,6 @@ struct Scene {
   bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// T at time 0.
-  double start_temperature() const { return disks.start.temperature; }
   /// phi = N pi / (4 Lx Ly).
   double area_fraction() const;
   /// How far into the box the near walls of both axes move at most.

@@ -126,11 +126,17 @@ inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourB
                                                                 {"velocity_y", ColourBy::VelocityY},
                                                                 {"spin", ColourBy::Spin}}};
 
-inline constexpr std::array<Named<Palette>, 2> kPalettes = {
-    {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}}};
+inline constexpr std::array<Named<Palette>, 3> kPalettes = {
+    {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
+
+inline constexpr std::array<Named<Arrows>, 2> kArrows = {
+    {{"velocity", Arrows::Velocity}, {"heat_flux", Arrows::HeatFlux}}};
+
+inline constexpr std::array<Named<Theme>, 3> kThemes = {
+    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"projector", Theme::Projector}}};
 
 /// Fields one by one: heatmaps, and the columns of profiles.
-inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
+inline constexpr std::array<Named<Field>, 28> kHeatmaps = {
     {{"density", Field::Density},
      {"velocity_x", Field::VelocityX},
      {"velocity_y", Field::VelocityY},
@@ -154,11 +160,15 @@ inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
      {"heat_flux_y_collisional", Field::HeatFluxYCollisional},
      {"dissipation", Field::Dissipation},
      {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature}}};
+     {"spin_temperature", Field::SpinTemperature},
+     {"balance_mass", Field::BalanceMass},
+     {"balance_momentum_x", Field::BalanceMomentumX},
+     {"balance_momentum_y", Field::BalanceMomentumY},
+     {"balance_energy", Field::BalanceEnergy}}};
 
 /// Measured fields; a name stands for all the components in its rows. The whole of a temperature
 /// comes after its components, so that one of these alone is written by its own name.
-inline constexpr std::array<Named<Field>, 26> kProfiles = {
+inline constexpr std::array<Named<Field>, 30> kProfiles = {
     {{"density", Field::Density},
      {"velocity", Field::VelocityX},
      {"velocity", Field::VelocityY},
@@ -184,7 +194,11 @@ inline constexpr std::array<Named<Field>, 26> kProfiles = {
      {"heat_flux_collisional", Field::HeatFluxYCollisional},
      {"dissipation", Field::Dissipation},
      {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature}}};
+     {"spin_temperature", Field::SpinTemperature},
+     {"balance", Field::BalanceMass},
+     {"balance", Field::BalanceMomentumX},
+     {"balance", Field::BalanceMomentumY},
+     {"balance", Field::BalanceEnergy}}};
 
 inline constexpr std::array<Named<Axis>, 2> kAxes = {{{"x", Axis::X}, {"y", Axis::Y}}};
 
@@ -295,6 +309,12 @@ void visit_view(Visitor& io, View& view) {
   io.value("speed", view.speed, above(0.0));
   io.choice("palette", view.palette, kPalettes);
   io.value("range", view.range);
+  io.choice("field_palette", view.field_palette, kPalettes);
+  io.value("field_range", view.field_range);
+  io.choice("arrows", view.arrows, kArrows);
+  io.choice("theme", view.theme, kThemes);
+  io.value("background", view.background, Limits{});
+  io.value("grid", view.grid);
   io.value("overlay", view.overlay);
 }
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "render/layers/wall_layer.h"
-#include "render/theme.h"
 
 namespace clatter {
 
@@ -65,8 +64,8 @@ DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
 }
 
 void DiskLayer::draw(const Snapshot& snapshot, const Projection& projection, ColourBy colour_by,
-                     const ColourScale& scale) {
-  collect(snapshot, projection, colour_by, scale);
+                     const ColourScale& scale, Colour plain) {
+  collect(snapshot, projection, colour_by, scale, plain);
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, disks_.size() * sizeof(Disk), disks_.data(), GL_STREAM_DRAW);
 
@@ -85,7 +84,7 @@ void DiskLayer::draw(const Snapshot& snapshot, const Projection& projection, Col
 }
 
 void DiskLayer::collect(const Snapshot& snapshot, const Projection& projection, ColourBy colour_by,
-                        const ColourScale& scale) {
+                        const ColourScale& scale, Colour plain) {
   const double reach = reach_pixels(snapshot, projection);
   const double radius = 0.5 * snapshot.diameter;
   const Vec2 high = Vec2(projection.size.width + reach, projection.size.height + reach);
@@ -102,7 +101,7 @@ void DiskLayer::collect(const Snapshot& snapshot, const Projection& projection, 
   for (std::size_t i = 0; i < snapshot.positions.size(); ++i) {
     const Vec2& place = snapshot.positions[i];
     const Colour colour =
-        colour_by == ColourBy::None ? theme::kDisk : scale(disk_value(snapshot, colour_by, i));
+        colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i));
     shifts(0, place.x(), [&](double dx) {
       shifts(1, place.y(), [&](double dy) {
         const Vec2 centre = projection.pixels(place + Vec2(dx, dy));

@@ -19,9 +19,10 @@ class DiskLayer {
   /// `largest_point` in pixels; absent: what the driver says.
   explicit DiskLayer(const Gl& gl, std::optional<double> largest_point = {});
 
-  /// Draws the snapshot's disks, and those across a periodic border on both sides of it.
+  /// Draws the snapshot's disks, and those across a periodic border on both sides of it;
+  /// `plain` is their colour where it shows nothing.
   void draw(const Snapshot& snapshot, const Projection& projection, ColourBy colour_by,
-            const ColourScale& scale);
+            const ColourScale& scale, Colour plain);
 
  private:
   struct Disk {
@@ -30,7 +31,7 @@ class DiskLayer {
   };
 
   void collect(const Snapshot& snapshot, const Projection& projection, ColourBy colour_by,
-               const ColourScale& scale);
+               const ColourScale& scale, Colour plain);
   void set_uniforms(const Program& program, const Snapshot& snapshot,
                     const Projection& projection) const;
 

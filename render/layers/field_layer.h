@@ -9,14 +9,14 @@
 
 namespace clatter {
 
-/// Draws a field as a heatmap over the box; cells without a value stay as they are.
+/// Draws a field as a heatmap over the box; cells without a value are hatched.
 class FieldLayer {
  public:
   explicit FieldLayer(const Gl& gl);
 
-  /// Draws `map` over a box from the origin to `box`.
+  /// Draws `map` over a box from the origin to `box`; `gap` is the colour of hatches.
   void draw(const FieldMap& map, const Vec2& box, const Projection& projection,
-            const ColourScale& scale);
+            const ColourScale& scale, Colour gap);
 
  private:
   const Gl* gl_;

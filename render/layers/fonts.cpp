@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/embedded_file.h"
-#include "render/theme.h"
 
 namespace clatter {
 
@@ -41,17 +40,16 @@ ImU32 packed(Colour colour) {
   return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
 }
 
-void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, Colour colour,
+void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, const Ink& ink,
                const std::string& text, float wrap) {
-  auto write = [&](float dx, float dy, ImU32 ink) {
-    list.AddText(&font, font.FontSize, ImVec2(place.x + dx, place.y + dy), ink, text.data(),
+  auto write = [&](float dx, float dy, ImU32 colour) {
+    list.AddText(&font, font.FontSize, ImVec2(place.x + dx, place.y + dy), colour, text.data(),
                  text.data() + text.size(), wrap);
   };
   // A halo of the background keeps it legible where a close camera brings disks below it.
-  const Colour background = theme::kBackground;
-  const ImU32 halo = IM_COL32(background.red, background.green, background.blue, 120);
+  const ImU32 halo = IM_COL32(ink.halo.red, ink.halo.green, ink.halo.blue, 120);
   for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) write(dx, dy, halo);
-  write(0, 0, packed(colour));
+  write(0, 0, packed(ink.colour));
 }
 
 }  // namespace clatter

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "render/palette.h"
+#include "render/theme.h"
 
 namespace clatter {
 
@@ -31,7 +31,7 @@ ImVec2 text_extent(const ImFont& font, const std::string& text, float wrap = 0.0
 ImU32 packed(Colour colour);
 
 /// Writes a text with its upper left corner at `place`, broken into lines at `wrap` pixels.
-void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, Colour colour,
+void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, const Ink& ink,
                const std::string& text, float wrap = 0.0f);
 
 }  // namespace clatter

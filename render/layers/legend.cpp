@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "render/colour_range.h"
-#include "render/theme.h"
 
 namespace clatter {
 
@@ -13,14 +12,28 @@ namespace {
 
 constexpr float kBarWidth = 0.75f;    // of the bar, in units of the layout
 constexpr float kTickLength = 0.25f;  // likewise
-constexpr float kNameHeight = 1.7f;   // from the name's top to the bar's, likewise
+constexpr float kNameHeight = 1.15f;  // from the name's top to the unit's, likewise
+constexpr float kHeadHeight = 2.75f;  // from the name's top to the bar's, likewise
+constexpr float kArrowHeight = 2.0f;  // from the name's top to the arrow's middle, likewise
+constexpr float kLongestArrow = 5.0f;
 
-void draw_name(ImDrawList& list, const Legend& legend, const Fonts& fonts, ImVec2 place) {
-  draw_text(list, *fonts.small, place, theme::kText, legend.name);
-  const ImVec2 subscript(place.x + text_extent(*fonts.small, legend.name).x,
+std::string unit_and_range(const Legend& legend, const char* range) {
+  const std::string& unit = legend.quantity.unit;
+  return (unit.empty() ? "" : unit + " · ") + range;
+}
+
+void draw_name(ImDrawList& list, const Quantity& quantity, const Fonts& fonts,
+               const ThemeColours& theme, ImVec2 place) {
+  draw_text(list, *fonts.small, place, theme.ink(), quantity.name);
+  const ImVec2 subscript(place.x + text_extent(*fonts.small, quantity.name).x,
                          place.y + 0.3f * fonts.unit());
   list.AddText(fonts.small, std::round(0.75f * fonts.small->FontSize), subscript,
-               packed(theme::kText), legend.subscript.c_str());
+               packed(theme.text), quantity.subscript.c_str());
+}
+
+float name_width(const Quantity& quantity, const Fonts& fonts) {
+  return text_extent(*fonts.small, quantity.name).x +
+         0.75f * text_extent(*fonts.small, quantity.subscript).x;
 }
 
 // One strip of colour a pixel: the map's kinks must not depend on the bar's height.
@@ -32,37 +45,79 @@ void draw_bar(ImDrawList& list, const ColourScale& scale, ImVec2 low, ImVec2 hig
   }
 }
 
-}  // namespace
-
-float legend_width(const Legend& legend, const Fonts& fonts) {
-  const float name = text_extent(*fonts.small, legend.name).x +
-                     0.75f * text_extent(*fonts.small, legend.subscript).x;
+float bar_width(const Legend& legend, const Fonts& fonts) {
+  // The longest of the ranges, so that a change of it moves nothing.
+  const float unit = text_extent(*fonts.small, unit_and_range(legend, "locked")).x;
   const float ticks =
       (kBarWidth + 2.0f * kTickLength) * fonts.unit() + text_extent(*fonts.small, "−0.00").x;
-  return std::ceil(std::max(name, ticks));
+  return std::max({name_width(legend.quantity, fonts), unit, ticks});
 }
 
-void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts, ImVec2 place,
-                 float height) {
+float arrow_width(const ArrowLegend& legend, const Fonts& fonts) {
+  const float value = text_extent(*fonts.small, "0.005 " + legend.quantity.unit).x;
+  return std::max({name_width(legend.quantity, fonts), value, kLongestArrow * fonts.unit()});
+}
+
+}  // namespace
+
+std::vector<Legend> Legends::bars() const {
+  std::vector<Legend> list;
+  for (const auto& legend : {disks, field}) {
+    if (legend) list.push_back(*legend);
+  }
+  return list;
+}
+
+float legend_width(const Legends& legends, const Fonts& fonts) {
+  float width = legends.arrows ? arrow_width(*legends.arrows, fonts) : 0.0f;
+  for (const Legend& legend : legends.bars()) width = std::max(width, bar_width(legend, fonts));
+  return std::ceil(width);
+}
+
+void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
+                 const ThemeColours& theme, ImVec2 place, float height) {
   const float unit = fonts.unit();
-  const ImVec2 low(place.x, std::round(place.y + kNameHeight * unit));
+  const ImVec2 low(place.x, std::round(place.y + kHeadHeight * unit));
   const ImVec2 high(std::round(place.x + kBarWidth * unit), std::round(place.y + height));
-  draw_name(list, legend, fonts, place);
+  draw_name(list, legend.quantity, fonts, theme, place);
+  draw_text(list, *fonts.small, ImVec2(place.x, std::round(place.y + kNameHeight * unit)),
+            theme.faint_ink(), unit_and_range(legend, legend.range.c_str()));
   draw_bar(list, legend.scale, low, high);
 
   const int count = std::clamp(static_cast<int>((high.y - low.y) / (2.2f * unit)), 1, 5);
-  const auto ticks = round_ticks(legend.scale.low, legend.scale.high, count);
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : legend.scale.high;
+  const auto [least, most] = std::minmax(legend.scale.low, legend.scale.high);
+  const auto ticks = round_ticks(least, most, count);
+  const double step = ticks[1] - ticks[0];
   for (double tick : ticks) {
     const double share = (tick - legend.scale.low) / (legend.scale.high - legend.scale.low);
     const float y = std::round(high.y - 1.0f - share * (high.y - low.y - 1.0f));
     list.AddRectFilled(ImVec2(high.x, y), ImVec2(high.x + kTickLength * unit, y + 1.0f),
-                       packed(theme::kFaintText));
+                       packed(theme.faint_text));
     draw_text(list, *fonts.small,
               ImVec2(std::round(high.x + 2.0f * kTickLength * unit),
                      std::round(y - 0.5f * fonts.small->FontSize)),
-              theme::kFaintText, tick_text(tick, step));
+              theme.faint_ink(), tick_text(tick, step));
   }
+}
+
+float arrow_legend_height(const Fonts& fonts) {
+  return std::ceil((kArrowHeight + 0.75f) * fonts.unit() + fonts.small->FontSize);
+}
+
+void draw_arrow_legend(ImDrawList& list, const ArrowLegend& legend, const Fonts& fonts,
+                       const ThemeColours& theme, const ArrowShape& shape, ImVec2 place) {
+  const float unit = fonts.unit();
+  draw_name(list, legend.quantity, fonts, theme, place);
+  const double value = round_down(kLongestArrow * unit / legend.pixels);
+  const float y = std::round(place.y + kArrowHeight * unit);
+  const float tip = place.x + static_cast<float>(value * legend.pixels);
+  const float shaft = static_cast<float>(shape.shaft), width = static_cast<float>(shape.head_width);
+  const float neck = tip - static_cast<float>(shape.head_length);
+  list.AddRectFilled(ImVec2(place.x, y - shaft), ImVec2(neck, y + shaft), packed(theme.text));
+  list.AddTriangleFilled(ImVec2(neck, y - width), ImVec2(tip, y), ImVec2(neck, y + width),
+                         packed(theme.text));
+  draw_text(list, *fonts.small, ImVec2(place.x, std::round(y + 0.6f * unit)), theme.faint_ink(),
+            tick_text(value, value) + " " + legend.quantity.unit);
 }
 
 }  // namespace clatter

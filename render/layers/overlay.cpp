@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
+#include "render/layers/grid_layer.h"
 #include "render/layers/wall_layer.h"
-#include "render/theme.h"
 
 namespace clatter {
 
@@ -37,6 +38,7 @@ enum class Arrangement { Rows, Column };
 struct Page {
   Arrangement arrangement = Arrangement::Rows;
   Fonts fonts;
+  ThemeColours theme;
   Size size;             // of the picture
   Margins margins;       // which the texts take
   float edge = 0.0f;     // from the picture's edge to the texts, pixels
@@ -48,11 +50,12 @@ float unit_for(Size size) {
   return static_cast<float>(std::max(12.0, std::round(std::min(size.width, size.height) / 40.0)));
 }
 
-Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
-             std::span<const Legend> legends, const OverlayText& text) {
+Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& theme, Size size,
+             const Legends& legends, const OverlayText& text) {
   const float unit = fonts.unit(), edge = std::round(kEdge * unit);
   const bool column = arrangement == Arrangement::Column;
-  Page page{arrangement, fonts, size, {}, edge, column ? kColumn * unit : size.width - 2 * edge};
+  Page page{
+      arrangement, fonts, theme, size, {}, edge, column ? kColumn * unit : size.width - 2 * edge};
   float end = page.caption = edge;
   if (!text.title.empty()) {
     end += text_extent(*fonts.title, text.title, page.wrap).y;
@@ -62,10 +65,9 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
     end = page.caption + text_extent(*fonts.text, text.caption, page.wrap).y;
   }
 
-  float legend = 0.0f;
-  for (const Legend& each : legends) legend = std::max(legend, unit + legend_width(each, fonts));
+  const float width = legend_width(legends, fonts);
   const double frame = edge + wall_thickness(size);
-  page.margins = {frame, frame + legend, frame, frame};
+  page.margins = {frame, frame + (width > 0.0f ? unit + width : 0.0f), frame, frame};
   if (column) {
     page.margins.left += page.wrap + unit;
   } else {
@@ -76,14 +78,14 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, Size size,
 }
 
 // The arrangement that leaves the box the most room.
-Page arrange(const Snapshot& snapshot, const Fonts& fonts, Size size,
-             std::span<const Legend> legends, const OverlayText& text) {
+Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& theme, Size size,
+             const Legends& legends, const OverlayText& text) {
   const Faces faces = outermost_faces(snapshot);
   auto shown_width = [&](const Page& page) {
     return Camera::fit(faces.low, faces.high, size, page.margins).width;
   };
-  const Page rows = arrange(Arrangement::Rows, fonts, size, legends, text);
-  const Page column = arrange(Arrangement::Column, fonts, size, legends, text);
+  const Page rows = arrange(Arrangement::Rows, fonts, theme, size, legends, text);
+  const Page column = arrange(Arrangement::Column, fonts, theme, size, legends, text);
   return shown_width(column) < shown_width(rows) ? column : rows;
 }
 
@@ -100,86 +102,79 @@ std::string grouped(std::uint64_t value) {
   return digits;
 }
 
-// The round number of diameters, at most `longest`: 1, 2 or 5 times a power of ten.
-double scale_bar_length(double longest) {
-  const double power = std::pow(10.0, std::floor(std::log10(longest)));
-  for (double step : {5.0, 2.0}) {
-    if (step * power <= longest) return step * power;
-  }
-  return power;
-}
-
 void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
-  draw_text(list, *page.fonts.title, ImVec2(page.edge, page.edge), theme::kText, text.title,
+  draw_text(list, *page.fonts.title, ImVec2(page.edge, page.edge), page.theme.ink(), text.title,
             page.wrap);
-  draw_text(list, *page.fonts.text, ImVec2(page.edge, page.caption), theme::kFaintText,
+  draw_text(list, *page.fonts.text, ImVec2(page.edge, page.caption), page.theme.faint_ink(),
             text.caption, page.wrap);
 }
 
 // A line of a round length with its label above, and its lower left corner at `place`.
-void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels,
-                    const Fonts& fonts) {
+void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels, const Page& page) {
+  const Fonts& fonts = page.fonts;
+  const ThemeColours& theme = page.theme;
   const float line = std::max(1.0f, std::round(fonts.unit() / 12.0f));
   const float cap = std::round(0.3f * fonts.unit()), right = std::round(place.x + pixels);
-  const ImU32 colour = packed(theme::kFaintText);
+  const ImU32 colour = packed(theme.faint_text);
   list.AddRectFilled(ImVec2(place.x, place.y - line), ImVec2(right, place.y), colour);
   list.AddRectFilled(ImVec2(place.x, place.y - cap), ImVec2(place.x + line, place.y), colour);
   list.AddRectFilled(ImVec2(right - line, place.y - cap), ImVec2(right, place.y), colour);
 
-  const std::string label = formatted("%g d", length);
+  const std::string label = formatted("%g a", length);
   const ImVec2 extent = text_extent(*fonts.small, label);
   const float left = std::max(place.x, std::round(0.5f * (place.x + right - extent.x)));
-  draw_text(list, *fonts.small, ImVec2(left, place.y - cap - extent.y), theme::kFaintText, label);
+  draw_text(list, *fonts.small, ImVec2(left, place.y - cap - extent.y), theme.faint_ink(), label);
 }
 
 struct Figure {
   std::string text;
   std::string widest;  // keeps the next one in its row from moving with every digit
-  Colour colour;
+  Ink ink;
 };
 
-std::array<Figure, 3> figures_of(const Snapshot& snapshot) {
-  return {{{formatted("t = %.2f", snapshot.time), "t = 0000.00", theme::kText},
-           {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme::kFaintText},
-           {grouped(snapshot.collisions) + " collisions", "", theme::kFaintText}}};
+std::array<Figure, 3> figures_of(const Snapshot& snapshot, const ThemeColours& theme) {
+  return {{{formatted("t = %.2f", snapshot.time), "t = 0000.00", theme.ink()},
+           {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme.faint_ink()},
+           {grouped(snapshot.collisions) + " collisions", "", theme.faint_ink()}}};
 }
 
 // Figures in a row from the lower left corner, as far as there is room, and the scale at its end.
-void draw_row(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
+void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
+              const Page& page) {
   const float unit = page.fonts.unit(), bottom = page.size.height - page.edge;
-  const double length = scale_bar_length(0.15 * page.size.width / (snapshot.diameter * scale));
-  const float pixels = static_cast<float>(length * snapshot.diameter * scale);
+  const double length = scale_length(snapshot, projection);
+  const auto pixels = static_cast<float>(length * snapshot.diameter * projection.scale());
   const float right = std::round(page.size.width - page.edge - std::max(pixels, 2.0f * unit));
-  draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page.fonts);
+  draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page);
 
   float x = page.edge;
-  for (const Figure& figure : figures_of(snapshot)) {
+  for (const Figure& figure : figures_of(snapshot, page.theme)) {
     const float width = text_extent(*page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
-    draw_text(list, *page.fonts.text, ImVec2(x, bottom - unit), figure.colour, figure.text);
+    draw_text(list, *page.fonts.text, ImVec2(x, bottom - unit), figure.ink, figure.text);
     const float widest = text_extent(*page.fonts.text, figure.widest).x;
     x += std::round(std::max(width, widest) + 1.5f * unit);
   }
 }
 
 // Figures one above the other in the lower left corner, and the scale above them.
-void draw_column(ImDrawList& list, const Snapshot& snapshot, double scale, const Page& page) {
+void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
+                 const Page& page) {
   const float unit = page.fonts.unit();
-  const auto figures = figures_of(snapshot);
+  const auto figures = figures_of(snapshot, page.theme);
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
-  const double length = scale_bar_length(0.5 * page.wrap / (snapshot.diameter * scale));
+  const double length = scale_length(snapshot, projection);
   draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
-                 static_cast<float>(length * snapshot.diameter * scale), page.fonts);
+                 static_cast<float>(length * snapshot.diameter * projection.scale()), page);
   for (const Figure& figure : figures) {
-    draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.colour, figure.text);
+    draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.ink, figure.text);
     y += std::round(1.5f * unit);
   }
 }
 
 // One below the other at the right of the box, or at the picture's edge where the box goes beyond.
-void draw_legends(ImDrawList& list, std::span<const Legend> legends, const Faces& faces,
+void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
                   const Projection& projection, const Page& page) {
-  if (legends.empty()) return;
   const float unit = page.fonts.unit();
   const double height = projection.size.height;
   const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
@@ -188,13 +183,23 @@ void draw_legends(ImDrawList& list, std::span<const Legend> legends, const Faces
   const double right = std::min(high.x(), projection.size.width - page.margins.right);
   const float x = static_cast<float>(std::round(right + wall_thickness(projection.size) + unit));
 
+  const std::vector<Legend> bars = legends.bars();
+  const auto count = static_cast<float>(bars.size());
   const float gap = 1.5f * unit;
-  const float room = static_cast<float>(bottom - top + gap) / legends.size() - gap;
-  const float each = std::clamp(room, 4.0f * unit, 18.0f * unit);
-  float y = static_cast<float>(std::round(top));
-  for (const Legend& legend : legends) {
-    draw_legend(list, legend, page.fonts, ImVec2(x, y), each);
+  const float arrows = legends.arrows ? arrow_legend_height(page.fonts) + gap : 0.0f;
+  const float room = (static_cast<float>(bottom - top) + gap - arrows) / count - gap;
+  const float each = std::clamp(room, 6.0f * unit, 18.0f * unit);
+  // Where the box is too low for them they stand about its middle.
+  const double spare = bottom - top - (count * (each + gap) - gap + arrows);
+  auto y =
+      static_cast<float>(std::round(std::max(page.margins.top, top + 0.5 * std::min(0.0, spare))));
+  for (const Legend& legend : bars) {
+    draw_legend(list, legend, page.fonts, page.theme, ImVec2(x, y), each);
     y = std::round(y + each + gap);
+  }
+  if (legends.arrows) {
+    draw_arrow_legend(list, *legends.arrows, page.fonts, page.theme,
+                      ArrowShape::in(projection.size), ImVec2(x, y));
   }
 }
 
@@ -218,17 +223,17 @@ Fonts Overlay::fonts_for(Size size) {
   return fonts;
 }
 
-Margins Overlay::margins(const Snapshot& snapshot, Size size, std::span<const Legend> legends,
+Margins Overlay::margins(const Snapshot& snapshot, Size size, const Legends& legends,
                          const OverlayText& text) {
   const CurrentContext current(context_.get());
-  return arrange(snapshot, fonts_for(size), size, legends, text).margins;
+  return arrange(snapshot, fonts_for(size), kDarkTheme, size, legends, text).margins;
 }
 
-void Overlay::draw(const Snapshot& snapshot, const Projection& projection,
-                   std::span<const Legend> legends, const OverlayText& text) {
+void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
+                   const OverlayText& text, const ThemeColours& theme) {
   const CurrentContext current(context_.get());
   const Size size = projection.size;
-  const Page page = arrange(snapshot, fonts_for(size), size, legends, text);
+  const Page page = arrange(snapshot, fonts_for(size), theme, size, legends, text);
   ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
@@ -236,10 +241,10 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection,
   draw_legends(list, legends, outermost_faces(snapshot), projection, page);
   switch (page.arrangement) {
     case Arrangement::Rows:
-      draw_row(list, snapshot, projection.scale(), page);
+      draw_row(list, snapshot, projection, page);
       break;
     case Arrangement::Column:
-      draw_column(list, snapshot, projection.scale(), page);
+      draw_column(list, snapshot, projection, page);
       break;
   }
   ImGui::Render();

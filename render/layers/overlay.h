@@ -3,13 +3,13 @@
 #include <imgui.h>
 
 #include <memory>
-#include <span>
 #include <string>
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
 #include "render/layers/gui_layer.h"
 #include "render/layers/legend.h"
+#include "render/theme.h"
 
 namespace clatter {
 
@@ -26,12 +26,12 @@ class Overlay {
   explicit Overlay(const Gl& gl);
 
   /// The space its texts take along the edges of a picture of `size` that shows the whole box.
-  Margins margins(const Snapshot& snapshot, Size size, std::span<const Legend> legends,
+  Margins margins(const Snapshot& snapshot, Size size, const Legends& legends,
                   const OverlayText& text);
 
   /// Draws it over a picture of `snapshot`.
-  void draw(const Snapshot& snapshot, const Projection& projection, std::span<const Legend> legends,
-            const OverlayText& text);
+  void draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
+            const OverlayText& text, const ThemeColours& theme);
 
  private:
   struct DestroyContext {

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "render/theme.h"
-
 namespace clatter {
 
 namespace {
@@ -29,22 +27,22 @@ Colour thermal_colour(double wall_temperature, double gas_temperature) {
   return heat(sum > 0.0 ? wall_temperature / sum : 0.5);
 }
 
-Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot) {
-  if (!wall) return {kDashes, theme::kStaticWall};
+Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot, const ThemeColours& theme) {
+  if (!wall) return {kDashes, theme.static_wall};
   switch (wall->kind) {
     case WallKind::Static:
-      return {kHatch, theme::kStaticWall};
+      return {kHatch, theme.static_wall};
     case WallKind::Driven:
       // A wall that comes at speed V adds 2 V to what it hits.
-      return {kTeeth, theme::kDrivenWall, 0.5 * wall->drive_speed * snapshot.time};
+      return {kTeeth, theme.driven_wall, 0.5 * wall->drive_speed * snapshot.time};
     case WallKind::Sawtooth:
-      return {kTeeth, theme::kDrivenWall};
+      return {kTeeth, theme.driven_wall};
     case WallKind::Sinusoidal:
-      return {kWaves, theme::kDrivenWall};
+      return {kWaves, theme.driven_wall};
     case WallKind::Thermal:
       return {kGlow, thermal_colour(wall->temperature, snapshot.temperature)};
   }
-  return {kHatch, theme::kStaticWall};
+  return {kHatch, theme.static_wall};
 }
 
 // The four corners of a band along a wall's face as a triangle strip, from `inner` to `outer`
@@ -112,7 +110,8 @@ WallLayer::WallLayer(const Gl& gl)
   gl.EnableVertexAttribArray(1);
 }
 
-void WallLayer::draw(const Snapshot& snapshot, const Projection& projection) const {
+void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
+                     const ThemeColours& theme) const {
   program_.use();
   gl_->Uniform2f(program_.uniform("u_size"), projection.size.width, projection.size.height);
   gl_->Uniform1f(program_.uniform("u_thickness"), wall_thickness(projection.size));
@@ -121,26 +120,29 @@ void WallLayer::draw(const Snapshot& snapshot, const Projection& projection) con
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   for (Side side : {kLeft, kRight, kBottom, kTop}) {
     const auto& wall = snapshot.walls[side];
-    if (wall && wall->moves()) draw_place(side, snapshot, projection);
+    if (wall && wall->moves()) draw_place(side, snapshot, projection, theme);
   }
-  for (Side side : {kLeft, kRight, kBottom, kTop}) draw_side(side, snapshot, projection);
+  for (Side side : {kLeft, kRight, kBottom, kTop}) draw_side(side, snapshot, projection, theme);
 }
 
-void WallLayer::draw_place(Side side, const Snapshot& snapshot,
-                           const Projection& projection) const {
+void WallLayer::draw_place(Side side, const Snapshot& snapshot, const Projection& projection,
+                           const ThemeColours& theme) const {
   const double line = line_width(projection.size);
   // What the field shows behind the face is no part of the gas.
   const double moved_in = snapshot.wall_displacement[side] * projection.scale();
   if (moved_in > 0.0) {
     draw_band(band(side, snapshot, projection, 0.0, moved_in, Ends::Straight), kPlain,
-              theme::kBackground);
+              theme.background);
   }
+  Colour place = theme.static_wall;
+  place.alpha = 0x60;
   draw_band(band(side, snapshot, projection, moved_in, moved_in + line, Ends::Straight), kPlain,
-            theme::kWallPlace);
+            place);
 }
 
-void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection& projection) const {
-  const Look look = look_of(snapshot.walls[side], snapshot);
+void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection& projection,
+                          const ThemeColours& theme) const {
+  const Look look = look_of(snapshot.walls[side], snapshot, theme);
   const double thickness = wall_thickness(projection.size);
   const double line = line_width(projection.size);
   const bool is_line = look.pattern == kDashes;
@@ -154,8 +156,7 @@ void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection&
 void WallLayer::draw_band(const std::array<Vertex, 4>& corners, int pattern, Colour colour) const {
   gl_->BufferData(GL_ARRAY_BUFFER, sizeof corners, corners.data(), GL_STREAM_DRAW);
   gl_->Uniform1i(program_.uniform("u_pattern"), pattern);
-  gl_->Uniform4f(program_.uniform("u_colour"), colour.red / 255.0f, colour.green / 255.0f,
-                 colour.blue / 255.0f, colour.alpha / 255.0f);
+  set_colour(*gl_, program_, "u_colour", colour);
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 

@@ -6,6 +6,7 @@
 #include "render/camera.h"
 #include "render/palette.h"
 #include "render/program.h"
+#include "render/theme.h"
 
 namespace clatter {
 
@@ -38,11 +39,14 @@ class WallLayer {
   explicit WallLayer(const Gl& gl);
 
   /// Draws the four sides of the snapshot's box.
-  void draw(const Snapshot& snapshot, const Projection& projection) const;
+  void draw(const Snapshot& snapshot, const Projection& projection,
+            const ThemeColours& theme) const;
 
  private:
-  void draw_place(Side side, const Snapshot& snapshot, const Projection& projection) const;
-  void draw_side(Side side, const Snapshot& snapshot, const Projection& projection) const;
+  void draw_place(Side side, const Snapshot& snapshot, const Projection& projection,
+                  const ThemeColours& theme) const;
+  void draw_side(Side side, const Snapshot& snapshot, const Projection& projection,
+                 const ThemeColours& theme) const;
   void draw_band(const std::array<Vertex, 4>& corners, int pattern, Colour colour) const;
 
   const Gl* gl_;

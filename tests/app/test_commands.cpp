@@ -55,8 +55,9 @@ TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
   CHECK(std::regex_search(all, std::regex("\n  spins +8  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  gravity +0  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  t_c +8  yes\n")));
-  // Three numbers for each of 100 cells.
-  CHECK(std::regex_search(all, std::regex("\n  fields +24  density, velocity\n")));
+  // Three numbers for each of 100 cells in 66 windows, and in 65 maps; and for each of 10 columns
+  // in 1000 windows.
+  CHECK(std::regex_search(all, std::regex("\n  fields +5544  density, velocity\n")));
 }
 
 TEST_CASE("A flag wins over the scene") {
@@ -115,7 +116,7 @@ TEST_CASE("Every command explains each of its flags") {
            Command{"measure", true, {"--resume", "--checkpoint", "--out", "--csv", "--save-state"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
-           Command{"bench", false, {"--json", "--count", "--area-fraction"}},
+           Command{"bench", false, {"--json", "--count", "--area-fraction", "--duration"}},
        }) {
     const Outcome outcome = shell.run("clatter " + command.name + " --help");
     CAPTURE(command.name);

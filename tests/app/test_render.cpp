@@ -60,6 +60,31 @@ TEST_CASE("A picture from a time is the picture at that time") {
   CHECK(shell.read("from.png") == shell.read("to.png"));
 }
 
+TEST_CASE("Arrows need no heatmap, and take none along") {
+  const Shell shell;
+  const std::string empty = "box.size = [9, 9]\ndisks.count = 4\nview.colour_by = \"none\"\n";
+  shell.write("plain.toml", empty);
+  shell.write("arrows.toml", empty + "view.arrows = \"velocity\"\n");
+  for (const std::string name : {"plain", "arrows"}) {
+    const Outcome outcome = shell.run(
+        "clatter render " + name + ".toml --to 1 --no-overlay --size 90x90 --out " + name + ".png");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+  // Most of the picture lies beside the arrows and stays as it is.
+  const std::string ssim =
+      shell
+          .run(
+              "ffmpeg -i plain.png -i arrows.png -lavfi blend=all_mode=difference,signalstats,"
+              "metadata=print:file=- -f null - | grep -E 'YAVG|YMAX'")
+          .out;
+  const auto value = [&](const std::string& key) {
+    return std::stod(ssim.substr(ssim.find(key + "=") + key.size() + 1));
+  };
+  CHECK(value("YMAX") > 100.0);
+  CHECK(value("YAVG") < 30.0);
+}
+
 TEST_CASE("A folder takes a picture for each frame, and keeps what it has unless told otherwise") {
   const Shell shell;
   const std::string line = kRender + "--to 1 --speed 1 --fps 4 --out frames/";

@@ -36,7 +36,7 @@ const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --un
 
 TEST_CASE("A measurement that was interrupted or killed goes on to the same result") {
   const Shell shell;
-  REQUIRE(shell.run(kRun + "--seed 7 --out whole.json").code == 0);
+  REQUIRE(shell.run(kRun + "--seed 7 --out whole.json --vtk whole").code == 0);
   int code = 0;
   SUBCASE("interrupted") {
     code = cut_off(shell, kRun + "--seed 7 --out part.json", "INT").code;
@@ -46,11 +46,12 @@ TEST_CASE("A measurement that was interrupted or killed goes on to the same resu
   }
   REQUIRE((code == 130 || code == 137));
   // Its seed comes from the checkpoint.
-  const Outcome outcome = shell.run(kRun + "--resume c --out resumed.json");
+  const Outcome outcome = shell.run(kRun + "--resume c --out resumed.json --vtk resumed");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   CHECK(result_of(shell, "resumed.json") == result_of(shell, "whole.json"));
+  CHECK(shell.run("diff -r whole resumed").code == 0);
 }
 
 TEST_CASE("An interrupted run leaves a checkpoint beside its result and names it") {

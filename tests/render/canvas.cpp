@@ -21,7 +21,7 @@ TEST_CASE("A canvas has the size asked for, and its first row is the top one") {
   CHECK(image.size.height == 5);
   CHECK(image.rgba.size() == 7 * 5 * 4);
   CHECK(pixel(image, 2, 0) == Colour{255, 0, 0});
-  CHECK(pixel(image, 2, 4) == theme::kBackground);
+  CHECK(pixel(image, 2, 4) == kDarkTheme.background);
 }
 
 TEST_CASE("A canvas larger than OpenGL allows is refused") {

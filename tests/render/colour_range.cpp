@@ -34,13 +34,32 @@ TEST_CASE("A steady extent moves only when it must") {
   CHECK(extent.follow(0.0) == doctest::Approx(0.8));
 }
 
+TEST_CASE("A held extent stays as it was first seen") {
+  SteadyExtent extent;
+  CHECK(extent.follow(0.0, true) == 1.0);
+  CHECK_FALSE(extent.held());  // nothing seen yet
+  CHECK(extent.follow(0.9) == 1.0);
+  CHECK_FALSE(extent.held());
+  CHECK(extent.follow(1.9, true) == 2.0);
+  CHECK(extent.held());
+  CHECK(extent.follow(50.0, true) == 2.0);
+  CHECK(extent.follow(0.01, true) == 2.0);
+  CHECK(extent.follow(50.0) == 50.0);
+  CHECK_FALSE(extent.held());
+}
+
 TEST_CASE("Ticks are round and say no more digits than they need") {
   CHECK(round_ticks(0.0, 3.0, 4) == std::vector<double>{0, 1, 2, 3});
   CHECK(round_ticks(-2.0, 2.0, 5) == std::vector<double>{-2, -1, 0, 1, 2});
+  // Steps of 5 would leave 0 alone.
+  CHECK(round_ticks(-4.0, 4.0, 3) == std::vector<double>{-4, -2, 0, 2, 4});
   CHECK_FALSE(std::signbit(round_ticks(0.0, 3.0, 4).front()));
   CHECK(tick_text(0.4, 0.2) == "0.4");
   CHECK(tick_text(-2.0, 1.0) == "−2");
   CHECK(tick_text(3e-7, 1e-7) == "3e-07");
+  CHECK(tick_text(1.5e-16, 5e-17) == "1.5e-16");
+  CHECK(tick_text(0.0, 5e-17) == "0");
+  CHECK(tick_text(0.0, 0.2) == "0.0");
 }
 
 }  // namespace clatter

@@ -36,8 +36,8 @@ inline int difference(const Image& a, const Image& b) {
 inline Canvas blank_canvas(const Gl& gl, Size size) {
   Canvas canvas(gl, size);
   gl.Viewport(0, 0, size.width, size.height);
-  gl.ClearColor(theme::kBackground.red / 255.0f, theme::kBackground.green / 255.0f,
-                theme::kBackground.blue / 255.0f, 1.0f);
+  gl.ClearColor(kDarkTheme.background.red / 255.0f, kDarkTheme.background.green / 255.0f,
+                kDarkTheme.background.blue / 255.0f, 1.0f);
   gl.Clear(GL_COLOR_BUFFER_BIT);
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -35,7 +35,9 @@ TEST_CASE("The overlay writes on every size of picture, and neither on the box n
       CAPTURE(box.x());
       Snapshot snapshot = driven_box();
       snapshot.box = box;
+      snapshot.arrows = ArrowMap{Arrows::HeatFlux, box / 20.0, {{0.5 * box, {1.0, 0.0}}}};
       View view = view_with_field();
+      view.arrows = Arrows::HeatFlux;
       const Camera camera = renderer.fit(snapshot, size, view, kText);
       const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
       view.overlay = false;
@@ -82,7 +84,7 @@ TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
   snapshot.velocities = {{2.0, 0.0}};
   View view;
   view.overlay = false;
-  view.range = {0.0, 2000.0};
+  view.range = {ColourRange::Given, {0.0, 2000.0}};
   const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
   CHECK(difference(pixel(image, 50, 50), Colour{0x47, 0x2d, 0x7b}) <= 1);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
@@ -147,6 +149,141 @@ TEST_CASE("Spins are coloured by their sense") {
                    v.overlay = false;
                    return v;
                  }())) > 50);
+}
+
+namespace {
+
+// The colour in the middle of a box that a field of one cell fills with `value`.
+Colour field_colour(Renderer& renderer, const Gl& gl, const View& view, double value,
+                    bool whole_window) {
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.field = FieldMap{*view.field, {1, 1}, {value}, whole_window};
+  return pixel(draw(renderer, gl, snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view), 50, 50);
+}
+
+View view_of(Field field) {
+  View view;
+  view.colour_by = ColourBy::None;
+  view.field = field;
+  view.overlay = false;
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
+  const auto context = open_context(Backend::Osmesa);
+  const ColourMap map = colour_map(Palette::Viridis);
+  View view = view_of(Field::Temperature);
+  const auto colours = [&] {
+    Renderer renderer(context->gl());
+    std::vector<Colour> seen;
+    seen.push_back(field_colour(renderer, context->gl(), view, 0.1, false));
+    seen.push_back(field_colour(renderer, context->gl(), view, 1.0, true));
+    seen.push_back(field_colour(renderer, context->gl(), view, 100.0, true));
+    seen.push_back(field_colour(renderer, context->gl(), view, 0.5, true));
+    return seen;
+  };
+  const Colour top = map.back(), middle = map[8];
+  CHECK(colours() == std::vector{top, top, top, top});
+  view.field_range = {ColourRange::Locked};
+  CHECK(colours() == std::vector{top, top, top, middle});  // at 1, its first whole window
+  view.field_range = {ColourRange::Given, {-1.0, 2.0}};
+  CHECK(colours()[3] == middle);
+}
+
+TEST_CASE("A locked range is found anew for another field") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  View view = view_of(Field::Temperature);
+  view.field_range = {ColourRange::Locked};
+  field_colour(renderer, context->gl(), view, 100.0, true);
+  view.field = Field::Density;
+  CHECK(field_colour(renderer, context->gl(), view, 1.0, true) ==
+        colour_map(Palette::Viridis).back());
+}
+
+TEST_CASE("Magnitudes have the palette, their bright end far from zero; signed fields have two") {
+  const auto context = open_context(Backend::Osmesa);
+  const auto colour = [&](Field field, double value) {
+    Renderer renderer(context->gl());
+    View view = view_of(field);
+    view.field_palette = Palette::Inferno;
+    return field_colour(renderer, context->gl(), view, value, true);
+  };
+  CHECK(colour(Field::Density, 1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Field::StressXx, -1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Field::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
+  for (const Field field : {Field::VelocityX, Field::StressXy, Field::HeatFluxY, Field::Spin}) {
+    CHECK(colour(field, 1.0) == diverging_map().back());
+    CHECK(colour(field, -1.0) == diverging_map().front());
+  }
+}
+
+TEST_CASE("Arrows lie over the box as long as their legend says") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
+  View view;
+  view.overlay = false;
+  const auto width_of_arrow = [&] {
+    const Image image =
+        draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
+    int width = 0;
+    for (int x = 0; x < 400; ++x) width += difference(pixel(image, x, 200), kDarkTheme.text) < 100;
+    return width;
+  };
+  CHECK(width_of_arrow() == 0);  // not asked for
+  view.arrows = Arrows::Velocity;
+  // The greatest value there is fills a cell of 160 pixels.
+  CHECK(std::abs(width_of_arrow() - 160) <= 4);
+}
+
+TEST_CASE("A theme has its colours, and a background of one's own goes before them") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{5.0, 5.0}};
+  snapshot.velocities = {{0.0, 0.0}};
+  View view;
+  view.colour_by = ColourBy::None;
+  const auto drawn = [&] {
+    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 20.0}, {400, 400}, view);
+  };
+  for (const auto& [name, colours] : {std::pair(Theme::Dark, kDarkTheme),
+                                      {Theme::Light, kLightTheme},
+                                      {Theme::Projector, kProjectorTheme}}) {
+    view.theme = name;
+    const Image image = drawn();
+    CHECK(pixel(image, 399, 200) == colours.background);
+    CHECK(pixel(image, 200, 200) == colours.disk);
+    // Letters of the title.
+    int letters = 0;
+    for (int x = 0; x < 200; ++x) {
+      for (int y = 0; y < 40; ++y) letters += difference(pixel(image, x, y), colours.text) < 60;
+    }
+    CHECK(letters > 20);
+  }
+  view.background = Rgb{1, 2, 3};
+  CHECK(pixel(drawn(), 399, 200) == Colour{1, 2, 3});
+}
+
+TEST_CASE("A grid is drawn where it is asked for") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  View view;
+  view.overlay = false;
+  const Camera camera{{5.0, 5.0}, 20.0};
+  const Image without = draw(renderer, context->gl(), snapshot, camera, {400, 400}, view);
+  view.grid = true;
+  CHECK(difference(without, draw(renderer, context->gl(), snapshot, camera, {400, 400}, view)) >
+        20);
 }
 
 TEST_CASE("An empty box is drawn too") {

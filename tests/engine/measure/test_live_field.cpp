@@ -1,11 +1,14 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "engine/measure/fields.h"
 #include "engine/measure/live_field.h"
+#include "engine/measure/residuals.h"
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
 
@@ -21,6 +24,12 @@ View view_of(Field field, double window) {
   return view;
 }
 
+FieldMap map_of(LiveField& live) {
+  Snapshot snapshot;
+  live.publish(snapshot);
+  return *snapshot.field;
+}
+
 }  // namespace
 
 TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere") {
@@ -28,7 +37,7 @@ TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere
   const auto simulation = simulation_of(scene, 31);
   LiveField live(*simulation, view_of(Field::Density, 2000.0));
   simulation->run_until(2000.0);
-  const FieldMap map = live.map();
+  const FieldMap map = map_of(live);
   REQUIRE(map.cells == std::array<int, 2>{12, 8});
   REQUIRE(map.values.size() == 96);
   // Cells of area 1: exactly N disks in all.
@@ -49,9 +58,9 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
     CellIntegrals<2> integrals(*simulation, {9, 8}, full_layout());
     simulation->add_observer(integrals);
     simulation->run_until(0.3);
-    live.map();
+    map_of(live);
     simulation->run_until(1.9);
-    const FieldMap map = live.map();
+    const FieldMap map = map_of(live);
     const CellSums sums = integrals.close_window();
     REQUIRE(map.field == field);
     for (std::size_t i = 0; i < map.values.size(); ++i) {
@@ -63,12 +72,59 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
   }
 }
 
+TEST_CASE("LiveField: every residual is that of its cells over the window") {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness.friction = 0.4;
+  scene.gravity = Vec2(0.2, -0.5);
+  // 20 disks in 72 cells: some see none.
+  for (const Field field : kResiduals) {
+    CAPTURE(static_cast<int>(field));
+    const auto simulation = simulation_of(scene, 35);
+    LiveField live(*simulation, view_of(field, 8.0));
+    Balance<2> balance(*simulation, {9, 8});
+    simulation->add_observer(balance);
+    simulation->run_until(0.4);
+    map_of(live);
+    Imbalances<2> sum = balance.close_window().imbalances;
+    simulation->run_until(0.9);
+    sum += balance.close_window().imbalances;
+    const FieldMap map = map_of(live);
+    REQUIRE(map.field == field);
+    REQUIRE(map.values.size() == 72);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      CHECK(std::isnan(map.values[i]) == (sum.sizes[i].maxCoeff() == 0.0));
+      if (std::isnan(map.values[i])) continue;
+      CHECK(map.values[i] == sum.residual(i)[equation_of(field)]);
+      largest = std::max(largest, std::fabs(map.values[i]));
+    }
+    CHECK(largest < 1e-12);
+    CHECK((largest > 0.0) == (field != Field::BalanceMass));
+    CHECK(std::ranges::any_of(map.values, [](double value) { return std::isnan(value); }));
+  }
+}
+
+TEST_CASE("MovingSum: of the last eight parts and of what came since") {
+  MovingSum<int> window;
+  CHECK(window.sum() == 0);
+  for (const int part : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
+    window.add(part);
+    CHECK(window.sum() == 2 * part - 1);
+    CHECK(window.whole() == (part == 256));
+    window.next_part();
+  }
+  CHECK(window.sum() == 510);
+  window.add(1000);
+  window.add(1);
+  CHECK(window.sum() == 1511);
+}
+
 TEST_CASE("LiveField: cells that no disk visited are gaps") {
   const auto simulation = lone_disk(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Field::VelocityX, 100.0));
-  CHECK(std::isnan(live.map().values[12]));  // no time has passed
-  simulation->run_until(3.0);                // visits the columns 0 to 3 of row 2
-  const FieldMap map = live.map();
+  CHECK(std::isnan(map_of(live).values[12]));  // no time has passed
+  simulation->run_until(3.0);                  // visits the columns 0 to 3 of row 2
+  const FieldMap map = map_of(live);
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     CAPTURE(i);
     if (i >= 12 && i < 16) {
@@ -86,7 +142,8 @@ TEST_CASE("LiveField: the window reaches back by its length and by one part more
   LiveField live(*simulation, view_of(Field::Density, 4.0));
   const auto check = [&](double now, double reaches_back) {
     simulation->run_until(now);
-    const FieldMap map = live.map();
+    const FieldMap map = map_of(live);
+    CHECK(map.whole_window == (now >= 4.0));
     for (int column = 0; column < 16; ++column) {
       const double inside =
           std::min(column + 1.0, now) - std::max<double>(column, now - reaches_back);
@@ -112,7 +169,7 @@ TEST_CASE("LiveField: watching and asking change nothing") {
   LiveField live(*watched, view_of(Field::Temperature, 1.7));
   for (int frame = 1; frame <= 600; ++frame) {
     watched->run_until(0.1 * frame);
-    live.map();
+    map_of(live);
   }
   watched->run_until(60.0);
   CHECK(watched->state_hash() == alone->state_hash());
@@ -126,11 +183,11 @@ TEST_CASE("LiveField: does not depend on how often it is asked") {
   LiveField asked_once(*once, view_of(Field::Density, 3.0));
   for (int frame = 1; frame <= 400; ++frame) {
     often->run_until(0.05 * frame);
-    asked_often.map();
+    map_of(asked_often);
   }
   once->run_until(0.05 * 400);
-  const FieldMap a = asked_often.map();
-  const FieldMap b = asked_once.map();
+  const FieldMap a = map_of(asked_often);
+  const FieldMap b = map_of(asked_once);
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     CHECK(a.values[i] == doctest::Approx(b.values[i]).epsilon(1e-10));
   }
@@ -141,12 +198,106 @@ TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
   LiveField density(*simulation, view_of(Field::Density, 1.0));
   LiveField temperature(*simulation, view_of(Field::Temperature, 1.0));
   simulation->run_until(3.0);
-  for (const double value : density.map().values) CHECK(value == 0.0);
-  for (const double value : temperature.map().values) CHECK(std::isnan(value));
+  for (const double value : map_of(density).values) CHECK(value == 0.0);
+  for (const double value : map_of(temperature).values) CHECK(std::isnan(value));
 }
 
 TEST_CASE("LiveField: at most 512 cells along an axis, at least one") {
   const auto simulation = lone_disk(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Field::Density, 1.0));
-  CHECK(live.map().cells == std::array<int, 2>{512, 1});
+  CHECK(map_of(live).cells == std::array<int, 2>{512, 1});
+}
+
+TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {
+  // 21 x 8 cells make blocks of 2 x 2, and narrower ones at the right.
+  const Scene scene = gas(21.0, 8.0, 60, 1.0);
+  for (const Arrows quantity : {Arrows::Velocity, Arrows::HeatFlux}) {
+    CAPTURE(static_cast<int>(quantity));
+    const auto simulation = simulation_of(scene, 35);
+    View view;
+    view.arrows = quantity;
+    view.window = 50.0;
+    LiveField live(*simulation, view);
+    CellIntegrals<2> integrals(*simulation, {21, 8}, full_layout());
+    simulation->add_observer(integrals);
+    simulation->run_until(5.0);
+    Snapshot snapshot;
+    live.publish(snapshot);
+    CHECK_FALSE(snapshot.field);
+    REQUIRE(snapshot.arrows);
+    CHECK(snapshot.arrows->quantity == quantity);
+    CHECK(snapshot.arrows->cell == Vec2(2.0, 2.0));
+    REQUIRE(snapshot.arrows->arrows.size() == 11 * 4);
+
+    const CellSums sums = integrals.close_window();
+    const auto size = static_cast<std::size_t>(integrals.layout().size);
+    for (std::size_t k = 0; k < snapshot.arrows->arrows.size(); ++k) {
+      CAPTURE(k);
+      const int column = static_cast<int>(k % 11), row = static_cast<int>(k / 11);
+      const int width = column < 10 ? 2 : 1;
+      std::vector<double> block(size);
+      for (int y = 2 * row; y < 2 * row + 2; ++y) {
+        for (int x = 2 * column; x < 2 * column + width; ++x) {
+          for (std::size_t i = 0; i < size; ++i) {
+            block[i] += sums.rows[size * (x + 21 * y) + i] / (sums.time * 2.0 * width);
+          }
+        }
+      }
+      const auto averages = averages_of(integrals.layout(), block.data());
+      const bool flow = quantity == Arrows::Velocity;
+      const Vec2 expected(field_value(flow ? Field::VelocityX : Field::HeatFluxX, averages),
+                          field_value(flow ? Field::VelocityY : Field::HeatFluxY, averages));
+      const auto& arrow = snapshot.arrows->arrows[k];
+      CHECK((arrow.value - expected).norm() < 1e-10);
+      CHECK(arrow.place == Vec2(2.0 * column + 0.5 * width, 2.0 * row + 1.0));
+    }
+  }
+}
+
+TEST_CASE("LiveField: a residual and arrows are those that each alone is") {
+  const auto shown = [](std::optional<Field> field, std::optional<Arrows> arrows) {
+    const auto simulation = simulation_of(rough_mixture(20), 36);
+    View view;
+    view.field = field;
+    view.arrows = arrows;
+    view.window = 2.0;
+    LiveField live(*simulation, view);
+    simulation->run_until(2.1);
+    Snapshot snapshot;
+    live.publish(snapshot);
+    return snapshot;
+  };
+  const Snapshot both = shown(Field::BalanceEnergy, Arrows::Velocity);
+  const FieldMap residual = *shown(Field::BalanceEnergy, std::nullopt).field;
+  const ArrowMap arrows = *shown(std::nullopt, Arrows::Velocity).arrows;
+  REQUIRE(both.field);
+  REQUIRE(both.arrows);
+  CHECK(both.field->field == Field::BalanceEnergy);
+  CHECK(both.field->whole_window);
+  REQUIRE(both.field->values.size() == residual.values.size());
+  for (std::size_t i = 0; i < residual.values.size(); ++i) {
+    CHECK(std::isnan(both.field->values[i]) == std::isnan(residual.values[i]));
+    if (!std::isnan(residual.values[i])) CHECK(both.field->values[i] == residual.values[i]);
+  }
+  REQUIRE(both.arrows->arrows.size() == arrows.arrows.size());
+  for (std::size_t k = 0; k < arrows.arrows.size(); ++k) {
+    CHECK(both.arrows->arrows[k].value == arrows.arrows[k].value);
+  }
+}
+
+TEST_CASE("LiveField: where no disk came by there is no arrow") {
+  const auto simulation = lone_disk(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
+  View view;
+  view.arrows = Arrows::Velocity;
+  LiveField live(*simulation, view);
+  Snapshot snapshot;
+  live.publish(snapshot);
+  CHECK(snapshot.arrows->arrows.empty());  // no time has passed
+  simulation->run_until(3.0);              // visits the columns 0 to 3 of row 2
+  live.publish(snapshot);
+  REQUIRE(snapshot.arrows->arrows.size() == 4);
+  for (int column = 0; column < 4; ++column) {
+    CHECK(snapshot.arrows->arrows[column].place == Vec2(column + 0.5, 2.5));
+    CHECK((snapshot.arrows->arrows[column].value - Vec2(1.0, 0.0)).norm() < 1e-12);
+  }
 }

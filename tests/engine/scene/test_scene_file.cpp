@@ -96,6 +96,12 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.speed == b.view.speed);
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
+  CHECK(a.view.field_palette == b.view.field_palette);
+  CHECK(a.view.field_range == b.view.field_range);
+  CHECK(a.view.arrows == b.view.arrows);
+  CHECK(a.view.theme == b.view.theme);
+  CHECK(a.view.background == b.view.background);
+  CHECK(a.view.grid == b.view.grid);
   CHECK(a.view.overlay == b.view.overlay);
 }
 
@@ -141,7 +147,13 @@ Scene unusual_scene() {
                 .window = 0.125,
                 .speed = 1e-7,
                 .palette = Palette::Inferno,
-                .range = {{-1.5, 2.0}},
+                .range = {ColourRange::Given, {-1.5, 2.0}},
+                .field_palette = Palette::Cividis,
+                .field_range = {ColourRange::Locked},
+                .arrows = Arrows::HeatFlux,
+                .theme = Theme::Projector,
+                .background = Rgb{0, 10, 255},
+                .grid = true,
                 .overlay = false};
   return scene;
 }
@@ -189,6 +201,7 @@ TEST_CASE("every key arrives at its place") {
     [view]
     field = "velocity_y"
     range = [0, 3]
+    field_range = "locked"
   )",
                                   "s.toml");
   CHECK(scene.title == "T");
@@ -223,7 +236,8 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.measure.kernel == Kernel::Gaussian);
   CHECK(scene.measure.width == 1.5);
   CHECK(scene.view.field == Field::VelocityY);
-  CHECK(scene.view.range == std::array{0.0, 3.0});
+  CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
+  CHECK(scene.view.field_range.kind == ColourRange::Locked);
 }
 
 TEST_CASE("area_fraction becomes the nearest count") {
@@ -267,18 +281,19 @@ TEST_CASE("a scene as JSON has the keys of the file") {
     walls.top = { kind = "thermal", temperature = 2 }
     measure.fields = ["velocity", "temperature"])",
                             "s.toml");
-  CHECK(scene_to_json(scene) ==
-        R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", )"
-        R"("box": {"size": [2.5, 20.0]}, )"
-        R"("disks": {"count": 3, "restitution": 1.0, )"
-        R"("start": {"layout": "random", "temperature": 1.0}}, )"
-        R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
-        R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
-        R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
-        R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
-        R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
-        R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
-        R"("range": "auto", "overlay": true}})");
+  CHECK(
+      scene_to_json(scene) ==
+      R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", )"
+      R"("box": {"size": [2.5, 20.0]}, )"
+      R"("disks": {"count": 3, "restitution": 1.0, )"
+      R"("start": {"layout": "random", "temperature": 1.0}}, )"
+      R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
+      R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
+      R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
+      R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
+      R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
+      R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
+      R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
 }
 
 TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
@@ -321,7 +336,7 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
   CHECK(scene.disks.count == 50);
   CHECK(scene.walls[kLeft]->drive_speed == 0.0);
   CHECK(scene.walls[kRight]->kind == WallKind::Thermal);
-  CHECK(scene.view.range == std::array{0.0, 3.0});
+  CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
   CHECK(scene.view.palette == Palette::Inferno);
   CHECK(scene.view.field == Field::Density);
   CHECK(scene.view.speed == 2.0);

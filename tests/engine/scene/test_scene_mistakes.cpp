@@ -68,12 +68,16 @@ TEST_CASE("mistakes are told with their place and what to do") {
        "2000"},
       {kDisks + "[measure]\ncells = [2.0, 3]\n", "s.toml:4:1: 'measure.cells' cannot be"},
       {kDisks + "[view]\nrange = [3, 3]\n",
-       "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\" or two numbers [low, high] with "
-       "low < high"},
+       "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\", \"locked\" or two numbers "
+       "[low, high] with low < high"},
+      {kDisks + "[view]\nbackground = \"#12345\"\n",
+       "s.toml:4:1: 'view.background' cannot be \"#12345\"; give a colour as \"#rrggbb\", for "
+       "instance \"#ffffff\""},
+      {kDisks + "[view]\nbackground = \"#12345x\"\n", "s.toml:4:1: 'view.background' cannot be"},
       {kDisks + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
       {kDisks + "[view]\npalette = \"virdis\"\n",
-       "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\"; did "
-       "you mean \"viridis\"?"},
+       "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\", "
+       "\"cividis\"; did you mean \"viridis\"?"},
       {kDisks + "[measure]\nfields = [\"density\", \"pressure\"]\n",
        "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", "
        "\"velocity\""},

@@ -30,7 +30,7 @@ Image draw(const Gl& gl, const Snapshot& snapshot, double largest_point,
            ColourBy colour_by = ColourBy::None) {
   const Canvas canvas = blank_canvas(gl, kSize);
   DiskLayer(gl, largest_point)
-      .draw(snapshot, kUnitProjection, colour_by, {colour_map(Palette::Viridis)});
+      .draw(snapshot, kUnitProjection, colour_by, {colour_map(Palette::Viridis)}, kDarkTheme.disk);
   return canvas.read();
 }
 
@@ -45,7 +45,7 @@ Circle measure(const Image& image) {
   double area = 0.0, x_sum = 0.0, y_sum = 0.0;
   for (int y = 0; y < image.size.height; ++y) {
     for (int x = 0; x < image.size.width; ++x) {
-      const double weight = pixel(image, x, y) == theme::kBackground ? 0.0 : 1.0;
+      const double weight = pixel(image, x, y) == kDarkTheme.background ? 0.0 : 1.0;
       area += weight;
       x_sum += weight * (x + 0.5);
       y_sum += weight * (image.size.height - y - 0.5);
@@ -63,9 +63,9 @@ TEST_CASE("A disk that follows a wall out of the box is no ghost") {
   const Image still = draw(context->gl(), snapshot, kAlwaysPoints);
   snapshot.wall_displacement[kRight] = -16.0;
   const Image swung = draw(context->gl(), snapshot, kAlwaysPoints);
-  CHECK(pixel(swung, 104, 60) == theme::kDisk);
+  CHECK(pixel(swung, 104, 60) == kDarkTheme.disk);
   CHECK(pixel(swung, 90, 60) == pixel(still, 90, 60));
-  CHECK(difference(pixel(still, 104, 60), theme::kDisk) > 50);
+  CHECK(difference(pixel(still, 104, 60), kDarkTheme.disk) > 50);
 }
 
 TEST_CASE("A disk is drawn where it is and as large as it is") {
@@ -103,35 +103,36 @@ TEST_CASE("Disks beyond the largest point of the driver are drawn as well") {
   Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
   snapshot.box = {10.0, 10.0};
   const Projection close{{{0.6, 0.6}, 1.2}, {1200, 1200}};  // centre (500, 700), radius 500 pixels
-  DiskLayer(context->gl()).draw(snapshot, close, ColourBy::None, {colour_map(Palette::Viridis)});
+  DiskLayer(context->gl())
+      .draw(snapshot, close, ColourBy::None, {colour_map(Palette::Viridis)}, kDarkTheme.disk);
   const Image image = canvas.read();
-  CHECK(pixel(image, 500, 700) == theme::kDisk);
-  CHECK(pixel(image, 20, 700) == theme::kDisk);
-  CHECK(pixel(image, 980, 700) == theme::kDisk);
-  CHECK(pixel(image, 1010, 700) == theme::kBackground);
+  CHECK(pixel(image, 500, 700) == kDarkTheme.disk);
+  CHECK(pixel(image, 20, 700) == kDarkTheme.disk);
+  CHECK(pixel(image, 980, 700) == kDarkTheme.disk);
+  CHECK(pixel(image, 1010, 700) == kDarkTheme.background);
 }
 
 TEST_CASE("A disk whose centre lies outside the picture shows its part inside") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
   const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
-  CHECK(pixel(image, 1, 60) == theme::kDisk);
-  CHECK(pixel(image, 6, 60) == theme::kBackground);
+  CHECK(pixel(image, 1, 60) == kDarkTheme.disk);
+  CHECK(pixel(image, 6, 60) == kDarkTheme.background);
 }
 
 TEST_CASE("A disk on a periodic border is drawn on both sides of the box") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({2.0, 60.0}, 20.0);
-  CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == theme::kBackground);
+  CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == kDarkTheme.background);
   snapshot.walls[kLeft].reset();
   snapshot.walls[kRight].reset();
-  CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == theme::kDisk);
+  CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == kDarkTheme.disk);
 
   snapshot.walls.fill({});
   snapshot.positions = {{199.0, 119.0}};
   const Image corners = draw(context->gl(), snapshot, kAlwaysPoints);
   for (int x : {2, 197}) {
-    for (int y : {2, 117}) CHECK(pixel(corners, x, y) == theme::kDisk);
+    for (int y : {2, 117}) CHECK(pixel(corners, x, y) == kDarkTheme.disk);
   }
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("A disk's colour shows its velocity") {
   auto centre = [&](ColourBy by) {
     return pixel(draw(context->gl(), snapshot, kAlwaysPoints, by), 60, 60);
   };
-  CHECK(centre(ColourBy::None) == theme::kDisk);
+  CHECK(centre(ColourBy::None) == kDarkTheme.disk);
   CHECK(difference(centre(ColourBy::Speed), scale(0.5)) <= 1);
   CHECK(difference(centre(ColourBy::VelocityX), scale(0.3)) <= 1);
   CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
@@ -153,7 +154,7 @@ TEST_CASE("Disks smaller than a pixel keep the brightness of their area") {
   const auto context = open_context(Backend::Osmesa);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
   // The pixel's centre is the disk's: full coverage times (0.25 / 0.5)^2.
-  const Colour expected = mix(theme::kBackground, theme::kDisk, 0.25);
+  const Colour expected = mix(kDarkTheme.background, kDarkTheme.disk, 0.25);
   CHECK(difference(pixel(image, 60, 59), expected) <= 2);
 }
 

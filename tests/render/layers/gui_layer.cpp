@@ -30,7 +30,7 @@ TEST_CASE("Dear ImGui's shapes come out at their pixels, clipped, from the upper
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) {
       const bool inside = x >= 10 && x < 20 && y >= 10 && y < 16;
-      REQUIRE(pixel(image, x, y) == (inside ? Colour{200, 100, 50} : theme::kBackground));
+      REQUIRE(pixel(image, x, y) == (inside ? Colour{200, 100, 50} : kDarkTheme.background));
     }
   }
 }

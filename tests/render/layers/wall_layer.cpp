@@ -18,7 +18,7 @@ Image draw(const Gl& gl, const Wall& wall, double time = 0.0) {
   snapshot.temperature = 1.0;
   snapshot.walls[kLeft] = snapshot.walls[kRight] = wall;
   const Canvas canvas = blank_canvas(gl, kSize);
-  WallLayer(gl).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+  WallLayer(gl).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, kDarkTheme);
   return canvas.read();
 }
 
@@ -35,10 +35,10 @@ TEST_CASE("A wall begins at the edge of the box and leaves the inside alone") {
   const auto context = open_context(Backend::Osmesa);
   for (WallKind kind : {WallKind::Static, WallKind::Driven, WallKind::Thermal}) {
     const Image image = draw(context->gl(), wall_of(kind));
-    CHECK(difference(pixel(image, 49, 100), theme::kBackground) > 50);
-    CHECK(difference(pixel(image, 150, 100), theme::kBackground) > 50);
+    CHECK(difference(pixel(image, 49, 100), kDarkTheme.background) > 50);
+    CHECK(difference(pixel(image, 150, 100), kDarkTheme.background) > 50);
     for (int y = 53; y < 147; ++y) {
-      for (int x = 50; x < 150; ++x) REQUIRE(pixel(image, x, y) == theme::kBackground);
+      for (int x = 50; x < 150; ++x) REQUIRE(pixel(image, x, y) == kDarkTheme.background);
     }
   }
 }
@@ -69,7 +69,7 @@ TEST_CASE("A moving wall is drawn where it is, and covers what is behind it") {
       // A field, as bright as no wall.
       context->gl().ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
       context->gl().Clear(GL_COLOR_BUFFER_BIT);
-      WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+      WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, kDarkTheme);
       const Image image = canvas.read();
       const Colour white = {255, 255, 255};
       const int face = 50 + static_cast<int>(10.0 * displacement);
@@ -94,7 +94,7 @@ TEST_CASE("A moving wall looks the same wherever it is") {
     snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(WallKind::Sawtooth);
     snapshot.wall_displacement[kLeft] = displacement;
     const Canvas canvas = blank_canvas(context->gl(), kSize);
-    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, kDarkTheme);
     return canvas.read();
   };
   const Image start = at(0.0), moved = at(3.0);
@@ -116,12 +116,12 @@ TEST_CASE("A line marks the place of a wall that has moved, as long as the box i
     CAPTURE(displacement);
     snapshot.wall_displacement[kLeft] = displacement;
     const Canvas canvas = blank_canvas(context->gl(), kSize);
-    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, kDarkTheme);
     const Image image = canvas.read();
     for (int y = 51; y < 149; ++y) {
-      CHECK(difference(pixel(image, 49, y), theme::kBackground) > 20);
+      CHECK(difference(pixel(image, 49, y), kDarkTheme.background) > 20);
     }
-    for (int y : {35, 165}) CHECK(pixel(image, 49, y) == theme::kBackground);
+    for (int y : {35, 165}) CHECK(pixel(image, 49, y) == kDarkTheme.background);
   }
 }
 
@@ -134,11 +134,11 @@ TEST_CASE("The walls beside one that moves end at its face") {
   for (double displacement : {-1.0, 2.0}) {
     snapshot.wall_displacement[kLeft] = displacement;
     const Canvas canvas = blank_canvas(context->gl(), kSize);
-    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize});
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, kDarkTheme);
     const Image image = canvas.read();
     const int face = 50 + static_cast<int>(10.0 * displacement);
-    CHECK(difference(pixel(image, face + 2, 150), theme::kBackground) > 30);
-    CHECK(difference(pixel(image, face - 8, 150), theme::kBackground) < 30);
+    CHECK(difference(pixel(image, face + 2, 150), kDarkTheme.background) > 30);
+    CHECK(difference(pixel(image, face - 8, 150), kDarkTheme.background) < 30);
   }
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("A periodic border is a dashed line") {
   int drawn = 0;
   for (int x = 50; x < 150; ++x) {
     const Colour a = pixel(image, x, 49), b = pixel(image, x, 50);
-    if (difference(a, theme::kBackground) + difference(b, theme::kBackground) > 30) ++drawn;
+    if (difference(a, kDarkTheme.background) + difference(b, kDarkTheme.background) > 30) ++drawn;
   }
   CHECK(drawn > 30);
   CHECK(drawn < 70);
