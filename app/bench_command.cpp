@@ -8,8 +8,8 @@
 #include "app/commands.h"
 #include "app/flag_checks.h"
 #include "app/resources.h"
-#include "app/run.h"
 #include "app/write_file.h"
+#include "engine/publish/scheduled_run.h"
 
 namespace clatter {
 

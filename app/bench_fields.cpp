@@ -7,10 +7,10 @@
 
 #include "app/commands.h"
 #include "app/resources.h"
-#include "app/run.h"
 #include "app/write_file.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
+#include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
 

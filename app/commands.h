@@ -51,13 +51,17 @@ struct CheckpointOptions {
 Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
 /// Each adds its subcommand to the program; choosing it runs it and stores its exit code.
+void add_view_command(CLI::App& program, int& exit_code);
 void add_measure_command(CLI::App& program, int& exit_code);
 void add_render_command(CLI::App& program, int& exit_code);
 void add_check_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program, int& exit_code);
 void add_bench_command(CLI::App& program, int& exit_code);
 
-/// Adds the flags of CommonOptions to a command; `options` outlives it.
+/// Adds the flags of CommonOptions that say what runs to a command; `options` outlives it.
+void add_scene_flags(CLI::App& command, CommonOptions& options);
+
+/// Adds all flags of CommonOptions to a command; `options` outlives it.
 void add_common_flags(CLI::App& command, CommonOptions& options);
 
 /// Adds the flags of CheckpointOptions to a command; `options` outlives it.

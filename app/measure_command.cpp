@@ -153,20 +153,19 @@ int measure(const MeasureOptions& options) {
 
   const double cpu_before = cpu_seconds();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
-  const Simulation<2>& simulation = run.simulation();
   Measurement& measurement = run.measure(end);
   {
-    Progress progress(options.common.shown_progress(), "measuring", simulation.time(), end);
+    Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
     run.until(end, progress);
   }
   run.put_aside();
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  write_results(options, result_json(scene, run.seed(), simulation, measured, performance),
+  write_results(options, result_json(scene, run.seed(), run.simulation(), measured, performance),
                 measured);
   if (!options.common.quiet) advise_on_contact_time(scene, measured);
   if (!options.save_state.empty()) {
-    write_file(options.save_state, state_to_csv(simulation.state()));
+    write_file(options.save_state, state_to_csv(run.simulation().state()));
   }
   const int code = run.end();
   require_closed_balance(measured);

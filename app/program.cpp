@@ -23,7 +23,7 @@ Scene load(const CommonOptions& options, StartFile start_file) {
   return load_scene(options.scene, overrides, start_file);
 }
 
-void add_common_flags(CLI::App& command, CommonOptions& options) {
+void add_scene_flags(CLI::App& command, CommonOptions& options) {
   command.add_option("scene", options.scene, "Scene file, or the name of a gallery scene")
       ->required()
       ->type_name("SCENE");
@@ -37,6 +37,10 @@ void add_common_flags(CLI::App& command, CommonOptions& options) {
       .add_option("--seed", options.seed,
                   "Seed of all random numbers (default: 1, or the checkpoint's)")
       ->check(seed_number());
+}
+
+void add_common_flags(CLI::App& command, CommonOptions& options) {
+  add_scene_flags(command, options);
   command.add_option("--until", options.until, "Simulation time at which the run ends")
       ->check(positive_number());
   command.add_option("--threads", options.threads, "Threads that encode pictures")
@@ -91,22 +95,25 @@ int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
     CLI::App program(
-        "Driven granular gases of hard disks: film and measure them.\n"
-        "Start with:  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
+        "Driven granular gases of hard disks: explore, film and measure them.\n"
+        "Alone it opens a window. Without a display start with\n"
+        "  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
         "clatter");
     program.set_version_flag("--version", "clatter " CLATTER_VERSION);
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
       return std::string("clatter: ") + error.what() + "; --help after a command lists its flags\n";
     });
+    add_view_command(program, exit_code);
     add_render_command(program, exit_code);
     add_measure_command(program, exit_code);
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);
+    const char* const view[] = {argv[0], "view"};
     if (argc < 2) {
-      std::fputs(program.help().c_str(), stderr);
-      return kWrongUse;
+      argc = 2;
+      argv = view;
     }
     require_command(program, argv[1]);
     try {

@@ -9,8 +9,6 @@
 #include "app/run.h"
 #include "app/write_file.h"
 #include "engine/error.h"
-#include "engine/measure/live_field.h"
-#include "engine/publish/publish.h"
 #include "engine/scene/text.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
@@ -88,18 +86,15 @@ FrameTimes frame_times(const RenderOptions& options, double start, double speed)
 // Draws one frame after the other; fewer than there are times where the run ended early.
 long film(Run& run, const View& view, const OverlayText& text, const FrameTimes& times,
           GlContext& context, Size size, FrameSink& sink, Progress& progress) {
-  Simulation<2>& simulation = run.simulation();
   Canvas canvas(context.gl(), size);
   canvas.bind();
   Renderer renderer(context.gl());
-  std::optional<LiveField> field;
-  if (view.shows_averages()) field.emplace(simulation, view);
+  run.scheduled().show(view);
   std::optional<Camera> camera;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
     if (!run.until(time, progress)) return k;
-    Snapshot snapshot = snapshot_of(simulation);
-    if (field) field->publish(snapshot);
+    const Snapshot snapshot = run.scheduled().snapshot();
     if (!camera) camera = renderer.fit(snapshot, size, view, text);
     renderer.draw(snapshot, *camera, size, view, text);
     sink.add(canvas.read(), time);
@@ -188,9 +183,11 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command->add_flag("--overwrite", options->overwrite,
                     "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
-      ->transform(one_of<Backend>(
-          {{"auto", Backend::Auto}, {"egl", Backend::Egl}, {"osmesa", Backend::Osmesa}}))
-      ->type_name("auto|egl|osmesa");
+      ->transform(one_of<Backend>({{"auto", Backend::Auto},
+                                   {"egl", Backend::Egl},
+                                   {"osmesa", Backend::Osmesa},
+                                   {"glfw", Backend::Glfw}}))
+      ->type_name("auto|glfw|egl|osmesa");
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }
 

@@ -33,7 +33,7 @@ void require_same_measure(const Resumed& resumed);
 /// All laws that differ, by their keys, and the seed if it does, separated by commas; empty: none.
 std::string changed_laws(const Resumed& resumed, std::uint64_t seed);
 
-/// Whether a key differs.
+/// Whether a key of the scene differs.
 bool differs(const Resumed& resumed, const std::string& key);
 
 }  // namespace clatter

@@ -6,13 +6,21 @@
 
 #include "app/interrupt.h"
 #include "app/write_file.h"
-#include "engine/dynamics/start.h"
+#include "engine/dynamics/boundary.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {
 
-std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed) {
-  return std::make_unique<Simulation<2>>(model_of(scene, seed), start_state(scene, seed));
+// Whether averages can go on under a model. Under another gravity they cannot, for what flights
+// contribute is booked at their end, by the gravity of that time; nor where walls move otherwise,
+// which starts flights anew; nor where spins come or go or get another inertia, for fields then
+// need other sums and cells hold another energy.
+static bool averages_go_on(const Saved<2>& saved, bool same_inertia, const Model<2>& model,
+                           const Measure& measure) {
+  const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
+  const bool same_sums = measure.fields.empty() || same_spins;
+  return same_sums && saved.gravity == model.gravity &&
+         saved.wall_motions == wall_motions<2>(model);
 }
 
 // Where a checkpoint goes that nobody asked for: beside what the command writes, where that is a
@@ -48,54 +56,52 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
       seed_(options.seed.value_or(resumed_ ? resumed_->checkpoint.seed : 1)) {
   require_checkpoint_place(options_);
   if (!resumed_) {
-    simulation_ = simulation_of(scene, seed_);
+    run_.emplace(scene, seed_);
     return;
   }
-  simulation_ = std::make_unique<Simulation<2>>(model_of(scene, seed_), resumed_->checkpoint.saved);
-  had_spins_ = !resumed_->checkpoint.saved.spins.empty();
-  resumed_->checkpoint.saved = {};  // some memory
+  Saved<2>& saved = resumed_->checkpoint.saved;
+  run_.emplace(scene, seed_, saved);
+  averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
+                    averages_go_on(saved, !differs(*resumed_, "disks.inertia"),
+                                   simulation().model(), scene.measure);
+  saved = {};  // some memory
   const std::string laws = changed_laws(*resumed_, seed_);
   if (!laws.empty() && !quiet_) {
-    std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation_->time(),
+    std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
                  laws.c_str());
   }
 }
 
-// Averages go on if there are any. Under another gravity they cannot, for what flights contribute
-// is booked at their end, by the gravity of that time; nor where walls move otherwise, which starts
-// flights anew; nor where spins come or go or get another inertia, for fields then need other sums
-// and cells hold another energy.
-bool Run::measures_anew() const {
-  if (!resumed_) return false;
-  if (resumed_->checkpoint.measurement.empty()) return true;
-  if (!scene_.measure.fields.empty() &&
-      (scene_.spins() != had_spins_ || differs(*resumed_, "disks.inertia"))) {
-    return true;
-  }
-  std::vector<std::string> keys = {"gravity.acceleration"};
-  for (const char* side : kSideNames) {
-    for (const char* key : {"kind", "stroke", "frequency", "phase"}) {
-      keys.push_back(std::string("walls.") + side + '.' + key);
-    }
-  }
-  return std::ranges::any_of(keys, [&](const std::string& key) { return differs(*resumed_, key); });
-}
-
 Measurement& Run::measure(double end) {
-  const double time = simulation_->time();
-  if (!resumed_ || measures_anew()) {
-    measurement_.emplace(*simulation_, scene_.measure, end);
-    if (resumed_ && !quiet_) {
-      std::fprintf(stderr, "clatter: averages start anew at t = %g\n",
-                   std::max(time, scene_.measure.burn_in));
-    }
+  measure_end_ = end;
+  run_->on_change = [this](Simulation<2>& next) { measure_on(next); };
+  if (!averages_go_on_) {
+    measurement_.emplace(simulation(), scene_.measure, end);
+    if (resumed_) tell_new_averages();
     return *measurement_;
   }
   require_same_measure(*resumed_);
   std::string& saved = resumed_->checkpoint.measurement;
-  measurement_.emplace(*simulation_, scene_.measure, ArchiveReader(saved, resumed_->file));
+  measurement_.emplace(simulation(), scene_.measure, ArchiveReader(saved, resumed_->file));
   saved.clear();
   return *measurement_;
+}
+
+void Run::measure_on(Simulation<2>& next) {
+  const bool same_inertia = simulation().model().inertia == next.model().inertia;
+  if (averages_go_on(simulation().save(), same_inertia, next.model(), scene_.measure)) {
+    const std::string saved = measurement_->save();
+    measurement_.emplace(next, scene_.measure, ArchiveReader(saved, command_));
+  } else {
+    measurement_.emplace(next, scene_.measure, measure_end_);
+    tell_new_averages();
+  }
+}
+
+void Run::tell_new_averages() const {
+  if (quiet_) return;
+  std::fprintf(stderr, "clatter: averages start anew at t = %g\n",
+               std::max(run_->simulation().time(), scene_.measure.burn_in));
 }
 
 bool Run::until(double time, Progress& progress) {
@@ -103,11 +109,11 @@ bool Run::until(double time, Progress& progress) {
   std::uint64_t slice = 1024;  // steps, found while running
   ended_early_ = true;
   try {
-    for (bool arrived = false; !arrived; progress.update(simulation_->time())) {
+    for (bool arrived = false; !arrived; progress.update(simulation().time())) {
       if (interrupted()) return false;
       const auto began = Clock::now();
-      arrived = simulation_->run_until(time, Simulation<2>::kNoLimit,
-                                       simulation_->counts().steps() + slice);
+      arrived =
+          run_->run_until(time, Simulation<2>::kNoLimit, simulation().counts().steps() + slice);
       slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();
@@ -127,7 +133,7 @@ void Run::write() {
                         .scene = scene_to_toml(scene_),
                         .start_temperature = scene_.disks.start.temperature,
                         .seed = seed_,
-                        .saved = simulation_->save(),
+                        .saved = simulation().save(),
                         .measurement = {}};
   if (measurement_) checkpoint.measurement = measurement_->save();
   try {
@@ -144,7 +150,7 @@ void Run::put_aside() {
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
     std::fprintf(stderr, "clatter: interrupted at t = %g; go on with --resume %s\n",
-                 simulation_->time(), file_.c_str());
+                 simulation().time(), file_.c_str());
   }
 }
 
@@ -165,7 +171,7 @@ int Run::end() {
                                             ? "; go on with --resume " + file_.string() + remedy
                                             : "; no checkpoint is left: " + failure_));
   }
-  require_no_overlap(simulation_->checks().deepest_overlap);
+  require_no_overlap(simulation().checks().deepest_overlap);
   // Also of a run that was interrupted: its exit code would say that all there is has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
   return ended_early_ ? kInterrupted : kOk;

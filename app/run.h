@@ -2,22 +2,18 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/resume.h"
-#include "engine/dynamics/simulation.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
+#include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
-
-/// The simulation that a scene and a seed ask for, at time 0.
-std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed);
 
 /// A run that a command makes of a scene: from its start or from a checkpoint, with checkpoints as
 /// asked for, and one where it ends before its time.
@@ -28,8 +24,10 @@ class Run {
   Run(const std::string& command, const Scene& scene, const CommonOptions& options,
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
 
-  /// The simulation, at the time from which it goes on.
-  Simulation<2>& simulation() { return *simulation_; }
+  /// The run itself, at the time from which it goes on.
+  ScheduledRun& scheduled() { return *run_; }
+  /// Its simulation, until laws change.
+  Simulation<2>& simulation() { return run_->simulation(); }
   /// The flag's, or that of the checkpoint, or 1.
   std::uint64_t seed() const { return seed_; }
   /// What [measure] asks for, averaged to `end`, or on from where the checkpoint left it; its
@@ -49,7 +47,8 @@ class Run {
   using Clock = std::chrono::steady_clock;
 
   void write();
-  bool measures_anew() const;
+  void measure_on(Simulation<2>& next);
+  void tell_new_averages() const;
 
   std::string command_;
   Scene scene_;
@@ -57,9 +56,10 @@ class Run {
   CheckpointOptions options_;
   std::filesystem::path file_;  // the checkpoint, asked for or not
   std::optional<Resumed> resumed_;
-  bool had_spins_ = false;  // whether the run that is resumed carried spins
+  bool averages_go_on_ = false;  // those of the run that is resumed
   std::uint64_t seed_;
-  std::unique_ptr<Simulation<2>> simulation_;
+  std::optional<ScheduledRun> run_;
+  double measure_end_ = 0.0;
   std::optional<Measurement> measurement_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // of the last checkpoint

@@ -33,6 +33,7 @@ need_module(DEFLATE libdeflate libdeflate-dev)
 need_module(HDF5 hdf5 libhdf5-dev)
 need_module(IMGUI imgui libimgui-dev)
 need_module(STB stb libstb-dev)
+need_module(GLFW glfw3 libglfw3-dev)
 # The GL libraries are opened at run time; only their headers are needed to build.
 need_header(GL/glcorearb.h libgl-dev)
 need_header(GL/osmesa.h libosmesa6-dev)

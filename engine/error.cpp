@@ -14,7 +14,7 @@ static std::string message(const Place& place, const std::string& what, const st
   return text;
 }
 
-UserError::UserError(const Place& place, const std::string& what, const std::string& advice)
-    : std::runtime_error(message(place, what, advice)) {}
+UserError::UserError(const Place& place, const std::string& problem, const std::string& advice)
+    : std::runtime_error(message(place, problem, advice)), problem_(problem), advice_(advice) {}
 
 }  // namespace clatter

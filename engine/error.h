@@ -16,8 +16,17 @@ struct Place {
 /// do". The program prints it and exits with 2.
 class UserError : public std::runtime_error {
  public:
-  /// `what` is wrong there, and `advice` what to do; an empty advice is left out.
-  UserError(const Place& place, const std::string& what, const std::string& advice);
+  /// `problem` says what is wrong there and `advice` what to do; an empty advice is left out.
+  UserError(const Place& place, const std::string& problem, const std::string& advice);
+
+  /// What is wrong, without the place.
+  const std::string& problem() const { return problem_; }
+  /// What to do; empty: nothing to say.
+  const std::string& advice() const { return advice_; }
+
+ private:
+  std::string problem_;
+  std::string advice_;
 };
 
 /// What a person asked for cannot go on although nothing is wrong with the input (a full disk, a

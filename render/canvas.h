@@ -17,6 +17,9 @@ class Canvas {
   void bind() const;
   /// The picture as drawn so far.
   Image read() const;
+  /// Copies the picture into the window that the context is of, with its lower left corner at a
+  /// pixel of it, and sends what is drawn from now on into that window.
+  void show(int x, int y) const;
 
  private:
   const Gl* gl_;

@@ -46,6 +46,17 @@ class Insertion {
     }
   }
 
+  // Places a disk at a point, where there is room; before any of the others.
+  bool place_first(const Vec2& point) {
+    Voxel voxel;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double place = std::floor((point[axis] - low_[axis]) / widths_[axis]);
+      if (!(place >= 0.0 && place < counts_[axis])) return false;
+      voxel[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(place);
+    }
+    return place_at(point, voxel);
+  }
+
   std::vector<Vec2>& placed() { return placed_; }
 
  private:
@@ -58,10 +69,16 @@ class Insertion {
     for (int axis = 0; axis < 2; ++axis) {
       point[axis] = low_[axis] + (voxel[axis] + random.uniform()) * widths_[axis];
     }
-    if (any_disk_within(voxel, [&](const Vec2& centre) { return (centre - point).cwiseAbs(); }))
-      return;
+    place_at(point, voxel);
+  }
+
+  bool place_at(const Vec2& point, const Voxel& voxel) {
+    if (any_disk_within(voxel, [&](const Vec2& centre) { return (centre - point).cwiseAbs(); })) {
+      return false;
+    }
     centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
     placed_.push_back(point);
+    return true;
   }
 
   void split_voxels() {
@@ -168,6 +185,18 @@ std::vector<Vec2> random_insertion(const Room& room, int count, Random& random) 
     return sparse_insertion(room, static_cast<std::size_t>(count), random);
   }
   Insertion insertion(room);
+  insertion.place(static_cast<std::size_t>(count), random);
+  if (static_cast<int>(insertion.placed().size()) < count) return {};
+  return std::move(insertion.placed());
+}
+
+std::vector<Vec2> random_insertion(const Room& room, int count, Random& random,
+                                   const std::vector<Vec2>& wanted,
+                                   std::vector<std::size_t>& kept) {
+  Insertion insertion(room);
+  for (std::size_t i = 0; i < wanted.size() && static_cast<int>(kept.size()) < count; ++i) {
+    if (insertion.place_first(wanted[i])) kept.push_back(i);
+  }
   insertion.place(static_cast<std::size_t>(count), random);
   if (static_cast<int>(insertion.placed().size()) < count) return {};
   return std::move(insertion.placed());

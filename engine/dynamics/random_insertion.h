@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "engine/physics/random.h"
@@ -10,5 +11,10 @@ namespace clatter {
 /// `count` centres placed one after the other, each uniformly where it overlaps none before; empty
 /// where no place was found for one. The process itself jams at phi = 0.547 (Feder 1980).
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random);
+
+/// The same, after as many of `wanted` as fit into the room and overlap none before; `kept` says
+/// which these are. For rooms of which disks fill more than a thousandth.
+std::vector<Vec2> random_insertion(const Room& room, int count, Random& random,
+                                   const std::vector<Vec2>& wanted, std::vector<std::size_t>& kept);
 
 }  // namespace clatter

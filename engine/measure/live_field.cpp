@@ -60,15 +60,37 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view)
     : field_(view.field),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
-      closure_(closure_for(simulation, view)) {
+      closure_(closure_for(simulation, view)),
+      start_(simulation.time() + view.window / kWindowParts) {
+  watch(simulation, view.window / kWindowParts);
+}
+
+LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& before)
+    : field_(view.field),
+      arrows_(view.arrows),
+      averages_(averages_for(simulation, view)),
+      closure_(closure_for(simulation, view)),
+      start_(before.start_),
+      closed_(before.closed_) {
+  before.look();
+  if (averages_ && before.averages_ &&
+      averages_->observer.layout().size == before.averages_->observer.layout().size) {
+    averages_->sums = std::move(before.averages_->sums);
+  }
+  if (closure_ && before.closure_) closure_->sums = std::move(before.closure_->sums);
+  watch(simulation, view.window / kWindowParts);
+}
+
+void LiveField::watch(Simulation<2>& simulation, double part) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);
-  const double part = view.window / kWindowParts;
-  simulation.every(simulation.time() + part, part, [this](double) {
+  const auto close = [this](double) {
+    ++closed_;
     look();
     if (averages_) averages_->sums.next_part();
     if (closure_) closure_->sums.next_part();
-  });
+  };
+  simulation.every(start_, part, close, closed_);
 }
 
 void LiveField::look() {

@@ -18,6 +18,9 @@ class LiveField {
   /// one, on cells of about one diameter (at most 512 along an axis); the window reaches back by
   /// view.window, or by up to an eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
+  /// Goes on where that of the simulation before ended: this one has its disks at its time, under
+  /// other laws.
+  LiveField(Simulation<2>& simulation, const View& view, LiveField&& before);
 
   /// Puts into the snapshot what the view shows, over the window up to the simulation's time, or
   /// since the start where that is less.
@@ -37,12 +40,15 @@ class LiveField {
 
   static std::optional<Averages> averages_for(const Simulation<2>& simulation, const View& view);
   static std::optional<Closure> closure_for(const Simulation<2>& simulation, const View& view);
+  void watch(Simulation<2>& simulation, double part);
   void look();
 
   std::optional<Field> field_;
   std::optional<Arrows> arrows_;
   std::optional<Averages> averages_;  // where there are arrows, or the field is an average
   std::optional<Closure> closure_;    // where the field is a residual
+  double start_;                      // simulation time at which the first part closes
+  std::uint64_t closed_ = 0;          // parts since then
 };
 
 }  // namespace clatter

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/scene/scene.h"
+
 namespace clatter {
 
 /// Visitor that lists the keys which a scene file may have, tables among them, each with its whole
@@ -35,6 +37,14 @@ class KeyLister {
     T any{};
     table(key, [&](KeyLister& io) { visit(io, any); });
   }
+
+  template <class T, class Visit>
+  void list(std::string_view key, const std::vector<T>&, Visit visit) {
+    table(key, std::optional<T>(), visit);
+  }
+
+  /// The keys in such a table are no keys of the scene file's own.
+  void settings(std::string_view key, const std::vector<Override>&) { value(key); }
 
   const std::vector<std::string>& keys() const { return keys_; }
 

@@ -26,7 +26,7 @@ static std::string within(const std::string& what, Limits limits) {
                                          : what;
 }
 
-/// The value as a person would write it; a table or a date by its type only.
+/// The value as a person would write it; a date by its type only.
 static std::string value_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return number_text(number->get());
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
@@ -37,11 +37,18 @@ static std::string value_text(const toml::node& node) {
     for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + value_text(item);
     return '[' + list + ']';
   }
-  return node.is_table() ? "this table" : "a date";
+  const auto* table = node.as_table();
+  if (!table) return "a date";
+  std::string list;
+  for (const auto& [key, item] : *table) {
+    list += (list.empty() ? "" : ", ") + quoted(key.str()) + " = " + value_text(item);
+  }
+  return '{' + list + '}';
 }
 
 /// The value as a message quotes it.
 static std::string shown(const toml::node& node) {
+  if (node.is_table()) return "this table";
   constexpr std::size_t kLongest = 40;
   const std::string text = value_text(node);
   if (text.size() <= kLongest) return text;
@@ -50,20 +57,49 @@ static std::string shown(const toml::node& node) {
 
 const toml::node* KeyReader::find(std::string_view key, Presence presence) const {
   const toml::node* node = table_ ? table_->get(key) : nullptr;
-  const Place place = place_of(root_, path(key), file_);
   if (node && presence.kind == Presence::Forbidden) {
-    throw UserError(place, "'" + path(key) + "' " + presence.reason, presence.advice);
+    throw UserError(place(key), "'" + path(key) + "' " + presence.reason, presence.advice);
   }
   if (!node && presence.kind == Presence::Required) {
-    throw UserError(place, "'" + path(key) + "' is missing", "give it a value");
+    throw UserError(place(key), "'" + path(key) + "' is missing", "give it a value");
   }
   return node;
 }
 
+Place KeyReader::place(std::string_view key) const {
+  const Place found = place_of(root_, prefix_ + std::string(key), file_);
+  return found.line > 0 || from_override(found) ? found : otherwise_;
+}
+
+KeyReader KeyReader::reader_of(std::string_view list, const toml::node& item) const {
+  KeyReader inner(*item.as_table(), file_);
+  inner.list_ = path(list) + '.';
+  inner.otherwise_ = place_of(item, file_);
+  return inner;
+}
+
+static void flatten(const toml::table& table, const std::string& prefix,
+                    std::vector<Override>& settings) {
+  for (const auto& [key, node] : table) {
+    const std::string path = prefix + std::string(key.str());
+    const toml::table* inner = node.as_table();
+    if (inner && !inner->is_inline()) {
+      flatten(*inner, path + '.', settings);
+    } else {
+      settings.push_back({path, value_text(node)});
+    }
+  }
+}
+
+void KeyReader::settings(std::string_view key, std::vector<Override>& settings) {
+  const toml::node* node = find(key, kRequired);
+  if (!node->is_table()) refuse(key, *node, "a table of keys and values");
+  flatten(*node->as_table(), "", settings);
+}
+
 void KeyReader::refuse(std::string_view key, const toml::node& node,
                        const std::string& wanted) const {
-  throw UserError(place_of(root_, path(key), file_), "'" + path(key) + "' cannot be " + shown(node),
-                  "give " + wanted);
+  throw UserError(place(key), "'" + path(key) + "' cannot be " + shown(node), "give " + wanted);
 }
 
 void KeyReader::refuse_name(std::string_view key, const toml::node& node,

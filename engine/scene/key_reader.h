@@ -21,7 +21,7 @@ class KeyReader {
  public:
   /// `file` is the name that errors about missing keys carry.
   KeyReader(const toml::table& root, std::string file)
-      : root_(root), table_(&root), file_(std::move(file)) {}
+      : root_(root), table_(&root), file_(std::move(file)), otherwise_{file_, 0, 0} {}
 
   template <class T>
   void value(std::string_view key, T& value, Limits limits = {}, Presence presence = kOptional) {
@@ -73,7 +73,7 @@ class KeyReader {
     if (node && !node->is_table()) refuse(key, *node, "a table");
     KeyReader inner(*this);
     inner.table_ = node ? node->as_table() : nullptr;
-    inner.prefix_ = path(key) + '.';
+    inner.prefix_ += std::string(key) + '.';
     visit(inner);
   }
 
@@ -84,11 +84,30 @@ class KeyReader {
     }
   }
 
+  template <class T, class Visit>
+  void list(std::string_view key, std::vector<T>& items, Visit visit) {
+    const toml::node* node = find(key, kOptional);
+    if (!node) return;
+    const toml::array* tables = node->as_array();
+    if (!tables || !(tables->empty() || tables->is_array_of_tables())) {
+      refuse(key, *node, "tables [[" + path(key) + "]]");
+    }
+    for (const toml::node& item : *tables) {
+      KeyReader inner = reader_of(key, item);
+      visit(inner, items.emplace_back());
+    }
+  }
+
+  /// Tables within are taken apart, unless they are inline.
+  void settings(std::string_view key, std::vector<Override>& settings);
+
  private:
   bool has(std::string_view key) const { return table_ && table_->contains(key); }
   /// The key's value; nullptr where it is absent and may be.
   const toml::node* find(std::string_view key, Presence presence) const;
-  std::string path(std::string_view key) const { return prefix_ + std::string(key); }
+  std::string path(std::string_view key) const { return list_ + prefix_ + std::string(key); }
+  Place place(std::string_view key) const;
+  KeyReader reader_of(std::string_view list, const toml::node& item) const;
   [[noreturn]] void refuse(std::string_view key, const toml::node& node,
                            const std::string& wanted) const;
   [[noreturn]] void refuse_name(std::string_view key, const toml::node& node,
@@ -121,8 +140,10 @@ class KeyReader {
 
   const toml::table& root_;
   const toml::table* table_;  // the one being visited; nullptr: absent, all defaults
-  std::string prefix_;        // its path and a dot; empty at the top
+  std::string list_;          // path of the list that the root is an item of, and a dot; or empty
+  std::string prefix_;        // path of the table from the root, and a dot; empty at the root
   std::string file_;
+  Place otherwise_;  // of what stands nowhere
 };
 
 }  // namespace clatter

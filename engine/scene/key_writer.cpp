@@ -77,6 +77,26 @@ void TomlWriter::close() {
   header_due_ = false;
 }
 
+void TomlWriter::open_list(std::string_view key, bool) {
+  path_.emplace_back(key);
+}
+
+void TomlWriter::open_item() {
+  text_ += "\n[[" + path_.back() + "]]\n";
+}
+
+void TomlWriter::close_list() {
+  path_.pop_back();
+}
+
+void TomlWriter::settings(std::string_view key, const std::vector<Override>& settings) {
+  std::string list;
+  for (const auto& [name, value] : settings) {
+    list += (list.empty() ? "" : ", ") + quoted(name) + " = " + value;
+  }
+  write(key, "{ " + list + " }");
+}
+
 void JsonWriter::begin(std::string_view key) {
   if (!text_.empty() && text_.back() != '{') text_ += ", ";
   text_ += quoted(key) + ": ";
@@ -100,6 +120,29 @@ void JsonWriter::close() {
     text_ += '}';
   }
   starts_.pop_back();
+}
+
+void JsonWriter::open_list(std::string_view key, bool empty) {
+  starts_.push_back(text_.size());
+  if (!empty) begin(key);
+  if (!empty) text_ += '[';
+}
+
+void JsonWriter::open_item() {
+  text_ += text_.back() == '[' ? "{" : ", {";
+}
+
+void JsonWriter::close_list() {
+  if (text_.size() > starts_.back()) text_ += ']';
+  starts_.pop_back();
+}
+
+void JsonWriter::settings(std::string_view key, const std::vector<Override>& settings) {
+  std::string list;
+  for (const auto& [name, value] : settings) {
+    list += (list.empty() ? "" : ", ") + quoted(name) + ": " + quoted(value);
+  }
+  write(key, '{' + list + '}');
 }
 
 }  // namespace clatter

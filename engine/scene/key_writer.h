@@ -72,6 +72,20 @@ class KeyWriter {
     if (content) table(key, [&](KeyWriter& io) { visit(io, *content); });
   }
 
+  template <class T, class Visit>
+  void list(std::string_view key, std::vector<T>& items, Visit visit) {
+    open_list(key, items.empty());
+    for (T& item : items) {
+      open_item();
+      visit(*this, item);
+      close_item();
+    }
+    close_list();
+  }
+
+  /// A table of keys and their values.
+  virtual void settings(std::string_view key, const std::vector<Override>& settings) = 0;
+
  protected:
   KeyWriter() = default;
   ~KeyWriter() = default;
@@ -80,6 +94,10 @@ class KeyWriter {
   virtual void write(std::string_view key, const std::string& value) = 0;
   virtual void open(std::string_view key) = 0;
   virtual void close() = 0;
+  virtual void open_list(std::string_view key, bool empty) = 0;
+  virtual void open_item() = 0;
+  virtual void close_item() = 0;
+  virtual void close_list() = 0;
 };
 
 /// Writes a scene file.
@@ -87,11 +105,16 @@ class TomlWriter final : public KeyWriter {
  public:
   /// All that has been written.
   const std::string& text() const { return text_; }
+  void settings(std::string_view key, const std::vector<Override>& settings) override;
 
  private:
   void write(std::string_view key, const std::string& value) override;
   void open(std::string_view key) override;
   void close() override;
+  void open_list(std::string_view key, bool empty) override;
+  void open_item() override;
+  void close_item() override {}
+  void close_list() override;
 
   std::string text_;
   std::vector<std::string> path_;  // of the table being written
@@ -103,11 +126,17 @@ class JsonWriter final : public KeyWriter {
  public:
   /// All that has been written.
   std::string text() const { return '{' + text_ + '}'; }
+  /// Values stand as texts, in TOML.
+  void settings(std::string_view key, const std::vector<Override>& settings) override;
 
  private:
   void write(std::string_view key, const std::string& value) override;
   void open(std::string_view key) override;
   void close() override;
+  void open_list(std::string_view key, bool empty) override;
+  void open_item() override;
+  void close_item() override { text_ += '}'; }
+  void close_list() override;
   void begin(std::string_view key);
 
   std::string text_;

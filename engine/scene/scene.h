@@ -215,6 +215,23 @@ struct View {
   bool shows_averages() const { return field || arrows; }
 };
 
+/// A key of the scene file set to a TOML value: of a `--set` on the command line, or of a change.
+struct Override {
+  std::string key;    ///< dotted: "walls.left.drive_speed"
+  std::string value;  ///< as TOML
+};
+
+/// How numbers go to their new values.
+enum class Ramp { Linear };
+
+/// Laws that come into force while a run goes on, after the events of the same time.
+struct Change {
+  double time = 0.0;               ///< simulation time, >= 0
+  std::vector<Override> set = {};  ///< keys that may change live, all at once
+  std::optional<Ramp> ramp = {};   ///< absent: the values hold from `time` on
+  double until = 0.0;              ///< of a ramp: the time at which it has arrived, > time
+};
+
 /// A complete, validated description of a run: what the scene file says, resolved, nothing derived.
 struct Scene {
   std::string title;
@@ -227,6 +244,7 @@ struct Scene {
   std::optional<double> contact_time;        ///< t_c > 0 of the TC model, section 4; absent: off
   Measure measure;
   View view;
+  std::vector<Change> changes;  ///< in any order; those of one time come in the order given
 
   /// Whether disks spin: they or any wall are rough.
   bool spins() const;

@@ -118,6 +118,11 @@ static Place place_of(const toml::key& key, const toml::node& value) {
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
+Place place_of(const toml::node& node, const std::string& file) {
+  const toml::source_position at = node.source().begin;
+  return {file, static_cast<int>(at.line), static_cast<int>(at.column)};
+}
+
 /// What to do about an unknown key, given its path and the length of its table's part of it.
 static std::string advice_on(std::string_view path, std::size_t prefix,
                              const std::vector<std::string>& known) {
@@ -139,6 +144,21 @@ static std::string advice_on(std::string_view path, std::size_t prefix,
 }
 
 static void refuse_unknown_keys(const toml::table& table, const std::string& prefix,
+                                const std::vector<std::string>& known);
+
+// Looks into tables and lists of them, but not into those that may have any key.
+static void refuse_unknown_keys_within(const toml::node& node, const std::string& prefix,
+                                       const std::vector<std::string>& known) {
+  const auto listed = [&](const std::string& key) { return key.starts_with(prefix); };
+  if (std::ranges::none_of(known, listed)) return;
+  if (const toml::table* table = node.as_table()) refuse_unknown_keys(*table, prefix, known);
+  if (!node.is_array_of_tables()) return;
+  for (const toml::node& item : *node.as_array()) {
+    refuse_unknown_keys(*item.as_table(), prefix, known);
+  }
+}
+
+static void refuse_unknown_keys(const toml::table& table, const std::string& prefix,
                                 const std::vector<std::string>& known) {
   for (auto&& [key, value] : table) {
     const std::string path = prefix + std::string(key.str());
@@ -148,7 +168,7 @@ static void refuse_unknown_keys(const toml::table& table, const std::string& pre
       throw UserError(place_of(key, value), "unknown key '" + name.substr(1, name.size() - 2) + "'",
                       advice_on(path, prefix.size(), known));
     }
-    if (const toml::table* inner = value.as_table()) refuse_unknown_keys(*inner, path + '.', known);
+    refuse_unknown_keys_within(value, path + '.', known);
   }
 }
 

@@ -28,4 +28,7 @@ bool from_override(const Place& place);
 /// the way to it that the document has; an override has no line.
 Place place_of(const toml::table& root, std::string_view path, const std::string& file);
 
+/// Where a value stands.
+Place place_of(const toml::node& node, const std::string& file);
+
 }  // namespace clatter

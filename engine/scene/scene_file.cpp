@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <system_error>
 
 #include "engine/error.h"
@@ -11,6 +13,7 @@
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_checks.h"
 #include "engine/scene/scene_document.h"
+#include "engine/scene/schedule.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 
@@ -86,11 +89,10 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
   return input;
 }
 
-Scene parse(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
-            Origin origin, StartFile start_file) {
-  toml::table root = parse_document(text, file);
-  for (const Override& change : overrides) apply_override(root, change);
-
+/// The validated scene of a document; `load_state` gives it the start state of its file, where that
+/// is read.
+Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
+                 const std::function<void(Scene&)>& load_state) {
   SceneInput any;
   KeyLister lister;
   visit_scene(lister, any);
@@ -106,8 +108,31 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
     scene.disks.count = input.count.value_or(0);
     return scene;
   }
-  if (from_file) load_start_state(scene, root, file, origin);
+  if (from_file) load_state(scene);
   scene.disks.count = resolve_count(input, root, file);
+  return scene;
+}
+
+/// Throws where a change of the scene makes no scene, or cannot be made while it runs.
+void check_changes(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (Schedule schedule(scene); schedule.next() < std::numeric_limits<double>::infinity();) {
+    const std::size_t change = schedule.next_change();
+    try {
+      schedule.advance();
+    } catch (const UserError& error) {
+      throw UserError(place_of((*root["change"].as_array())[change], file),
+                      "at this change " + error.problem(), error.advice());
+    }
+  }
+}
+
+Scene parse(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
+            Origin origin, StartFile start_file) {
+  toml::table root = parse_document(text, file);
+  for (const Override& change : overrides) apply_override(root, change);
+  const auto load_state = [&](Scene& read) { load_start_state(read, root, file, origin); };
+  const Scene scene = read_scene(root, file, start_file, load_state);
+  check_changes(scene, root, file);
   return scene;
 }
 
@@ -128,6 +153,20 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides) {
   return parse(text, file, overrides, Origin::Folder, StartFile::Read);
+}
+
+Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
+  Scene without_changes = scene;
+  without_changes.changes.clear();
+  toml::table root = parse_document(scene_to_toml(without_changes), "");
+  for (const Override& setting : settings) apply_override(root, setting);
+  const Start& start = scene.disks.start;
+  const bool skipped = start.layout == Layout::File && start.state.positions.empty();
+  const auto keep_state = [&](Scene& read) { read.disks.start.state = start.state; };
+  Scene made = read_scene(root, "", skipped ? StartFile::Skip : StartFile::Read, keep_state);
+  if (made.disks.start.layout == Layout::File) made.disks.start.temperature = start.temperature;
+  made.changes = scene.changes;
+  return made;
 }
 
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides) {

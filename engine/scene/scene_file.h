@@ -9,12 +9,6 @@
 
 namespace clatter {
 
-/// One `--set key=value` of the command line: a dotted key of the scene file and a TOML value.
-struct Override {
-  std::string key;
-  std::string value;
-};
-
 /// Whether the file of a start state is read. A run that goes on has its disks already: without the
 /// file the scene has no start state and, unless a key gives their number, no disks.
 enum class StartFile { Read, Skip };
@@ -31,6 +25,10 @@ Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>&
 /// that the scene names.
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides = {});
+
+/// The scene with keys set anew, and the same start state. Throws UserError where that makes no
+/// scene.
+Scene with_settings(const Scene& scene, const std::vector<Override>& settings);
 
 /// The scene as a file that parses back to the same scene, every default written out.
 std::string scene_to_toml(const Scene& scene);

@@ -13,7 +13,9 @@
 //   value(key, optional, limits, presence)   for a number that may be absent,
 //   choice(key, variable, names, presence)   for enumerations, optional ones, and lists of them,
 //   table(key, function)                     for a table whose keys the function passes over,
-//   table(key, optional, function)           for one that may be absent.
+//   table(key, optional, function)           for one that may be absent,
+//   list(key, items, function)               for an array of tables,
+//   settings(key, overrides)                 for a table of any keys.
 
 namespace clatter {
 
@@ -83,6 +85,8 @@ inline constexpr Presence kNotWithoutSpins = {
     "remove it, or make the disks or a wall rough: give friction above 0, or "
     "tangential_restitution above -1"};
 
+inline constexpr Presence kNotWithoutRamp = {Presence::Forbidden, "has no meaning without a ramp",
+                                             "remove it, or set ramp = \"linear\""};
 inline constexpr Presence kNotOfExact = {
     Presence::Forbidden, "has no meaning for the exact estimator, which counts flights as a whole",
     "remove it, or set measure.estimator = \"snapshot\""};
@@ -204,6 +208,8 @@ inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
 inline constexpr std::array<Named<Kernel>, 2> kKernels = {
     {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
 
+inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
+
 /// What a scene file says: the scene, and the keys that are resolved when it is read.
 struct SceneInput {
   int schema = 1;                       ///< version of the format
@@ -312,6 +318,14 @@ void visit_view(Visitor& io, View& view) {
   io.value("overlay", view.overlay);
 }
 
+template <class Visitor>
+void visit_change(Visitor& io, Change& change) {
+  io.value("time", change.time, at_least(0.0), kRequired);
+  io.settings("set", change.set);
+  io.choice("ramp", change.ramp, kRamps);
+  io.value("until", change.until, above(change.time), change.ramp ? kRequired : kNotWithoutRamp);
+}
+
 /// All keys of a scene file.
 template <class Visitor>
 void visit_scene(Visitor& io, SceneInput& input) {
@@ -340,6 +354,7 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.table("collapse", [&](auto& io) { io.value("contact_time", scene.contact_time, above(0.0)); });
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure); });
   io.table("view", [&](auto& io) { visit_view(io, scene.view); });
+  io.list("change", scene.changes, [](auto& io, Change& change) { visit_change(io, change); });
 }
 
 }  // namespace clatter

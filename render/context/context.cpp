@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "render/context/egl_context.h"
+#include "render/context/glfw_context.h"
 #include "render/context/osmesa_context.h"
 
 namespace clatter {
@@ -36,6 +37,8 @@ std::unique_ptr<GlContext> open_context(Backend backend) {
       return std::make_unique<EglContext>();
     case Backend::Osmesa:
       return std::make_unique<OsmesaContext>();
+    case Backend::Glfw:
+      return std::make_unique<GlfwContext>();
   }
   return nullptr;
 }

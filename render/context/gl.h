@@ -12,7 +12,7 @@ namespace clatter {
 // clang-format off
 #define CLATTER_GL_FUNCTIONS(X)                                                                   \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer)           \
-  X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BufferData)                            \
+  X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)         \
   X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)              \
   X(CreateShader) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram)                         \
   X(DeleteRenderbuffers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable)       \

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "engine/error.h"
@@ -95,6 +97,24 @@ void write_png(const std::filesystem::path& path, const Image& image,
     unlink(part.c_str());
     throw;
   }
+}
+
+std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return std::nullopt;
+  constexpr std::size_t kSignature = 8, kAround = 12;  // length, type and checksum of a chunk
+  const std::string wanted = "iTXt" + std::string(keyword) + std::string(5, '\0');
+  for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      length = 256 * length + static_cast<unsigned char>(bytes[at + i]);
+    }
+    const std::string_view chunk = std::string_view(bytes).substr(at + 4, length + 4);
+    if (chunk.starts_with(wanted)) return std::string(chunk.substr(wanted.size()));
+    at += length + kAround;
+  }
+  return std::nullopt;
 }
 
 }  // namespace clatter

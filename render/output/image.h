@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/camera.h"
@@ -23,6 +25,10 @@ struct PngText {
 
 /// The bytes of a PNG file.
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts = {});
+
+/// The text that a PNG file carries under a keyword, as encode_png writes it; absent: none, or no
+/// PNG file.
+std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);
 
 /// Writes a PNG file under a temporary name and renames it when it is whole; throws RunError where
 /// that fails and then leaves nothing behind.

@@ -4,6 +4,7 @@
 
 #include "engine/dynamics/simulation.h"
 #include "engine/dynamics/start.h"
+#include "engine/publish/scheduled_run.h"
 
 namespace clatter::testing {
 
@@ -30,10 +31,6 @@ inline Scene rough_mixture(int count) {
   scene.walls[kBottom] = {.kind = WallKind::Thermal, .temperature = 0.5};
   scene.walls[kTop] = {.kind = WallKind::Thermal, .temperature = 2.0};
   return scene;
-}
-
-inline std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed) {
-  return std::make_unique<Simulation<2>>(model_of(scene, seed), start_state(scene, seed));
 }
 
 /// One disk in a box, alone: what it does is known at any time.

@@ -92,4 +92,15 @@ TEST_CASE("A PNG file is there whole, or an error and nothing") {
   CHECK(folder.empty());
 }
 
+TEST_CASE("A text in a PNG file is found again, and only that one") {
+  const TemporaryFolder folder;
+  const Image image{{2, 2}, std::vector<unsigned char>(16, 7)};
+  const std::string scene = "title = \"ψ, iTXtScene\"\n";
+  write_png(folder / "a.png", image, std::vector<PngText>{{"Title", "t"}, {"Scene", scene}});
+  CHECK(png_text(folder / "a.png", "Scene") == scene);
+  CHECK(png_text(folder / "a.png", "Title") == "t");
+  CHECK_FALSE(png_text(folder / "a.png", "Seed"));
+  CHECK_FALSE(png_text(folder / "none.png", "Scene"));
+}
+
 }  // namespace clatter

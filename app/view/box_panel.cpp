@@ -1,0 +1,188 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/view/panels.h"
+#include "engine/scene/key_writer.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+namespace {
+
+std::string inline_table(Wall wall) {
+  TomlWriter writer;
+  visit_wall(writer, wall);
+  std::string lines = writer.text();
+  lines.pop_back();
+  for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;) {
+    lines.replace(at, 1, ", ");
+  }
+  return "{ " + lines + " }";
+}
+
+std::string inline_table(const std::array<std::optional<Wall>, 4>& walls) {
+  std::string all;
+  for (std::size_t side = 0; side < 4; ++side) {
+    if (!walls[side]) continue;
+    all += (all.empty() ? "" : ", ") + std::string(kSideNames[side]) + " = " +
+           inline_table(*walls[side]);
+  }
+  return "{ " + all + " }";
+}
+
+// A wall of another kind, with what the kinds have in common.
+Wall wall_of(WallKind kind, const Wall& before) {
+  Wall wall{.kind = kind};
+  if (kind != WallKind::Thermal && before.kind != WallKind::Thermal) {
+    wall.restitution = before.restitution;
+    wall.roughness = before.roughness;
+  }
+  if (kind == WallKind::Driven) wall.drive_speed = 1.0;
+  if (wall.moves()) {
+    wall.stroke = 0.2;
+    wall.frequency = 2.0;
+  }
+  return wall;
+}
+
+constexpr std::array<const char*, 4> kSideTitles = {"Left", "Right", "Bottom", "Top"};
+
+void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std::string& path,
+                  Controls& controls) {
+  const Wall usual = opened && opened->kind == wall.kind ? *opened : wall_of(wall.kind, wall);
+  const auto slider = [&](const char* key, Slider look, double value, double usual_value) {
+    const std::string whole = path + '.' + key;
+    look.key = whole.c_str();
+    controls.law(look, value, usual_value);
+  };
+  switch (wall.kind) {
+    case WallKind::Driven:
+      slider("drive_speed",
+             {.name = "Drive speed",
+              .symbol = "v_dr",
+              .help = "Gain in normal velocity at every "
+                      "bounce: the saw-tooth limit, Eqs. (2.17), (3.1)",
+              .high = 5.0},
+             wall.drive_speed, usual.drive_speed);
+      break;
+    case WallKind::Thermal:
+      slider("temperature",
+             {.name = "Temperature",
+              .symbol = "T_w",
+              .help = "Of the disks that it emits",
+              .high = 10.0},
+             wall.temperature, usual.temperature);
+      return;
+    case WallKind::Sawtooth:
+    case WallKind::Sinusoidal:
+      slider("stroke",
+             {.name = "Stroke",
+              .unit = "d",
+              .help = "Its whole travel, in disk diameters",
+              .high = 4.0},
+             wall.stroke, usual.stroke);
+      slider("frequency",
+             {.name = "Frequency", .symbol = "f", .help = "Periods per time unit", .high = 10.0},
+             wall.frequency, usual.frequency);
+      break;
+    case WallKind::Static:
+      break;
+  }
+  slider("restitution",
+         {.name = "Restitution",
+          .symbol = "α_w",
+          .help = "Share of the normal velocity that a "
+                  "bounce keeps, Eq. (2.15); above 1 it gives more than it gets",
+          .high = 1.1},
+         wall.restitution, usual.restitution);
+}
+
+// What stands at a side: nothing, where the axis is periodic, or a wall of some kind.
+void side_panel(Session& session, Controls& controls, std::size_t side) {
+  const Scene& scene = session.scene();
+  const std::string path = std::string("walls.") + kSideNames[side];
+  std::vector<std::string> words = {"periodic"};
+  for (const auto& [name, kind] : kWallKinds) words.emplace_back(name);
+  const auto& wall = scene.walls[side];
+  int chosen = wall ? static_cast<int>(wall->kind) + 1 : 0;
+  if (controls.choice(path.c_str(), kSideTitles[side],
+                      "What stands at this side; periodic goes with the side opposite", words,
+                      chosen)) {
+    if (wall && chosen > 0) {
+      const Wall other = wall_of(static_cast<WallKind>(chosen - 1), *wall);
+      controls.set({{path, inline_table(*wall)}}, {{path, inline_table(other)}});
+      return;
+    }
+    auto walls = scene.walls;
+    for (const std::size_t each : {side, side ^ 1u}) {
+      walls[each].reset();
+      if (chosen > 0) walls[each] = wall_of(static_cast<WallKind>(chosen - 1), Wall{});
+    }
+    controls.set({{"walls", inline_table(scene.walls)}}, {{"walls", inline_table(walls)}});
+    return;
+  }
+  if (!wall) return;
+  ImGui::Indent();
+  wall_numbers(*wall, session.opened().walls[side], path, controls);
+  ImGui::Unindent();
+}
+
+void bulk_drive(Session& session, Controls& controls) {
+  const auto& drive = session.scene().bulk_drive;
+  const BulkDrive usual = session.opened().bulk_drive.value_or(BulkDrive{0.05, 0.1, 0.0});
+  if (!drive) {
+    const std::string kicks = "{ interval = " + value_text(usual.interval) + ", kick_speed = ";
+    if (controls.button("bulk_drive", "Kick all disks",
+                        "Homogeneous driving: every disk is kicked again and again, Sec. 3.2")) {
+      controls.set({{"bulk_drive", kicks + "0.0 }"}},
+                   {{"bulk_drive", kicks + value_text(usual.kick_speed) + " }"}});
+    }
+    return;
+  }
+  controls.law(
+      {.key = "bulk_drive.kick_speed",
+       .name = "Kicks",
+       .symbol = "s",
+       .help = "Homogeneous driving: standard deviation of a kick per component, Sec. 3.2"},
+      drive->kick_speed, usual.kick_speed);
+}
+
+}  // namespace
+
+void box_panel(Session& session, Controls& controls) {
+  if (!group("Box and walls")) return;
+  const Scene& scene = session.scene();
+  const Scene& usual = session.opened();
+  for (int axis : {0, 1}) {
+    const double longest = std::max(100.0, 2.0 * usual.box[axis]);
+    controls.component({.key = "box.size",
+                        .name = axis == 0 ? "Width" : "Height",
+                        .symbol = axis == 0 ? "Lx" : "Ly",
+                        .unit = "d",
+                        .help = "Of the box, in disk diameters; disks that no longer fit go",
+                        .low = 4.0,
+                        .high = longest,
+                        .format = "%.1f"},
+                       scene.box, axis, usual.box, false);
+  }
+  for (std::size_t side = 0; side < 4; ++side) {
+    // A periodic axis is told once.
+    if (side % 2 == 1 && !scene.walls[side]) continue;
+    side_panel(session, controls, side);
+  }
+  const Vec2 gravity = scene.gravity.value_or(Vec2::Zero());
+  for (int axis : {0, 1}) {
+    controls.component({.key = "gravity.acceleration",
+                        .name = axis == 0 ? "Gravity along x" : "Gravity along y",
+                        .symbol = axis == 0 ? "g_x" : "g_y",
+                        .help = "Acceleration of every disk",
+                        .low = -2.0,
+                        .high = 2.0},
+                       gravity, axis, usual.gravity.value_or(Vec2::Zero()));
+  }
+  bulk_drive(session, controls);
+  ImGui::Spacing();
+}
+
+}  // namespace clatter

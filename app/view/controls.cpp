@@ -1,0 +1,226 @@
+#include "app/view/controls.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "app/view/style.h"
+#include "engine/scene/key_writer.h"
+#include "render/layers/fonts.h"
+
+namespace clatter {
+
+bool group(const char* name) {
+  ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
+  const bool open = ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen);
+  ImGui::PopStyleColor();
+  return open;
+}
+
+static void explain(const Slider& slider, double usual) {
+  if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
+  char text[64];
+  std::snprintf(text, sizeof text, slider.format, usual);
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
+  ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
+  if (*slider.help) ImGui::TextDisabled("%s", slider.help);
+  ImGui::TextDisabled("Here: %s%s%s. Double-click to type.", text, *slider.unit ? " " : "",
+                      slider.unit);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+// A round arrow at the right end of a line; whether it was clicked.
+static bool reset_button() {
+  const float size = ImGui::GetFontSize();
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - size);
+  const bool clicked = ImGui::InvisibleButton("reset", ImVec2(size, size));
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 centre(low.x + 0.5f * size, low.y + 0.58f * size);
+  const ImU32 ink =
+      ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float r = 0.32f * size;
+  list.PathArcTo(centre, r, -0.9f, 4.4f, 20);
+  list.PathStroke(ink, 0, 0.1f * size);
+  const ImVec2 tip(centre.x + r * std::cos(-0.9f), centre.y + r * std::sin(-0.9f));
+  list.AddTriangleFilled(ImVec2(tip.x - 0.28f * size, tip.y), ImVec2(tip.x + 0.1f * size, tip.y),
+                         ImVec2(tip.x + 0.02f * size, tip.y - 0.34f * size), ink);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Back to the scene's value");
+  return clicked;
+}
+
+// Name and symbol at the left of a line, the value at its right, before the arrow's place.
+static void headline(const Slider& slider, double value) {
+  ImGui::TextUnformatted(slider.name);
+  if (*slider.symbol) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", slider.symbol);
+  }
+  char text[64];
+  const int length = std::snprintf(text, sizeof text, slider.format, value);
+  std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), "%s%s",
+                *slider.unit ? " " : "", slider.unit);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize() -
+                  ImGui::CalcTextSize(text).x);
+  ImGui::TextUnformatted(text);
+}
+
+// To three digits, which is as finely as one can drag.
+static double rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return std::strtod(text, nullptr);
+}
+
+Controls::Moved Controls::draw(const Slider& slider, double& value, double usual) {
+  Moved moved;
+  ImGui::PushID(slider.key);
+  ImGui::PushID(slider.name);
+  headline(slider, value);
+  if (value != usual) moved.reset = reset_button();
+
+  // ImGui types into a slider after a click with Ctrl: here, after a double click too.
+  ImGuiIO& io = ImGui::GetIO();
+  const bool ctrl = io.KeyCtrl;
+  io.KeyCtrl = ctrl || io.MouseDoubleClicked[0];
+  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
+  if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  // Its logarithm reaches as far down as the digits of its format.
+  const char* format = slider.logarithmic ? "%.9g" : slider.format;
+  const ImGuiSliderFlags flags =
+      ImGuiSliderFlags_AlwaysClamp |
+      (slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0);
+  const double was = value;
+  moved.changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &slider.low,
+                                      &slider.high, format, flags);
+  if (moved.changed && slider.logarithmic) value = rounded(value);
+  if (!typing) ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  io.KeyCtrl = ctrl;
+  moved.taken = ImGui::IsItemActivated();
+  moved.let_go = ImGui::IsItemDeactivatedAfterEdit();
+  if (moved.taken) before_ = was;
+  log_place(slider.key);
+  explain(slider, usual);
+  ImGui::PopID();
+  ImGui::PopID();
+  return moved;
+}
+
+void Controls::law(const Slider& slider, double value, double usual) {
+  const double now = value;
+  const Moved moved = draw(slider, value, usual);
+  if (moved.reset) set({{slider.key, value_text(now)}}, {{slider.key, value_text(usual)}});
+  if (moved.changed) session_.set({{slider.key, value_text(value)}});
+  if (moved.let_go) {
+    session_.remember({{{slider.key, value_text(before_)}}, {{slider.key, value_text(value)}}});
+  }
+}
+
+void Controls::whole(const Slider& slider, int value, int usual) {
+  double shown = holding_ == slider.key ? held_ : value;
+  const Moved moved = draw(slider, shown, usual);
+  const auto put = [&](double number) {
+    set({{slider.key, std::to_string(value)}},
+        {{slider.key, value_text(static_cast<int>(number))}});
+    holding_.clear();
+  };
+  if (moved.changed) {
+    holding_ = slider.key;
+    held_ = std::round(shown);
+  }
+  if (moved.let_go) put(held_);
+  if (moved.reset) put(usual);
+}
+
+void Controls::component(const Slider& slider, const Vec2& pair, int axis, const Vec2& usual,
+                         bool at_once) {
+  const std::string name = std::string(slider.key) + slider.name;
+  Vec2 now = pair;
+  if (holding_ == name) now[axis] = held_;
+  const Moved moved = draw(slider, now[axis], usual[axis]);
+  Vec2 before = pair;
+  if (moved.changed && at_once) session_.set({{slider.key, value_text(now)}});
+  if (moved.changed && !at_once) {
+    holding_ = name;
+    held_ = now[axis];
+  }
+  if (moved.let_go) {
+    before[axis] = before_;
+    if (at_once)
+      session_.remember({{{slider.key, value_text(before)}}, {{slider.key, value_text(now)}}});
+    if (!at_once) set({{slider.key, value_text(pair)}}, {{slider.key, value_text(now)}});
+    holding_.clear();
+  }
+  if (moved.reset) {
+    now[axis] = usual[axis];
+    set({{slider.key, value_text(pair)}}, {{slider.key, value_text(now)}});
+  }
+}
+
+bool Controls::number(const Slider& slider, double& value, double usual) {
+  const Moved moved = draw(slider, value, usual);
+  if (moved.reset) value = usual;
+  return moved.changed || moved.reset;
+}
+
+bool Controls::choice(const char* key, const char* name, const char* help,
+                      const std::vector<std::string>& words, int& chosen) {
+  ImGui::PushID(key);
+  ImGui::TextUnformatted(name);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  bool changed = false;
+  const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str());
+  log_place(key);
+  if (!open && *help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  if (open) {
+    for (int i = 0; i < static_cast<int>(words.size()); ++i) {
+      if (ImGui::Selectable(words[static_cast<std::size_t>(i)].c_str(), i == chosen)) {
+        changed = i != chosen;
+        chosen = i;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::PopID();
+  return changed;
+}
+
+bool Controls::toggle(const char* key, const char* name, const char* help, bool& on) {
+  const bool changed = ImGui::Checkbox(name, &on);
+  log_place(key);
+  if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  return changed;
+}
+
+bool Controls::button(const char* key, const char* label, const char* help, float width) {
+  const bool clicked = ImGui::Button(label, ImVec2(width, 0.0f));
+  log_place(key);
+  if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  return clicked;
+}
+
+bool Controls::card(const char* key, float height) {
+  const bool clicked = ImGui::Selectable("##card", false, 0, ImVec2(0.0f, height));
+  log_place(key);
+  return clicked;
+}
+
+void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after) {
+  session_.set(after);
+  session_.remember({before, after});
+}
+
+void Controls::log_place(const char* key) {
+  const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+  log_.widget(key, low.x, low.y, size.x, size.y);
+}
+
+}  // namespace clatter

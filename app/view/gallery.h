@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/controls.h"
+#include "app/view/thumbnails.h"
+
+namespace clatter {
+
+/// The scenes that come with the program, to choose from.
+class Gallery {
+ public:
+  explicit Gallery(const Gl& gl);
+
+  /// Draws it over the window, whose extent is given; the name of the scene that was chosen.
+  std::optional<std::string> draw(Controls& controls, float width, float height);
+  /// The scene `step` places after the one of a title.
+  const std::string& neighbour(const std::string& title, int step) const;
+
+ private:
+  struct Entry {
+    std::string name, title, caption;
+  };
+
+  bool draw_card(const Entry& entry, Controls& controls);
+
+  Thumbnails thumbnails_;
+  std::vector<Entry> entries_;
+  std::array<char, 64> search_ = {};
+};
+
+}  // namespace clatter

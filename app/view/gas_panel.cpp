@@ -1,0 +1,96 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/view/panels.h"
+#include "engine/scene/key_writer.h"
+#include "engine/scene/lattice.h"
+
+namespace clatter {
+
+// Disks start and stop being rough; the coefficients are those of a middling rough disk.
+static void roughness(Session& session, Controls& controls) {
+  const Roughness& rough = session.scene().disks.roughness;
+  const Roughness& usual = session.opened().disks.roughness;
+  bool any = rough.any();
+  if (controls.toggle("rough", "Rough disks",
+                      "Collisions turn slip into spin, Walton's model, Eq. (2.8)", any)) {
+    const auto keys = [](bool on) {
+      return std::vector<Override>{{"disks.friction", on ? "0.5" : "0.0"},
+                                   {"disks.tangential_restitution", on ? "0.5" : "-1.0"}};
+    };
+    controls.set(keys(!any), keys(any));
+  }
+  if (!any) return;
+  // An infinite friction cannot be on a slider; from its right end on slides do not matter.
+  constexpr double kMostFriction = 2.0;
+  controls.law({.key = "disks.friction",
+                .name = "Friction",
+                .symbol = "μ",
+                .help = "Coulomb's: the largest tangential over normal impulse, Eq. (2.8)",
+                .high = kMostFriction},
+               std::min(rough.friction_in_force(), kMostFriction),
+               std::min(usual.any() ? usual.friction_in_force() : 0.5, kMostFriction));
+  controls.law({.key = "disks.tangential_restitution",
+                .name = "Tangential",
+                .symbol = "β₀",
+                .help = "Tangential restitution of rolling contacts: -1 keeps the slip, 1 reverses "
+                        "it, Eq. (2.8)",
+                .low = -1.0},
+               rough.tangential_restitution_in_force(),
+               usual.any() ? usual.tangential_restitution_in_force() : 0.5);
+}
+
+static void contact_time(Session& session, Controls& controls) {
+  constexpr double kUsual = 1e-5;
+  const auto& time = session.scene().contact_time;
+  const auto table = [](std::optional<double> t) {
+    return t ? "{ contact_time = " + value_text(*t) + " }" : std::string("{}");
+  };
+  bool on = time.has_value();
+  if (controls.toggle("contact_time", "Contact time",
+                      "Collisions that follow each other within t_c lose nothing: no collapse",
+                      on)) {
+    controls.set({{"collapse", table(time)}},
+                 {{"collapse", table(on ? std::optional(kUsual) : std::nullopt)}});
+  } else if (on) {
+    controls.law({.key = "collapse.contact_time",
+                  .name = "Its length",
+                  .symbol = "t_c",
+                  .help = "Of the TC model",
+                  .low = 1e-9,
+                  .high = 0.1,
+                  .logarithmic = true,
+                  .format = "%.1e"},
+                 *time, session.opened().contact_time.value_or(kUsual));
+  }
+}
+
+void gas_panel(Session& session, Controls& controls) {
+  if (!group("Gas")) return;
+  const Scene& scene = session.scene();
+  if (session.opened().disks.start.layout != Layout::File) {
+    const int most = std::min(lattice_capacity(start_room(scene)), 100'000);
+    controls.whole({.key = "disks.count",
+                    .name = "Disks",
+                    .symbol = "N",
+                    .help = "Disks go, or come at random places where there is room",
+                    .low = 1.0,
+                    .high = static_cast<double>(most),
+                    .logarithmic = true,
+                    .format = "%.0f"},
+                   scene.disks.count, session.opened().disks.count);
+  }
+  ImGui::TextDisabled("Area fraction φ = %.3f", scene.area_fraction());
+  controls.law({.key = "disks.restitution",
+                .name = "Restitution",
+                .symbol = "α",
+                .help = "Share of the normal velocity that a collision of two disks keeps; "
+                        "1: elastic, Eq. (2.5)"},
+               scene.disks.restitution, session.opened().disks.restitution);
+  roughness(session, controls);
+  contact_time(session, controls);
+  ImGui::Spacing();
+}
+
+}  // namespace clatter

@@ -1,0 +1,77 @@
+#include "app/view/history.h"
+
+#include <cmath>
+
+namespace clatter {
+
+void VelocityHistogram::add(const Snapshot& snapshot) {
+  // What is older than about this many frames counts little.
+  constexpr double kForgets = 1.0 / 600.0;
+  for (int axis : {0, 1}) {
+    double squares = 0.0;
+    for (const Vec2& v : snapshot.velocities) squares += v[axis] * v[axis];
+    if (!(squares > 0.0)) continue;
+    const double deviation = std::sqrt(squares / static_cast<double>(snapshot.velocities.size()));
+    auto& weights = weights_[static_cast<std::size_t>(axis)];
+    for (double& weight : weights) weight *= 1.0 - kForgets;
+    for (const Vec2& v : snapshot.velocities) {
+      const double place = (v[axis] / deviation + kReach) / (2.0 * kReach) * kClasses;
+      if (place >= 0.0 && place < kClasses) weights[static_cast<std::size_t>(place)] += 1.0;
+    }
+  }
+}
+
+std::vector<Vec2> VelocityHistogram::density(int axis) const {
+  const auto& weights = weights_[static_cast<std::size_t>(axis)];
+  constexpr double kWidth = 2.0 * kReach / kClasses;
+  double all = 0.0;
+  for (const double weight : weights) all += weight;
+  std::vector<Vec2> points;
+  for (int i = 0; i < kClasses; ++i) {
+    const double weight = weights[static_cast<std::size_t>(i)];
+    points.emplace_back((i + 0.5) * kWidth - kReach, all > 0.0 ? weight / (all * kWidth) : 0.0);
+  }
+  return points;
+}
+
+void History::add(const Frame& frame) {
+  if (frame.run != run_ || frame.tally.time < last_.time) {
+    run_ = frame.run;
+    last_ = {};
+    spacing_ = 0.0;
+    samples_.clear();
+    velocities_.clear();
+  }
+  const double span = frame.tally.time - last_.time;
+  if (!(span > 0.0)) return;
+  velocities_.add(frame.snapshot);
+  if (span < spacing_) return;
+  Sample sample;
+  sample.time = frame.snapshot.time - 0.5 * span;
+  sample.temperature = (frame.tally.temperature_integral - last_.temperature_integral) / span;
+  sample.walls_in = (frame.tally.walls_in - last_.walls_in) / span;
+  sample.bulk_in = (frame.tally.bulk_in - last_.bulk_in) / span;
+  sample.gravity_in = (frame.tally.gravity_in - last_.gravity_in) / span;
+  sample.dissipated = (frame.tally.dissipated - last_.dissipated) / span;
+  samples_.push_back(sample);
+  last_ = frame.tally;
+  // The first few dozen pictures show single collisions: a sample needs some.
+  spacing_ = std::max(spacing_, frame.speed / 10.0);
+  constexpr std::size_t kMost = 1200;
+  if (samples_.size() > kMost) thin_out();
+}
+
+// Every two become one, and so will those to come.
+void History::thin_out() {
+  std::vector<Sample> thinned;
+  for (std::size_t i = 0; i + 1 < samples_.size(); i += 2) {
+    const Sample &a = samples_[i], &b = samples_[i + 1];
+    thinned.push_back({0.5 * (a.time + b.time), 0.5 * (a.temperature + b.temperature),
+                       0.5 * (a.walls_in + b.walls_in), 0.5 * (a.bulk_in + b.bulk_in),
+                       0.5 * (a.gravity_in + b.gravity_in), 0.5 * (a.dissipated + b.dissipated)});
+  }
+  samples_ = std::move(thinned);
+  spacing_ *= 2.0;
+}
+
+}  // namespace clatter

@@ -1,0 +1,109 @@
+#include "app/view/notes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace clatter {
+
+// A small window that takes no part in what the mouse does.
+static void begin_note(const char* name, ImVec2 place, ImVec2 pivot, float wrap = 0.0f) {
+  const float unit = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(place, 0, pivot);
+  if (wrap > 0.0f) ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(wrap, FLT_MAX));
+  ImGui::SetNextWindowBgAlpha(0.96f);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * unit);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+}
+
+static void end_note() {
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+void hint(const Area& area) {
+  const float unit = ImGui::GetFontSize();
+  begin_note("hint", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
+             ImVec2(0.5f, 1.0f));
+  ImGui::TextDisabled("drag a slider  ·  scroll to zoom  ·  G for the gallery");
+  end_note();
+}
+
+bool told(const Session& session, const Area& area) {
+  constexpr double kShown = 10.0;  // seconds
+  if (session.message().empty() || session.message_age() > kShown) return false;
+  const float unit = ImGui::GetFontSize();
+  const float wrap = 0.7f * (area.high.x - area.low.x);
+  begin_note("told", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
+             ImVec2(0.5f, 1.0f), wrap);
+  ImGui::PushTextWrapPos(wrap - 2.0f * unit);
+  ImGui::TextUnformatted(session.message().c_str());
+  ImGui::PopTextWrapPos();
+  end_note();
+  return true;
+}
+
+void disk_note(const Frame& frame, std::size_t disk, bool follows, ImVec2 place, const Area& area) {
+  const Snapshot& gas = frame.snapshot;
+  if (disk >= gas.positions.size()) return;
+  const float unit = ImGui::GetFontSize();
+  // Towards the middle, where there is room for it.
+  const bool left = place.x > 0.5f * (area.low.x + area.high.x);
+  const bool up = place.y > 0.5f * (area.low.y + area.high.y);
+  begin_note("disk",
+             ImVec2(std::clamp(place.x + (left ? -unit : unit), area.low.x, area.high.x),
+                    std::clamp(place.y + (up ? -unit : unit), area.low.y, area.high.y)),
+             ImVec2(left ? 1.0f : 0.0f, up ? 1.0f : 0.0f));
+  ImGui::Text("Disk %zu", disk);
+  const Vec2 &r = gas.positions[disk], &v = gas.velocities[disk];
+  ImGui::TextDisabled("place %.2f, %.2f", r.x(), r.y());
+  ImGui::TextDisabled("velocity %.3f, %.3f", v.x(), v.y());
+  ImGui::TextDisabled("speed %.3f", v.norm());
+  if (!gas.spins.empty()) ImGui::TextDisabled("spin %.3f", gas.spins[disk]);
+  ImGui::TextDisabled(follows ? "followed; Esc lets go" : "double-click to follow");
+  end_note();
+}
+
+void help_window(float width, float height) {
+  static constexpr std::array<std::pair<const char*, const char*>, 22> kKeys = {{
+      {"Space", "play or pause"},
+      {".", "next frame"},
+      {"Shift + .", "next collision, with the pair marked"},
+      {"R   Shift + R", "start anew; with a new seed"},
+      {"+  −", "faster, slower"},
+      {"G", "gallery"},
+      {"[  ]", "scene before, scene after"},
+      {"Ctrl + Z   Ctrl + Y", "undo, redo"},
+      {"Ctrl + Q", "quit"},
+      {"Ctrl + S", "save the scene with its changes"},
+      {"F2", "screenshot"},
+      {"P", "plots"},
+      {"M", "fix the colours' range, or let it follow"},
+      {"Tab", "hide the panels"},
+      {"L", "lecture: large type, no panels"},
+      {"F11", "full screen"},
+      {"Esc", "close what is open"},
+      {"Scroll", "zoom about the cursor"},
+      {"Right or middle drag", "move the view"},
+      {"F", "fit the box into the view"},
+      {"Click a disk", "its state; double-click follows it"},
+      {"Drop a file", "opens a scene, or a picture's scene"},
+  }};
+  const float unit = ImGui::GetFontSize();
+  begin_note("help", ImVec2(0.5f * width, 0.5f * height), ImVec2(0.5f, 0.5f));
+  ImGui::TextUnformatted("Keys and mouse");
+  ImGui::Spacing();
+  for (const auto& [key, what] : kKeys) {
+    ImGui::TextUnformatted(key);
+    ImGui::SameLine(13.0f * unit);
+    ImGui::TextDisabled("%s", what);
+  }
+  end_note();
+}
+
+}  // namespace clatter

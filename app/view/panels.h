@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/view/controls.h"
+#include "app/view/session.h"
+
+namespace clatter {
+
+// The groups of the left panel. Each draws into the ImGui window that is open.
+
+/// The disks: how many, and what their collisions do.
+void gas_panel(Session& session, Controls& controls);
+/// The box, its sides, gravity, the bulk drive.
+void box_panel(Session& session, Controls& controls);
+/// What is drawn.
+void view_panel(Session& session, Controls& controls);
+/// What a person asked the record panel for.
+enum class Recording { None, Screenshot, SaveScene, CopyCommand };
+/// Pictures and files of what is on screen.
+Recording record_panel(Controls& controls);
+
+}  // namespace clatter

@@ -1,0 +1,226 @@
+#include "app/view/plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/scene/text.h"
+#include "render/colour_range.h"
+#include "render/layers/fonts.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+namespace {
+
+// An axis: from values to shares of its length.
+struct Scale {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  bool logarithmic = false;
+
+  bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0.0); }
+  double place(double value) const { return logarithmic ? std::log10(value) : value; }
+  void include(double value) {
+    if (!shows(value)) return;
+    low = std::min(low, place(value));
+    high = std::max(high, place(value));
+  }
+  double share(double value) const { return (place(value) - low) / (high - low); }
+};
+
+void widen(Scale& scale, bool from_zero) {
+  if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
+  if (from_zero && !scale.logarithmic && scale.low > 0.0) scale.low = 0.0;
+  if (from_zero) scale.high += 0.05 * (scale.high - scale.low);
+  if (!(scale.high > scale.low)) {
+    const double room = std::max(1e-12, 0.1 * std::fabs(scale.low));
+    scale.low -= room;
+    scale.high += room;
+  }
+}
+
+struct Tick {
+  double share;
+  std::string text;
+};
+
+// Round values, or powers of ten.
+std::vector<Tick> ticks_of(const Scale& scale, int count) {
+  std::vector<Tick> ticks;
+  const auto places = round_ticks(scale.low, scale.high, count);
+  for (const double place : places) {
+    const double share = (place - scale.low) / (scale.high - scale.low);
+    if (!scale.logarithmic) {
+      const double step = places.size() > 1 ? places[1] - places[0] : 1.0;
+      ticks.push_back({share, tick_text(place, step)});
+    } else if (scale.high - scale.low < 1.5) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.2g", std::pow(10.0, place));
+      ticks.push_back({share, text});
+    } else if (place == std::round(place)) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.0e", std::pow(10.0, place));
+      ticks.push_back({share, text});
+    }
+  }
+  return ticks;
+}
+
+// The area of a plot within its axes, and its scales.
+struct PlotFrame {
+  ImVec2 low, high;  // upper left and lower right corner, pixels
+  Scale x, y;
+
+  ImVec2 at(const Vec2& point) const {
+    return {low.x + static_cast<float>(x.share(point.x())) * (high.x - low.x),
+            high.y - static_cast<float>(y.share(point.y())) * (high.y - low.y)};
+  }
+};
+
+void draw_axes(ImDrawList& list, const PlotFrame& frame, const Plot& plot) {
+  const ImFont& font = *ImGui::GetFont();
+  const float size = 0.8f * ImGui::GetFontSize();
+  const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border);
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const auto extent = [&](const std::string& text) {
+    return font.CalcTextSizeA(size, FLT_MAX, 0.0f, text.c_str());
+  };
+  const auto write = [&](ImVec2 at, const std::string& text) {
+    list.AddText(&font, size, at, ink, text.c_str());
+  };
+  for (const Tick& tick : ticks_of(frame.y, 4)) {
+    const float y = frame.high.y - static_cast<float>(tick.share) * (frame.high.y - frame.low.y);
+    list.AddLine(ImVec2(frame.low.x, y), ImVec2(frame.high.x, y), line);
+    const ImVec2 text = extent(tick.text);
+    write(ImVec2(frame.low.x - text.x - 0.3f * size, y - 0.5f * text.y), tick.text);
+  }
+  for (const Tick& tick : ticks_of(frame.x, 4)) {
+    const float x = frame.low.x + static_cast<float>(tick.share) * (frame.high.x - frame.low.x);
+    list.AddLine(ImVec2(x, frame.high.y), ImVec2(x, frame.high.y + 0.25f * size), ink);
+    const ImVec2 text = extent(tick.text);
+    const float left = std::min(x - 0.5f * text.x, frame.high.x - text.x);
+    write(ImVec2(left, frame.high.y + 0.3f * size), tick.text);
+  }
+  list.AddLine(ImVec2(frame.low.x, frame.high.y), frame.high, ink);
+  const ImVec2 text = extent(plot.x_label);
+  write(ImVec2(0.5f * (frame.low.x + frame.high.x - text.x), frame.high.y + 1.35f * size),
+        plot.x_label);
+}
+
+void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
+  const ImU32 ink = packed(curve.colour);
+  const float width = 0.1f * ImGui::GetFontSize();
+  if (curve.as_point) {
+    if (!curve.points.empty()) {
+      list.AddCircleFilled(frame.at(curve.points.back()), 0.3f * ImGui::GetFontSize(), ink);
+    }
+    return;
+  }
+  std::vector<ImVec2> run;
+  const auto stroke = [&] {
+    if (run.size() > 1) list.AddPolyline(run.data(), static_cast<int>(run.size()), ink, 0, width);
+    run.clear();
+  };
+  for (const Vec2& point : curve.points) {
+    if (frame.x.shows(point.x()) && frame.y.shows(point.y())) {
+      run.push_back(frame.at(point));
+    } else {
+      stroke();
+    }
+  }
+  if (!curve.dashed) return stroke();
+  // Dashes of equal length along x suffice for lines as smooth as theory's.
+  const float dash = 0.4f * ImGui::GetFontSize();
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const ImVec2 a = run[i - 1], b = run[i];
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    for (float s = 0.0f; s < length; s += 2.0f * dash) {
+      const float e = std::min(s + dash, length);
+      list.AddLine(ImVec2(a.x + (b.x - a.x) * s / length, a.y + (b.y - a.y) * s / length),
+                   ImVec2(a.x + (b.x - a.x) * e / length, a.y + (b.y - a.y) * e / length), ink,
+                   width);
+    }
+  }
+}
+
+void legend(const Plot& plot) {
+  const float unit = ImGui::GetFontSize();
+  float x = 0.0f;
+  for (const Curve& curve : plot.curves) {
+    if (curve.name.empty()) continue;
+    const float width = ImGui::CalcTextSize(curve.name.c_str()).x + 1.6f * unit;
+    if (x > 0.0f && x + width < ImGui::GetContentRegionMax().x) {
+      ImGui::SameLine(0.0f, 0.6f * unit);
+    } else {
+      x = 0.0f;
+    }
+    x += width;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float y = at.y + 0.55f * unit;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (curve.as_point) {
+      list.AddCircleFilled(ImVec2(at.x + 0.35f * unit, y), 0.25f * unit, packed(curve.colour));
+    } else if (curve.dashed) {
+      list.AddLine(ImVec2(at.x, y), ImVec2(at.x + 0.3f * unit, y), packed(curve.colour), 2.0f);
+      list.AddLine(ImVec2(at.x + 0.45f * unit, y), ImVec2(at.x + 0.75f * unit, y),
+                   packed(curve.colour), 2.0f);
+    } else {
+      list.AddLine(ImVec2(at.x, y), ImVec2(at.x + 0.75f * unit, y), packed(curve.colour), 2.0f);
+    }
+    ImGui::Dummy(ImVec2(0.75f * unit, unit));
+    ImGui::SameLine(0.0f, 0.25f * unit);
+    ImGui::TextDisabled("%s", curve.name.c_str());
+  }
+}
+
+}  // namespace
+
+void draw_plot(const Plot& plot, float height) {
+  const float unit = ImGui::GetFontSize();
+  ImGui::TextUnformatted(plot.title.c_str());
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit);
+  ImGui::PushID(plot.title.c_str());
+  if (ImGui::SmallButton("CSV")) ImGui::SetClipboardText(csv_of(plot).c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Copy the numbers");
+  ImGui::PopID();
+  legend(plot);
+
+  PlotFrame frame;
+  frame.x.logarithmic = plot.log_x;
+  frame.y.logarithmic = plot.log_y;
+  for (const Curve& curve : plot.curves) {
+    for (const Vec2& point : curve.points) {
+      if (!frame.x.shows(point.x()) || !frame.y.shows(point.y())) continue;
+      frame.x.include(point.x());
+      frame.y.include(point.y());
+    }
+  }
+  widen(frame.x, false);
+  widen(frame.y, true);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  frame.low = ImVec2(corner.x + 3.0f * unit, corner.y + 0.4f * unit);
+  frame.high = ImVec2(corner.x + width - 0.5f * unit, corner.y + height - 2.1f * unit);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  draw_axes(list, frame, plot);
+  list.PushClipRect(frame.low, ImVec2(frame.high.x, frame.high.y + 1.0f), true);
+  for (const Curve& curve : plot.curves) draw_curve(list, frame, curve);
+  list.PopClipRect();
+  ImGui::Dummy(ImVec2(width, height));
+}
+
+std::string csv_of(const Plot& plot) {
+  std::string text;
+  for (const Curve& curve : plot.curves) {
+    text += plot.x_label + ',' + (curve.name.empty() ? plot.title : curve.name) + '\n';
+    for (const Vec2& point : curve.points) {
+      text += number_text(point.x()) + ',' + number_text(point.y()) + '\n';
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace clatter

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/vec.h"
+#include "render/palette.h"
+
+namespace clatter {
+
+/// A line, or points, in a plot.
+struct Curve {
+  std::string name;  ///< in the legend; empty: not told
+  Colour colour;
+  std::vector<Vec2> points;
+  bool dashed = false;    ///< theory's lines are
+  bool as_point = false;  ///< the last point, large, instead of a line
+};
+
+/// Curves over a common axis.
+struct Plot {
+  std::string title;
+  std::string x_label;
+  bool log_x = false;
+  bool log_y = false;
+  std::vector<Curve> curves;
+};
+
+/// Draws a plot of this height over the width of the ImGui window, with its axes and legend.
+void draw_plot(const Plot& plot, float height);
+
+/// The numbers of a plot, a table per curve.
+std::string csv_of(const Plot& plot);
+
+}  // namespace clatter

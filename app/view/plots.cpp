@@ -1,0 +1,157 @@
+#include "app/view/plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "engine/physics/theory.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+namespace {
+
+// Told apart by the colour-blind too (Okabe and Ito 2008).
+constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
+                 kGreen = {0x2c, 0xb5, 0x8f}, kRed = {0xe8, 0x75, 0x3f}, kPale = {0xc8, 0xd0, 0xd8},
+                 kYellow = {0xf0, 0xe4, 0x42};
+
+// The gas of theory, where the scene is one: smooth disks between two like driven walls.
+std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
+  const auto &left = scene.walls[kLeft], &right = scene.walls[kRight];
+  const bool driven = left && right && left->kind == WallKind::Driven &&
+                      right->kind == WallKind::Driven && scene.periodic(1) && !scene.spins() &&
+                      left->drive_speed == right->drive_speed && left->drive_speed > 0.0 &&
+                      left->restitution == right->restitution && !scene.bulk_drive &&
+                      !(scene.gravity && scene.gravity->norm() > 0.0) && scene.disks.count > 0;
+  if (!driven) return std::nullopt;
+  return VibratedGas{static_cast<double>(scene.disks.count),
+                     scene.box.x(),
+                     scene.box.y(),
+                     scene.disks.restitution,
+                     left->restitution,
+                     left->drive_speed};
+}
+
+template <class Value>
+Curve over_time(const char* name, Colour colour, const std::vector<Sample>& samples, Value value) {
+  Curve curve{name, colour, {}};
+  for (const Sample& sample : samples) curve.points.emplace_back(sample.time, value(sample));
+  return curve;
+}
+
+Curve level(const char* name, Colour colour, const std::vector<Sample>& samples, double value) {
+  Curve curve{name, colour, {}, true};
+  if (!samples.empty() && std::isfinite(value)) {
+    curve.points = {{samples.front().time, value}, {samples.back().time, value}};
+  }
+  return curve;
+}
+
+Plot temperature_plot(const std::vector<Sample>& samples, const Scene& scene) {
+  Plot plot{"Temperature", "time t", false, false, {}};
+  plot.curves = {
+      over_time("T_x", kOrange, samples, [](const Sample& s) { return s.temperature.x(); }),
+      over_time("T_y", kBlue, samples, [](const Sample& s) { return s.temperature.y(); }),
+      over_time("T", kPale, samples, [](const Sample& s) { return 0.5 * s.temperature.sum(); })};
+  if (const auto gas = vibrated_gas(scene)) {
+    plot.curves.push_back(level("simple", kRed, samples, gas->temperature_simple()));
+    plot.curves.push_back(level("refined", kGreen, samples, gas->temperature_refined()));
+    plot.curves.push_back(level("corrected", kYellow, samples, gas->temperature_corrected()));
+  }
+  return plot;
+}
+
+Plot energy_plot(const std::vector<Sample>& samples) {
+  Plot plot{"Energy per time", "time t", false, false, {}};
+  const auto in = [](const Sample& s) { return s.walls_in + s.bulk_in + s.gravity_in; };
+  plot.curves = {
+      over_time("in", kOrange, samples, in),
+      over_time("dissipated", kBlue, samples, [](const Sample& s) { return s.dissipated; }),
+      over_time("difference", kPale, samples, [&](const Sample& s) { return in(s)-s.dissipated; })};
+  return plot;
+}
+
+// The mean over y of the heatmap, along x.
+Plot profile_plot(const Snapshot& snapshot) {
+  const FieldMap& map = *snapshot.field;
+  Plot plot{"Profile of " + std::string(name_of(map.field, kHeatmaps)), "x", false, false, {}};
+  std::ranges::replace(plot.title, '_', ' ');
+  Curve curve{"", kBlue, {}};
+  const auto [columns, rows] = map.cells;
+  for (int column = 0; column < columns; ++column) {
+    double sum = 0.0, count = 0.0;
+    for (int row = 0; row < rows; ++row) {
+      const double value = map.values[static_cast<std::size_t>(row * columns + column)];
+      if (!std::isfinite(value)) continue;
+      sum += value;
+      count += 1.0;
+    }
+    if (count > 0.0) {
+      curve.points.emplace_back((column + 0.5) * snapshot.box.x() / columns, sum / count);
+    }
+  }
+  plot.curves.push_back(std::move(curve));
+  return plot;
+}
+
+Plot velocity_plot(const VelocityHistogram& velocities) {
+  Plot plot{"Velocities", "v / standard deviation", false, true, {}};
+  Curve gaussian{"Gaussian", kPale, {}, true};
+  for (double v = -4.0; v <= 4.0; v += 0.1) {
+    gaussian.points.emplace_back(v, std::exp(-0.5 * v * v) / std::sqrt(2.0 * std::numbers::pi));
+  }
+  plot.curves = {{"v_x", kOrange, velocities.density(0)},
+                 {"v_y", kBlue, velocities.density(1)},
+                 std::move(gaussian)};
+  return plot;
+}
+
+// Mean of the later half: what the gas has settled to, if it has.
+double settled_temperature(const std::vector<Sample>& samples) {
+  double sum = 0.0;
+  for (std::size_t i = samples.size() / 2; i < samples.size(); ++i) {
+    sum += 0.5 * samples[i].temperature.sum();
+  }
+  return sum / static_cast<double>(samples.size() - samples.size() / 2);
+}
+
+// Fig. 3.1: T/(m v_dr^2) over 1/(eps psi), for elastic walls.
+Plot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
+  Plot plot{"Fig. 3.1", "1/(ε ψ)", true, true, {}};
+  Curve simple{"simple", kRed, {}, true}, refined{"refined", kGreen, {}, true};
+  const double here = 1.0 / (gas.epsilon_effective() * gas.psi());
+  const double unit = gas.drive_speed * gas.drive_speed;
+  VibratedGas other = gas;
+  for (double power = 0.0; power <= 4.0; power += 0.1) {
+    // The curves on which it moves with its restitution, from 0 to nearly 1.
+    const double epsilon = std::pow(10.0, -power);
+    other.restitution = std::sqrt(1.0 - epsilon);
+    const double x = 1.0 / (epsilon * gas.psi());
+    simple.points.emplace_back(x, other.temperature_simple() / unit);
+    refined.points.emplace_back(x, other.temperature_refined() / unit);
+  }
+  Curve now{"this gas", kYellow, {}, false, true};
+  if (!samples.empty()) {
+    now.points.emplace_back(here, settled_temperature(samples) / unit);
+  }
+  plot.curves = {std::move(simple), std::move(refined), std::move(now)};
+  return plot;
+}
+
+}  // namespace
+
+std::vector<Plot> plots_of(const History& history, const Frame& frame) {
+  const std::vector<Sample>& samples = history.samples();
+  std::vector<Plot> plots = {temperature_plot(samples, *frame.scene), energy_plot(samples)};
+  if (frame.snapshot.field) plots.push_back(profile_plot(frame.snapshot));
+  plots.push_back(velocity_plot(history.velocities()));
+  const auto gas = vibrated_gas(*frame.scene);
+  if (gas && gas->wall_restitution == 1.0 && gas->restitution < 1.0) {
+    plots.push_back(figure_plot(samples, *gas));
+  }
+  return plots;
+}
+
+}  // namespace clatter

@@ -1,0 +1,29 @@
+#include <imgui.h>
+
+#include "app/view/panels.h"
+
+namespace clatter {
+
+Recording record_panel(Controls& controls) {
+  if (!group("Record")) return Recording::None;
+  Recording asked = Recording::None;
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (controls.button("screenshot", "Screenshot", "A PNG of the view, with its scene inside (F2)",
+                      width)) {
+    asked = Recording::Screenshot;
+  }
+  if (controls.button("save", "Save scene",
+                      "The scene as it is set, with all changes so far (Ctrl+S)", width)) {
+    asked = Recording::SaveScene;
+  }
+  if (controls.button("command", "Copy film command",
+                      "Saves the scene with all changes so far, and puts the command line that "
+                      "films it into the clipboard",
+                      width)) {
+    asked = Recording::CopyCommand;
+  }
+  ImGui::Spacing();
+  return asked;
+}
+
+}  // namespace clatter

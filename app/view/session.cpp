@@ -1,0 +1,198 @@
+#include "app/view/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
+#include "engine/scene/schedule.h"
+
+namespace clatter {
+
+// Frames that the engine publishes per second; also how long the next one is, of simulation time.
+static constexpr double kFramesPerSecond = 60.0;
+
+void Session::send(Command command) {
+  ++sent_;
+  worker_.send(std::move(command));
+}
+
+static nlohmann::json status(const Frame& frame) {
+  nlohmann::json told = {{"time", frame.snapshot.time},
+                         {"temperature", frame.snapshot.temperature},
+                         {"collisions", frame.snapshot.collisions},
+                         {"run", frame.run},
+                         {"handled", frame.handled},
+                         {"plays", frame.plays},
+                         {"held", frame.held},
+                         {"changes", frame.scene->changes.size()},
+                         {"disks", frame.snapshot.positions.size()},
+                         {"restitution", frame.scene->disks.restitution}};
+  if (frame.state_hash) {
+    char hash[17];
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(*frame.state_hash));
+    told["hash"] = hash;
+  }
+  if (frame.partners) told["partners"] = *frame.partners;
+  return told;
+}
+
+bool Session::update() {
+  if (!worker_.frames().update()) return false;
+  const Frame& now = frame();
+  if (now.messages > messages_) {
+    messages_ = now.messages;
+    tell(now.message);
+  }
+  if (now.handled > handled_) {
+    handled_ = now.handled;
+    log_.event("handled", {{"command", handled_}});
+  }
+  // What the panels show is what was asked for last, until the engine has answered.
+  if (now.handled == sent_) {
+    plays_ = now.plays;
+    if (now.scene && now.scene != seen_) {
+      seen_ = now.scene;
+      scene_ = *now.scene;
+      scene_.disks.start = opened_.disks.start;
+    }
+  }
+  constexpr std::chrono::milliseconds kStatus{100};
+  if (log_.on() && now.scene && (Clock::now() - logged_ > kStatus || now.state_hash)) {
+    logged_ = Clock::now();
+    log_.event("status", status(now));
+  }
+  return true;
+}
+
+void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
+  scene_ = opened_ = scene;
+  view_ = scene.view;
+  speed_ = view_.speed;
+  seed_ = seed;
+  plays_ = plays;
+  done_.clear();
+  undone_.clear();
+  log_.event("open", {{"title", scene.title}, {"seed", seed}, {"command", sent_ + 1}});
+  send(command::Open{scene, seed, plays});
+}
+
+Scene Session::recorded() const {
+  Scene scene = *frame().started;
+  scene.changes = frame().scene->changes;
+  scene.view = view_;
+  scene.view.speed = speed_;
+  if (!scene.spins()) {
+    // Spins that came later have no colour at the start.
+    if (scene.view.colour_by == ColourBy::Spin) scene.view.colour_by = ColourBy::Speed;
+    const auto& field = scene.view.field;
+    if (field == Field::Spin || field == Field::SpinTemperature) scene.view.field.reset();
+  }
+  return scene;
+}
+
+void Session::restart() {
+  Scene scene = scene_;
+  scene.changes = opened_.changes;
+  if (!scene.changes.empty()) scene = opened_;  // they start from its laws
+  scene.view = view_;
+  scene.view.speed = speed_;
+  log_.event("reset", {{"seed", seed_}, {"command", sent_ + 1}});
+  send(command::Open{scene, seed_, plays_});
+}
+
+void Session::refit() {
+  Scene scene = scene_;
+  scene.changes.clear();
+  scene.view = view_;
+  scene.view.speed = speed_;
+  log_.event("refit", {{"command", sent_ + 1}});
+  send(command::Open{scene, seed_, plays_, true});
+}
+
+void Session::restart_with_new_seed() {
+  ++seed_;
+  restart();
+}
+
+void Session::play(bool on) {
+  plays_ = on;
+  log_.event(on ? "play" : "pause", {{"command", sent_ + 1}});
+  send(command::Play{on});
+}
+
+void Session::step_frame() {
+  log_.event("step_frame", {{"command", sent_ + 1}});
+  send(command::Step{speed_ / kFramesPerSecond});
+}
+
+void Session::step_collision() {
+  log_.event("step_collision", {{"command", sent_ + 1}});
+  send(command::StepCollision{});
+}
+
+void Session::set_speed(double speed) {
+  speed_ = std::clamp(speed, 1e-4, 1e6);
+  log_.event("speed", {{"speed", speed_}});
+  send(command::SetSpeed{speed_});
+}
+
+void Session::set(const std::vector<Override>& settings) {
+  try {
+    scene_ = with_settings(scene_, settings);
+  } catch (const UserError& error) {
+    tell(error.problem() + "; " + error.advice());
+    return;
+  }
+  nlohmann::json keys;
+  for (const Override& setting : settings) keys[setting.key] = setting.value;
+  log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
+  const auto live = [](const Override& setting) { return may_change_live(setting.key); };
+  if (std::ranges::all_of(settings, live)) {
+    send(command::SetLaws{settings});
+  } else {
+    refit();
+  }
+}
+
+void Session::remember(Edit edit) {
+  done_.push_back(std::move(edit));
+  undone_.clear();
+}
+
+void Session::undo() {
+  if (done_.empty()) return;
+  log_.event("undo", nlohmann::json::object());
+  set(done_.back().before);
+  undone_.push_back(std::move(done_.back()));
+  done_.pop_back();
+}
+
+void Session::redo() {
+  if (undone_.empty()) return;
+  log_.event("redo", nlohmann::json::object());
+  set(undone_.back().after);
+  done_.push_back(std::move(undone_.back()));
+  undone_.pop_back();
+}
+
+void Session::set_view(const View& view) {
+  const bool averages_anew =
+      view.field != view_.field || view.arrows != view_.arrows || view.window != view_.window;
+  view_ = view;
+  ++views_;
+  if (averages_anew) send(command::Show{view});
+}
+
+void Session::tell(const std::string& message) {
+  message_ = message;
+  told_ = Clock::now();
+  log_.event("message", {{"text", message}});
+}
+
+double Session::message_age() const {
+  return std::chrono::duration<double>(Clock::now() - told_).count();
+}
+
+}  // namespace clatter

@@ -1,0 +1,70 @@
+#include "app/view/thumbnails.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+#include "render/canvas.h"
+
+namespace clatter {
+
+// The gas of a scene after a few seconds on screen, but no longer than a few thousand events take.
+static Snapshot snapshot_of_scene(const std::string& name) {
+  constexpr double kSeconds = 3.0;
+  constexpr std::uint64_t kMostSteps = 20'000;
+  const Scene scene = load_scene(name);
+  ScheduledRun run(scene, 1);
+  run.show(scene.view);
+  run.run_until(kSeconds * scene.view.speed, Simulation<2>::kNoLimit, kMostSteps);
+  return run.snapshot();
+}
+
+GLuint Thumbnails::of(const std::string& name) {
+  finish();
+  const auto found = textures_.find(name);
+  if (found != textures_.end()) return found->second ? found->second->id() : 0;
+  if (making_.empty()) {
+    making_ = name;
+    snapshot_ = std::async(std::launch::async, [this, name] {
+      Snapshot snapshot = snapshot_of_scene(name);
+      on_ready_();
+      return snapshot;
+    });
+  }
+  return 0;
+}
+
+void Thumbnails::finish() {
+  if (making_.empty() || snapshot_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return;
+  }
+  const std::string name = std::exchange(making_, {});
+  textures_[name];
+  try {
+    draw(name, snapshot_.get());
+  } catch (const std::exception&) {
+    // A scene without a picture may still be opened, and tells there what is wrong with it.
+  }
+}
+
+void Thumbnails::draw(const std::string& name, const Snapshot& snapshot) {
+  View view = load_scene(name).view;
+  view.overlay = false;
+  const Canvas canvas(*gl_, kSize);
+  canvas.bind();
+  Renderer renderer(*gl_);
+  renderer.draw(snapshot, renderer.fit(snapshot, kSize, view, {}), kSize, view, {});
+  const Image picture = canvas.read();
+  Texture texture = generate<Texture>(*gl_, gl_->GenTextures);
+  gl_->BindTexture(GL_TEXTURE_2D, texture.id());
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSize.width, kSize.height, 0, GL_RGBA,
+                  GL_UNSIGNED_BYTE, picture.rgba.data());
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, 0);
+  textures_[name] = std::move(texture);
+}
+
+}  // namespace clatter

@@ -1,0 +1,144 @@
+#include "app/view/top_bar.h"
+
+#include <imgui.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "app/view/style.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+namespace {
+
+enum class Icon { Play, Pause, Frame, Collision, Reset };
+
+void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 ink) {
+  const auto at = [&](float x, float y) { return ImVec2(centre.x + x * r, centre.y + y * r); };
+  switch (icon) {
+    case Icon::Play:
+      list.AddTriangleFilled(at(-0.6f, -0.9f), at(-0.6f, 0.9f), at(0.9f, 0.0f), ink);
+      break;
+    case Icon::Pause:
+      list.AddRectFilled(at(-0.7f, -0.85f), at(-0.2f, 0.85f), ink);
+      list.AddRectFilled(at(0.2f, -0.85f), at(0.7f, 0.85f), ink);
+      break;
+    case Icon::Frame:
+      list.AddTriangleFilled(at(-0.8f, -0.8f), at(-0.8f, 0.8f), at(0.4f, 0.0f), ink);
+      list.AddRectFilled(at(0.5f, -0.8f), at(0.85f, 0.8f), ink);
+      break;
+    case Icon::Collision:
+      list.AddCircle(at(-0.5f, 0.0f), 0.5f * r, ink, 0, 0.2f * r);
+      list.AddCircleFilled(at(0.5f, 0.0f), 0.5f * r, ink);
+      break;
+    case Icon::Reset:
+      list.PathArcTo(centre, 0.75f * r, -0.7f, 4.2f, 24);
+      list.PathStroke(ink, 0, 0.25f * r);
+      list.AddTriangleFilled(at(0.15f, -0.45f), at(0.95f, -0.45f), at(0.75f, -1.15f), ink);
+      break;
+  }
+}
+
+bool icon_button(Controls& controls, const char* key, Icon icon, const char* help) {
+  const float height = ImGui::GetFrameHeight();
+  ImGui::PushID(key);
+  const bool clicked = controls.button(key, "##icon", help, 1.35f * height);
+  ImGui::PopID();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  draw_icon(*ImGui::GetWindowDrawList(), icon,
+            ImVec2(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)), 0.28f * height,
+            ImGui::GetColorU32(ImGuiCol_Text));
+  ImGui::SameLine();
+  return clicked;
+}
+
+void speed_field(Session& session, Controls& controls) {
+  const double speed = session.frame().speed;
+  if (controls.button("slower", "−", "Slower ( - )")) session.set_speed(speed / std::sqrt(2.0));
+  ImGui::SameLine();
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3g /s", speed);
+  ImGui::AlignTextToFramePadding();
+  const float left = ImGui::GetCursorPosX();
+  ImGui::TextUnformatted(text);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Simulation time per second");
+  ImGui::SameLine(left + 4.2f * ImGui::GetFontSize());
+  if (controls.button("faster", "+", "Faster ( + )")) session.set_speed(speed * std::sqrt(2.0));
+  ImGui::SameLine();
+}
+
+struct Health {
+  Colour colour;
+  std::string reasons;
+};
+
+Health health_of(const Frame& frame) {
+  const Colour good = {0x6c, 0xc0, 0x7a}, warns = {0xf2, 0xc1, 0x4e}, bad = {0xe0, 0x6c, 0x5a};
+  constexpr double kDeepest = 1e-9, kResidual = 1e-9, kHeld = 0.95;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "Deepest overlap %.1e diameters\nEnergy against its ledger %.1e\n"
+                "Engine holds %.0f %% of the speed",
+                frame.deepest_overlap, frame.ledger_residual, 100.0 * frame.held);
+  Health health{good, text};
+  if (frame.held < kHeld) health.colour = warns;
+  if (frame.deepest_overlap > kDeepest || std::fabs(frame.ledger_residual) > kResidual) {
+    health.colour = bad;
+  }
+  return health;
+}
+
+// Time, events and health, at the right end.
+void figures(const Frame& frame) {
+  char text[128];
+  char events[32] = "";
+  if (frame.plays)
+    std::snprintf(events, sizeof events, "%.3g collisions/s   ", frame.events_per_second);
+  char behind[32] = "";
+  if (frame.plays && frame.held < 0.95)
+    std::snprintf(behind, sizeof behind, "%.2gx   ", frame.held);
+  std::snprintf(text, sizeof text, "%s%st = %.2f", behind, events, frame.snapshot.time);
+  const float unit = ImGui::GetFontSize();
+  const float width = ImGui::CalcTextSize(text).x;
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width - 1.4f * unit);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", text);
+  ImGui::SameLine();
+  ImGui::InvisibleButton("health", ImVec2(unit, ImGui::GetFrameHeight()));
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const Health health = health_of(frame);
+  ImGui::GetWindowDrawList()->AddCircleFilled(
+      ImVec2(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)), 0.3f * unit, packed(health.colour));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", health.reasons.c_str());
+}
+
+}  // namespace
+
+void top_bar(Session& session, Controls& controls, bool& gallery, bool& plots, bool& help) {
+  const Frame& frame = session.frame();
+  const std::string title = session.scene().title.empty() ? "Untitled" : session.scene().title;
+  if (controls.button("gallery", ("≡  " + title + "##gallery").c_str(), "The gallery (G)")) {
+    gallery = !gallery;
+  }
+  ImGui::SameLine();
+  const bool plays = frame.plays;
+  if (icon_button(controls, "play", plays ? Icon::Pause : Icon::Play,
+                  plays ? "Pause (Space)" : "Play (Space)")) {
+    session.play(!plays);
+  }
+  if (icon_button(controls, "frame", Icon::Frame, "Next frame ( . )")) session.step_frame();
+  if (icon_button(controls, "collision", Icon::Collision, "Next collision (Shift + . )")) {
+    session.step_collision();
+  }
+  if (icon_button(controls, "reset", Icon::Reset, "Start anew (R; Shift+R with a new seed)")) {
+    session.restart();
+  }
+  speed_field(session, controls);
+  if (controls.button("plots", "Plots", "Curves of the run (P)")) plots = !plots;
+  ImGui::SameLine();
+  if (controls.button("help", "?", "Keys and mouse (F1)")) help = !help;
+  figures(frame);
+}
+
+}  // namespace clatter

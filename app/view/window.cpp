@@ -1,0 +1,98 @@
+#include "app/view/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui/backends/imgui_impl_glfw.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/view/explorer.h"
+#include "engine/error.h"
+#include "render/context/glfw_context.h"
+
+namespace clatter {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::unique_ptr<GlfwContext> open_window(const WindowOptions& options) {
+  try {
+    return std::make_unique<GlfwContext>("clatter", Size{options.width, options.height});
+  } catch (const RunError& error) {
+    throw RunError(std::string(error.what()) +
+                   "; without a display, `clatter render SCENE --out film.mp4` films it");
+  }
+}
+
+double refresh_rate() {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  return mode && mode->refreshRate > 0 ? mode->refreshRate : 60.0;
+}
+
+// Dear ImGui with the keys and the mouse of a window.
+class Gui {
+ public:
+  explicit Gui(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+  }
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+  ~Gui() {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+};
+
+// Sleeps until something happens, such as a new frame of the engine; where panels still settle, a
+// picture long. Never makes more pictures than the display shows, also where that does not wait.
+void wait_for_events(bool settles, Clock::time_point began, double rate) {
+  if (settles) {
+    glfwWaitEventsTimeout(1.0 / rate);
+  } else {
+    glfwWaitEvents();
+  }
+  const std::chrono::duration<double> shortest(0.7 / rate);
+  std::this_thread::sleep_until(began + std::chrono::duration_cast<Clock::duration>(shortest));
+}
+
+}  // namespace
+
+void show_window(const WindowOptions& options) {
+  const auto context = open_window(options);
+  GLFWwindow* window = context->window();
+  glfwSwapInterval(1);
+  ScriptLog log(options.script_log);
+  Keys keys(window);
+  const Gui gui(window);
+  const double rate = refresh_rate();
+  Worker worker(rate, [] { glfwPostEmptyEvent(); });
+  {
+    Explorer explorer(*context, keys, worker, log);
+    explorer.open(options.scene, options.seed);
+    // Panels settle some pictures after an event, not at once.
+    constexpr int kSettle = 4;
+    for (int left = kSettle; !glfwWindowShouldClose(window); left = left > 0 ? left - 1 : kSettle) {
+      const auto began = Clock::now();
+      glfwPollEvents();
+      ImGui_ImplGlfw_NewFrame();
+      explorer.draw();
+      glfwSwapBuffers(window);
+      wait_for_events(left > 0, began, rate);
+    }
+    log.event("quit", nlohmann::json::object());
+  }
+  // An engine that cannot end at once, say while it looks for room for a million disks, has nothing
+  // that is worth waiting for.
+  constexpr std::chrono::milliseconds kPatience{150};
+  if (!worker.stop_within(kPatience)) std::_Exit(EXIT_SUCCESS);
+}
+
+}  // namespace clatter

@@ -1,0 +1,49 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "app/commands.h"
+#include "app/flag_checks.h"
+#include "app/view/window.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+namespace {
+
+struct ViewOptions {
+  CommonOptions common;
+  std::string size = "1280x800";
+  std::string script_log;
+};
+
+int view(const ViewOptions& options) {
+  WindowOptions window;
+  window.scene = load(options.common);
+  window.seed = options.common.seed.value_or(1);
+  window.script_log = options.script_log;
+  if (std::sscanf(options.size.c_str(), "%dx%d", &window.width, &window.height) != 2 ||
+      window.width < 320 || window.height < 240) {
+    throw UserError({"--size", 0, 0}, "'" + options.size + "' is no window size",
+                    "write WIDTHxHEIGHT, for instance 1280x800");
+  }
+  show_window(window);
+  return kOk;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<ViewOptions>();
+  options->common.scene = "vibrated";
+  CLI::App* command = program.add_subcommand("view", "Explore a scene in a window");
+  add_scene_flags(*command, options->common);
+  command->get_option("scene")->required(false)->capture_default_str();
+  command->add_option("--size", options->size, "Extent of the window")->capture_default_str();
+  command
+      ->add_option("--script-log", options->script_log,
+                   "Tell what the window does, a JSON object per line")
+      ->type_name("FILE");
+  command->callback([options, &exit_code] { exit_code = view(*options); });
+}
+
+}  // namespace clatter

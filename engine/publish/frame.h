@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/publish/snapshot.h"
+
+namespace clatter {
+
+/// Sums since a run's start: the difference between two frames tells what happened between them,
+/// however many frames were left out.
+struct Tally {
+  double time = 0.0;                         ///< that the sums stand for
+  Vec2 temperature_integral = Vec2::Zero();  ///< of T_x and T_y over time
+  double walls_in = 0.0;                     ///< energy that the walls gave
+  double bulk_in = 0.0;                      ///< energy that kicks gave
+  double gravity_in = 0.0;                   ///< work of gravity
+  double dissipated = 0.0;                   ///< energy lost between disks, > 0
+  std::uint64_t collisions = 0;              ///< disk-disk
+};
+
+/// What the engine's thread tells at one time: the gas, and how its run goes.
+struct Frame {
+  std::uint64_t run = 0;      ///< how many runs have been opened; 0: none yet, nothing else holds
+  std::uint64_t handled = 0;  ///< how many commands have been done, or refused
+  Snapshot snapshot;
+  Tally tally;
+  std::shared_ptr<const Scene> scene;  ///< with the laws in force, and all changes
+  std::shared_ptr<const Scene>
+      started;  ///< as the run was started; a start state may be in no file
+  std::uint64_t seed = 1;
+  bool plays = false;
+  double speed = 1.0;                       ///< asked for, simulation time per second
+  double held = 1.0;                        ///< share of the speed that the engine holds, at most 1
+  double events_per_second = 0.0;           ///< collisions, real time
+  double ledger_residual = 0.0;             ///< see Totals, since laws last changed
+  double deepest_overlap = 0.0;             ///< see RunChecks
+  std::optional<std::uint64_t> state_hash;  ///< where the run halts
+  std::optional<std::array<std::uint32_t, 2>> partners;  ///< of a collision just stepped to
+  std::string message;         ///< the last thing to tell: what was refused, why the run stopped
+  std::uint64_t messages = 0;  ///< how many there were
+};
+
+}  // namespace clatter

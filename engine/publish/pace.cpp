@@ -1,0 +1,44 @@
+#include "engine/publish/pace.h"
+
+#include <algorithm>
+
+namespace clatter {
+
+void Pace::set_speed(double speed) {
+  speed_ = speed;
+  restart();
+}
+
+void Pace::restart() {
+  running_ = false;
+  held_ = 1.0;
+}
+
+Pace::Goal Pace::next(Clock::time_point now, double time) {
+  if (!running_) {
+    running_ = true;
+    due_ = observed_since_ = now;
+    goal_ = time_then_ = time;
+  }
+  observe(now, time);
+  due_ += frame_;
+  if (due_ < now || time < goal_) {
+    due_ = std::max(due_, now);
+    goal_ = time;
+  }
+  goal_ += speed_ * std::chrono::duration<double>(frame_).count();
+  return {due_, goal_};
+}
+
+void Pace::observe(Clock::time_point now, double time) {
+  constexpr double kLong = 0.5;  // seconds
+  const double seconds = std::chrono::duration<double>(now - observed_since_).count();
+  if (seconds < kLong) return;
+  // A late start of the last frame is no sign of slowness.
+  const double frame = std::chrono::duration<double>(frame_).count();
+  held_ = std::min(1.0, (time - time_then_) / (speed_ * std::max(kLong, seconds - frame)));
+  observed_since_ = now;
+  time_then_ = time;
+}
+
+}  // namespace clatter

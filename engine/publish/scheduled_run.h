@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/measure/live_field.h"
+#include "engine/publish/snapshot.h"
+#include "engine/scene/schedule.h"
+
+namespace clatter {
+
+/// The simulation that a scene and a seed ask for, at time 0.
+std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed);
+
+/// A simulation whose laws change as its scene says, and what is seen of it. At a change the
+/// simulation is put aside and goes on under the new laws, so that all that watches it must be
+/// handed over.
+class ScheduledRun {
+ public:
+  /// From the start that the scene describes.
+  ScheduledRun(const Scene& scene, std::uint64_t seed);
+  /// Goes on from where a run was saved; the scene's changes up to then are in force.
+  ScheduledRun(const Scene& scene, std::uint64_t seed, const Saved<2>& saved);
+
+  /// The simulation, until laws change.
+  Simulation<2>& simulation() { return *simulation_; }
+  const Simulation<2>& simulation() const { return *simulation_; }  ///< likewise
+  /// The scene with the laws in force, and all its changes.
+  const Scene& scene() const { return schedule_.scene(); }
+  /// Of every random number of the run.
+  std::uint64_t seed() const { return seed_; }
+
+  /// As Simulation::run_until: changes of that time are made. Throws PhysicalStop also where no gas
+  /// can go on under new laws; the old ones then hold.
+  bool run_until(double time, std::uint64_t collisions = Simulation<2>::kNoLimit,
+                 std::uint64_t steps = Simulation<2>::kNoLimit);
+  /// Goes on by a few roundings of its time: however a run was halted before, one that runs until
+  /// simulation().time() now has come through the same events.
+  void settle();
+  /// Laws that hold from the simulation's time on, and are among the scene's changes. Throws
+  /// UserError or PhysicalStop where they cannot; nothing has then happened.
+  void change(const std::vector<Override>& laws);
+
+  /// From now on snapshots have the averages that the view shows, if any.
+  void show(const View& view);
+  /// The gas at the simulation's time.
+  Snapshot snapshot();
+
+  /// Called with the simulation to come while the one before still is simulation().
+  std::function<void(Simulation<2>& next)> on_change;
+
+ private:
+  void change_laws(Schedule changed);
+
+  Schedule schedule_;
+  std::uint64_t seed_;
+  std::unique_ptr<Simulation<2>> simulation_;
+  View view_;
+  std::unique_ptr<LiveField> field_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "engine/measure/totals.h"
+#include "engine/publish/frame.h"
+#include "engine/publish/scheduled_run.h"
+
+namespace clatter {
+
+/// A run and what frames tell of it.
+class WatchedRun {
+ public:
+  /// From the scene's start.
+  WatchedRun(const Scene& scene, std::uint64_t seed);
+
+  /// The run itself.
+  ScheduledRun& run() { return run_; }
+  /// Fills in what it knows; a hash where `halted`.
+  void tell(Frame& frame, bool halted);
+  /// The disks that collided last, if any have.
+  const std::optional<std::array<std::uint32_t, 2>>& partners() const { return last_.partners; }
+
+ private:
+  struct LastCollision : Observer<2> {
+    void on_collision(const PairCollision<2>& collision) override {
+      partners = {{collision.disks[0].disk, collision.disks[1].disk}};
+    }
+    std::optional<std::array<std::uint32_t, 2>> partners;
+  };
+
+  void observe(Simulation<2>& simulation);
+  void close_window();
+
+  ScheduledRun run_;
+  std::optional<Totals<2>> totals_;
+  LastCollision last_;
+  Tally tally_;
+  std::shared_ptr<const Scene> started_;
+  std::shared_ptr<const Scene> scene_;  // as told last
+};
+
+}  // namespace clatter

@@ -1,0 +1,252 @@
+#include "engine/publish/worker.h"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "engine/dynamics/refit.h"
+#include "engine/error.h"
+#include "engine/publish/pace.h"
+#include "engine/publish/watched_run.h"
+
+namespace clatter {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Whether two commands set the same laws, so that only the later one counts: a slider may be
+// dragged faster than a large gas can change its laws.
+bool supersedes(const Command& later, const Command& earlier) {
+  const auto* a = std::get_if<command::SetLaws>(&later);
+  const auto* b = std::get_if<command::SetLaws>(&earlier);
+  return a && b && std::ranges::equal(a->laws, b->laws, {}, &Override::key, &Override::key);
+}
+
+// The work of the engine's thread.
+class Work {
+ public:
+  Work(double frames_per_second, CommandQueue<Command>& commands, Latest<Frame>& frames,
+       const std::function<void()>& on_publish)
+      : commands_(commands),
+        frames_(frames),
+        on_publish_(on_publish),
+        frame_seconds_(1.0 / frames_per_second),
+        pace_(frames_per_second) {}
+
+  void run() {
+    while (!commands_.closed()) {
+      const std::vector<Command> asked = commands_.take();
+      for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
+        if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) attempt(asked[i]);
+        ++handled_;
+      }
+      if (!asked.empty()) publish();
+      if (!moves()) {
+        commands_.wait();
+      } else if (plays_) {
+        play();
+      } else {
+        step();
+      }
+    }
+  }
+
+ private:
+  bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
+  ScheduledRun& gas() { return watched_->run(); }
+  double time() { return gas().simulation().time(); }
+
+  void tell(const std::string& message) {
+    message_ = message;
+    ++messages_;
+  }
+
+  void halt() {
+    plays_ = false;
+    step_to_.reset();
+    to_collision_.reset();
+    partners_.reset();
+    pace_.restart();
+  }
+
+  // A person's mistake, a physical stop, a lack of memory: told, and the gas before stands.
+  void attempt(const Command& command) {
+    try {
+      std::visit([this](const auto& asked) { obey(asked); }, command);
+    } catch (const std::exception& error) {
+      tell(error.what());
+    }
+  }
+
+  void obey(const command::Play& asked) {
+    halt();
+    plays_ = asked.on;
+    if (watched_ && !plays_) gas().settle();
+  }
+  void obey(const command::Step& asked) {
+    halt();
+    if (watched_) step_to_ = time() + asked.duration;
+  }
+  void obey(const command::StepCollision&) {
+    halt();
+    if (watched_) to_collision_ = gas().simulation().counts().disk_disk + 1;
+  }
+  void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
+  void obey(const command::SetLaws& asked) {
+    if (watched_) gas().change(asked.laws);
+  }
+  void obey(const command::Show& asked) {
+    if (watched_) gas().show(asked.view);
+  }
+  void obey(const command::Open& asked) {
+    Scene scene = asked.scene;
+    if (asked.keeps_gas && watched_) {
+      State<2> state = refitted(gas().simulation().state(), scene, asked.seed);
+      scene.disks.start = {.layout = Layout::File, .file = "", .state = std::move(state)};
+    }
+    auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
+    halt();
+    watched_ = std::move(opened);
+    pace_.set_speed(asked.scene.view.speed);
+    plays_ = asked.plays;
+    ++runs_;
+    rate_since_ = {};
+  }
+
+  // Runs up to a time, or as far as it gets until `due`, or until something is asked for.
+  bool advance(double time, std::uint64_t collisions, Clock::time_point due) {
+    constexpr std::chrono::milliseconds kSlice{2};
+    try {
+      for (;;) {
+        const auto began = Clock::now();
+        const EventCounts& counts = gas().simulation().counts();
+        const bool arrived = gas().run_until(time, collisions, counts.steps() + slice_);
+        const bool collided = gas().simulation().counts().collisions() >= collisions;
+        const auto now = Clock::now();
+        slice_ = now - began < kSlice ? 2 * slice_ : std::max<std::uint64_t>(1, slice_ / 2);
+        slice_ = std::min(slice_, kLongestSlice);
+        if (arrived || collided) return arrived;
+        if (now >= due || commands_.pending()) return false;
+      }
+    } catch (const std::exception& stop) {
+      tell(stop.what());
+      halt();
+      return false;
+    }
+  }
+
+  void play() {
+    const Pace::Goal goal = pace_.next(Clock::now(), time());
+    const bool arrived = advance(goal.time, Simulation<2>::kNoLimit, goal.due);
+    publish();
+    if (arrived) commands_.wait_until(goal.due);
+  }
+
+  // As fast as it goes, but with a frame now and then.
+  void step() {
+    const auto due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(frame_seconds_));
+    if (step_to_) {
+      if (advance(*step_to_, Simulation<2>::kNoLimit, due)) halt();
+    } else {
+      const double ahead = time() + pace_.speed() * frame_seconds_;
+      while (to_collision_ && time() < ahead && Clock::now() < due && !commands_.pending()) {
+        advance(ahead, gas().simulation().counts().collisions() + 1, due);
+        if (gas().simulation().counts().disk_disk >= to_collision_) halt_at_collision();
+      }
+    }
+    publish();
+  }
+
+  void halt_at_collision() {
+    halt();
+    partners_ = watched_->partners();
+    gas().settle();
+  }
+
+  void publish() {
+    Frame& frame = frames_.back();
+    if (watched_) watched_->tell(frame, !moves());
+    frame.run = runs_;
+    frame.handled = handled_;
+    frame.plays = plays_;
+    frame.speed = pace_.speed();
+    frame.held = pace_.held();
+    frame.events_per_second = event_rate();
+    frame.partners = partners_;
+    frame.message = message_;
+    frame.messages = messages_;
+    frames_.publish();
+    on_publish_();
+  }
+
+  // Collisions per second of real time over about the last half second.
+  double event_rate() {
+    constexpr std::chrono::milliseconds kLong{500};
+    if (!plays_ || !watched_) return rate_ = 0.0;
+    const auto now = Clock::now();
+    const std::uint64_t events = gas().simulation().counts().collisions();
+    if (rate_since_ == Clock::time_point{}) {
+      rate_since_ = now;
+      events_then_ = events;
+    } else if (now - rate_since_ > kLong) {
+      rate_ = static_cast<double>(events - events_then_) /
+              std::chrono::duration<double>(now - rate_since_).count();
+      rate_since_ = now;
+      events_then_ = events;
+    }
+    return rate_;
+  }
+
+  static constexpr std::uint64_t kLongestSlice = 1u << 20;
+
+  CommandQueue<Command>& commands_;
+  Latest<Frame>& frames_;
+  const std::function<void()>& on_publish_;
+  double frame_seconds_;
+  Pace pace_;
+  std::unique_ptr<WatchedRun> watched_;
+  bool plays_ = false;
+  std::optional<double> step_to_;
+  std::optional<std::uint64_t> to_collision_;  // number of the collision of disks to halt at
+  std::optional<std::array<std::uint32_t, 2>> partners_;
+  std::uint64_t slice_ = 256;  // steps in a row, found while running
+  std::uint64_t runs_ = 0;
+  std::uint64_t handled_ = 0;
+  std::string message_;
+  std::uint64_t messages_ = 0;
+  double rate_ = 0.0;
+  Clock::time_point rate_since_{};
+  std::uint64_t events_then_ = 0;
+};
+
+}  // namespace
+
+Worker::Worker(double frames_per_second, std::function<void()> on_publish)
+    : thread_([this, frames_per_second, on_publish = std::move(on_publish)] {
+        work(frames_per_second, on_publish);
+      }) {}
+
+Worker::~Worker() {
+  commands_.close();
+  thread_.join();
+}
+
+void Worker::work(double frames_per_second, const std::function<void()>& on_publish) {
+  Work(frames_per_second, commands_, frames_, on_publish).run();
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  ended_changed_.notify_one();
+}
+
+bool Worker::stop_within(std::chrono::milliseconds time) {
+  commands_.close();
+  std::unique_lock lock(mutex_);
+  return ended_changed_.wait_for(lock, time, [this] { return ended_; });
+}
+
+}  // namespace clatter

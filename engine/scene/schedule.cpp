@@ -1,0 +1,112 @@
+#include "engine/scene/schedule.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "engine/error.h"
+#include "engine/scene/key_writer.h"
+#include "engine/scene/scene_document.h"
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+bool may_change_live(std::string_view key) {
+  constexpr std::array<std::string_view, 4> kOfDisks = {
+      "disks.restitution", "disks.friction", "disks.tangential_restitution", "disks.inertia"};
+  if (std::ranges::find(kOfDisks, key) != kOfDisks.end()) return true;
+  for (const std::string_view table : {"gravity", "bulk_drive", "collapse"}) {
+    if (key.substr(0, key.find('.')) == table) return true;
+  }
+  return key.starts_with("walls.");
+}
+
+static void require_live(const std::vector<Override>& settings) {
+  for (const Override& setting : settings) {
+    if (may_change_live(setting.key)) continue;
+    throw UserError(
+        {}, "'" + setting.key + "' cannot change while the gas moves",
+        "change laws only: restitution, friction, walls, gravity, bulk_drive, collapse");
+  }
+}
+
+static void require_same_sides(const Scene& before, const Scene& now) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (before.periodic(axis) == now.periodic(axis)) continue;
+    throw UserError({}, "walls come or go", "change what the walls do, not which there are");
+  }
+}
+
+// The numbers of a ramp, a share of the way from those in force to those given.
+static std::vector<Override> on_the_way(const Scene& scene, const std::vector<Override>& targets,
+                                        double share) {
+  Scene laws = scene;
+  laws.changes.clear();
+  const toml::table now = parse_document(scene_to_toml(laws), "");
+  std::vector<Override> settings;
+  for (const auto& [key, value] : targets) {
+    const toml::table wanted = parse_document("value = " + value, "");
+    const auto from = now.at_path(key).value<double>();
+    const auto to = wanted["value"].value<double>();
+    if (!from || !to) {
+      throw UserError({},
+                      "'" + key + "' has no " + (to ? "number to start from" : "number to go to"),
+                      "let it change without a ramp");
+    }
+    settings.push_back({key, value_text(*from + share * (*to - *from))});
+  }
+  return settings;
+}
+
+Schedule::Schedule(const Scene& scene) : scene_(scene) {
+  const std::vector<Change> changes = std::move(scene_.changes);
+  scene_.changes.clear();
+  for (const Change& change : changes) add(change);
+}
+
+double Schedule::next() const {
+  return steps_.empty() ? std::numeric_limits<double>::infinity() : steps_.back().time;
+}
+
+void Schedule::add(const Change& change) {
+  scene_.changes.push_back(change);
+  const double first =
+      change.ramp ? change.time + (change.until - change.time) / kRampSteps : change.time;
+  put({first, scene_.changes.size() - 1, 1});
+}
+
+// Changes of one time come in their order.
+void Schedule::put(const Step& step) {
+  const auto later = [](const Step& a, const Step& b) {
+    return a.time != b.time ? a.time > b.time : a.change > b.change;
+  };
+  steps_.insert(std::ranges::upper_bound(steps_, step, later), step);
+}
+
+void Schedule::change_to(const std::vector<Override>& settings) {
+  require_live(settings);
+  Scene changed = with_settings(scene_, settings);
+  require_same_sides(scene_, changed);
+  scene_ = std::move(changed);
+}
+
+void Schedule::advance() {
+  const Step step = steps_.back();
+  const Change& change = scene_.changes[step.change];
+  steps_.pop_back();
+  if (!change.ramp || step.part == kRampSteps) {
+    change_to(change.set);
+    return;
+  }
+  const int part = step.part + 1;
+  const double share = static_cast<double>(part) / kRampSteps;
+  put({change.time + share * (change.until - change.time), step.change, part});
+  // Of what is left to go, so that the last step arrives.
+  change_to(on_the_way(scene_, change.set, 1.0 / (kRampSteps - step.part + 1)));
+}
+
+void Schedule::skip_to(double time) {
+  while (next() <= time) advance();
+}
+
+}  // namespace clatter

@@ -1,0 +1,44 @@
+#include "render/context/glfw_context.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "engine/error.h"
+
+namespace clatter {
+
+static RunError failure(const char* what) {
+  const char* reason = nullptr;
+  glfwGetError(&reason);
+  return RunError(std::string("glfw: ") + what + (reason ? std::string(", ") + reason : ""));
+}
+
+GlfwContext::GlfwContext(const std::string& title, Size size) {
+  if (!glfwInit()) throw failure("no display");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, title.empty() ? GLFW_FALSE : GLFW_TRUE);
+  window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+  if (!window_) {
+    const RunError error = failure("no window with OpenGL 3.3");
+    glfwTerminate();
+    throw error;
+  }
+  glfwMakeContextCurrent(window_);
+  try {
+    gl_ = load_gl(
+        [](const char* symbol) { return reinterpret_cast<void*>(glfwGetProcAddress(symbol)); });
+  } catch (...) {
+    glfwTerminate();
+    throw;
+  }
+}
+
+GlfwContext::~GlfwContext() {
+  glfwTerminate();
+}
+
+}  // namespace clatter

@@ -1,0 +1,183 @@
+// The window, driven by mouse and keys on a display of its own.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "tests/app/hands.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+namespace {
+
+bool halted(const json& status) {
+  return !status["plays"] && status.contains("hash");
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("window");
+
+TEST_CASE("Window: a gas plays, halts, steps to a frame and to a collision, plays on") {
+  const Hands hands("");
+  const double began = hands.wait_for("status")["time"];
+  std::size_t told = hands.told();
+  CHECK(hands.wait_for("status", told)["time"].get<double>() > began);
+
+  hands.click("play");
+  hands.wait_for("pause", told);
+  const json still = hands.wait_for("status", told, halted);
+  told = hands.told();
+  hands.key("period");
+  const json frame = hands.wait_for("status", told, halted);
+  CHECK(frame["time"].get<double>() ==
+        doctest::Approx(still["time"].get<double>() + 2.0 / 60.0).epsilon(1e-9));
+
+  told = hands.told();
+  hands.key("shift+period");
+  const json hit = hands.wait_for("status", told,
+                                  [](const json& status) { return status.contains("partners"); });
+  CHECK(hit["collisions"].get<int>() == frame["collisions"].get<int>() + 1);
+
+  // The same run without a window has the same hash.
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure vibrated --quiet --set measure.burn_in=0 --until %.17g",
+                hit["time"].get<double>());
+  const json result = json::parse(hands.shell().run(line).out);
+  CHECK(result["state_hash"] == hit["hash"]);
+
+  told = hands.told();
+  hands.key("space");
+  hands.wait_for("status", told, [](const json& status) { return status["plays"]; });
+}
+
+TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") {
+  const Hands hands("--set view.speed=20");
+  const double hot = hands.wait_for(
+      "status", 0, [](const json& status) { return status["time"] > 40.0; })["temperature"];
+  hands.drag("disks.restitution", 0.88, 0.5);
+  const std::size_t told = hands.told();
+  const json cold = hands.wait_for(
+      "status", told, [&](const json& status) { return status["temperature"] < 0.4 * hot; });
+  CHECK(cold["restitution"].get<double>() == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(cold["changes"] > 2);
+  hands.key("ctrl+z");
+  hands.wait_for("undo", told);
+  hands.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
+}
+
+TEST_CASE("Window: a scene of the gallery, found by its name") {
+  const Hands hands("");
+  std::size_t told = hands.told();
+  hands.key("g");
+  hands.wait_for("gallery", told);
+  hands.tool("type --delay 100 cradle");
+  hands.tool("sleep 0.3");
+  hands.key("Return");
+  CHECK(hands.wait_for("open", told)["title"] == "Newton's cradle");
+  CHECK(hands.wait_for("status", told,
+                       [](const json& status) { return status["run"] == 2; })["temperature"] > 0.0);
+  told = hands.told();
+  hands.key("g");
+  hands.wait_for("gallery", told);
+  hands.click("gallery.cooling");
+  CHECK(hands.wait_for("open", told)["title"] == "Haff's cooling");
+}
+
+TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays it again") {
+  const Hands hands("");
+  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 2.0; });
+  hands.drag("walls.left.drive_speed", 0.3, 0.8);
+  hands.key("space");
+  std::size_t told = hands.told();
+  hands.key("F2");
+  const std::string file = hands.wait_for("screenshot", told)["file"];
+  CHECK(hands.shell().read(file).starts_with("\x89PNG"));
+  // Above the left wall there is background, on the wall there is not.
+  const json stage = hands.wait_for(
+      "widget", 0, [](const json& event) { return event["name"] == "stage"; })["place"];
+  CHECK(hands.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3) ==
+        std::vector<int>{0x10, 0x14, 0x18});
+
+  hands.key("ctrl+s");
+  const std::string scene = hands.wait_for("saved", told)["file"];
+  const json now = hands.wait_for("status", 0, halted);
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
+                now["time"].get<double>());
+  const Outcome outcome = hands.shell().run(line);
+  CAPTURE(outcome.err);
+  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+}
+
+TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be saved") {
+  const Hands hands("");
+  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 3.0; });
+  std::size_t told = hands.told();
+  hands.drag("disks.count", 0.8, 0.6);
+  hands.wait_for("refit", told);
+  const json again = hands.wait_for("status", told, [](const json& status) {
+    return status["run"] == 2 && status["time"] > 0.5;
+  });
+  CHECK(again["disks"] < 150);
+  hands.drag("disks.restitution", 0.88, 0.8);
+  hands.key("space");
+  told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.wait_for("saved", told)["file"];
+  const json now = hands.wait_for("status", 0, halted);
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
+                now["time"].get<double>());
+  const Outcome outcome = hands.shell().run(line);
+  CAPTURE(outcome.err);
+  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+}
+
+TEST_CASE("Window: quits at once") {
+  const Hands hands("collapse");
+  hands.key("ctrl+q");
+  hands.wait_for("quit");
+  CHECK(hands.exit_code() == 0);
+}
+
+TEST_CASE("Window: without a display it says what to do instead") {
+  const Shell shell;
+  for (const char* line : {"DISPLAY= clatter view vibrated", "DISPLAY= clatter"}) {
+    const Outcome outcome = shell.run(line);
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("clatter render") != std::string::npos);
+  }
+}
+
+TEST_SUITE_END();
+
+// It looks at real time, and so needs a machine that has nothing else to do.
+TEST_CASE("Window: a law that a slider sets holds within a frame of the display" *
+          doctest::test_suite("slow")) {
+  const Hands hands("");
+  hands.drag("disks.restitution", 0.88, 0.5);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  std::vector<double> delays;
+  for (const json& set : hands.events("set")) {
+    for (const json& done : hands.events("handled")) {
+      if (done["command"] < set["command"]) continue;
+      delays.push_back(done["at"].get<double>() - set["at"].get<double>());
+      break;
+    }
+  }
+  REQUIRE(delays.size() > 2);
+  std::ranges::sort(delays);
+  MESSAGE("median " << delays[delays.size() / 2] << " s");
+  // Until the engine has it, one of its frames; until the window has that, one of its own.
+  CHECK(delays[delays.size() / 2] < 2.0 / 60.0);
+}
+
+}  // namespace clatter

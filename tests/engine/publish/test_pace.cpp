@@ -1,0 +1,49 @@
+#include <doctest/doctest.h>
+
+#include "engine/publish/pace.h"
+
+using namespace clatter;
+
+namespace {
+
+Pace::Clock::time_point at(double seconds) {
+  return Pace::Clock::time_point(std::chrono::duration_cast<Pace::Clock::duration>(
+      std::chrono::duration<double>(1000.0 + seconds)));
+}
+
+double seconds(Pace::Clock::time_point time) {
+  return std::chrono::duration<double>(time - at(0.0)).count();
+}
+
+}  // namespace
+
+TEST_CASE("Pace: frames of an engine that holds the speed are even in both times") {
+  Pace pace(50.0);
+  pace.set_speed(3.0);
+  double now = 0.0, time = 7.0;
+  for (int frame = 1; frame <= 200; ++frame) {
+    const Pace::Goal goal = pace.next(at(now), time);
+    CHECK(seconds(goal.due) == doctest::Approx(0.02 * frame).epsilon(1e-6));
+    CHECK(goal.time == doctest::Approx(7.0 + 0.06 * frame).epsilon(1e-9));
+    time = goal.time;
+    now = 0.02 * frame + 0.003;  // it wakes up a little late
+  }
+  CHECK(pace.held() == doctest::Approx(1.0).epsilon(0.01));
+}
+
+TEST_CASE("Pace: what an engine cannot hold is given up, and told") {
+  Pace pace(50.0);
+  pace.set_speed(4.0);
+  double time = 0.0;
+  for (int frame = 0; frame < 200; ++frame) {
+    const Pace::Goal goal = pace.next(at(0.02 * frame), time);
+    CHECK(goal.time == doctest::Approx(time + 0.08));
+    time += 0.02;  // a quarter
+  }
+  CHECK(pace.held() == doctest::Approx(0.25).epsilon(0.05));
+  // Once it can, it holds the speed again, without a rush.
+  const Pace::Goal goal = pace.next(at(4.0), time);
+  CHECK(goal.time == doctest::Approx(time + 0.08));
+  pace.restart();
+  CHECK(pace.held() == 1.0);
+}

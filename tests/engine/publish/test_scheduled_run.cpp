@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/error.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+
+using namespace clatter;
+
+namespace {
+
+Scene vibrated() {
+  return load_scene("vibrated", {{"view.window", "2.0"}});
+}
+
+}  // namespace
+
+TEST_CASE("ScheduledRun: laws that change to themselves leave the run as it is, to the bit") {
+  Scene scene = vibrated();
+  ScheduledRun plain(scene, 11);
+  for (double time : {1.0, 1.7, 8.25}) {
+    scene.changes.push_back({.time = time, .set = {{"disks.restitution", "0.9"}}});
+  }
+  ScheduledRun changing(scene, 11);
+  plain.run_until(12.0);
+  changing.run_until(12.0);
+  CHECK(changing.simulation().state_hash() == plain.simulation().state_hash());
+}
+
+TEST_CASE("ScheduledRun: what is changed by hand is played back to the same bits") {
+  ScheduledRun live(vibrated(), 12);
+  live.show(vibrated().view);
+  // Halted wherever the steps end, as a window does it.
+  for (int part = 1; part <= 40; ++part) {
+    live.run_until(0.5 * part, Simulation<2>::kNoLimit, live.simulation().counts().steps() + 1000);
+    if (part % 5 != 0) continue;
+    live.change({{"disks.restitution", std::to_string(1.0 - 0.01 * part)},
+                 {"walls.left.drive_speed", std::to_string(0.1 * part)}});
+  }
+  live.change({{"gravity.acceleration", "[0.0, -0.5]"}});
+  const double time = live.simulation().time() + 3.0;
+  live.run_until(time);
+
+  Scene scene = vibrated();
+  scene.changes = live.scene().changes;
+  REQUIRE(scene.changes.size() == 9);
+  ScheduledRun played(parse_scene(scene_to_toml(scene), ""), 12);
+  played.run_until(time);
+  CHECK(played.simulation().state_hash() == live.simulation().state_hash());
+  CHECK(played.scene().disks.restitution == live.scene().disks.restitution);
+
+  ScheduledRun other(vibrated(), 12);
+  other.run_until(time);
+  CHECK(other.simulation().state_hash() != live.simulation().state_hash());
+}
+
+TEST_CASE("ScheduledRun: a run that goes on from a checkpoint has the changes up to then") {
+  Scene scene = vibrated();
+  scene.changes = {{.time = 2.0, .set = {{"disks.restitution", "0.7"}}},
+                   {.time = 6.0, .set = {{"disks.restitution", "0.99"}}}};
+  ScheduledRun whole(scene, 13);
+  whole.run_until(4.0);
+  ScheduledRun rest(scene, 13, whole.simulation().save());
+  CHECK(rest.scene().disks.restitution == 0.7);
+  whole.run_until(9.0);
+  rest.run_until(9.0);
+  CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
+}
+
+TEST_CASE("ScheduledRun: the live field goes on across changes") {
+  const Scene scene = vibrated();
+  ScheduledRun plain(scene, 14), changing(scene, 14);
+  plain.show(scene.view);
+  changing.show(scene.view);
+  for (int part = 1; part <= 50; ++part) {
+    plain.run_until(0.1 * part);
+    changing.run_until(0.1 * part);
+    changing.change({{"disks.restitution", "0.9"}});
+  }
+  const FieldMap a = *plain.snapshot().field, b = *changing.snapshot().field;
+  REQUIRE(a.values.size() == b.values.size());
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    CHECK(b.values[i] == doctest::Approx(a.values[i]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
+  ScheduledRun run(vibrated(), 15);
+  run.run_until(3.0);
+  CHECK_THROWS_AS(run.change({{"disks.restitution", "1.5"}}), UserError);
+  CHECK_THROWS_AS(run.change({{"disks.count", "5"}}), UserError);
+  // A wall that stands far inside at once has disks in it.
+  CHECK_THROWS_AS(run.change({{"walls.left",
+                               "{ kind = 'sawtooth', stroke = 6.0, frequency = 0.01,"
+                               " phase = 0.9 }"}}),
+                  PhysicalStop);
+  CHECK(run.scene().changes.empty());
+  CHECK(run.scene().disks.restitution == 0.9);
+  CHECK(run.run_until(4.0));
+}

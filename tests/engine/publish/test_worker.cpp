@@ -1,0 +1,202 @@
+#include <doctest/doctest.h>
+#include <time.h>
+
+#include <cmath>
+
+#include "engine/publish/scheduled_run.h"
+#include "engine/publish/worker.h"
+#include "engine/scene/scene_file.h"
+
+using namespace clatter;
+using namespace std::chrono_literals;
+
+namespace {
+
+using RealClock = std::chrono::steady_clock;
+
+Scene scene_at_speed(const std::string& name, double speed) {
+  return load_scene(name, {{"view.speed", std::to_string(speed)}});
+}
+
+// Waits for a frame that `is_it`; fails where it does not come, however slow the machine.
+template <class IsIt>
+const Frame& wait_for(Worker& worker, IsIt is_it) {
+  const auto end = RealClock::now() + 100s;
+  for (;;) {
+    worker.frames().update();
+    const Frame& frame = worker.frames().front();
+    if (frame.run > 0 && is_it(frame)) return frame;
+    REQUIRE(RealClock::now() < end);
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+const Frame& wait_for_handled(Worker& worker, std::uint64_t commands) {
+  return wait_for(worker, [&](const Frame& frame) { return frame.handled >= commands; });
+}
+
+double process_cpu_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+TEST_CASE("Worker: holds the speed that it is asked for") {
+  Worker worker(60.0);
+  // A few disks, which any machine runs fast enough.
+  Scene scene = load_scene("vibrated", {{"disks.count", "20"}, {"view.speed", "2.0"}});
+  worker.send(command::Open{scene});
+  const double first = wait_for_handled(worker, 1).snapshot.time;
+  const auto began = RealClock::now();
+  std::this_thread::sleep_for(1500ms);
+  worker.frames().update();
+  const Frame& frame = worker.frames().front();
+  const double seconds = std::chrono::duration<double>(RealClock::now() - began).count();
+  // A frame more or less, and what the machine has to do besides.
+  CHECK((frame.snapshot.time - first) / (2.0 * seconds) == doctest::Approx(1.0).epsilon(0.15));
+  CHECK(frame.held > 0.8);
+  CHECK(frame.events_per_second > 0.0);
+  CHECK(frame.tally.time == doctest::Approx(frame.snapshot.time));
+  CHECK(frame.snapshot.field);
+  CHECK(frame.message.empty());
+}
+
+TEST_CASE("Worker: says what share of the speed it holds where it cannot") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 1e7)});
+  const Frame& frame = wait_for(worker, [](const Frame& frame) { return frame.held < 1.0; });
+  CHECK(frame.held > 0.0);
+  CHECK(frame.held < 0.5);
+}
+
+TEST_CASE("Worker: runs played, stepped and made without it have the same hash at a time") {
+  const Scene scene = scene_at_speed("vibrated", 20.0);
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 21});
+  wait_for(worker, [](const Frame& frame) { return frame.snapshot.time > 5.0; });
+  worker.send(command::Play{false});
+  worker.send(command::StepCollision{});
+  worker.send(command::Step{0.125});
+  const Frame halted =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && frame.state_hash; });
+  CHECK_FALSE(halted.plays);
+  const auto simulation = simulation_of(scene, 21);
+  simulation->run_until(halted.snapshot.time);
+  CHECK(simulation->state_hash() == *halted.state_hash);
+}
+
+TEST_CASE("Worker: steps to a frame, and to a collision of the pair that it names") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 2.0), 1, false});
+  CHECK(wait_for_handled(worker, 1).snapshot.time == 0.0);
+  worker.send(command::Step{0.25});
+  const Frame frame =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 2 && frame.state_hash; });
+  CHECK(frame.snapshot.time == 0.25);
+  CHECK_FALSE(frame.partners);
+  worker.send(command::StepCollision{});
+  const Frame hit =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 3 && frame.state_hash; });
+  CHECK(hit.snapshot.collisions == frame.snapshot.collisions + 1);
+  REQUIRE(hit.partners);
+  const auto [a, b] = *hit.partners;
+  Vec2 apart = hit.snapshot.positions[a] - hit.snapshot.positions[b];
+  apart.y() -= hit.snapshot.box.y() * std::round(apart.y() / hit.snapshot.box.y());
+  CHECK(apart.norm() == doctest::Approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE("Worker: laws that are set hold from then on, and the scene it tells plays them back") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 10.0), 22});
+  for (int i = 1; i <= 5; ++i) {
+    std::this_thread::sleep_for(30ms);
+    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(0.9 - 0.1 * i)}}});
+    worker.send(command::SetLaws{{{"walls.left.drive_speed", std::to_string(1.0 + i)}}});
+  }
+  worker.send(command::Play{false});
+  worker.send(command::Step{1.0});
+  const Frame frame =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 13 && frame.state_hash; });
+  CHECK(frame.message.empty());
+  CHECK(frame.scene->disks.restitution == doctest::Approx(0.4));
+  CHECK(frame.scene->changes.size() == 10);
+
+  Scene scene = load_scene("vibrated");
+  scene.changes = frame.scene->changes;
+  ScheduledRun played(parse_scene(scene_to_toml(scene), ""), 22);
+  played.run_until(frame.snapshot.time);
+  CHECK(played.simulation().state_hash() == *frame.state_hash);
+}
+
+TEST_CASE("Worker: of laws set faster than they can change only the last ones count") {
+  Worker worker(60.0);
+  worker.send(command::Open{load_scene("cooling"), 1, false});
+  for (int i = 1; i <= 200; ++i) {
+    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(0.9 - 0.001 * i)}}});
+  }
+  const Frame& frame = wait_for_handled(worker, 201);
+  CHECK(frame.scene->disks.restitution == doctest::Approx(0.7));
+  CHECK(frame.scene->changes.size() < 200);
+}
+
+TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
+  Worker worker(60.0);
+  worker.send(command::Open{load_scene("vibrated"), 1, false});
+  worker.send(command::SetLaws{{{"disks.restitution", "7"}}});
+  const Frame refused = wait_for_handled(worker, 2);
+  CHECK(refused.messages == 1);
+  CHECK(refused.message.find("between 0 and 1") != std::string::npos);
+  CHECK(refused.scene->disks.restitution == 0.9);
+
+  worker.send(command::Open{load_scene("collapse", {{"collapse", "{}"}, {"view.speed", "1000"}})});
+  const Frame stopped = wait_for(worker, [](const Frame& frame) { return frame.messages == 2; });
+  CHECK(stopped.run == 2);
+  CHECK_FALSE(stopped.plays);
+  CHECK(stopped.message.find("contact_time") != std::string::npos);
+  // It goes on once a contact time lets it.
+  worker.send(command::SetLaws{{{"collapse.contact_time", "1e-5"}}});
+  worker.send(command::Play{true});
+  CHECK(wait_for(worker, [&](const Frame& frame) {
+          return frame.snapshot.time > stopped.snapshot.time + 1.0;
+        }).messages == 2);
+}
+
+TEST_CASE("Worker: costs nothing while the gas halts") {
+  Worker worker(60.0);
+  worker.send(command::Open{load_scene("vibrated"), 1, false});
+  wait_for_handled(worker, 1);
+  std::this_thread::sleep_for(50ms);
+  const double before = process_cpu_seconds();
+  std::this_thread::sleep_for(500ms);
+  CHECK(process_cpu_seconds() - before < 0.005);
+}
+
+TEST_CASE("Worker: ends within 200 ms, also in the midst of a collapse") {
+  for (const char* speed : {"2", "1e6"}) {
+    Worker worker(60.0);
+    worker.send(command::Open{load_scene("collapse", {{"view.speed", speed}})});
+    wait_for_handled(worker, 1);
+    std::this_thread::sleep_for(200ms);
+    CHECK(worker.stop_within(200ms));
+  }
+}
+
+TEST_CASE("Worker: where it halts, a run without it has the same hash") {
+  const Scene scene = scene_at_speed("vibrated", 20.0);
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 23});
+  for (std::uint64_t command = 2; command < 12; command += 2) {
+    worker.send(command::Play{true});
+    std::this_thread::sleep_for(20ms);
+    if (command % 4 == 0) worker.send(command::StepCollision{});
+    if (command % 4 != 0) worker.send(command::Play{false});
+    const Frame halted = wait_for(worker, [&](const Frame& frame) {
+      return frame.handled == command + 1 && frame.state_hash;
+    });
+    const auto simulation = simulation_of(scene, 23);
+    simulation->run_until(halted.snapshot.time);
+    CHECK(simulation->state_hash() == *halted.state_hash);
+  }
+}

@@ -1,0 +1,124 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
+#include "engine/scene/schedule.h"
+
+using namespace clatter;
+
+namespace {
+
+const std::string kBox =
+    "[disks]\ncount = 10\nrestitution = 0.9\n[walls.left]\nkind = 'driven'\ndrive_speed = 1\n"
+    "[walls.right]\nkind = 'static'\n";
+
+Scene scene_with(const std::string& changes) {
+  return parse_scene(kBox + changes, "s.toml");
+}
+
+std::string refusal(const std::string& changes) {
+  try {
+    scene_with(changes);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Changes come into force in the order of their times, all keys of one at once") {
+  const Scene scene = scene_with(
+      "[[change]]\ntime = 7\nset = { 'walls.left' = { kind = 'thermal', temperature = 2.0 } }\n"
+      "[[change]]\ntime = 3\nset = { 'disks.restitution' = 0.5, collapse.contact_time = 1e-3 }\n"
+      "[[change]]\ntime = 3\n[change.set]\ndisks.restitution = 0.6\n");
+  Schedule schedule(scene);
+  CHECK(schedule.next() == 3.0);
+  CHECK(schedule.scene().disks.restitution == 0.9);
+  schedule.advance();
+  CHECK(schedule.scene().disks.restitution == 0.5);
+  CHECK(schedule.scene().contact_time == 1e-3);
+  CHECK(schedule.next() == 3.0);
+  schedule.advance();
+  CHECK(schedule.scene().disks.restitution == 0.6);
+  CHECK(schedule.scene().walls[kLeft]->kind == WallKind::Driven);
+  schedule.skip_to(7.0);
+  CHECK(schedule.scene().walls[kLeft]->kind == WallKind::Thermal);
+  CHECK(schedule.scene().walls[kLeft]->temperature == 2.0);
+  CHECK(schedule.next() == std::numeric_limits<double>::infinity());
+  CHECK(schedule.scene().changes.size() == 3);
+}
+
+TEST_CASE("A ramp goes from the value in force to its own in equal steps, and arrives") {
+  Schedule schedule(
+      scene_with("[[change]]\ntime = 10\nset = { 'disks.restitution' = 0.3 }\n"
+                 "ramp = 'linear'\nuntil = 74\n"));
+  for (int step = 1; step <= Schedule::kRampSteps; ++step) {
+    REQUIRE(schedule.next() == 10.0 + step);
+    schedule.advance();
+    CHECK(schedule.scene().disks.restitution ==
+          doctest::Approx(0.9 - 0.6 * step / Schedule::kRampSteps).epsilon(1e-13));
+  }
+  CHECK(schedule.scene().disks.restitution == 0.3);
+  CHECK(schedule.next() == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("A change that is added while the run goes on comes before those to come") {
+  Schedule schedule(scene_with("[[change]]\ntime = 5\nset = { 'disks.restitution' = 0.5 }\n"));
+  schedule.add({.time = 2.0, .set = {{"walls.left.drive_speed", "3.0"}}});
+  CHECK(schedule.next() == 2.0);
+  schedule.advance();
+  CHECK(schedule.scene().walls[kLeft]->drive_speed == 3.0);
+  CHECK(schedule.scene().disks.restitution == 0.9);
+}
+
+TEST_CASE("Changes are written as a scene file that reads back") {
+  const Scene scene = scene_with(
+      "[[change]]\ntime = 1.5\nset = { 'disks.restitution' = 0.5, walls.left = {kind = 'static'} "
+      "}\n"
+      "[[change]]\ntime = 2\nset = { 'walls.left.restitution' = 0.25 }\nramp = 'linear'\n"
+      "until = 60\n");
+  const Scene again = parse_scene(scene_to_toml(scene), "again.toml");
+  REQUIRE(again.changes.size() == 2);
+  CHECK(again.changes[0].time == 1.5);
+  CHECK(again.changes[0].set.size() == 2);
+  CHECK(again.changes[1].ramp == Ramp::Linear);
+  CHECK(again.changes[1].until == 60.0);
+  CHECK(scene_to_toml(again) == scene_to_toml(scene));
+  CHECK(scene_to_json(scene).find("\"change\": [{\"time\": 1.5, \"set\": {") != std::string::npos);
+}
+
+TEST_CASE("What no change can be is told with its place") {
+  const std::string head = "[[change]]\ntime = 1\n";
+  const std::vector<std::pair<std::string, std::vector<const char*>>> wrong = {
+      {"[[change]]\nset = {}\n", {"s.toml:9:1", "'change.time' is missing"}},
+      {head, {"s.toml:9:1", "'change.set' is missing"}},
+      {head + "set = 3\n", {"s.toml:11:1", "table of keys"}},
+      {head + "set = { 'disks.count' = 20 }\n", {"s.toml:9:1", "disks.count", "cannot change"}},
+      {head + "set = { 'disks.restitution' = 2 }\n", {"s.toml:9:1", "between 0 and 1"}},
+      {head + "set = { 'disks.restitutoin' = 1 }\n", {"s.toml:9:1", "cannot change"}},
+      {head + "set = { 'walls.left.drive_sped' = 1 }\n", {"s.toml:9:1", "'drive_speed'"}},
+      {head + "set = { 'walls.top' = { kind = 'static' } }\n", {"s.toml:9:1", "[walls.top]"}},
+      {head + "sett = {}\n", {"s.toml:11:8", "unknown key 'sett'"}},
+      {head + "set = {}\nuntil = 4\n", {"s.toml:12:1", "without a ramp"}},
+      {head + "set = {}\nramp = 'linear'\nuntil = 0.5\n", {"s.toml:13:1", "greater than 1"}},
+      {head + "set = { 'disks.friction' = 0.5 }\nramp = 'linear'\nuntil = 4\n",
+       {"s.toml:9:1", "'disks.friction' has no number to start from"}},
+      {"change = 3\n", {"cannot be 3", "[[change]]"}},
+  };
+  for (const auto& [text, parts] : wrong) {
+    CAPTURE(text);
+    const std::string message = text == "change = 3\n" ? [&] {
+      try {
+        parse_scene(text + kBox, "s.toml");
+      } catch (const UserError& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    }() : refusal(text);
+    CAPTURE(message);
+    for (const char* part : parts) CHECK(message.find(part) != std::string::npos);
+  }
+}
