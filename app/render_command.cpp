@@ -30,6 +30,7 @@ struct RenderOptions {
   double from = 0.0;
   std::optional<double> to;
   std::optional<double> speed;
+  int supersample = 1;
   bool no_overlay = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
@@ -79,11 +80,9 @@ FrameTimes frame_times(const RenderOptions& options, double from, double speed) 
 
 // Draws one frame after the other; fewer than there are times where the run ended early.
 long film(Run& run, const View& view, const OverlayText& text, const FrameTimes& times,
-          GlContext& context, Size size, FrameSink& sink, Progress& progress) {
+          Renderer& renderer, const Canvas& canvas, FrameSink& sink, Progress& progress) {
   Simulation<2>& simulation = run.simulation();
-  Canvas canvas(context.gl(), size);
   canvas.bind();
-  Renderer renderer(context.gl());
   std::optional<LiveField> field;
   if (view.shows_averages()) field.emplace(simulation, view);
   std::optional<Camera> camera;
@@ -92,8 +91,8 @@ long film(Run& run, const View& view, const OverlayText& text, const FrameTimes&
     if (!run.until(time, progress)) return k;
     Snapshot snapshot = snapshot_of(simulation);
     if (field) field->publish(snapshot);
-    if (!camera) camera = renderer.fit(snapshot, size, view, text);
-    renderer.draw(snapshot, *camera, size, view, text);
+    if (!camera) camera = renderer.fit(snapshot, canvas.size(), view, text);
+    renderer.draw(snapshot, *camera, canvas.size(), view, text);
     sink.add(canvas.read(), time);
     progress.update(time);
   }
@@ -119,6 +118,8 @@ int render(const RenderOptions& options) {
 
   Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   const auto context = open_context(options.backend);
+  const Canvas canvas(context->gl(), size);
+  Renderer renderer(context->gl(), options.supersample);
   SinkOptions sink_options;
   sink_options.size = size;
   sink_options.fps = options.fps;
@@ -133,7 +134,8 @@ int render(const RenderOptions& options) {
   {
     Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
                       times.last());
-    frames = film(run, view, {scene.title, scene.caption}, times, *context, size, *sink, progress);
+    frames =
+        film(run, view, {scene.title, scene.caption}, times, renderer, canvas, *sink, progress);
   }
   run.put_aside();
   if (frames == 0) return run.end();
@@ -172,6 +174,11 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->add_option("--speed", options->speed,
                    "Simulation time per second of film (default: the scene's view.speed)")
       ->check(positive_number());
+  command
+      ->add_option("--supersample", options->supersample,
+                   "Draw all but the overlay so many times larger, and average in linear light")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--overwrite", options->overwrite,

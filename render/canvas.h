@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-/// An off-screen picture that OpenGL draws into: RGBA, 8 bits each.
+/// An off-screen picture that OpenGL draws into: RGBA, 8 bits each, colours in sRGB.
 class Canvas {
  public:
   /// Throws RunError where the picture is larger than this OpenGL allows.
@@ -17,11 +17,13 @@ class Canvas {
   void bind() const;
   /// The picture as drawn so far.
   Image read() const;
+  /// The name of the texture that it is.
+  GLuint texture() const { return colour_.id(); }
 
  private:
   const Gl* gl_;
   Size size_;
-  Renderbuffer colour_;
+  Texture colour_;
   Framebuffer framebuffer_;
 };
 

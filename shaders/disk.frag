@@ -5,7 +5,8 @@
 flat in vec2 v_centre;
 flat in vec4 v_colour;
 
-uniform float u_radius;  // pixels
+uniform float u_radius;   // pixels drawn
+uniform float u_samples;  // pixels drawn for one of the finished picture, along each axis
 uniform vec2 u_box_low;  // corners between the faces of the walls, pixels
 uniform vec2 u_box_high;
 
@@ -29,7 +30,7 @@ void main() {
   vec2 inside = min(gl_FragCoord.xy - u_box_low, u_box_high - gl_FragCoord.xy);
   alpha *= mix(kGhost, 1.0, coverage(min(inside.x, inside.y)));
 
-  float rim = clamp(0.14 * u_radius, 0.0, 2.5);
+  float rim = min(0.14 * u_radius, 2.5 * u_samples);
   float shade = mix(0.55, 1.0, coverage(distance - rim));
-  o_colour = vec4(mix(1.0, shade, min(rim, 1.0)) * v_colour.rgb, v_colour.a * alpha);
+  o_colour = vec4(mix(1.0, shade, min(rim / u_samples, 1.0)) * v_colour.rgb, v_colour.a * alpha);
 }

@@ -80,14 +80,14 @@ void DiskLayer::draw(const Snapshot& snapshot, const Projection& projection, Col
     gl_->BindVertexArray(squares_.id());
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
   }
-  gl_->Viewport(0, 0, projection.size.width, projection.size.height);
+  gl_->Viewport(0, 0, projection.drawn().width, projection.drawn().height);
 }
 
 void DiskLayer::collect(const Snapshot& snapshot, const Projection& projection, ColourBy colour_by,
                         const ColourScale& scale, Colour plain) {
   const double reach = reach_pixels(snapshot, projection);
   const double radius = 0.5 * snapshot.diameter;
-  const Vec2 high = Vec2(projection.size.width + reach, projection.size.height + reach);
+  const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
 
   // The shifts along an axis that bring a disk, or its image across a periodic border, into sight.
   auto shifts = [&](int axis, double place, auto&& visit) {
@@ -115,8 +115,8 @@ void DiskLayer::collect(const Snapshot& snapshot, const Projection& projection, 
 void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
                              const Projection& projection) const {
   const int margin = static_cast<int>(reach_pixels(snapshot, projection)) + 1;
-  const int width = projection.size.width + 2 * margin;
-  const int height = projection.size.height + 2 * margin;
+  const int width = projection.drawn().width + 2 * margin;
+  const int height = projection.drawn().height + 2 * margin;
   gl_->Viewport(-margin, -margin, width, height);
 
   const Faces faces = faces_of(snapshot);
@@ -127,6 +127,7 @@ void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   gl_->Uniform2f(program.uniform("u_extent"), width, height);
   gl_->Uniform1f(program.uniform("u_reach"), reach_pixels(snapshot, projection));
   gl_->Uniform1f(program.uniform("u_radius"), radius_pixels(snapshot, projection));
+  gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
   gl_->Uniform2f(program.uniform("u_box_low"), low.x(), low.y());
   gl_->Uniform2f(program.uniform("u_box_high"), high.x(), high.y());
 }

@@ -53,6 +53,16 @@ TEST_CASE("A picture is the same whenever it is drawn, another seed draws anothe
   CHECK(pixels("a.png") != pixels("c.png"));
 }
 
+TEST_CASE("A picture of several samples a pixel has the size asked for, and other edges") {
+  const Shell shell;
+  shell.run(kRender + "--to 1 --out a.png && " + kRender + "--to 1 --supersample 3 --out b.png");
+  CHECK(probe(shell, "b.png") == "160,120,1\n");
+  CHECK(shell.read("a.png") != shell.read("b.png"));
+  const Outcome outcome = shell.run(kRender + "--to 1 --supersample 5 --out c.png");
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("--supersample") != std::string::npos);
+}
+
 TEST_CASE("Arrows need no heatmap, and take none along") {
   const Shell shell;
   const std::string empty = "box.size = [9, 9]\ndisks.count = 4\nview.colour_by = \"none\"\n";
