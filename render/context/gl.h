@@ -16,12 +16,12 @@ namespace clatter {
   X(ClearColor) X(CompileShader) X(CreateProgram) X(CreateShader) X(DeleteBuffers)                \
   X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays)  \
   X(Disable) X(DrawArrays) X(DrawArraysInstanced) X(DrawElementsBaseVertex) X(Enable)             \
-  X(EnableVertexAttribArray) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers)             \
+  X(EnableVertexAttribArray) X(Finish) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers)   \
   X(GenTextures) X(GenVertexArrays) X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog)              \
   X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation)           \
-  X(LinkProgram) X(PixelStorei) X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i)             \
-  X(Uniform2f) X(Uniform4f) X(UseProgram) X(VertexAttribDivisor) X(VertexAttribPointer)           \
-  X(Viewport)
+  X(LinkProgram) X(PixelStorei) X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D)            \
+  X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform4f) X(UseProgram)              \
+  X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
 // clang-format on
 
 /// OpenGL's functions as one context supplies them, named as in the specification without "gl".
