@@ -136,8 +136,9 @@ class Filming {
     spend(times_, kHeatmap, gl_, [&] {
       heatmap_.draw(*snapshot.field, snapshot.box, projection, scale, theme.static_wall);
     });
-    spend(times_, kDisks, gl_,
-          [&] { disks_.draw(snapshot, projection, view_.colour_by, scale, theme.disk); });
+    spend(times_, kDisks, gl_, [&] {
+      disks_.draw(snapshot, projection, {view_.colour_by, scale, theme.disk});
+    });
     spend(times_, kOverlay, gl_, [&] {
       overlay_.draw(snapshot, projection, legends, {"Bench", ""}, theme);
     });

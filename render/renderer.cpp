@@ -136,10 +136,13 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   const ThemeColours theme = theme_of(view);
   gl_->Enable(GL_BLEND);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (samples_ == 1) {
+  // A window's own framebuffer, whose name is 0, need not be of sRGB; what is averaged into it is.
+  GLint target = 0;
+  gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  if (samples_ == 1 && target != 0) {
     draw_world(snapshot, projection, view, legends, theme);
   } else {
-    draw_averaged(snapshot, projection, view, legends, theme);
+    draw_averaged(snapshot, projection, view, legends, theme, static_cast<GLuint>(target));
   }
   if (view.overlay) overlay_.draw(snapshot, projection, legends, text, theme);
 }
@@ -158,8 +161,8 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   }
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, theme);
-  disks_.draw(snapshot, projection, view.colour_by,
-              legends.disks ? legends.disks->scale : ColourScale{}, theme.disk);
+  disks_.draw(snapshot, projection,
+              {view.colour_by, legends.disks ? legends.disks->scale : ColourScale{}, theme.disk});
   if (legends.arrows) {
     arrows_.draw(*snapshot.arrows, projection, projection.samples * legends.arrows->pixels,
                  theme.text, theme.background);
@@ -167,17 +170,16 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
 }
 
 void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,
-                             const View& view, const Legends& legends, const ThemeColours& theme) {
+                             const View& view, const Legends& legends, const ThemeColours& theme,
+                             GLuint target) {
   const Projection finer{projection.camera, projection.size, samples_};
   const Size drawn = finer.drawn();
-  GLint target = 0;
-  gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   if (!fine_ || fine_->size().width != drawn.width || fine_->size().height != drawn.height) {
     fine_.emplace(*gl_, drawn);
   }
   fine_->bind();
   draw_world(snapshot, finer, view, legends, theme);
-  gl_->BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
   average_.draw(*fine_, samples_);
 }
 

@@ -45,7 +45,7 @@ class Renderer {
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
   void draw_averaged(const Snapshot& snapshot, const Projection& projection, const View& view,
-                     const Legends& legends, const ThemeColours& theme);
+                     const Legends& legends, const ThemeColours& theme, GLuint target);
 
   const Gl* gl_;
   int samples_;
