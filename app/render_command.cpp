@@ -21,12 +21,33 @@ namespace clatter {
 
 namespace {
 
+// Presets of size and rate.
+enum class Quality { Low, Medium, High };
+
+struct Preset {
+  const char* size;
+  double fps;
+};
+
+Preset preset_of(Quality quality) {
+  switch (quality) {
+    case Quality::Low:
+      return {"854x480", 15.0};
+    case Quality::Medium:
+      return {"1280x720", 30.0};
+    case Quality::High:
+      return {"1920x1080", 60.0};
+  }
+  return {};
+}
+
 struct RenderOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
   std::string out;
-  std::string size = "1280x720";
-  double fps = 30.0;
+  Quality quality = Quality::Medium;
+  std::optional<std::string> size;  // absent: that of the quality
+  std::optional<double> fps;        // likewise
   double from = 0.0;
   std::optional<double> to;
   std::optional<double> speed;
@@ -56,6 +77,10 @@ Size parse_size(const std::string& text) {
                   "write WIDTHxHEIGHT, each from 16 to 16384, for instance 1280x720");
 }
 
+double fps_of(const RenderOptions& options) {
+  return options.fps.value_or(preset_of(options.quality).fps);
+}
+
 // The film begins at `from`, which is --from or the time of a checkpoint.
 FrameTimes frame_times(const RenderOptions& options, double from, double speed) {
   constexpr double kFilmSeconds = 20.0;
@@ -67,7 +92,7 @@ FrameTimes frame_times(const RenderOptions& options, double from, double speed) 
                     "give a time after " + number_text(from) + ", that of --from or --resume");
   }
   if (one_picture) return {to.value_or(from + kPictureSeconds * speed), 0.0, 1};
-  const double interval = speed / options.fps;
+  const double interval = speed / fps_of(options);
   const double span = to ? *to - from : kFilmSeconds * speed;
   constexpr double kMostFrames = 1e7;
   const double frames = std::max(1.0, std::round(span / interval));
@@ -107,7 +132,7 @@ int render(const RenderOptions& options) {
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
   const double from = std::max(options.from, resumed ? resumed->time() : 0.0);
   const FrameTimes times = frame_times(options, from, view.speed);
-  const Size size = parse_size(options.size);
+  const Size size = parse_size(options.size.value_or(preset_of(options.quality).size));
   constexpr double kMostWindows = 1e7;
   if (view.shows_averages() && times.last() / view.window > kMostWindows) {
     throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
@@ -122,7 +147,7 @@ int render(const RenderOptions& options) {
   Renderer renderer(context->gl(), options.supersample);
   SinkOptions sink_options;
   sink_options.size = size;
-  sink_options.fps = options.fps;
+  sink_options.fps = fps_of(options);
   sink_options.texts = {{"Title", scene.title},
                         {"Software", "clatter " CLATTER_VERSION},
                         {"Seed", std::to_string(run.seed())},
@@ -155,12 +180,20 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command
       ->add_option(
           "--out", options->out,
-          "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
+          "FILE.mp4, .webm, .gif or, without loss, .mkv (film), FILE.png (one picture), or DIR "
+          "(a picture a frame)")
       ->required();
-  command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
-  command->add_option("--fps", options->fps, "Frames per second of film")
-      ->check(number_between(1.0, 1000.0))
-      ->capture_default_str();
+  command
+      ->add_option("-q,--quality", options->quality,
+                   "-ql: 854x480, 15 frames a second; -qm: 1280x720, 30; -qh: 1920x1080, 60 "
+                   "(default: m)")
+      ->transform(
+          one_of<Quality>({{"l", Quality::Low}, {"m", Quality::Medium}, {"h", Quality::High}}))
+      ->type_name("l|m|h");
+  command->add_option("--size", options->size, "Picture size in pixels (default: the quality's)")
+      ->type_name("WIDTHxHEIGHT");
+  command->add_option("--fps", options->fps, "Frames per second of film (default: the quality's)")
+      ->check(number_between(1.0, 1000.0));
   command->add_option("--from", options->from, "Simulation time of the first frame")
       ->check(non_negative_number())
       ->capture_default_str();

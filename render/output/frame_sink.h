@@ -35,7 +35,7 @@ struct SinkOptions {
   int threads = 2;         ///< that encode a sequence's pictures
 };
 
-/// The sink that a path asks for: a film (.mp4, .webm, .gif), one picture (.png), or else a folder
+/// The sink that a path asks for: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or else a folder
 /// for a sequence of pictures. Throws UserError for any other extension.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 

@@ -15,7 +15,7 @@ class Movie final : public FrameSink {
         const std::string& encoder = "ffmpeg");
   ~Movie() override;
 
-  /// Whether there is a kind of film of this extension: ".mp4", ".webm", ".gif".
+  /// Whether there is a kind of film of this extension: ".mp4", ".webm", ".gif", ".mkv".
   static bool knows(const std::string& extension);
 
   void add(Image image, double time) override;

@@ -31,6 +31,25 @@ TEST_CASE("A film has the frames, the rate and the size asked for") {
   CHECK(shell.files() == Files{"film.mp4"});
 }
 
+TEST_CASE("A quality stands for a size and a rate, before which those asked for go") {
+  const Shell shell;
+  const std::string line = "clatter render vibrated --quiet --to 0.1 --speed 1 --out ";
+  struct Asked {
+    std::string flags;
+    std::string found;  // 0.1 s of film
+  };
+  for (const Asked& asked : {Asked{"-ql", "854,480,2\n"},
+                             {"", "1280,720,3\n"},
+                             {"-qm", "1280,720,3\n"},
+                             {"-qh", "1920,1080,6\n"},
+                             {"-qh --size 160x120 --fps 50", "160,120,5\n"}}) {
+    CAPTURE(asked.flags);
+    CHECK(shell.run(line + "film.mp4 " + asked.flags).code == 0);
+    CHECK(probe(shell, "film.mp4") == asked.found);
+  }
+  CHECK(shell.run(line + "film.mp4 -qx").code == 2);
+}
+
 TEST_CASE("A picture has the size asked for and says which scene and seed it shows") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --seed 42 --out picture.png").code == 0);
