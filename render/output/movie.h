@@ -23,9 +23,11 @@ class Movie final : public FrameSink {
 
  private:
   [[noreturn]] void fail();
+  void index();
 
   std::filesystem::path path_;
-  std::filesystem::path part_;  ///< what ffmpeg writes; empty once renamed
+  std::filesystem::path part_;  ///< what ffmpeg writes, playable at any time; empty once renamed
+  std::string program_;         ///< that encodes
   ChildProcess encoder_;
   WorkQueue queue_;  ///< last, so that its thread ends before the rest
 };

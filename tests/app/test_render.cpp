@@ -160,6 +160,18 @@ TEST_CASE("On a full disk rendering fails, says so and leaves nothing") {
   }
 }
 
+TEST_CASE("An mp4 whose run and encoder are killed at once can be played as far as it got") {
+  const Shell shell;
+  shell.run(kRender +
+            "--to 1e5 --out film.mp4 & pid=$!; sleep 4; kill -9 $pid $(cat "
+            "/proc/$pid/task/$pid/children)");
+  CHECK(shell.files() == Files{"film.part.mp4"});
+  int width = 0, height = 0, frames = 0;
+  char comma;
+  std::istringstream(probe(shell, "film.part.mp4")) >> width >> comma >> height >> comma >> frames;
+  CHECK(frames > 30);
+}
+
 TEST_CASE("An interrupted film plays up to where it got") {
   const Shell shell;
   const Outcome outcome =

@@ -114,6 +114,7 @@ TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
   std::ifstream file(folder / "film.mp4", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   CHECK(bytes.find("moov") < bytes.find("mdat"));
+  CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
 }
 
 TEST_CASE("Names that look like options or protocols are names") {
