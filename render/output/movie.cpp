@@ -93,8 +93,7 @@ std::vector<std::string> arguments_for(const std::string& encoder, const Format&
   return all;
 }
 
-// Copies the fragments into one film, with its index first, so that it can play before it is
-// loaded.
+// Copies fragments into one film with its index first, so that it can play before it is loaded.
 std::vector<std::string> indexing_arguments(const std::string& encoder,
                                             const std::filesystem::path& part,
                                             const std::filesystem::path& indexed) {
@@ -119,10 +118,6 @@ ChildProcess start_encoder(const std::string& encoder, const SinkOptions& option
     unlink(part.c_str());
     throw RunError(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
   }
-}
-
-[[noreturn]] void throw_failed(const std::filesystem::path& path, const ChildProcess& encoder) {
-  throw RunError("ffmpeg could not write " + path.string() + ": " + encoder.last_words());
 }
 
 }  // namespace
@@ -171,17 +166,18 @@ void Movie::finish() {
 void Movie::index() {
   const std::filesystem::path indexed = part_name(part_);
   ChildProcess indexer(indexing_arguments(program_, part_, indexed));
-  if (!indexer.wait()) {
+  if (indexer.wait()) {
+    unlink(part_.c_str());
+    part_ = indexed;
+  } else {
+    // Where there is no room for a copy, the film stays as it is, which plays as well.
     unlink(indexed.c_str());
-    throw_failed(path_, indexer);
   }
-  unlink(part_.c_str());
-  part_ = indexed;
 }
 
 void Movie::fail() {
   encoder_.kill();
-  throw_failed(path_, encoder_);
+  throw RunError("ffmpeg could not write " + path_.string() + ": " + encoder_.last_words());
 }
 
 }  // namespace clatter

@@ -23,7 +23,7 @@ class Movie final : public FrameSink {
 
  private:
   [[noreturn]] void fail();
-  void index();
+  void index();  // into a second file, where there is room
 
   std::filesystem::path path_;
   std::filesystem::path part_;  ///< what ffmpeg writes, playable at any time; empty once renamed

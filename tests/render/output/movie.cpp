@@ -117,6 +117,19 @@ TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
   CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
 }
 
+TEST_CASE("Where an mp4 cannot be copied, it stays in fragments and plays") {
+  const TemporaryFolder folder, programs;
+  const auto encoder = make_encoder(
+      programs / "encoder", "case \"$*\" in *'-c copy'*) exit 1 ;; esac; exec ffmpeg \"$@\"");
+  {
+    Movie movie(folder / "film.mp4", options(), encoder);
+    write_film(movie, 20);
+  }
+  CHECK(probe(folder / "film.mp4").find("nb_read_frames=20\n") != std::string::npos);
+  std::filesystem::remove(folder / "film.mp4");
+  CHECK(folder.empty());
+}
+
 TEST_CASE("Names that look like options or protocols are names") {
   const TemporaryFolder folder;
   const auto before = std::filesystem::current_path();
