@@ -21,6 +21,7 @@ struct BenchOptions {
   std::string json;
   int count = 0;               // of disks of a part of the table; 0: the whole table
   double area_fraction = 0.5;  // of that cell
+  double duration = 10000.0;   // simulated time of each run for the fields' table
 };
 
 // What one cell of the engine's table shows.
@@ -107,9 +108,14 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       ->add_option("--area-fraction", options->area_fraction, "One cell of the engine's table: phi")
       ->check(number_between(1e-6, 0.9))
       ->capture_default_str();
+  command
+      ->add_option("--duration", options->duration,
+                   "Simulated time of each run for the fields' table")
+      ->check(positive_number())
+      ->capture_default_str();
   command->callback([options, &exit_code] {
     if (options->name == "fields") {
-      exit_code = bench_fields(options->json);
+      exit_code = bench_fields(options->duration, options->json);
     } else if (options->name == "render") {
       exit_code = bench_render(options->json, options->count);
     } else {

@@ -1,36 +1,101 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/write_file.h"
 #include "engine/dynamics/disk.h"
 #include "engine/dynamics/prediction.h"
+#include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
+#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 
+namespace {
+
 // Besides the disk and its plan: one line of a cell each, and two entries of the event queue with
 // room to grow.
-static constexpr double kBytesPerDisk =
+constexpr double kBytesPerDisk =
     sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
 
-static int check(const CommonOptions& options) {
+// Something that a scene may have the program model.
+struct Part {
+  const char* name;
+  std::string extent;  // "no", "yes", or what of it
+  double bytes;        // in all
+};
+
+std::string yes(bool modelled) {
+  return modelled ? "yes" : "no";
+}
+
+std::string names_of(const std::vector<Field>& fields) {
+  std::string names;
+  std::string_view last;
+  for (const Field field : fields) {
+    const std::string_view name = name_of(field, kProfiles);
+    if (name != last) names += (names.empty() ? "" : ", ") + std::string(name);
+    last = name;
+  }
+  return names;
+}
+
+Part fields_of(const Scene& scene) {
+  const Measure& measure = scene.measure;
+  if (measure.fields.empty()) return {"fields", "no", 0.0};
+  return {"fields", names_of(measure.fields), cells_memory(measure, scene.spins())};
+}
+
+std::vector<Part> parts_of(const Scene& scene) {
+  const double count = scene.disks.count;
+  const bool moving =
+      std::ranges::any_of(scene.walls, [](const auto& wall) { return wall && wall->moves(); });
+  return {{"disks", "yes", count * kBytesPerDisk},
+          {"spins", yes(scene.spins()), scene.spins() ? count * sizeof(Spin<2>) : 0.0},
+          {"gravity", yes(scene.gravity.has_value()), 0.0},
+          {"moving walls", yes(moving), 0.0},
+          {"bulk drive", yes(scene.bulk_drive.has_value()), 0.0},
+          {"t_c", yes(scene.contact_time.has_value()),
+           scene.contact_time ? count * sizeof(double) : 0.0},
+          fields_of(scene)};
+}
+
+void print_parts(const Scene& scene) {
+  const std::vector<Part> parts = parts_of(scene);
+  double bytes = 0.0;
+  for (const Part& part : parts) bytes += part.bytes;
+  std::fprintf(stderr, "Memory: about %.3g MB. Modelled, in bytes a disk:\n", 1e-6 * bytes);
+  for (const Part& part : parts) {
+    const double share = part.bytes / std::max(1, scene.disks.count);
+    std::fprintf(stderr, "  %-12s %6.0f  %s\n", part.name, share, part.extent.c_str());
+  }
+}
+
+void print_events(const Scene& scene, double end) {
+  const double temperature = scene.disks.start.temperature;
+  const double rate = 0.5 * scene.disks.count * enskog_rate(scene.area_fraction(), temperature);
+  std::fprintf(stderr, "Events until t = %g: about %.3g disk-disk collisions", end, rate * end);
+  if (scene.bulk_drive) {
+    std::fprintf(stderr, ", %.3g kicks of all disks", std::floor(end / scene.bulk_drive->interval));
+  }
+  std::fprintf(stderr, "; at the start's temperature %g.\n", temperature);
+}
+
+int check(const CommonOptions& options) {
   const Scene scene = load(options);
   print(scene_to_toml(scene));
-  const double count = scene.disks.count;
-  const double temperature = scene.start_temperature();
-  const double end = options.until.value_or(scene.measure.burn_in + scene.measure.duration);
-  const double rate = 0.5 * count * enskog_rate(scene.area_fraction(), temperature);
-  std::fprintf(
-      stderr,
-      "The scene is sound: %d disks, area fraction %.4f.\n"
-      "Memory: about %.3g MB (%.0f bytes a disk).\n"
-      "Events: about %.3g disk-disk collisions until t = %g at the start's temperature %g.\n",
-      scene.disks.count, scene.area_fraction(), 1e-6 * count * kBytesPerDisk, kBytesPerDisk,
-      rate * end, end, temperature);
+  std::fprintf(stderr, "The scene is sound: %d disks, area fraction %.4f.\n", scene.disks.count,
+               scene.area_fraction());
+  print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
+  print_parts(scene);
   return kOk;
 }
+
+}  // namespace
 
 void add_check_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();

@@ -42,10 +42,13 @@ struct CheckpointOptions {
   std::string resume;    ///< checkpoint from which the run goes on; empty: none, from the start
   std::string file;      ///< checkpoint that is kept up to date; empty: none
   double every = 600.0;  ///< how often, in seconds of wall time
+
+  /// A run that goes on needs no file of a start state.
+  StartFile start_file() const { return resume.empty() ? StartFile::Read : StartFile::Skip; }
 };
 
 /// The scene with the flags' settings. Throws UserError.
-Scene load(const CommonOptions& options);
+Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
 /// Each adds its subcommand to the program; choosing it runs it and stores its exit code.
 void add_measure_command(CLI::App& program, int& exit_code);

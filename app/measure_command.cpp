@@ -1,17 +1,22 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/hdf5_file.h"
 #include "app/interrupt.h"
 #include "app/resources.h"
 #include "app/result_json.h"
 #include "app/run.h"
 #include "app/tables.h"
+#include "app/vtk_files.h"
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
+#include "engine/physics/theory.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 
@@ -24,26 +29,101 @@ struct MeasureOptions {
   CheckpointOptions checkpoints;
   std::string out;         // result file; empty: stdout
   std::string csv;         // folder for tables; empty: none
+  std::string vtk;         // folder for maps; empty: none
+  std::string hdf5;        // file for all of it; empty: none
   std::string save_state;  // file for the state at the end; empty: none
 };
 
 // Samples of a series: some GB of result file.
 constexpr double kMostSamples = 1e7;
 
-// Grains at rest bounce for ever within t_c, and the run spends its time on that.
+// Where t_c makes nearly all collisions elastic, it may be as long as the time between those of a
+// gas of this density and temperature, so that the gas does not dissipate any more; or short, and
+// grains at rest bounce for ever within it, on which the run spends its time.
 void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   constexpr double kMostElastic = 0.9;
+  constexpr double kLong = 0.1;    // of the time between collisions
+  constexpr double kShort = 1e-3;  // likewise: short against it
   const auto elastic = static_cast<double>(measured.elasticised + measured.elasticised_wall);
   const auto all = static_cast<double>(measured.disk_disk + measured.disk_wall);
   if (!scene.contact_time || elastic <= kMostElastic * all) return;
-  std::fprintf(stderr,
-               "note: collapse.contact_time made %.0f %% of all collisions elastic, as of grains "
-               "that rest on each other; a larger one, say %s, would run faster\n",
-               100.0 * elastic / all, number_text(10.0 * *scene.contact_time).c_str());
+  std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
+               100.0 * elastic / all);
+  const double rate = enskog_rate(scene.area_fraction(), measured.temperature.mean);
+  if (*scene.contact_time * rate > kLong) {
+    std::fprintf(stderr,
+                 "for the gas collides as often; a smaller one, say %.1g, would let it dissipate\n",
+                 kShort / rate);
+  } else {
+    std::fprintf(stderr,
+                 "as of grains that rest on each other; a larger one, say %s, would run faster\n",
+                 number_text(10.0 * *scene.contact_time).c_str());
+  }
+}
+
+// Throws where cells gained something else than was booked to them. Residuals are some 1e-15, but
+// where all that was booked is a gravity that changed velocities in no more than their last digits.
+void require_closed_balance(const Measured& measured) {
+  constexpr double kMostRounding = 1e-6;
+  if (!measured.residuals) return;
+  const double largest = measured.residuals->largest().maxCoeff();
+  if (largest <= kMostRounding) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", largest);
+  throw RunError(std::string("the balance equations do not close: residuals are as large as ") +
+                 text +
+                 "; unless gravity is too weak to change velocities, please report this scene and "
+                 "seed");
+}
+
+// Sees to it, before a long run, that its results can be written.
+void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
+  const std::string& checkpoint = options.checkpoints.file;
+  std::vector<Output> outputs = {
+      {"--out", options.out},
+      {"--csv", options.csv},
+      {"--vtk", options.vtk},
+      {"--hdf5", options.hdf5},
+      {"--save-state", options.save_state},
+      {"--checkpoint", checkpoint},
+      {"--checkpoint", checkpoint.empty() ? "" : checkpoint + ".previous"}};
+  const auto add_files = [&](const char* flag, const std::filesystem::path& folder,
+                             const auto& names) {
+    if (folder.empty()) return;
+    for (const auto& name : names) outputs.push_back({flag, folder / name});
+  };
+  add_files("--csv", options.csv, kTableNames);
+  add_files("--vtk", options.vtk, vtk_names());
+  require_distinct(outputs);
+  if (!options.vtk.empty() && spec.fields.empty()) {
+    throw UserError({"--vtk", 0, 0}, "the scene asks for no fields",
+                    "--set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
+  }
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
+  if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
+  if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
+  if (!options.csv.empty()) make_folder(options.csv, "--csv");
+  if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
+}
+
+void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
+                   const Measured& measured) {
+  if (options.out.empty()) {
+    print(result.dump(1) + "\n");
+  } else {
+    write_file(options.out, result.dump(1) + "\n");
+  }
+  if (!options.csv.empty()) write_tables(options.csv, measured);
+  if (!options.vtk.empty()) {
+    write_vtk(options.vtk, measured,
+              result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
+                  ", state hash " + result.at("state_hash").get<std::string>());
+  }
+  if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured);
 }
 
 int measure(const MeasureOptions& options) {
-  const Scene scene = load(options.common);
+  Scene scene = load(options.common, options.checkpoints.start_file());
   const Measure& spec = scene.measure;
   const double end = options.common.until.value_or(spec.burn_in + spec.duration);
   if (!(end > spec.burn_in)) {
@@ -68,12 +148,7 @@ int measure(const MeasureOptions& options) {
     throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
                     "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
   }
-  if (!options.out.empty()) require_writable_file(options.out, "--out");
-  if (!options.csv.empty()) {
-    require_folder_of(options.csv, "--csv");
-    make_folder(options.csv);
-  }
-  if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
+  prepare_outputs(options, spec);
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
@@ -87,18 +162,15 @@ int measure(const MeasureOptions& options) {
   run.put_aside();
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  const auto json = result_json(scene, run.seed(), simulation, measured, performance);
-  if (options.out.empty()) {
-    print(json.dump(1) + "\n");
-  } else {
-    write_file(options.out, json.dump(1) + "\n");
-  }
-  if (!options.csv.empty()) write_tables(options.csv, measured);
+  write_results(options, result_json(scene, run.seed(), simulation, measured, performance),
+                measured);
   if (!options.common.quiet) advise_on_contact_time(scene, measured);
   if (!options.save_state.empty()) {
     write_file(options.save_state, state_to_csv(simulation.state()));
   }
-  return run.end();
+  const int code = run.end();
+  require_closed_balance(measured);
+  return code;
 }
 
 }  // namespace
@@ -111,8 +183,19 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   add_checkpoint_flags(*command, options->checkpoints);
   command->add_option("--out", options->out, "Result file (default: stdout)")
       ->type_name("FILE.json");
-  command->add_option("--csv", options->csv, "Folder for tables of series and profiles")
+  command->add_option("--csv", options->csv, "Folder for tables of series, profiles and maps")
       ->type_name("DIR");
+  command
+      ->add_option(
+          "--vtk", options->vtk,
+          "Folder for maps of the fields, as ParaView opens them: fields.vti, averages "
+          "over the whole time and residuals, and series.pvd, the averages' course; those of an "
+          "earlier run are replaced")
+      ->type_name("DIR");
+  command
+      ->add_option("--hdf5", options->hdf5,
+                   "File for all results, series, profiles and maps of the fields in one")
+      ->type_name("FILE.h5");
   command
       ->add_option("--save-state", options->save_state,
                    "Write the disks at the end, from which a scene may start: "

@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-Scene load(const CommonOptions& options) {
+Scene load(const CommonOptions& options, StartFile start_file) {
   std::vector<Override> overrides;
   for (const std::string& setting : options.settings) {
     const std::size_t equals = setting.find('=');
@@ -20,7 +20,7 @@ Scene load(const CommonOptions& options) {
     }
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
-  return load_scene(options.scene, overrides);
+  return load_scene(options.scene, overrides, start_file);
 }
 
 void add_common_flags(CLI::App& command, CommonOptions& options) {

@@ -48,7 +48,7 @@ struct RenderOptions {
   Quality quality = Quality::Medium;
   std::optional<std::string> size;  // absent: that of the quality
   std::optional<double> fps;        // likewise
-  double from = 0.0;
+  std::optional<double> from;       // absent: 0, or the time of the checkpoint
   std::optional<double> to;
   std::optional<double> speed;
   int supersample = 1;
@@ -81,17 +81,25 @@ double fps_of(const RenderOptions& options) {
   return options.fps.value_or(preset_of(options.quality).fps);
 }
 
-// The film begins at `from`, which is --from or the time of a checkpoint.
-FrameTimes frame_times(const RenderOptions& options, double from, double speed) {
+// The run is at `start`, 0 or the time of a checkpoint, and the film begins there or at --from.
+FrameTimes frame_times(const RenderOptions& options, double start, double speed) {
   constexpr double kFilmSeconds = 20.0;
   constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
   const bool one_picture = std::filesystem::path(options.out).extension() == ".png";
+  const double from = options.from.value_or(start);
+  if (from < start) {
+    throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
+                    "give a time after that, or leave --from out");
+  }
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to && *to < from) {
     throw UserError({"--to", 0, 0}, "the film would end before it begins",
                     "give a time after " + number_text(from) + ", that of --from or --resume");
   }
-  if (one_picture) return {to.value_or(from + kPictureSeconds * speed), 0.0, 1};
+  if (one_picture) {
+    const double time = options.from ? from : from + kPictureSeconds * speed;
+    return {to.value_or(time), 0.0, 1};
+  }
   const double interval = speed / fps_of(options);
   const double span = to ? *to - from : kFilmSeconds * speed;
   constexpr double kMostFrames = 1e7;
@@ -125,19 +133,20 @@ long film(Run& run, const View& view, const OverlayText& text, const FrameTimes&
 }
 
 int render(const RenderOptions& options) {
-  const Scene scene = load(options.common);
+  Scene scene = load(options.common, options.checkpoints.start_file());
   View view = scene.view;
   if (options.speed) view.speed = *options.speed;
   view.overlay = view.overlay && !options.no_overlay;
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
-  const double from = std::max(options.from, resumed ? resumed->time() : 0.0);
-  const FrameTimes times = frame_times(options, from, view.speed);
+  const FrameTimes times = frame_times(options, resumed ? resumed->time() : 0.0, view.speed);
   const Size size = parse_size(options.size.value_or(preset_of(options.quality).size));
   constexpr double kMostWindows = 1e7;
   if (view.shows_averages() && times.last() / view.window > kMostWindows) {
     throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
                     "choose at least " + number_text(times.last() / kMostWindows));
   }
+  const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
+  require_distinct(outputs);
   require_folder_of(options.out, "--out");
   catch_interrupts();
 
@@ -194,14 +203,16 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->type_name("WIDTHxHEIGHT");
   command->add_option("--fps", options->fps, "Frames per second of film (default: the quality's)")
       ->check(number_between(1.0, 1000.0));
-  command->add_option("--from", options->from, "Simulation time of the first frame")
-      ->check(non_negative_number())
-      ->capture_default_str();
+  command
+      ->add_option("--from", options->from,
+                   "Simulation time of the first frame, or of the one picture (default: 0, or that "
+                   "of the checkpoint)")
+      ->check(non_negative_number());
   command
       ->add_option(
           "--to", options->to,
-          "Simulation time of the film's end, or of the one picture (default: 20 s of film, "
-          "10 s for a picture)")
+          "Simulation time of the film's end, or of the one picture (default: 20 s of film; a "
+          "picture 10 s into it)")
       ->check(non_negative_number());
   command
       ->add_option("--speed", options->speed,

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "engine/physics/theory.h"
+#include "app/theory_json.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
 
@@ -36,45 +36,6 @@ static Json energy_json(const Measured& measured) {
   return json;
 }
 
-// Whether left and right are the same wall, vibrated or at rest, and nothing else acts.
-static bool is_vibrated_gas(const Scene& scene) {
-  const auto& left = scene.walls[kLeft];
-  const auto& right = scene.walls[kRight];
-  const auto vibrates = [](const std::optional<Wall>& wall) {
-    return wall && (wall->kind == WallKind::Driven || wall->kind == WallKind::Static);
-  };
-  return vibrates(left) && vibrates(right) && scene.periodic(1) && scene.disks.count > 0 &&
-         left->restitution == right->restitution && left->drive_speed == right->drive_speed &&
-         !scene.spins() && !scene.gravity && !scene.bulk_drive;
-}
-
-// Eqs. (3.6)-(3.14), as far as the scene is the system that they describe.
-static Json theory_json(const Scene& scene) {
-  Json json{{"chi", contact_correlation(scene.area_fraction())}};
-  if (!is_vibrated_gas(scene)) return json;
-  const Wall& wall = *scene.walls[kLeft];
-  const VibratedGas gas{static_cast<double>(scene.disks.count),
-                        scene.box.x(),
-                        scene.box.y(),
-                        scene.disks.restitution,
-                        wall.restitution,
-                        wall.drive_speed};
-  json["psi"] = gas.psi();
-  json["epsilon_effective"] = gas.epsilon_effective();
-  if (wall.drive_speed > 0.0 && gas.epsilon_effective() > 0.0) {
-    json["temperature_simple"] = gas.temperature_simple();
-    json["temperature_refined"] = gas.temperature_refined();
-    json["temperature_corrected"] = gas.temperature_corrected();
-  }
-  // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
-  if (wall.drive_speed == 0.0) {
-    const double rate = gas.haff_rate_corrected(scene.start_temperature());
-    json["haff_rate"] = rate;
-    if (rate < 0.0) json["divergence_time"] = divergence_time(rate);
-  }
-  return json;
-}
-
 static Json profile_json(const Profile& profile) {
   Json json{{"axis", name_of(profile.axis, kAxes)}, {"edges", profile.edges}};
   Json errors = Json::object();
@@ -88,6 +49,13 @@ static Json profile_json(const Profile& profile) {
   }
   json["standard_error"] = errors;
   return json;
+}
+
+// The largest of Eqs. (4.1)-(4.3), of momentum that of its components.
+static Json balance_json(const Residuals& residuals) {
+  const Conserved<2> largest = residuals.largest();
+  return {
+      {"mass", largest[0]}, {"momentum", std::max(largest[1], largest[2])}, {"energy", largest[3]}};
 }
 
 Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,
@@ -127,6 +95,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   if (Json pressure = pressure_json(measured); !pressure.empty()) json["pressure"] = pressure;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
+  if (measured.residuals) json["balance"] = balance_json(*measured.residuals);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
   if (scene.contact_time) {

@@ -30,10 +30,16 @@ double Resumed::time() const {
   return Clock(checkpoint.saved.base).absolute(checkpoint.saved.now);
 }
 
-std::optional<Resumed> resume(const CheckpointOptions& options, const Scene& scene) {
+std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
   if (options.resume.empty()) return std::nullopt;
   const std::string& file = options.resume;
   Resumed resumed{file, read_checkpoint(file), {}};
+  if (scene.disks.start.layout == Layout::File) {
+    if (scene.disks.count == 0) {
+      scene.disks.count = static_cast<int>(resumed.checkpoint.saved.flights.size());
+    }
+    scene.disks.start.temperature = resumed.checkpoint.start_temperature;
+  }
   resumed.differences = differences(resumed.checkpoint.scene, scene_to_toml(scene), file);
   for (const KeyDifference& key : resumed.differences) {
     if (is_fixed(key)) refuse(resumed, key, "give the scene that the checkpoint is of");
@@ -49,7 +55,7 @@ void require_same_measure(const Resumed& resumed) {
   }
 }
 
-std::string changed_laws(const Resumed& resumed) {
+std::string changed_laws(const Resumed& resumed, std::uint64_t seed) {
   std::string keys;
   for (const KeyDifference& difference : resumed.differences) {
     const std::string& key = difference.key;
@@ -57,6 +63,7 @@ std::string changed_laws(const Resumed& resumed) {
                      !key.starts_with("disks.start.") && key.find('.') != std::string::npos;
     if (law) keys += (keys.empty() ? "" : ", ") + key;
   }
+  if (seed != resumed.checkpoint.seed) keys += keys.empty() ? "the seed" : ", the seed";
   return keys;
 }
 

@@ -21,16 +21,17 @@ struct Resumed {
   double time() const;
 };
 
-/// Reads the checkpoint that `--resume` names, if any. Throws UserError unless it has the scene's
-/// box, disks and walled sides.
-std::optional<Resumed> resume(const CheckpointOptions& options, const Scene& scene);
+/// Reads the checkpoint that `--resume` names, if any, and gives a scene whose start state was not
+/// read what it lacks. Throws UserError unless the checkpoint has the scene's box, disks and walled
+/// sides.
+std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene);
 
 /// Throws UserError where the scene's [measure] block asks for something else than averages that
 /// have begun.
 void require_same_measure(const Resumed& resumed);
 
-/// The keys of all laws that differ, separated by commas; empty: none does.
-std::string changed_laws(const Resumed& resumed);
+/// All laws that differ, by their keys, and the seed if it does, separated by commas; empty: none.
+std::string changed_laws(const Resumed& resumed, std::uint64_t seed);
 
 /// Whether a key differs.
 bool differs(const Resumed& resumed, const std::string& key);

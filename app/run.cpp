@@ -54,7 +54,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   simulation_ = std::make_unique<Simulation<2>>(model_of(scene, seed_), resumed_->checkpoint.saved);
   had_spins_ = !resumed_->checkpoint.saved.spins.empty();
   resumed_->checkpoint.saved = {};  // some memory
-  const std::string laws = changed_laws(*resumed_);
+  const std::string laws = changed_laws(*resumed_, seed_);
   if (!laws.empty() && !quiet_) {
     std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation_->time(),
                  laws.c_str());
@@ -63,11 +63,15 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
 
 // Averages go on if there are any. Under another gravity they cannot, for what flights contribute
 // is booked at their end, by the gravity of that time; nor where walls move otherwise, which starts
-// flights anew; nor where spins come or go, for fields then need other sums.
+// flights anew; nor where spins come or go or get another inertia, for fields then need other sums
+// and cells hold another energy.
 bool Run::measures_anew() const {
   if (!resumed_) return false;
   if (resumed_->checkpoint.measurement.empty()) return true;
-  if (!scene_.measure.fields.empty() && scene_.spins() != had_spins_) return true;
+  if (!scene_.measure.fields.empty() &&
+      (scene_.spins() != had_spins_ || differs(*resumed_, "disks.inertia"))) {
+    return true;
+  }
   std::vector<std::string> keys = {"gravity.acceleration"};
   for (const char* side : kSideNames) {
     for (const char* key : {"kind", "stroke", "frequency", "phase"}) {
@@ -118,8 +122,13 @@ bool Run::until(double time, Progress& progress) {
 
 // A run does not fail for a checkpoint on the way: the next may succeed.
 void Run::write() {
-  Checkpoint checkpoint{"clatter " CLATTER_VERSION, command_, scene_to_toml(scene_), seed_,
-                        simulation_->save(),        {}};
+  Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
+                        .command = command_,
+                        .scene = scene_to_toml(scene_),
+                        .start_temperature = scene_.disks.start.temperature,
+                        .seed = seed_,
+                        .saved = simulation_->save(),
+                        .measurement = {}};
   if (measurement_) checkpoint.measurement = measurement_->save();
   try {
     write_checkpoint(file_, checkpoint);
@@ -157,6 +166,7 @@ int Run::end() {
                                             : "; no checkpoint is left: " + failure_));
   }
   require_no_overlap(simulation_->checks().deepest_overlap);
+  // Also of a run that was interrupted: its exit code would say that all there is has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }

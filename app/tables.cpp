@@ -19,10 +19,22 @@ namespace clatter {
   text += line;
 }
 
+static std::string series_table(const Measured& measured) {
+  const std::vector<double>& spin = measured.series_spin_temperature;
+  std::string table = std::string("# units, ") + kUnits + "; time: t, temperature: m a^2/t^2";
+  table += spin.empty() ? "\n" : ", spin_temperature: m a^2/t^2\n";
+  table += spin.empty() ? "time,temperature\n" : "time,temperature,spin_temperature\n";
+  for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
+    append(table, "%.17g,%.17g", measured.series_time[k], measured.series_temperature[k]);
+    if (!spin.empty()) append(table, ",%.17g", spin[k]);
+    table += '\n';
+  }
+  return table;
+}
+
 static std::string profile_table(const Profile& profile) {
   const std::string axis(name_of(profile.axis, kAxes));
-  std::string units =
-      "# units, a: disk diameter, m: disk mass, t: time unit of the scene; " + axis + ": a";
+  std::string units = std::string("# units, ") + kUnits + "; " + axis + ": a";
   std::string header = axis + "_low," + axis + "_high";
   for (const Field field : profile.fields) {
     const std::string name(name_of(field, kHeatmaps));
@@ -40,20 +52,33 @@ static std::string profile_table(const Profile& profile) {
   return table;
 }
 
-void write_tables(const std::filesystem::path& folder, const Measured& measured) {
-  std::string series =
-      "# units: disk diameter, disk mass and the scene's velocity unit are 1\n"
-      "time,temperature";
-  const std::vector<double>& spin = measured.series_spin_temperature;
-  series += spin.empty() ? "\n" : ",spin_temperature\n";
-  for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
-    append(series, "%.17g,%.17g", measured.series_time[k], measured.series_temperature[k]);
-    if (!spin.empty()) append(series, ",%.17g", spin[k]);
-    series += '\n';
+// A line for each cell, which its middle tells.
+static std::string maps_table(const FieldMaps& maps) {
+  std::string units = std::string("# units, ") + kUnits + "; x: a, y: a";
+  std::string header = "x,y";
+  for (const FieldMap& map : maps.maps) {
+    const std::string name(name_of(map.field, kHeatmaps));
+    units += ", " + name + ": " + unit_of(map.field);
+    header += "," + name;
   }
-  write_file(folder / "temperature_series.csv", series);
+  std::string table = units + "\n" + header + "\n";
+  const auto [columns, rows] = maps.maps.front().cells;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      append(table, "%.17g,%.17g", (i + 0.5) * maps.cell.x(), (j + 0.5) * maps.cell.y());
+      const auto cell = static_cast<std::size_t>(j * columns + i);
+      for (const FieldMap& map : maps.maps) append(table, ",%.17g", map.values[cell]);
+      table += '\n';
+    }
+  }
+  return table;
+}
 
-  if (measured.profile) write_file(folder / "profile.csv", profile_table(*measured.profile));
+void write_tables(const std::filesystem::path& folder, const Measured& measured) {
+  const auto [series, profile, maps] = kTableNames;
+  write_file(folder / series, series_table(measured));
+  if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
+  if (measured.maps) write_file(folder / maps, maps_table(*measured.maps));
 }
 
 }  // namespace clatter

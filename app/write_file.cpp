@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <string>
 
 #include "engine/error.h"
@@ -64,10 +65,29 @@ void require_writable_file(const std::filesystem::path& path, const char* flag) 
   if (access(folder.c_str(), W_OK) != 0) throw_unwritable(path);
 }
 
-void make_folder(const std::filesystem::path& folder) {
+void make_folder(const std::filesystem::path& folder, const char* flag) {
+  require_folder_of(folder, flag);
   std::error_code error;
   std::filesystem::create_directory(folder, error);
   if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
+}
+
+// One name of a place, however it is written.
+static std::filesystem::path whole_name(const std::filesystem::path& path) {
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+}
+
+void require_distinct(std::span<const Output> outputs) {
+  std::map<std::filesystem::path, const char*> flags;
+  for (const auto& [flag, path] : outputs) {
+    if (path.empty() || is_special(path)) continue;
+    const auto [other, first] = flags.emplace(whole_name(path), flag);
+    if (first) continue;
+    throw UserError({flag, 0, 0}, path.string() + " is what " + other->second + " writes",
+                    "give each a name of its own");
+  }
 }
 
 }  // namespace clatter

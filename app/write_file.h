@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace clatter {
@@ -21,7 +22,17 @@ void require_folder_of(const std::filesystem::path& path, const char* flag);
 /// Throws what would keep write_file() from writing there, so that one knows before a long run.
 void require_writable_file(const std::filesystem::path& path, const char* flag);
 
-/// Makes a folder where there is none; throws RunError.
-void make_folder(const std::filesystem::path& folder);
+/// Makes a folder where there is none; throws UserError where it has no folder to be in, and
+/// RunError where files cannot be written into it. `flag` gave it.
+void make_folder(const std::filesystem::path& folder, const char* flag);
+
+/// A file or folder that a command writes, and the flag that gave it.
+struct Output {
+  const char* flag;
+  std::filesystem::path path;  ///< empty: none
+};
+
+/// Throws UserError where two outputs have the same name, so that one would replace the other.
+void require_distinct(std::span<const Output> outputs);
 
 }  // namespace clatter

@@ -30,12 +30,19 @@ need_package(CLI11 libcli11-dev)
 need_package(doctest doctest-dev)
 need_module(TOMLPLUSPLUS tomlplusplus libtomlplusplus-dev)
 need_module(DEFLATE libdeflate libdeflate-dev)
+need_module(HDF5 hdf5 libhdf5-dev)
 need_module(IMGUI imgui libimgui-dev)
 need_module(STB stb libstb-dev)
 # The GL libraries are opened at run time; only their headers are needed to build.
 need_header(GL/glcorearb.h libgl-dev)
 need_header(GL/osmesa.h libosmesa6-dev)
 need_header(EGL/egl.h libegl-dev)
+
+# Beside the C library, which alone pkg-config knows.
+find_library(HDF5_CPP hdf5_cpp HINTS ${HDF5_LIBRARY_DIRS})
+if(NOT HDF5_CPP)
+  string(APPEND missing "\n  hdf5_cpp: apt install libhdf5-dev")
+endif()
 
 find_file(CLATTER_FONT DejaVuSans.ttf
           PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu

@@ -16,6 +16,7 @@ struct Place {
 /// do". The program prints it and exits with 2.
 class UserError : public std::runtime_error {
  public:
+  /// `what` is wrong there, and `advice` what to do; an empty advice is left out.
   UserError(const Place& place, const std::string& what, const std::string& advice);
 };
 
@@ -29,6 +30,7 @@ class RunError : public std::runtime_error {
 /// would help; the program prints it and exits with 3.
 class PhysicalStop : public std::runtime_error {
  public:
+  /// `what` says why, where and when; `remedy` is as remedy() gives it.
   explicit PhysicalStop(const std::string& what, const std::string& remedy = "")
       : std::runtime_error(what), remedy_(remedy) {}
 

@@ -15,4 +15,8 @@ struct State {
   std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
 };
 
+/// Overlaps up to this, in diameters, are the rounding of a start state's positions: runs begin
+/// with them.
+inline constexpr double kStartRounding = 1e-12;
+
 }  // namespace clatter

@@ -55,12 +55,20 @@ std::vector<double> round_ticks(double low, double high, int count) {
   return ticks.size() > 1 ? ticks : round_ticks(low, high, count + 1);
 }
 
+// The power of ten of the first digit; the slack is for round numbers that are not exact.
+static double order_of(double value) {
+  return std::floor(std::log10(value) + 1e-9);
+}
+
 std::string tick_text(double value, double step) {
-  const double digits = -std::floor(std::log10(step) + 1e-9);
-  const bool plain = std::abs(digits) <= 4.0;
+  const double magnitude = std::abs(value);
+  const double place = order_of(step);  // of the last digit
+  const bool plain = std::abs(place) <= 4.0;
+  if (magnitude == 0.0 && !plain) return "0";
+  const double digits = plain ? -place : order_of(magnitude) - place;
   char text[32];
-  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e",
-                plain ? static_cast<int>(std::max(0.0, digits)) : 0, std::abs(value));
+  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e", static_cast<int>(std::max(0.0, digits)),
+                magnitude);
   return value < 0.0 ? "−" + std::string(text) : text;
 }
 

@@ -73,12 +73,21 @@ Quantity name_of(Field field) {
       return {"mean spin ω", "", Sign::Either};
     case Field::SpinTemperature:
       return {"spin temperature T", "rot"};
+    case Field::BalanceMass:
+      return {"mass residual", "", Sign::Either};
+    case Field::BalanceMomentumX:
+      return {"momentum residual", "x", Sign::Either};
+    case Field::BalanceMomentumY:
+      return {"momentum residual", "y", Sign::Either};
+    case Field::BalanceEnergy:
+      return {"energy residual", "", Sign::Either};
   }
   return {""};
 }
 
-// With raised exponents for "^2" and "^3".
+// With raised exponents for "^2" and "^3"; nothing for bare numbers.
 std::string typeset(std::string unit) {
+  if (unit == "1") return "";
   for (const auto& [plain, raised] : {std::pair("^2", "²"), {"^3", "³"}}) {
     for (auto at = unit.find(plain); at != std::string::npos; at = unit.find(plain)) {
       unit.replace(at, 2, raised);

@@ -11,10 +11,10 @@ enum class Sign { Positive, Negative, Either };
 
 /// What belongs to a quantity, whatever its values.
 struct Quantity {
-  std::string name;            ///< ends with its symbol: "velocity v"
+  std::string name;            ///< ends with its symbol, if any: "velocity v"
   std::string subscript = "";  ///< of that symbol, e.g. "x"; may be empty
   Sign sign = Sign::Positive;
-  std::string unit = "";  ///< e.g. "a/t"
+  std::string unit = "";  ///< e.g. "a/t"; empty of bare numbers
 
   bool operator==(const Quantity&) const = default;
 };

@@ -2,25 +2,25 @@
 
 #include <libdeflate.h>
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/checkpoint/synced_file.h"
 #include "engine/error.h"
+#include "engine/read_file.h"
 
 namespace clatter {
 
 // A file is: the magic, the head, the body, and the CRC-32 of all before.
 static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
 // To be raised when a struct that it keeps changes.
-static constexpr std::uint32_t kVersion = 1;
+static constexpr std::uint32_t kVersion = 3;
 
+// Program and command come first in every version, so that a file of another one can be told.
 template <class Archive>
 static void visit(Archive& io, Checkpoint& checkpoint) {
-  auto& [program, command, scene, seed, saved, measurement] = checkpoint;
-  io(program, command, scene, seed, saved, measurement);
+  auto& [program, command, scene, start_temperature, seed, saved, measurement] = checkpoint;
+  io(program, command, scene, start_temperature, seed, saved, measurement);
 }
 
 namespace {
@@ -32,6 +32,7 @@ struct Head {
 
 constexpr std::size_t kHeadBytes = sizeof(std::uint32_t) + sizeof(std::uint64_t);
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
+constexpr std::size_t kLargest = 1'000'000'000'000;
 
 template <class Archive>
 void visit(Archive& io, Head& head) {
@@ -71,12 +72,21 @@ std::string read_whole(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ignored)) refuse(file, "there is no such file");
   if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
   if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(std::filesystem::file_size(file, ignored), '\0');
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    refuse(file, std::string("it cannot be read: ") + std::strerror(errno));
-  }
-  return bytes;
+  return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a disk");
+}
+
+// The body is that of another version, of which only the beginning is known.
+[[noreturn]] void refuse_version(const std::filesystem::path& file, std::uint32_t version,
+                                 std::string_view body) {
+  std::string program;
+  std::string command;
+  ArchiveReader reader(body, file.string());
+  reader(program, command);
+  throw UserError({file.string()},
+                  "`" + command + "` of " + program + " wrote this checkpoint, in version " +
+                      std::to_string(version) + "; this program reads version " +
+                      std::to_string(kVersion),
+                  "resume it with " + program);
 }
 
 }  // namespace
@@ -106,15 +116,6 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   take(kMagic.size());
   Head head;
   read(head, take(kHeadBytes), file);
-  if (head.version > kVersion) {
-    refuse(file, "a newer clatter wrote this checkpoint, of version " +
-                     std::to_string(head.version) + "; this one reads version " +
-                     std::to_string(kVersion));
-  }
-  if (head.version < kVersion) {
-    refuse(file, "the checkpoint is of version " + std::to_string(head.version) +
-                     ", which this clatter no longer reads");
-  }
   const std::string_view body = take(head.length);
   std::uint32_t sum = 0;
   read(sum, take(kChecksumBytes), file);
@@ -122,6 +123,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (sum != checksum({whole.data(), whole.size() - kChecksumBytes})) {
     refuse(file, "the checkpoint is damaged: its checksum differs");
   }
+  if (head.version != kVersion) refuse_version(file, head.version, body);
   Checkpoint checkpoint;
   read(checkpoint, body, file);
   return checkpoint;

@@ -8,11 +8,7 @@ template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
   std::array<WallMotion, 2 * D> motions;
   for (int side = 0; side < 2 * D; ++side) {
-    const auto& wall = model.walls[side];
-    if (!wall || !wall->moves()) continue;
-    const bool ramps = wall->kind == WallKind::Sawtooth;
-    motions[side] = {ramps ? WallPath::Sawtooth : WallPath::Sinusoidal, wall->stroke,
-                     wall->frequency, wall->phase};
+    if (model.walls[side]) motions[side] = model.walls[side]->motion();
   }
   return motions;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace clatter {
@@ -10,6 +11,7 @@ namespace clatter {
 static constexpr double kDisksPerCell = 1.08;
 // Cells are wider than a diameter by more than any rounding of positions.
 static constexpr double kLeastWidth = 1.05;
+static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Cells along each axis: as near to cubes as the box allows, shortest edge first, so that a narrow
 // box has the more cells along it.
@@ -40,6 +42,8 @@ CellGrid<D>::CellGrid(const Model<D>& model, std::size_t disks)
   for (int axis = 0; axis < D; ++axis) {
     periodic_[axis] = model.periodic(axis);
     widths_[axis] = box_[axis] / counts_[axis];
+    first_borders_[axis] = periodic_[axis] ? 0.0 : -kInfinity;
+    last_borders_[axis] = periodic_[axis] ? box_[axis] : kInfinity;
     strides_[axis] = stride;
     stride *= counts_[axis];
   }

@@ -31,10 +31,14 @@ class CellGrid {
   const IntVec<D>& counts() const { return counts_; }
   /// The cell that holds a position inside the box.
   IntVec<D> cell_at(const Vec<D>& position) const;
-  /// Place along an axis of the border below cell number `cell`; that of cell counts() is the box.
+  /// Place along an axis of the border below cell number `cell`, or of the last cell's far border
+  /// for counts(); infinitely far off where the box ends at a wall, for there is no cell beyond.
   double border(int axis, int cell) const {
-    return cell == counts_[axis] ? box_[axis] : cell * widths_[axis];
+    if (cell == 0) return first_borders_[axis];
+    return cell == counts_[axis] ? last_borders_[axis] : cell * widths_[axis];
   }
+  /// Edge length of the cells along an axis.
+  double width(int axis) const { return widths_[axis]; }
 
   /// A box of cells about one: the offsets from `from` to `to` along each axis.
   struct Stencil {
@@ -77,6 +81,8 @@ class CellGrid {
   IntVec<D> strides_;
   Vec<D> box_;
   Vec<D> widths_;
+  Vec<D> first_borders_;
+  Vec<D> last_borders_;
   std::array<bool, D> periodic_;
   LargeArray<Line> lines_;            // the cells' own lines first, then the chained ones
   std::vector<std::uint32_t> spare_;  // chained lines not in use

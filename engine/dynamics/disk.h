@@ -5,13 +5,11 @@
 namespace clatter {
 
 /// A disk's stored state: it changes only in the disk's own physical events, and in 2D it fills one
-/// cache line.
+/// cache line. Contact kernels read it as a row of doubles, see Candidates.
 template <int D>
 struct alignas(64) Disk {
   Flight<D> flight;               ///< since its last physical event
   Vec<D> image = Vec<D>::Zero();  ///< whole box lengths by which its cell lies off flight's frame
 };
-
-static_assert(sizeof(Disk<2>) == 64);
 
 }  // namespace clatter

@@ -6,7 +6,6 @@
 
 namespace clatter {
 
-// Heaps of the standard library keep the largest in front, so the order is turned round.
 static bool after(const Event& a, const Event& b) {
   return before(b, a);
 }
@@ -42,9 +41,12 @@ std::uint64_t EventQueue::bucket_of(double time) const {
   return number < 0x1p62 ? static_cast<std::uint64_t>(number) : std::uint64_t{1} << 62;
 }
 
+// By insertion: the bucket at hand holds some three events.
 void EventQueue::push_current(const Event& event) {
   current_.push_back(event);
-  std::push_heap(current_.begin(), current_.end(), after);
+  std::size_t at = current_.size() - 1;
+  for (; at > 0 && before(current_[at - 1], event); --at) current_[at] = current_[at - 1];
+  current_[at] = event;
 }
 
 void EventQueue::push(const Event& event) {
@@ -81,11 +83,6 @@ void EventQueue::add_to_row(const Event& event, std::uint64_t bucket) {
   ++in_rows_;
 }
 
-void EventQueue::pop() {
-  std::pop_heap(current_.begin(), current_.end(), after);
-  current_.pop_back();
-}
-
 void EventQueue::next_bucket() {
   if (in_buckets_ + in_rows_ == 0) {
     // Nothing within reach: start afresh, at the width of what lies beyond.
@@ -98,8 +95,13 @@ void EventQueue::next_bucket() {
   if ((bucket_ & (buckets_.size() - 1)) == 0) spread_row();
   auto& bucket = buckets_[bucket_ & (buckets_.size() - 1)];
   in_buckets_ -= bucket.size();
-  current_.swap(bucket);
-  std::make_heap(current_.begin(), current_.end(), after);
+  if (bucket.size() <= kInsertedUpTo) {
+    for (const Event& event : bucket) push_current(event);
+    bucket.clear();
+  } else {
+    current_.swap(bucket);
+    std::sort(current_.begin(), current_.end(), after);
+  }
 }
 
 void EventQueue::spread_row() {

@@ -11,7 +11,7 @@
 namespace clatter {
 
 /// The calendar: a ladder queue. Events of the far future lie unsorted in rows, the row at hand is
-/// spread over buckets, and the bucket at hand is a small heap; an event moves down once per rung,
+/// spread over buckets, and the bucket at hand is sorted; an event moves down once per rung,
 /// so push and pop cost O(1) at any number of disks. Events are never taken out early: the caller
 /// says which are still live, and the others are dropped as they come up.
 class EventQueue {
@@ -28,7 +28,7 @@ class EventQueue {
   const Event* top(const Live& live);
 
   /// Takes out what top() returned.
-  void pop();
+  void pop() { current_.pop_back(); }
 
   /// Calls `visit` with each event of the bucket that comes `ahead` buckets after the one at hand,
   /// so that the caller can fetch what they will need.
@@ -40,6 +40,7 @@ class EventQueue {
 
  private:
   static constexpr std::size_t kRows = 1024;
+  static constexpr std::size_t kInsertedUpTo = 16;  // events of a bucket; more are sorted at once
   static constexpr std::uint32_t kNone = 0xffffffffu;
   // Rows grow by chunks from a common store, so that memory follows what is planned and not what
   // each row once held.
@@ -59,7 +60,7 @@ class EventQueue {
   double origin_ = 0.0;         // time at which bucket 0 starts
   std::uint64_t bucket_ = 0;    // number of the bucket at hand
   unsigned row_shift_ = 8;      // log2 of the buckets per row
-  std::vector<Event> current_;  // the bucket at hand, a heap with the earliest in front
+  std::vector<Event> current_;  // the bucket at hand, the earliest last
   // [1 << row_shift_] of the row at hand
   std::vector<std::vector<Event>> buckets_ = std::vector<std::vector<Event>>(1u << row_shift_);
   // [kRows], a ring over the coming rows: their newest chunks
@@ -75,7 +76,7 @@ template <typename Live>
 const Event* EventQueue::top(const Live& live) {
   for (;;) {
     while (!current_.empty()) {
-      if (live(current_.front())) return &current_.front();
+      if (live(current_.back())) return &current_.back();
       pop();
     }
     if (in_buckets_ + in_rows_ + later_.size() == 0) return nullptr;

@@ -2,8 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 namespace clatter {
+
+// Disks are what contact kernels read as rows of doubles.
+static_assert(sizeof(Disk<2>) == kRowLength<2> * sizeof(double));
+static_assert(offsetof(Disk<2>, flight) == 0 && offsetof(Flight<2>, v) == 2 * sizeof(double) &&
+              offsetof(Flight<2>, time) == 4 * sizeof(double) &&
+              offsetof(Disk<2>, image) == 6 * sizeof(double));
 
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
@@ -17,7 +25,7 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
     const double travel = boundary.innermost_travel(side);
     if (travel == 0.0) continue;
     // One cell more than the wall comes to, so that rounding at a border does not matter.
-    const double cells = (0.5 * model.diameter + travel) / grid.border(side / 2, 1);
+    const double cells = (0.5 * model.diameter + travel) / grid.width(side / 2);
     reach_[side] = static_cast<int>(cells) + 1;
   }
 }
@@ -69,20 +77,21 @@ template <int D>
 void Prediction<D>::look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
                                   Plan<D>& plan) const {
   using Line = typename CellGrid<D>::Line;
-  Neighbours<D> near;
+  Candidates<D> near;
   int size = 0;
   const auto add = [&](const Line& line, const Vec<D>* wrap) __attribute__((always_inline)) {
     // A fixed number is copied, for how many a cell holds cannot be foreseen and few hold more.
-    std::copy_n(line.disks.begin(), 8, near.disks + size);
+    std::memcpy(near.disks + size, line.disks.data(), 8 * sizeof(std::uint32_t));
     if (line.count > 8) {
-      std::copy_n(line.disks.begin() + 8, Line::kCapacity - 8, near.disks + size + 8);
+      std::memcpy(near.disks + size + 8, line.disks.data() + 8,
+                  (Line::kCapacity - 8) * sizeof(std::uint32_t));
     }
     if (wrap) {
-      std::fill_n(near.wraps + size, line.count, *wrap);
+      for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + size, line.count, (*wrap)[k]);
       near.wrapped = true;
     }
     size += static_cast<int>(line.count);
-    if (size > Neighbours<D>::kCapacity - Line::kCapacity) {
+    if (size > Candidates<D>::kCapacity - Line::kCapacity) {
       weigh(disk, near, size, plan);
       size = 0;
     }
@@ -91,61 +100,44 @@ void Prediction<D>::look_at_disks(std::uint32_t disk, const typename CellGrid<D>
   weigh(disk, near, size, plan);
 }
 
-// Copies the neighbours' flights, seen from a disk, component by component. Inlined by force: where
-// it is not, GCC 12.2 at -O3 takes the instance for wrapped neighbours for one without effect and
-// drops the call.
-template <int D, bool kWrapped>
-[[gnu::always_inline]] static inline void gather(const Disk<D>* disks, const Neighbours<D>& near,
-                                                 int size, const Vec<D> own_image, const Vec<D> box,
-                                                 Candidates<D>& candidates) {
-  for (int i = 0; i < size; ++i) {
-    const Disk<D>& other = disks[near.disks[i]];
-    Vec<D> image = other.image - own_image;
-    if constexpr (kWrapped) image -= near.wraps[i];
-    const Vec<D> shift = image.cwiseProduct(box);
-    for (int k = 0; k < D; ++k) {
-      candidates.r[k][i] = other.flight.r[k];
-      candidates.v[k][i] = other.flight.v[k];
-      candidates.shift[k][i] = shift[k];
-    }
-    candidates.time[i] = other.flight.time;
+template <int D>
+void Prediction<D>::weigh(std::uint32_t disk, Candidates<D>& near, int size, Plan<D>& plan) const {
+  near.size = size;
+  const FirstContact first = first_contact<D>(disks_.data()->flight.r.data(), disk, near,
+                                              model_.box.data(), model_.diameter, gravity_);
+  if (!first.told_apart) {
+    for (int i = 0; i < size; ++i) offer_disk(disk, near, i, kTouching, plan);
+  } else if (plan.contact == kNever) {
+    // Whether there is a contact cannot be foreseen: without one, what is set says so all the same.
+    plan.contact = first.time;
+    plan.partner = near.disks[first.candidate];
+    plan.partner_flight = disks_[plan.partner].flight.number;
+    plan.image = image_of(disk, near, first.candidate).template cast<int>();
+  } else if (first.time <= plan.contact) {
+    offer_disk(disk, near, first.candidate, first.time, plan);
   }
 }
 
-// The disk itself may be among its neighbours: it does not move against itself, so it never
-// touches.
+// Box lengths to add to a disk's r minus a candidate's.
 template <int D>
-void Prediction<D>::weigh(std::uint32_t disk, const Neighbours<D>& near, int size,
-                          Plan<D>& plan) const {
-  const Disk<D>& self = disks_[disk];
-  Candidates<D> candidates;
+Vec<D> Prediction<D>::image_of(std::uint32_t disk, const Candidates<D>& near, int i) const {
+  Vec<D> image = disks_[near.disks[i]].image - disks_[disk].image;
   if (near.wrapped) {
-    gather<D, true>(disks_.data(), near, size, self.image, model_.box, candidates);
-  } else {
-    gather<D, false>(disks_.data(), near, size, self.image, model_.box, candidates);
+    for (int k = 0; k < D; ++k) image[k] -= near.wraps[k][i];
   }
-  const double first =
-      contact_times<D>(self.flight.r.data(), self.flight.v.data(), self.flight.time,
-                       model_.diameter, gravity_, candidates, size);
-  if (first <= plan.contact && first < kNever) {
-    // All that share the earliest time are compared; and all at all, where some touch already.
-    const double last = first == kTouching ? kNever : first;
-    for (int i = 0; i < size; ++i) {
-      if (candidates.contact[i] <= last) offer_disk(disk, near, i, candidates.contact[i], plan);
-    }
-  }
+  return image;
 }
 
+// The contact with one candidate, at its known time, or at one still to be found if that is
+// kTouching.
 template <int D>
-void Prediction<D>::offer_disk(std::uint32_t disk, const Neighbours<D>& near, int i, double time,
+void Prediction<D>::offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                                Plan<D>& plan) const {
-  const Disk<D>& self = disks_[disk];
-  const Disk<D>& other = disks_[near.disks[i]];
-  Vec<D> image = other.image - self.image;
-  if (near.wrapped) image -= near.wraps[i];
+  const Vec<D> image = image_of(disk, near, i);
   if (time == kTouching) {
     const Vec<D> shift = image.cwiseProduct(model_.box);
-    time = contact_time<D>(self.flight, other.flight, shift, model_.diameter, model_.gravity);
+    time = contact_time<D>(disks_[disk].flight, disks_[near.disks[i]].flight, shift,
+                           model_.diameter, model_.gravity);
   }
   offer(time, disk, near.disks[i], image.template cast<int>(), plan);
 }
@@ -171,14 +163,12 @@ void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& pla
   int first_axis = 0;
   for (int axis = 0; axis < D; ++axis) {
     const double v = self.flight.v[axis];
-    const int border = plan.cell[axis] + (v > 0.0);
-    const bool outer = border == 0 || border == grid_.counts()[axis];
-    const double place = grid_.border(axis, border) + self.image[axis] * model_.box[axis];
+    const double place =
+        grid_.border(axis, plan.cell[axis] + (v > 0.0)) + self.image[axis] * model_.box[axis];
     const double time = self.flight.time + (place - self.flight.r[axis]) / v;
-    const bool leaves = v != 0.0 && !(outer && !model_.periodic(axis));
-    const double crossing = leaves ? std::max(now, time) : kNever;
+    const double crossing = v != 0.0 ? std::max(now, time) : kNever;
     first_axis = crossing < first ? axis : first_axis;
-    first = std::min(first, crossing);
+    first = crossing < first ? crossing : first;
   }
   plan.crossing = first;
   plan.crossing_axis = static_cast<std::int8_t>(first_axis);

@@ -28,19 +28,9 @@ struct Plan {
 
   /// The earlier of the two, as an entry of the event queue.
   Event event(std::uint32_t disk) const {
-    if (contact <= crossing) return {contact, disk, partner};
-    return {crossing, disk, kCellBorder};
+    const bool touches = contact <= crossing;
+    return {touches ? contact : crossing, disk, touches ? partner : kCellBorder};
   }
-};
-
-/// Disks near one, as the grid's lines hand them over.
-template <int D>
-struct Neighbours {
-  static constexpr int kCapacity = Candidates<D>::kCapacity;
-
-  std::uint32_t disks[kCapacity];
-  Vec<D> wraps[kCapacity];  ///< see CellGrid::visit; set where `wrapped`
-  bool wrapped = false;
 };
 
 /// Finds what a disk will do next, from stored states alone.
@@ -61,8 +51,9 @@ class Prediction {
  private:
   void look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
                      Plan<D>& plan) const;
-  void weigh(std::uint32_t disk, const Neighbours<D>& near, int size, Plan<D>& plan) const;
-  void offer_disk(std::uint32_t disk, const Neighbours<D>& near, int i, double time,
+  void weigh(std::uint32_t disk, Candidates<D>& near, int size, Plan<D>& plan) const;
+  Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near, int i) const;
+  void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                   Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const;
   void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;

@@ -49,6 +49,7 @@ struct Saved {
   std::vector<Spin<D>> spins;           ///< [N], or empty: all 0
   std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
   std::uint64_t until_base_moves = 0;   ///< physical events left
+  double mean_collision_time = 0.0;     ///< of a disk, see Watchdog; 0: not known
   double kick_interval = 0.0;           ///< of bulk driving; 0: none
   double kick_origin = 0.0;             ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
@@ -58,6 +59,7 @@ struct Saved {
 
 // What checkpoints keep of all this, see engine/checkpoint/archive.h.
 
+/// Passes over all members, in order.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
   auto& [disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale] =
@@ -65,18 +67,21 @@ void visit(Archive& io, EventCounts& counts) {
   io(disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale);
 }
 
+/// Likewise.
 template <class Archive>
 void visit(Archive& io, RunChecks& checks) {
   auto& [deepest_overlap, clock_steps_back] = checks;
   io(deepest_overlap, clock_steps_back);
 }
 
+/// Likewise: both parts, so that nothing is rounded.
 template <class Archive>
 void visit(Archive& io, LongTime& time) {
   auto& [high, low] = time;
   io(high, low);
 }
 
+/// Likewise, the path as whether it is a saw-tooth.
 template <class Archive>
 void visit(Archive& io, WallMotion& motion) {
   auto& [path, stroke, frequency, phase] = motion;
@@ -85,18 +90,21 @@ void visit(Archive& io, WallMotion& motion) {
   path = ramps ? WallPath::Sawtooth : WallPath::Sinusoidal;
 }
 
+/// Likewise.
 template <class Archive, int D>
 void visit(Archive& io, Flight<D>& flight) {
   auto& [r, v, time, number] = flight;
   io(r, v, time, number);
 }
 
+/// Likewise.
 template <class Archive, int D>
 void visit(Archive& io, Saved<D>& saved) {
   auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
-         kick_interval, kick_origin, kicks_since_origin, counts, checks] = saved;
+         mean_collision_time, kick_interval, kick_origin, kicks_since_origin, counts, checks] =
+      saved;
   io(gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
-     kick_interval, kick_origin, kicks_since_origin, counts, checks);
+     mean_collision_time, kick_interval, kick_origin, kicks_since_origin, counts, checks);
 }
 
 }  // namespace clatter

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -15,13 +14,12 @@
 namespace clatter {
 
 // The base moves after this many physical events per disk: rarely enough to cost little (each move
-// plans every disk anew), often enough that times stay below some ten mean free times.
+// plans every disk anew), often enough that times stay below some ten mean free times. See also
+// renew_flight().
 static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Fetching ahead pays once the disks no longer fit the cache.
 static constexpr std::size_t kFetchAheadFrom = 20000;
-// Overlap that a start state may have from the rounding of its positions, in diameters.
-static constexpr double kStartRounding = 1e-12;
 
 // Whether collisions can take energy from the gas, walls give it ever more, or disks come to rest
 // on walls: where time may come to a standstill.
@@ -84,7 +82,9 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
   spins_.resize(model_.spins ? disks_.size() : 0, Spin<D>::Zero());
   last_collisions_.resize(model_.contact_time ? disks_.size() : 0, -kNever);
   for (const auto& wall : model_.walls) heats_ = heats_ || (wall && wall->restitution > 1.0);
-  if (may_stand_still(model_)) watchdog_.emplace(disks_.size(), now_);
+  if (may_stand_still(model_)) {
+    watchdog_.emplace(disks_.size(), now_, saved.mean_collision_time);
+  }
   if (saved.kick_interval != kick_interval<D>(model_)) {
     kick_origin_ = time();
     kicks_since_origin_ = 0;
@@ -167,25 +167,22 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     process(event);
     const bool stands_still = watchdog_ && counts_.collisions() != before &&
                               watchdog_->sees_standstill(now_, event.disk, event.partner);
-    const bool diverges = heats_ && event.partner >= kWall && outruns_clock(event.disk);
+    const bool diverges = heats_ && event.partner >= kWall && is_too_fast(event.disk);
     const bool base_moves = until_base_moves_ == 0;
     if (base_moves) move_base();
     if (diverges) stop_at_divergence();
     if (stands_still) stop_at_standstill();
     if (base_moves) return Halt::BaseMoved;
   }
-  return Halt::Collisions;
+  return Halt::Limit;
 }
 
-// A disk that walls with restitution > 1 have made so fast that it moves noticeably within the
-// rounding of times, or that the squares of speeds are no ordinary numbers any more.
+// A disk that walls with restitution > 1 have made so fast that products of speeds will soon be no
+// ordinary numbers any more.
 template <int D>
-bool Simulation<D>::outruns_clock(std::uint32_t number) const {
-  constexpr double kNoticeable = 1e-10;  // diameters
+bool Simulation<D>::is_too_fast(std::uint32_t number) const {
   constexpr double kFastest = 1e60;
-  const double speed = disks_[number].flight.v.cwiseAbs().maxCoeff();
-  const double rounding = std::numeric_limits<double>::epsilon() * now_;
-  return speed * rounding > kNoticeable * model_.diameter || speed > kFastest;
+  return disks_[number].flight.v.cwiseAbs().maxCoeff() > kFastest;
 }
 
 template <int D>
@@ -199,7 +196,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
     if (kicks) stop = kick_time;
     const Halt halt = advance(stop, collisions, steps);
     if (halt == Halt::BaseMoved) continue;
-    if (halt == Halt::Collisions) return false;
+    if (halt == Halt::Limit) return false;
     if (stop == kNever) return true;
     now_ = std::max(now_, stop);
     if (kicks) {
@@ -283,6 +280,7 @@ Saved<D> Simulation<D>::save() const {
   saved.spins.assign(spins_.begin(), spins_.end());
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
   saved.until_base_moves = until_base_moves_;
+  if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
   saved.kick_interval = kick_interval<D>(model_);
   saved.kick_origin = kick_origin_;
   saved.kicks_since_origin = kicks_since_origin_;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
@@ -80,7 +81,7 @@ class Simulation {
   /// What the run has checked of itself since the start.
   const RunChecks& checks() const { return checks_; }
 
-  /// For run_until: however many collisions there are.
+  /// For run_until: however many collisions, or steps, there are.
   static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
  private:
@@ -92,7 +93,7 @@ class Simulation {
   };
 
   /// Why advance() came back.
-  enum class Halt { Time, Collisions, BaseMoved };
+  enum class Halt { Time, Limit, BaseMoved };
 
   Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
   Timer* due_timer(double stop);
@@ -103,7 +104,7 @@ class Simulation {
   void kick();
   double next_kick() const;
   bool within_contact_time(std::uint32_t number) const;
-  bool outruns_clock(std::uint32_t number) const;
+  bool is_too_fast(std::uint32_t number) const;
   [[noreturn]] void stop_at_standstill() const;
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);

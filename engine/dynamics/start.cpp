@@ -142,6 +142,16 @@ static std::vector<Vec2> lattice_positions(const Room& room, int count, std::uin
   return sites;
 }
 
+// Numbers disks along rows, upwards: those that are near each other then lie near each other in
+// memory too, which large gases gain a quarter of their speed from.
+static void number_by_rows(std::vector<Vec2>& positions) {
+  constexpr double kRowHeight = 1.3;  // diameters: about that of the engine's cells
+  const auto row = [](const Vec2& r) { return std::floor(r.y() / kRowHeight); };
+  std::sort(positions.begin(), positions.end(), [&](const Vec2& a, const Vec2& b) {
+    return std::pair(row(a), a.x()) < std::pair(row(b), b.x());
+  });
+}
+
 State<2> start_state(const Scene& scene, std::uint64_t seed) {
   const Start& start = scene.disks.start;
   if (start.layout == Layout::File) return start.state;
@@ -150,6 +160,7 @@ State<2> start_state(const Scene& scene, std::uint64_t seed) {
   State<2> state;
   state.positions = start.layout == Layout::Random ? random_positions(room, count, seed)
                                                    : lattice_positions(room, count, seed);
+  number_by_rows(state.positions);
   const Vec2 corner = scene.clear_corner();
   for (Vec2& position : state.positions) position += corner;
   state.velocities = gaussian_velocities(state.positions.size(), start.temperature, seed);

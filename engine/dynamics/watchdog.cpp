@@ -10,14 +10,15 @@ static constexpr std::uint64_t kMostPerPair = 10'000;
 static constexpr std::uint64_t kFirstLook = 64;  // collisions; the next ones come at twice that
 static constexpr std::size_t kWindows = 10;      // whose longest mean time counts
 
-Watchdog::Watchdog(std::size_t disks, double time)
+Watchdog::Watchdog(std::size_t disks, double time, double mean_collision_time)
     : disks_(static_cast<double>(disks)),
       window_(std::max<std::uint64_t>(1, kMostPerDisk * disks)),
       longest_interval_(std::min(kMostPerPair, window_)),
       look_interval_(std::min(kFirstLook, longest_interval_)),
       until_look_(look_interval_),
       look_start_(time),
-      window_start_(time) {}
+      window_start_(time),
+      longest_early_(mean_collision_time) {}
 
 void Watchdog::on_base_moved(double shift) {
   look_start_ -= shift;
@@ -29,10 +30,8 @@ double Watchdog::mean_of_window(double time) const {
   return disks_ * (time - window_start_) / static_cast<double>(participations_);
 }
 
-double Watchdog::longest_mean(double time) const {
-  double longest = std::max(mean_of_window(time), means_.empty() ? longest_early_ : 0.0);
-  for (const double mean : means_) longest = std::max(longest, mean);
-  return longest;
+double Watchdog::longest_known_mean() const {
+  return means_.empty() ? longest_early_ : std::ranges::max(means_);
 }
 
 // Looks come close together at first: what stands still soon after the start must not count into
@@ -52,7 +51,8 @@ bool Watchdog::look(double time) {
   }
   if (suspicious_) {
     still_collisions_ += seen;
-  } else if (const double mean = longest_mean(time); time - look_start_ <= kStandstill * mean) {
+  } else if (const double mean = std::max(mean_of_window(time), longest_known_mean());
+             time - look_start_ <= kStandstill * mean) {
     suspicious_ = true;
     still_since_ = look_start_;
     still_mean_ = mean;

@@ -15,8 +15,9 @@ namespace clatter {
 /// a disk's collisions, so it needs no unit; and it only looks on, so a run is the same with it.
 class Watchdog {
  public:
-  /// Watches a run of so many disks from a time on the moving base.
-  Watchdog(std::size_t disks, double time);
+  /// Watches a run of so many disks from a time on the moving base; of one that goes on, the mean
+  /// collision time so far is known.
+  Watchdog(std::size_t disks, double time, double mean_collision_time = 0.0);
 
   /// Takes note of a disk's collision with a partner, a disk or kWall + side; true where time has
   /// stood still: 1000 N collisions, or 10^4 of one pair, within 10^-6 mean collision times.
@@ -31,13 +32,14 @@ class Watchdog {
 
   /// The two that met most often while time stood still, as in sees_standstill.
   std::pair<std::uint32_t, std::uint32_t> busiest_pair() const;
-  /// Mean time between a disk's collisions, with disks and walls, before time stood still.
-  double mean_collision_time() const { return still_mean_; }
+  /// Mean time between a disk's collisions, with disks and walls, while time moved on: the longest
+  /// of late; 0: none known yet.
+  double mean_collision_time() const { return suspicious_ ? still_mean_ : longest_known_mean(); }
 
  private:
   bool look(double time);
   double mean_of_window(double time) const;
-  double longest_mean(double time) const;
+  double longest_known_mean() const;
   bool too_many() const;
 
   double disks_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace clatter {
@@ -229,33 +230,54 @@ Booked<D> Balance<D>::booked_at(std::size_t index) const {
 }
 
 template <int D>
-static Conserved<D> residual(const Conserved<D>& change, const Booked<D>& booked) {
-  Conserved<D> residual = (change - booked.net).cwiseAbs();
+BalanceWindow<D> Balance<D>::close_window() {
+  const double now = simulation_.base_time();
+  for (std::uint32_t i = 0; i < disks_.size(); ++i) follow(i, simulation_.disks()[i].flight, now);
+  BalanceWindow<D> window;
+  window.imbalances.gaps = take_changes(now);
+  window_start_ = now;
+  for (std::size_t index = 0; index < window.imbalances.gaps.size(); ++index) {
+    const Booked<D> booked = booked_at(index);
+    window.imbalances.gaps[index] -= booked.net;
+    window.imbalances.sizes.push_back(booked.size);
+  }
+  window.booked = std::move(booked_);
+  clear();
+  return window;
+}
+
+template <int D>
+Conserved<D> Imbalances<D>::residual(std::size_t cell) const {
+  Conserved<D> residual = gaps[cell];
   for (int k = 0; k < D + 2; ++k) {
-    if (residual[k] != 0.0) residual[k] = booked.size[k] > 0.0 ? residual[k] / booked.size[k] : 1.0;
+    if (residual[k] == 0.0) continue;
+    const double size = sizes[cell][k];
+    residual[k] = size > 0.0 ? residual[k] / size : std::copysign(1.0, residual[k]);
+    if (std::isnan(residual[k])) residual[k] = std::numeric_limits<double>::infinity();
   }
   return residual;
 }
 
 template <int D>
-BalanceResiduals<D> Balance<D>::close_window() {
-  const double now = simulation_.base_time();
-  for (std::uint32_t i = 0; i < disks_.size(); ++i) follow(i, simulation_.disks()[i].flight, now);
-  const std::vector<Conserved<D>> changes = take_changes(now);
-  window_start_ = now;
-  BalanceResiduals<D> residuals;
-  for (std::size_t index = 0; index < changes.size(); ++index) {
-    const Conserved<D> cell = residual<D>(changes[index], booked_at(index));
-    residuals.mass.push_back(cell[0]);
-    for (int axis = 0; axis < D; ++axis) residuals.momentum[axis].push_back(cell[1 + axis]);
-    residuals.energy.push_back(cell[D + 1]);
-    residuals.largest = residuals.largest.cwiseMax(cell);
+Conserved<D> Imbalances<D>::largest() const {
+  Conserved<D> largest = Conserved<D>::Zero();
+  for (std::size_t cell = 0; cell < gaps.size(); ++cell) {
+    largest = largest.cwiseMax(residual(cell).cwiseAbs());
   }
-  residuals.booked = std::move(booked_);
-  clear();
-  return residuals;
+  return largest;
 }
 
+template <int D>
+Imbalances<D>& Imbalances<D>::operator+=(const Imbalances& other) {
+  if (gaps.empty()) return *this = other;
+  for (std::size_t cell = 0; cell < gaps.size(); ++cell) {
+    gaps[cell] += other.gaps[cell];
+    sizes[cell] += other.sizes[cell];
+  }
+  return *this;
+}
+
+template struct Imbalances<2>;
 template class Balance<2>;
 
 }  // namespace clatter

@@ -22,6 +22,12 @@ struct Booked {
   Conserved<D> size = Conserved<D>::Zero();  ///< sum of what was booked, each without its sign
 };
 
+template <class Archive, int D>
+void visit(Archive& io, Booked<D>& sum) {
+  auto& [net, size] = sum;
+  io(net, size);
+}
+
 /// All that was booked in one window of time; [cells] each, cell (i, j) at i + j cells.x().
 template <int D>
 struct Bookings {
@@ -35,19 +41,35 @@ struct Bookings {
   std::vector<Conserved<D>> weights;
 };
 
-/// How far the balance equations (4.1)-(4.3) are from closing in one window of time; [cells] each,
-/// cell (i, j) at i + j cells.x().
-///
-/// |change of what the cell holds - booked|, over the sum of the sizes of all that was booked at
-/// the cell: through its faces, as its sources, and the weights. 0 where nothing was booked, or 1
-/// if the cell changed all the same.
+template <class Archive, int D>
+void visit(Archive& io, Bookings<D>& bookings) {
+  auto& [faces, sources, weights] = bookings;
+  io(faces, sources, weights);
+}
+
+/// What the balance equations (4.1)-(4.3) leave open over some time; [cells] each, cell (i, j) at
+/// i + j cells.x().
 template <int D>
-struct BalanceResiduals {
-  std::vector<double> mass;
-  std::array<std::vector<double>, D> momentum;  ///< by component
-  std::vector<double> energy;
-  Conserved<D> largest = Conserved<D>::Zero();  ///< over all cells, of each equation
-  Bookings<D> booked;                           ///< what the cells' changes were compared with
+struct Imbalances {
+  std::vector<Conserved<D>> gaps;  ///< change of what the cell holds - booked
+  /// Sum of the sizes of all that was booked at the cell: through its faces, as its sources, and
+  /// the weights.
+  std::vector<Conserved<D>> sizes;
+
+  /// A cell's gaps over their sizes, of either sign. Where there is no gap, 0; where nothing was
+  /// booked and the cell changed all the same, 1 or -1; where that is no number, infinite.
+  Conserved<D> residual(std::size_t cell) const;
+  /// The largest magnitude of each equation's residuals.
+  Conserved<D> largest() const;
+  /// Adds those of another time, of the same cells.
+  Imbalances& operator+=(const Imbalances& other);
+};
+
+/// How the balance equations close in one window of time.
+template <int D>
+struct BalanceWindow {
+  Imbalances<D> imbalances;
+  Bookings<D> booked;  ///< what the cells' changes were compared with
 };
 
 /// Closes the balance equations (4.1)-(4.3) on a grid of equal cells over the whole box, section 6,
@@ -65,10 +87,17 @@ class Balance : public Observer<D> {
   void on_base_moved(double shift) override;
 
   /// The balance since the last call, or since the start.
-  BalanceResiduals<D> close_window();
+  BalanceWindow<D> close_window();
 
   /// Number of cells along each axis.
   const IntVec<D>& cells() const { return paths_.cells(); }
+
+  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  template <class Archive>
+  void visit(Archive& io) {
+    auto& [simulation, paths, disks, window_start, booked] = *this;
+    io(disks, window_start, booked);
+  }
 
  private:
   /// A disk as far as it has been followed, and what it was at the window's start.
@@ -77,6 +106,12 @@ class Balance : public Observer<D> {
     IntVec<D> first_cell;
     Vec<D> first_velocity;
     Spin<D> first_spin;
+
+    template <class Archive>
+    void visit(Archive& io) {
+      auto& [cell, first_cell, first_velocity, first_spin] = *this;
+      io(cell, first_cell, first_velocity, first_spin);
+    }
   };
 
   double half_inertia() const;
@@ -101,6 +136,7 @@ class Balance : public Observer<D> {
   Bookings<D> booked_;
 };
 
+extern template struct Imbalances<2>;
 extern template class Balance<2>;
 
 }  // namespace clatter

@@ -21,9 +21,11 @@ struct CellSums {
   double kinetic_weight = 0.0;
   std::vector<double> rows;  ///< [cells][MomentLayout::size]
 
+  /// Adds the sums of another window, member by member.
   CellSums& operator+=(const CellSums& other);
 };
 
+/// Passes over all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, CellSums& sums) {
   auto& [time, kinetic_weight, rows] = sums;

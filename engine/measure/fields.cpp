@@ -169,6 +169,11 @@ S field_value(Field field, const CellAverages<2, S>& cell) {
       return of_visitors(cell, cell.spin / cell.density);
     case Field::SpinTemperature:
       return of_visitors(cell, 2.0 * cell.spin_energy / cell.density);
+    case Field::BalanceMass:
+    case Field::BalanceMomentumX:
+    case Field::BalanceMomentumY:
+    case Field::BalanceEnergy:
+      break;
   }
   return no_value<S>();
 }

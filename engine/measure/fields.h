@@ -44,7 +44,7 @@ CellAverages<2, double> averages_of(const MomentLayout<2>& layout, const CellSum
 
 /// Value of a field, Sec. 4; NaN where it has none: velocities, temperatures, spins and the kinetic
 /// parts of stress and heat flux where no disk ever was, and the whole stress and heat flux where
-/// no collision passed anything on either. T_rot = I <omega^2>.
+/// no collision passed anything on either. T_rot = I <omega^2>. Residuals follow from no averages.
 template <class S>
 S field_value(Field field, const CellAverages<2, S>& cell);
 

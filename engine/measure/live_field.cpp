@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "engine/measure/field_maps.h"
 #include "engine/measure/fields.h"
+#include "engine/measure/residuals.h"
 
 namespace clatter {
 
@@ -31,53 +32,59 @@ static std::array<Field, 2> components_of(Arrows arrows) {
   return {};
 }
 
-static std::vector<Field> fields_of(const View& view) {
+static std::vector<Field> averages_in(const View& view) {
   std::vector<Field> fields;
-  if (view.field) fields.push_back(*view.field);
+  if (view.field && !is_residual(*view.field)) fields.push_back(*view.field);
   if (view.arrows) {
     for (const Field component : components_of(*view.arrows)) fields.push_back(component);
   }
   return fields;
 }
 
+std::optional<LiveField::Averages> LiveField::averages_for(const Simulation<2>& simulation,
+                                                           const View& view) {
+  const std::vector<Field> fields = averages_in(view);
+  if (fields.empty()) return std::nullopt;
+  const Model<2>& model = simulation.model();
+  const MomentLayout<2> layout = moment_layout<2>(fields, model.spins);
+  return Averages{CellIntegrals<2>(simulation, cells_of_one_diameter(model), layout), {}};
+}
+
+std::optional<LiveField::Closure> LiveField::closure_for(const Simulation<2>& simulation,
+                                                         const View& view) {
+  if (!view.field || !is_residual(*view.field)) return std::nullopt;
+  return Closure{Balance<2>(simulation, cells_of_one_diameter(simulation.model())), {}};
+}
+
 LiveField::LiveField(Simulation<2>& simulation, const View& view)
     : field_(view.field),
       arrows_(view.arrows),
-      integrals_(simulation, cells_of_one_diameter(simulation.model()),
-                 moment_layout<2>(fields_of(view), simulation.model().spins)) {
-  simulation.add_observer(integrals_);
-  const double part = view.window / kParts;
+      averages_(averages_for(simulation, view)),
+      closure_(closure_for(simulation, view)) {
+  if (averages_) simulation.add_observer(averages_->observer);
+  if (closure_) simulation.add_observer(closure_->observer);
+  const double part = view.window / kWindowParts;
   simulation.every(simulation.time() + part, part, [this](double) {
-    open_ += integrals_.close_window();
-    parts_.push_back(std::exchange(open_, {}));
-    if (parts_.size() > kParts) parts_.pop_front();
+    look();
+    if (averages_) averages_->sums.next_part();
+    if (closure_) closure_->sums.next_part();
   });
 }
 
-void LiveField::publish(Snapshot& snapshot) {
-  const CellSums sums = last_window();
-  if (field_) snapshot.field = map_of(sums);
-  if (arrows_) snapshot.arrows = arrows_of(sums);
+void LiveField::look() {
+  if (averages_) averages_->sums.add(averages_->observer.close_window());
+  if (closure_) closure_->sums.add(closure_->observer.close_window().imbalances);
 }
 
-CellSums LiveField::last_window() {
-  open_ += integrals_.close_window();
-  CellSums sums = open_;
-  for (const CellSums& part : parts_) sums += part;
-  return sums;
-}
-
-FieldMap LiveField::map_of(const CellSums& sums) const {
-  const FieldGrid<2>& grid = integrals_.grid();
-  FieldMap map{*field_,
-               {grid.cells().x(), grid.cells().y()},
-               std::vector<double>(grid.size()),
-               parts_.size() == kParts};
+// Where nothing was booked nothing was tried.
+FieldMap LiveField::Closure::map(Field field) const {
+  const Imbalances<2> sum = sums.sum();
+  FieldMap map{field, {observer.cells().x(), observer.cells().y()}, {}};
+  map.values.assign(sum.gaps.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < map.values.size(); ++i) {
-    map.values[i] =
-        sums.time > 0.0
-            ? field_value(*field_, averages_of(integrals_.layout(), sums, i, grid.cell_measure()))
-            : std::numeric_limits<double>::quiet_NaN();
+    const Conserved<2> residual = sum.residual(i);
+    if (!sum.sizes[i].isZero(0.0) || !residual.isZero(0.0))
+      map.values[i] = residual[equation_of(field)];
   }
   return map;
 }
@@ -98,20 +105,19 @@ static CellSums sum_of(const CellSums& sums, const IntVec<2>& cells, const IntVe
 
 // Blocks of cells have an arrow each, so that few enough are left to be told apart. Sums add up
 // over cells: an arrow is the field of its block as if that were one cell.
-ArrowMap LiveField::arrows_of(const CellSums& sums) const {
+static ArrowMap arrow_map(Arrows arrows, const CellSums& sums, const FieldGrid<2>& grid,
+                          const MomentLayout<2>& layout) {
   constexpr int kMostArrows = 20;  // along an axis
-  const FieldGrid<2>& grid = integrals_.grid();
   const IntVec<2>& cells = grid.cells();
   const int side = (cells.maxCoeff() + kMostArrows - 1) / kMostArrows;
-  const auto components = components_of(*arrows_);
-  ArrowMap map{*arrows_, side * grid.widths(), {}};
+  const auto components = components_of(arrows);
+  ArrowMap map{arrows, side * grid.widths(), {}};
   if (!(sums.time > 0.0)) return map;
   for (int y = 0; y < cells.y(); y += side) {
     for (int x = 0; x < cells.x(); x += side) {
       const IntVec<2> first(x, y), end = cells.cwiseMin(first + IntVec<2>::Constant(side));
       const double area = (end - first).prod() * grid.cell_measure();
-      const auto averages =
-          averages_of(integrals_.layout(), sum_of(sums, cells, first, end), 0, area);
+      const auto averages = averages_of(layout, sum_of(sums, cells, first, end), 0, area);
       const Vec2 value(field_value(components[0], averages), field_value(components[1], averages));
       if (value.hasNaN()) continue;
       const Vec2 middle = 0.5 * (first + end).cast<double>();
@@ -119,6 +125,23 @@ ArrowMap LiveField::arrows_of(const CellSums& sums) const {
     }
   }
   return map;
+}
+
+void LiveField::publish(Snapshot& snapshot) {
+  look();
+  if (closure_) {
+    snapshot.field = closure_->map(*field_);
+    snapshot.field->whole_window = closure_->sums.whole();
+  }
+  if (!averages_) return;
+  const CellSums sums = averages_->sums.sum();
+  const FieldGrid<2>& grid = averages_->observer.grid();
+  const MomentLayout<2>& layout = averages_->observer.layout();
+  if (field_ && !closure_) {
+    snapshot.field = field_map(*field_, sums, grid, layout);
+    snapshot.field->whole_window = averages_->sums.whole();
+  }
+  if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout);
 }
 
 }  // namespace clatter

@@ -1,37 +1,48 @@
 #pragma once
 
-#include <deque>
+#include <optional>
 
+#include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
+#include "engine/measure/moving_sum.h"
 #include "engine/publish/snapshot.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
 
-/// Fields averaged over the last window of time, as the view shows them while a run goes on.
+/// Fields over the last window of time, as the view shows them while a run goes on: averages, or
+/// how balance equations close.
 class LiveField {
  public:
   /// Watches the simulation through `view.field` and `view.arrows`, of which the view must have
-  /// one, on cells of about one diameter (at most 512 along an axis); the average reaches back by
+  /// one, on cells of about one diameter (at most 512 along an axis); the window reaches back by
   /// view.window, or by up to an eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
 
-  /// Puts into the snapshot what the view shows, averaged over the window up to the simulation's
-  /// time, or since the start where that is less.
+  /// Puts into the snapshot what the view shows, over the window up to the simulation's time, or
+  /// since the start where that is less.
   void publish(Snapshot& snapshot);
 
  private:
-  static constexpr int kParts = 8;  // the window moves on by one part at a time
+  struct Averages {
+    CellIntegrals<2> observer;
+    MovingSum<CellSums> sums;
+  };
+  struct Closure {
+    Balance<2> observer;
+    MovingSum<Imbalances<2>> sums;
 
-  CellSums last_window();
-  FieldMap map_of(const CellSums& sums) const;
-  ArrowMap arrows_of(const CellSums& sums) const;
+    FieldMap map(Field field) const;
+  };
+
+  static std::optional<Averages> averages_for(const Simulation<2>& simulation, const View& view);
+  static std::optional<Closure> closure_for(const Simulation<2>& simulation, const View& view);
+  void look();
 
   std::optional<Field> field_;
   std::optional<Arrows> arrows_;
-  CellIntegrals<2> integrals_;
-  std::deque<CellSums> parts_;  // closed parts, oldest first
-  CellSums open_;               // the part under way, up to the last look
+  std::optional<Averages> averages_;  // where there are arrows, or the field is an average
+  std::optional<Closure> closure_;    // where the field is a residual
 };
 
 }  // namespace clatter

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clatter {
 
@@ -9,22 +10,56 @@ namespace clatter {
 // series.
 static constexpr double kLeastWindows = 512.0;
 static constexpr double kMostWindows = 8192.0;
+// Balances close over longer ones: beside what little a weak gravity books in a short time, the
+// rounding of what a disk carries would show.
+static constexpr std::size_t kWindowsPerBalance = 32;
+
+static double windows_in(double span, double series_interval) {
+  return std::clamp(std::ceil(span / series_interval), kLeastWindows, kMostWindows);
+}
+
+double cells_memory(const Measure& measure, bool spins) {
+  std::vector<Field> averages = measure.fields;
+  const bool balanced = std::erase_if(averages, is_residual) > 0;
+  const double cells = static_cast<double>(measure.cells[0]) * measure.cells[1];
+  double bytes = 0.0;
+  if (!averages.empty()) {
+    const double row = moment_layout<2>(averages, spins).size * sizeof(double);
+    const auto parts =
+        static_cast<double>(PartSums::most_parts(static_cast<std::size_t>(cells * row)));
+    const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
+    const int columns = measure.cells[measure.profile_axis == Axis::X ? 0 : 1];
+    // Beside the parts the window under way and the one that is closed, or the parts' sum.
+    bytes += cells * ((parts + 2.0) * row + maps) +
+             windows_in(measure.duration, measure.series_interval) * columns * row;
+  }
+  if (balanced) {
+    // Likewise two windows.
+    constexpr std::size_t kBookings = 3 * sizeof(Booked<2>) + sizeof(Conserved<2>);
+    constexpr std::size_t kResidual = 3 * sizeof(Conserved<2>) + kResiduals.size() * sizeof(double);
+    bytes += cells * static_cast<double>(2 * kBookings + kResidual);
+  }
+  return bytes;
+}
 
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, double end)
     : simulation_(simulation),
       measure_(measure),
+      balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
       series_start_(std::ceil(simulation.time() / measure.series_interval) *
                     measure.series_interval),
       averages_start_(std::max(measure.burn_in, simulation.time())) {
   const double span = end - averages_start_;
-  window_ =
-      span / std::clamp(std::ceil(span / measure.series_interval), kLeastWindows, kMostWindows);
+  window_ = span / windows_in(span, measure.series_interval);
   observe();
 }
 
 Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, ArchiveReader saved)
-    : simulation_(simulation), measure_(measure), totals_(simulation) {
+    : simulation_(simulation),
+      measure_(measure),
+      balanced_(std::erase_if(measure_.fields, is_residual) > 0),
+      totals_(simulation) {
   visit(saved);
   saved.finish();
   // Where other laws have brought or taken spins: there were none, or there are none.
@@ -40,19 +75,19 @@ std::string Measurement::save() {
 
 template <class Archive>
 void Measurement::visit(Archive& io) {
-  auto& [simulation, measure, totals, cells, series_start, averages_start, window, started,
-         counts_at_start, windows, columns, samples, series_time, series_temperature,
-         series_spin_temperature] = *this;
+  auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
+         window, started, counts_at_start, windows, columns, parts, residuals, samples, series_time,
+         series_temperature, series_spin_temperature] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     samples, series_time, series_temperature, series_spin_temperature);
-  if (!started || measure.fields.empty()) return;
-  if (!cells) open_cells();
-  io(*cells);
+     parts, residuals, samples, series_time, series_temperature, series_spin_temperature);
+  if (started && !cells && !balance) open_cells();
+  if (cells) io(*cells);
+  if (balance) io(*balance);
 }
 
 void Measurement::observe() {
   simulation_.add_observer(totals_);
-  if (cells_) simulation_.add_observer(*cells_);
+  observe_cells();
   simulation_.every(
       series_start_, measure_.series_interval, [this](double time) { sample(time); },
       series_time_.size());
@@ -84,22 +119,65 @@ void Measurement::start() {
   started_ = true;
   totals_.close_window();
   counts_at_start_ = simulation_.counts();
-  if (measure_.fields.empty()) return;
   open_cells();
-  simulation_.add_observer(*cells_);
+  observe_cells();
 }
 
 void Measurement::open_cells() {
+  const IntVec<2> cells(measure_.cells[0], measure_.cells[1]);
+  if (balanced_) balance_.emplace(simulation_, cells);
+  if (measure_.fields.empty()) return;
   Coarsening coarsening{measure_.estimator, {}};
   if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
-  cells_.emplace(simulation_, IntVec<2>(measure_.cells[0], measure_.cells[1]),
-                 moment_layout<2>(measure_.fields, simulation_.model().spins), coarsening);
+  cells_.emplace(simulation_, cells, moment_layout<2>(measure_.fields, simulation_.model().spins),
+                 coarsening);
+}
+
+void Measurement::observe_cells() {
+  if (cells_) simulation_.add_observer(*cells_);
+  if (balance_) simulation_.add_observer(*balance_);
 }
 
 void Measurement::close_window() {
   windows_.push_back(totals_.close_window());
-  if (!cells_) return;
-  columns_.push_back(columns_of(cells_->close_window(), cells_->grid(), measure_.profile_axis));
+  if (cells_) {
+    CellSums window = cells_->close_window();
+    columns_.push_back(columns_of(window, cells_->grid(), measure_.profile_axis));
+    parts_.add(std::move(window));
+  }
+  if (balance_ && windows_.size() % kWindowsPerBalance == 0) close_balance();
+}
+
+void Measurement::close_balance() {
+  residuals_.include(balance_->close_window().imbalances);
+}
+
+void Measurement::add_maps(Measured& measured) const {
+  const FieldGrid<2> grid(simulation_.model(), {measure_.cells[0], measure_.cells[1]});
+  const auto maps_of = [&](const CellSums& sums, double begin, double end) {
+    FieldMaps maps{begin, end, grid.widths(), {}};
+    for (const Field field : measure_.fields) {
+      maps.maps.push_back(field_map(field, sums, grid, cells_->layout()));
+    }
+    return maps;
+  };
+  const auto time_of = [&](std::uint64_t windows) {
+    return averages_start_ +
+           static_cast<double>(std::min<std::uint64_t>(windows, windows_.size())) * window_;
+  };
+  CellSums sum;
+  std::uint64_t windows = 0;
+  for (const CellSums& part : parts_.parts()) {
+    const double begin = time_of(windows);
+    windows += parts_.windows_per_part();
+    measured.map_series.push_back(maps_of(part, begin, time_of(windows)));
+    sum += part;
+  }
+  measured.maps = maps_of(sum, averages_start_, time_of(windows_.size()));
+  if (!balanced_) return;
+  for (const Field field : kResiduals) {
+    measured.maps->maps.push_back({field, measure_.cells, residuals_.map(field)});
+  }
 }
 
 // A quantity that each window has.
@@ -188,10 +266,15 @@ Measured Measurement::result() {
     measured.compressibility = ratio_estimate(virial, thermal);
     measured.compressibility->mean += 1.0;
   }
-  if (!columns_.empty()) {
+  if (balance_) {
+    if (windows_.size() % kWindowsPerBalance != 0) close_balance();
+    measured.residuals = residuals_;
+  }
+  if (cells_) {
     measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,
                                   measure_.profile_axis);
   }
+  if (cells_ || balance_) add_maps(measured);
   return measured;
 }
 

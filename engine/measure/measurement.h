@@ -6,9 +6,12 @@
 
 #include "engine/checkpoint/archive.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/estimate.h"
+#include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
+#include "engine/measure/residuals.h"
 #include "engine/measure/totals.h"
 #include "engine/scene/scene.h"
 
@@ -38,11 +41,18 @@ struct Measured {
   double ledger_residual = 0.0;                     ///< see Totals::ledger_residual
   std::array<std::optional<Estimate>, 4> pressure;  ///< on each Side: momentum per time and length
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
-  std::optional<Profile> profile;           ///< where fields are asked for
+  std::optional<Profile> profile;           ///< where fields are asked for that are averages
+  std::optional<Residuals> residuals;       ///< where residuals are asked for
+  std::optional<FieldMaps> maps;            ///< of all that is asked for, over `duration`
+  std::vector<FieldMaps> map_series;        ///< of averages, in the parts of it, see PartSums
   std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
   std::vector<double> series_temperature;   ///< T at those times
   std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
 };
+
+/// Memory that the cells of fields and balances take in a measurement, about and at most, in bytes;
+/// `spins`: whether the disks spin. 0 where no fields are asked for.
+double cells_memory(const Measure& measure, bool spins);
 
 /// Observes a simulation as the scene's [measure] block asks.
 class Measurement {
@@ -66,12 +76,17 @@ class Measurement {
   void visit(Archive& io);
   void start();
   void open_cells();
+  void observe_cells();
   void close_window();
+  void close_balance();
+  void add_maps(Measured& measured) const;
 
   Simulation<2>& simulation_;
-  Measure measure_;
+  Measure measure_;  // its fields without residuals
+  bool balanced_;    // whether residuals are asked for
   Totals<2> totals_;
   std::optional<CellIntegrals<2>> cells_;
+  std::optional<Balance<2>> balance_;
   double series_start_ = 0.0;  // simulation times
   double averages_start_ = 0.0;
   double window_ = 0.0;  // duration of each
@@ -79,7 +94,9 @@ class Measurement {
   EventCounts counts_at_start_;
   std::vector<WindowTotals<2>> windows_;
   std::vector<CellSums> columns_;  // [windows]
-  std::uint64_t samples_ = 0;      // that the snapshot estimator has taken
+  PartSums parts_;                 // of the windows
+  Residuals residuals_;
+  std::uint64_t samples_ = 0;  // that the snapshot estimator has taken
   std::vector<double> series_time_;
   std::vector<double> series_temperature_;
   std::vector<double> series_spin_temperature_;

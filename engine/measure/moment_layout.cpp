@@ -72,6 +72,11 @@ struct Needs {
       case Field::SpinTemperature:
         spin_energy = true;
         break;
+      case Field::BalanceMass:
+      case Field::BalanceMomentumX:
+      case Field::BalanceMomentumY:
+      case Field::BalanceEnergy:
+        break;  // none of these sums
     }
   }
 };

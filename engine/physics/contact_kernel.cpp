@@ -1,77 +1,140 @@
+// What takes or returns vectors is inlined, so how they would be passed does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 #include "engine/physics/contact_kernel.h"
+
+#include <cstring>
 
 #include "engine/physics/encounter.h"
 
 namespace clatter {
 
-// The loop runs over whole vectors: what lies beyond `size` is left from earlier and not looked at.
+namespace {
+
+// Four numbers, in one register or in two, as the instruction set has it.
+constexpr int kLanes = 4;
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+
+[[gnu::always_inline]] inline Lanes load(const double* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+// Numbers first ... first + 3 of four rows, number by number.
+[[gnu::always_inline]] inline void transpose(const double* const* row, int first, Lanes* columns) {
+  Lanes in[4];
+  for (int i = 0; i < 4; ++i) in[i] = load(row[i] + first);
+  const Lanes even_01 = __builtin_shufflevector(in[0], in[1], 0, 4, 2, 6);
+  const Lanes odd_01 = __builtin_shufflevector(in[0], in[1], 1, 5, 3, 7);
+  const Lanes even_23 = __builtin_shufflevector(in[2], in[3], 0, 4, 2, 6);
+  const Lanes odd_23 = __builtin_shufflevector(in[2], in[3], 1, 5, 3, 7);
+  columns[0] = __builtin_shufflevector(even_01, even_23, 0, 1, 4, 5);
+  columns[1] = __builtin_shufflevector(odd_01, odd_23, 0, 1, 4, 5);
+  columns[2] = __builtin_shufflevector(even_01, even_23, 2, 3, 6, 7);
+  columns[3] = __builtin_shufflevector(odd_01, odd_23, 2, 3, 6, 7);
+}
+
+// The earliest of several times, and the number that goes with it.
+struct Earliest {
+  Lanes time = Lanes{} + kNever;
+  Lanes number{};
+  Lanes tie = Lanes{} + kNever;  ///< the last time that came up again
+
+  [[gnu::always_inline]] void offer(const Lanes& other, const Lanes& its_number) {
+    tie = other == time ? other : tie;
+    const Lanes earlier = other < time ? other : time;
+    number = earlier < time ? its_number : number;
+    time = earlier;
+  }
+};
+
+[[gnu::always_inline]] inline FirstContact first_of(const Earliest& lanes) {
+  const int low = lanes.time[1] < lanes.time[0], high = 2 + (lanes.time[3] < lanes.time[2]);
+  const int lane = lanes.time[high] < lanes.time[low] ? high : low;
+  const double time = lanes.time[lane];
+  int sharing = 0;
+  for (int i = 0; i < kLanes; ++i) sharing += (lanes.time[i] == time) + (lanes.tie[i] == time);
+  return {time, static_cast<int>(lanes.number[lane]),
+          (sharing == 1 || time == kNever) && time != kTouching};
+}
+
 template <int D, bool kFalling>
-[[gnu::always_inline]] static inline double loop(const double* r, const double* v, double time,
-                                                 double diameter, const double* gravity,
-                                                 Candidates<D>& candidates, int size) {
-  const int rounded_up = (size + 7) & ~7;
-  for (int i = 0; i < rounded_up; ++i) {
-    double r_i[D], v_i[D], shift_i[D];
-    for (int k = 0; k < D; ++k) {
-      r_i[k] = candidates.r[k][i];
-      v_i[k] = candidates.v[k][i];
-      shift_i[k] = candidates.shift[k][i];
+[[gnu::always_inline]] inline FirstContact loop(const double* rows, std::uint32_t self,
+                                                Candidates<D>& candidates, const double* box,
+                                                double diameter, const double* gravity) {
+  constexpr int kColumns = (3 * D + 2 + 3) / 4 * 4;
+  constexpr int kRow = kRowLength<D>;
+  const double* const own = rows + static_cast<std::size_t>(self) * kRow;
+  Lanes r[D], v[D], image[D];
+  for (int k = 0; k < D; ++k) {
+    r[k] = Lanes{} + own[k];
+    v[k] = Lanes{} + own[D + k];
+    image[k] = Lanes{} + own[2 * D + 2 + k];
+  }
+  const Lanes time = Lanes{} + own[2 * D];
+  for (int i = 0; i < Candidates<D>::kMargin; ++i) candidates.disks[candidates.size + i] = self;
+
+  Earliest earliest;
+  Lanes number{0.0, 1.0, 2.0, 3.0};
+  for (int i = 0; i < candidates.size; i += kLanes) {
+    const double* row[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      row[lane] = rows + static_cast<std::size_t>(candidates.disks[i + lane]) * kRow;
     }
-    candidates.contact[i] = encounter_time<D, kFalling>(r, v, time, r_i, v_i, candidates.time[i],
-                                                        shift_i, diameter, gravity);
+    Lanes columns[kColumns];
+    for (int k = 0; k < kColumns; k += 4) transpose(row, k, columns + k);
+    Lanes shift[D];
+    for (int k = 0; k < D; ++k) {
+      shift[k] = columns[2 * D + 2 + k] - image[k];
+      if (candidates.wrapped) shift[k] -= load(&candidates.wraps[k][i]);
+      shift[k] *= box[k];
+    }
+    const Lanes contact = encounter_time<D, kFalling>(r, v, time, columns, columns + D,
+                                                      columns[2 * D], shift, diameter, gravity);
+    earliest.offer(contact, number);
+    number += static_cast<double>(kLanes);
   }
-  double first = kNever;
-  for (int i = 0; i < size; ++i) {
-    first = candidates.contact[i] < first ? candidates.contact[i] : first;
-  }
-  return first;
+  return first_of(earliest);
 }
 
 #if defined(__x86_64__)
 template <int D, bool kFalling>
-[[gnu::target("avx512f,avx512vl")]] static double loop_avx512(const double* r, const double* v,
-                                                              double time, double diameter,
-                                                              const double* gravity,
-                                                              Candidates<D>& candidates, int size) {
-  return loop<D, kFalling>(r, v, time, diameter, gravity, candidates, size);
-}
-
-template <int D, bool kFalling>
-[[gnu::target("avx2")]] static double loop_avx2(const double* r, const double* v, double time,
-                                                double diameter, const double* gravity,
-                                                Candidates<D>& candidates, int size) {
-  return loop<D, kFalling>(r, v, time, diameter, gravity, candidates, size);
+[[gnu::target("avx2")]] FirstContact loop_avx2(const double* rows, std::uint32_t self,
+                                               Candidates<D>& candidates, const double* box,
+                                               double diameter, const double* gravity) {
+  return loop<D, kFalling>(rows, self, candidates, box, diameter, gravity);
 }
 #endif
 
 template <int D, bool kFalling>
-static double loop_baseline(const double* r, const double* v, double time, double diameter,
-                            const double* gravity, Candidates<D>& candidates, int size) {
-  return loop<D, kFalling>(r, v, time, diameter, gravity, candidates, size);
+FirstContact loop_baseline(const double* rows, std::uint32_t self, Candidates<D>& candidates,
+                           const double* box, double diameter, const double* gravity) {
+  return loop<D, kFalling>(rows, self, candidates, box, diameter, gravity);
 }
 
 template <int D, bool kFalling>
-static auto widest_loop() {
+auto widest_loop() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-    return &loop_avx512<D, kFalling>;
   if (__builtin_cpu_supports("avx2")) return &loop_avx2<D, kFalling>;
 #endif
   return &loop_baseline<D, kFalling>;
 }
 
+}  // namespace
+
 template <int D>
-double contact_times(const double* r, const double* v, double time, double diameter,
-                     const double* gravity, Candidates<D>& candidates, int size) {
+FirstContact first_contact(const double* rows, std::uint32_t self, Candidates<D>& candidates,
+                           const double* box, double diameter, const double* gravity) {
   static const struct {
     decltype(widest_loop<D, false>()) straight = widest_loop<D, false>();
     decltype(widest_loop<D, true>()) falling = widest_loop<D, true>();
   } loops;
   const auto loop = gravity ? loops.falling : loops.straight;
-  return loop(r, v, time, diameter, gravity, candidates, size);
+  return loop(rows, self, candidates, box, diameter, gravity);
 }
 
-template double contact_times<2>(const double*, const double*, double, double, const double*,
-                                 Candidates<2>&, int);
+template FirstContact first_contact<2>(const double*, std::uint32_t, Candidates<2>&, const double*,
+                                       double, const double*);
 
 }  // namespace clatter

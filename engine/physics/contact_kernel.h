@@ -2,25 +2,42 @@
 
 // No Eigen here, see encounter.h.
 
+#include <cstdint>
+
 namespace clatter {
 
-/// Flights that one disk may meet, component by component.
+/// Doubles from one disk to the next in an array that contact kernels read: whole cache lines.
+template <int D>
+inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
+
+/// Disks that one disk may meet. A disk is a row of kRowLength doubles: D of position, D of
+/// velocity, the time of both, one that is not read, and D whole box lengths by which the row's
+/// frame lies off the box.
 template <int D>
 struct Candidates {
   static constexpr int kCapacity = 48;
 
-  alignas(64) double r[D][kCapacity];
-  alignas(64) double v[D][kCapacity];
-  alignas(64) double time[kCapacity];
-  alignas(64) double shift[D][kCapacity];  ///< added to the one disk's r minus the candidate's
-  alignas(64) double contact[kCapacity];   ///< result: encounter_time with each
+  /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
+  static constexpr int kMargin = 3;
+  std::uint32_t disks[kCapacity + kMargin];
+  double wraps[D][kCapacity + kMargin];  ///< box lengths to subtract from each one's; if `wrapped`
+  int size = 0;
+  bool wrapped = false;
 };
 
-/// Fills the first `size` of candidates.contact for the flight (r, v, time), with the widest
-/// vectors that the processor has, and returns the earliest, kNever or kTouching included; the bits
-/// are those of encounter_time on any. `gravity` is null where there is none.
+/// Which of its candidates a disk touches first.
+struct FirstContact {
+  double time;      ///< kNever: none, kTouching: at least one touches already
+  int candidate;    ///< whose time this is
+  bool told_apart;  ///< false: others may share the time, or touch too, and must be asked
+};
+
+/// The first encounter_time of the disk in row `self` with the candidates, by vectors as wide as
+/// the processor has; the same bits on any. The disk itself may be among them: it never meets
+/// itself. `rows` holds all disks, `box` are its D edge lengths, `gravity` is null where there is
+/// none.
 template <int D>
-double contact_times(const double* r, const double* v, double time, double diameter,
-                     const double* gravity, Candidates<D>& candidates, int size);
+FirstContact first_contact(const double* rows, std::uint32_t self, Candidates<D>& candidates,
+                           const double* box, double diameter, const double* gravity);
 
 }  // namespace clatter

@@ -4,7 +4,9 @@
 // on the instruction set.
 
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
 namespace clatter {
 
@@ -12,24 +14,41 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Stands for the contact time of disks that touch already; what they do depends on rounding.
 inline constexpr double kTouching = -std::numeric_limits<double>::infinity();
 
+/// The square root of a number, or of each of a vector's.
+template <class Number>
+[[gnu::always_inline]] inline Number root_of(const Number& x) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return std::sqrt(x);
+  } else {
+    double roots[sizeof(Number) / sizeof(double)];
+    std::memcpy(roots, &x, sizeof x);
+    for (double& root : roots) root = std::sqrt(root);
+    Number result;
+    std::memcpy(&result, roots, sizeof result);
+    return result;
+  }
+}
+
 /// Time at which the disks of two flights touch, kNever, or kTouching. Exchanging the flights and
-/// negating the shift gives the same bits, so it does not matter who asks or when.
+/// negating the shift gives the same bits, so it does not matter who asks or when. Number is
+/// double, or a vector of doubles for as many pairs.
 ///
 /// Disks share the acceleration of gravity, so seen from each other they move on straight lines; it
 /// enters only where they are at the later flight's start. Without kFalling, `gravity` is not read.
 ///
 /// Contact is the first root of |x + g t| = a. Its discriminant is taken as g^2 a^2 - |x ^ g|^2,
 /// which unlike (x.g)^2 - g^2 (x^2 - a^2) loses nothing when the disks start far apart.
-template <int D, bool kFalling>
-[[gnu::always_inline]] inline double encounter_time(const double* r_a, const double* v_a,
-                                                    double time_a, const double* r_b,
-                                                    const double* v_b, double time_b,
-                                                    const double* shift, double diameter,
+template <int D, bool kFalling, class Number>
+[[gnu::always_inline]] inline Number encounter_time(const Number* r_a, const Number* v_a,
+                                                    const Number& time_a, const Number* r_b,
+                                                    const Number* v_b, const Number& time_b,
+                                                    const Number* shift, double diameter,
                                                     const double* gravity) {
-  const double start = time_a > time_b ? time_a : time_b;
-  const double since_a = start - time_a, since_b = start - time_b;
-  double x[D], g[D];
-  double approach = 0.0, distance_squared = 0.0, speed_squared = 0.0, wedge_squared = 0.0;
+  const Number zero{};
+  const Number start = time_a > time_b ? time_a : time_b;
+  const Number since_a = start - time_a, since_b = start - time_b;
+  Number x[D], g[D];
+  Number approach = zero, distance_squared = zero, speed_squared = zero, wedge_squared = zero;
   for (int k = 0; k < D; ++k) {
     if constexpr (kFalling) {
       x[k] = ((r_a[k] + (v_a[k] + gravity[k] * (0.5 * since_a)) * since_a) -
@@ -46,15 +65,16 @@ template <int D, bool kFalling>
   }
   for (int k = 0; k < D; ++k) {
     for (int l = k + 1; l < D; ++l) {
-      const double area = x[k] * g[l] - x[l] * g[k];
+      const Number area = x[k] * g[l] - x[l] * g[k];
       wedge_squared += area * area;
     }
   }
-  const double gap = distance_squared - diameter * diameter;
-  const double discriminant = speed_squared * (diameter * diameter) - wedge_squared;
-  const double root = std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
-  const double time = gap > 0.0 ? start + gap / (root - approach) : kTouching;
-  return approach < 0.0 && discriminant > 0.0 ? time : kNever;
+  const Number gap = distance_squared - diameter * diameter;
+  const Number discriminant = speed_squared * (diameter * diameter) - wedge_squared;
+  const Number root = root_of<Number>(discriminant < zero ? zero : discriminant);
+  const Number time = gap > zero ? start + gap / (root - approach) : zero + kTouching;
+  const Number met = discriminant > zero ? time : zero + kNever;
+  return approach < zero ? met : zero + kNever;
 }
 
 }  // namespace clatter

@@ -12,14 +12,14 @@
 namespace clatter {
 
 /// A value as TOML writes it, and JSON too but for infinity.
-std::string value_text(double number);
+std::string value_text(double number);  ///< the shortest that reads back to the same bits
 std::string value_text(int number);
 std::string value_text(bool flag);
-std::string value_text(const std::string& text);
-std::string value_text(const Vec2& vector);
-std::string value_text(const std::array<int, 2>& numbers);
-std::string value_text(const ColourRange& range);
-std::string value_text(const Rgb& colour);
+std::string value_text(const std::string& text);            ///< quoted, what is special escaped
+std::string value_text(const Vec2& vector);                 ///< as an array
+std::string value_text(const std::array<int, 2>& numbers);  ///< as an array
+std::string value_text(const ColourRange& range);           ///< as the scene file has it
+std::string value_text(const Rgb& colour);                  ///< "#rrggbb", quoted
 
 /// Visitor that writes every key which a scene has; the subclasses know the syntax around them.
 class KeyWriter {
@@ -85,6 +85,7 @@ class KeyWriter {
 /// Writes a scene file.
 class TomlWriter final : public KeyWriter {
  public:
+  /// All that has been written.
   const std::string& text() const { return text_; }
 
  private:
@@ -100,6 +101,7 @@ class TomlWriter final : public KeyWriter {
 /// Writes a JSON object.
 class JsonWriter final : public KeyWriter {
  public:
+  /// All that has been written.
   std::string text() const { return '{' + text_ + '}'; }
 
  private:

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/physics/fraction.h"
+
 namespace clatter {
 
 double Roughness::friction_in_force() const {
@@ -19,26 +21,20 @@ bool Roughness::any() const {
   return friction_in_force() > 0.0 && tangential_restitution_in_force() > -1.0;
 }
 
-double Wall::innermost_travel() const {
-  switch (kind) {
-    case WallKind::Sawtooth:
-      return stroke;
-    case WallKind::Sinusoidal:
-      return 0.5 * stroke;
-    case WallKind::Static:
-    case WallKind::Driven:
-    case WallKind::Thermal:
-      break;
-  }
-  return 0.0;
+WallMotion Wall::motion() const {
+  if (!moves()) return {};
+  return {kind == WallKind::Sawtooth ? WallPath::Sawtooth : WallPath::Sinusoidal, stroke, frequency,
+          phase};
 }
 
-double Scene::start_temperature() const {
-  if (disks.start.layout != Layout::File) return disks.start.temperature;
-  double sum = 0.0;
-  for (const Vec2& velocity : disks.start.state.velocities) sum += velocity.squaredNorm();
-  const auto count = static_cast<double>(disks.start.state.velocities.size());
-  return count > 0.0 ? sum / (2.0 * count) : 0.0;
+double Wall::start_travel() const {
+  WallMotion at_start = motion();
+  at_start.phase = fraction(phase);
+  return wall_state(at_start, 0.0).displacement;
+}
+
+double Wall::innermost_travel() const {
+  return clatter::innermost_travel(motion());
 }
 
 double Scene::area_fraction() const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/physics/wall_motion.h"
 #include "engine/state.h"
 #include "engine/vec.h"
 
@@ -46,6 +48,10 @@ struct Wall {
 
   /// Whether the wall changes its place.
   bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
+  /// The motion of one that moves, its phase at simulation time 0; others stay at rest.
+  WallMotion motion() const;
+  /// How far into the box it is at time 0.
+  double start_travel() const;
   /// How far into the box its motion takes it.
   double innermost_travel() const;
   /// How far out of the box its motion takes it.
@@ -66,7 +72,8 @@ struct Start {
   Layout layout = Layout::Random;
   std::string file;     ///< of layout File: a CSV, see state_file.h, or its name in the gallery
   State<2> state = {};  ///< of layout File: what the file says
-  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed
+  double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed;
+                             ///< of layout File: that of the state
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
 };
 
@@ -109,10 +116,23 @@ enum class Field {
   HeatFluxYKinetic,
   HeatFluxXCollisional,
   HeatFluxYCollisional,
-  Dissipation,     ///< zeta <= 0, energy per time and area that collisions of disks give
-  Spin,            ///< mean angular velocity
-  SpinTemperature  ///< T_rot = I <omega^2>
+  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of disks give
+  Spin,             ///< mean angular velocity
+  SpinTemperature,  ///< T_rot = I <omega^2>
+  BalanceMass,  ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked, see Imbalances
+  BalanceMomentumX,
+  BalanceMomentumY,
+  BalanceEnergy
 };
+
+/// The fields that are residuals of balance equations, in the order of Conserved<2>.
+inline constexpr std::array<Field, 4> kResiduals = {Field::BalanceMass, Field::BalanceMomentumX,
+                                                    Field::BalanceMomentumY, Field::BalanceEnergy};
+
+/// Whether a field is one of these, and no average over disks and collisions.
+constexpr bool is_residual(Field field) {
+  return std::ranges::find(kResiduals, field) != kResiduals.end();
+}
 
 /// How disks come to count in fields: their flights exactly, or where they are now and then.
 enum class Estimator { Exact, Snapshot };
@@ -128,7 +148,7 @@ struct Measure {
   double burn_in = 100.0;               ///< time before averages start, >= 0
   double duration = 1000.0;             ///< time averaged over, > 0
   double series_interval = 1.0;         ///< spacing of temperature_series, > 0
-  std::vector<Field> fields;            ///< profiles asked for; empty: none
+  std::vector<Field> fields;            ///< profiles and residuals asked for; empty: none
   std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
   Axis profile_axis = Axis::X;          ///< along which profiles go
   Estimator estimator = Estimator::Exact;
@@ -212,8 +232,6 @@ struct Scene {
   bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// T at time 0, that of a start state's file where there is one.
-  double start_temperature() const;
   /// phi = N pi / (4 Lx Ly).
   double area_fraction() const;
   /// How far into the box the near walls of both axes move at most.

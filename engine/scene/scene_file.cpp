@@ -48,6 +48,13 @@ bool is_file(const std::filesystem::path& path) {
                                : "did you mean '" + near + "'?");
 }
 
+double temperature_of(const State<2>& state) {
+  double sum = 0.0;
+  for (const Vec2& velocity : state.velocities) sum += velocity.squaredNorm();
+  const auto count = static_cast<double>(state.velocities.size());
+  return count > 0.0 ? sum / (2.0 * count) : 0.0;
+}
+
 /// Reads the state that the scene starts from, and makes the name of its file one that is found
 /// from the working directory.
 void load_start_state(Scene& scene, const toml::table& root, const std::string& file,
@@ -68,6 +75,7 @@ void load_start_state(Scene& scene, const toml::table& root, const std::string& 
   } else {
     refuse_missing_state(place, path);
   }
+  start.temperature = temperature_of(start.state);
 }
 
 SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {
@@ -79,7 +87,7 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
 }
 
 Scene parse(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
-            Origin origin) {
+            Origin origin, StartFile start_file) {
   toml::table root = parse_document(text, file);
   for (const Override& change : overrides) apply_override(root, change);
 
@@ -93,7 +101,12 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
   if (!input.scene.spins()) input = read_keys(root, file, false);
   Scene& scene = input.scene;
   check_scene(scene, root, file);
-  if (scene.disks.start.layout == Layout::File) load_start_state(scene, root, file, origin);
+  const bool from_file = scene.disks.start.layout == Layout::File;
+  if (from_file && start_file == StartFile::Skip) {
+    scene.disks.count = input.count.value_or(0);
+    return scene;
+  }
+  if (from_file) load_start_state(scene, root, file, origin);
   scene.disks.count = resolve_count(input, root, file);
   return scene;
 }
@@ -114,21 +127,22 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
 
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides) {
-  return parse(text, file, overrides, Origin::Folder);
+  return parse(text, file, overrides, Origin::Folder, StartFile::Read);
 }
 
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides) {
-  return parse(scene.bytes, std::string(scene.name), overrides, Origin::Gallery);
+  return parse(scene.bytes, std::string(scene.name), overrides, Origin::Gallery, StartFile::Read);
 }
 
-Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides) {
+Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
+                 StartFile start_file) {
   if (is_file(path_or_name)) {
-    return parse_scene(read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"),
-                       path_or_name, overrides);
+    return parse(read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"),
+                 path_or_name, overrides, Origin::Folder, start_file);
   }
   for (const std::string& name : {path_or_name, path_or_name + ".toml"}) {
     const EmbeddedFile* scene = find_embedded(embedded_scenes(), name);
-    if (scene) return load_gallery_scene(*scene, overrides);
+    if (scene) return parse(scene->bytes, name, overrides, Origin::Gallery, start_file);
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path_or_name, ignored)) {

@@ -15,9 +15,14 @@ struct Override {
   std::string value;
 };
 
+/// Whether the file of a start state is read. A run that goes on has its disks already: without the
+/// file the scene has no start state and, unless a key gives their number, no disks.
+enum class StartFile { Read, Skip };
+
 /// Reads the scene at a path, or the gallery scene of that name, applies the overrides, and
 /// validates the whole. Throws UserError with file, line, column, what is wrong and what to do.
-Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {});
+Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {},
+                 StartFile start_file = StartFile::Read);
 
 /// Like load_scene, of a scene in the gallery.
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides = {});

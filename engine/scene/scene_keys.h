@@ -30,12 +30,15 @@ struct Limits {
   }
 };
 
+/// Numbers from `lowest` to `highest`, both among them.
 constexpr Limits between(double lowest, double highest) {
   return {.lowest = lowest, .highest = highest};
 }
+/// Finite numbers from `lowest` on.
 constexpr Limits at_least(double lowest) {
   return {.lowest = lowest};
 }
+/// Finite numbers greater than `lowest`.
 constexpr Limits above(double lowest) {
   return {.lowest = lowest, .above = true};
 }
@@ -129,7 +132,7 @@ inline constexpr std::array<Named<Theme>, 3> kThemes = {
     {{"dark", Theme::Dark}, {"light", Theme::Light}, {"projector", Theme::Projector}}};
 
 /// Fields one by one: heatmaps, and the columns of profiles.
-inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
+inline constexpr std::array<Named<Field>, 28> kHeatmaps = {
     {{"density", Field::Density},
      {"velocity_x", Field::VelocityX},
      {"velocity_y", Field::VelocityY},
@@ -153,11 +156,15 @@ inline constexpr std::array<Named<Field>, 24> kHeatmaps = {
      {"heat_flux_y_collisional", Field::HeatFluxYCollisional},
      {"dissipation", Field::Dissipation},
      {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature}}};
+     {"spin_temperature", Field::SpinTemperature},
+     {"balance_mass", Field::BalanceMass},
+     {"balance_momentum_x", Field::BalanceMomentumX},
+     {"balance_momentum_y", Field::BalanceMomentumY},
+     {"balance_energy", Field::BalanceEnergy}}};
 
 /// Measured fields; a name stands for all the components in its rows. The whole of a temperature
 /// comes after its components, so that one of these alone is written by its own name.
-inline constexpr std::array<Named<Field>, 26> kProfiles = {
+inline constexpr std::array<Named<Field>, 30> kProfiles = {
     {{"density", Field::Density},
      {"velocity", Field::VelocityX},
      {"velocity", Field::VelocityY},
@@ -183,7 +190,11 @@ inline constexpr std::array<Named<Field>, 26> kProfiles = {
      {"heat_flux_collisional", Field::HeatFluxYCollisional},
      {"dissipation", Field::Dissipation},
      {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature}}};
+     {"spin_temperature", Field::SpinTemperature},
+     {"balance", Field::BalanceMass},
+     {"balance", Field::BalanceMomentumX},
+     {"balance", Field::BalanceMomentumY},
+     {"balance", Field::BalanceEnergy}}};
 
 inline constexpr std::array<Named<Axis>, 2> kAxes = {{{"x", Axis::X}, {"y", Axis::Y}}};
 
@@ -205,6 +216,7 @@ struct SceneInput {
   Presence spin_key() const { return spins ? kOptional : kNotWithoutSpins; }
 };
 
+/// The keys of rough partners, disks or walls.
 template <class Visitor>
 void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
   io.value("friction", roughness.friction, at_least_or_infinite(0.0), presence);
@@ -232,6 +244,7 @@ void visit_wall(Visitor& io, Wall& wall) {
            wall.moves() ? kOptional : kNotOfWall);
 }
 
+/// The keys of [disks.start]; which of them it may have depends on its layout.
 template <class Visitor>
 void visit_start(Visitor& io, Start& start, Presence spin_key) {
   io.choice("layout", start.layout, kLayouts);
@@ -243,6 +256,7 @@ void visit_start(Visitor& io, Start& start, Presence spin_key) {
            from_file ? kNotBesideFile : spin_key);
 }
 
+/// The keys of [disks]; count and area_fraction are resolved when the whole scene is known.
 template <class Visitor>
 void visit_disks(Visitor& io, SceneInput& input) {
   constexpr double kMostDisks = std::numeric_limits<int>::max();
@@ -255,6 +269,7 @@ void visit_disks(Visitor& io, SceneInput& input) {
   io.table("start", [&](auto& io) { visit_start(io, disks.start, input.spin_key()); });
 }
 
+/// The keys of [bulk_drive], where there is one.
 template <class Visitor>
 void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
   io.value("interval", drive.interval, above(0.0), kRequired);
@@ -262,6 +277,7 @@ void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
   io.value("kick_spin", drive.kick_spin, between(0.0, kMostSpeed), spin_key);
 }
 
+/// The keys of [measure]; those of snapshots and of the Gaussian only with these.
 template <class Visitor>
 void visit_measure(Visitor& io, Measure& measure) {
   io.value("burn_in", measure.burn_in, at_least(0.0));
@@ -278,6 +294,7 @@ void visit_measure(Visitor& io, Measure& measure) {
   io.value("width", measure.width, above(0.0), box ? kNotOfBox : kRequired);
 }
 
+/// The keys of [view].
 template <class Visitor>
 void visit_view(Visitor& io, View& view) {
   io.choice("colour_by", view.colour_by, kColourings);

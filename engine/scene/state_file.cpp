@@ -17,9 +17,6 @@ namespace clatter {
 
 namespace {
 
-/// Overlaps up to this, in diameters, are rounding: the simulation starts from them.
-constexpr double kRounding = 1e-12;
-
 enum Column { kX, kY, kVx, kVy, kOmega, kColumns };
 constexpr std::array<std::string_view, kColumns> kNames = {"x", "y", "vx", "vy", "omega"};
 constexpr const char* kHeaderAdvice = "begin the file with the line x,y,vx,vy";
@@ -162,25 +159,28 @@ void Reader::check_number(const Cell& cell, Column column, double number) const 
   }
 }
 
-/// A centre lies in the box, and so far from its walls that none of them can touch it where it
-/// moves farthest in.
+/// A centre lies in the box along a periodic axis, and else between the walls as they are at time
+/// 0, one of which may then have gone out of the box.
 void Reader::check_place(const Cell& cell, int axis, double centre) const {
   const std::string name(kNames[axis]);
   const double length = scene_.box[axis];
-  if (centre < 0.0 || centre > length) {
+  if (scene_.periodic(axis)) {
+    if (centre >= 0.0 && centre <= length) return;
     throw UserError(place_of(cell), name + " = " + number_text(centre) + " lies outside the box",
                     "give a number between 0 and " + number_text(length));
   }
-  if (scene_.periodic(axis)) return;
-  const double low = scene_.clear_corner()[axis] + 0.5;
-  const double high = scene_.clear_corner()[axis] + scene_.clear_box()[axis] - 0.5;
-  if (centre >= low - kRounding && centre <= high + kRounding) return;
+  const Wall& near = *scene_.walls[2 * axis];
+  const Wall& far = *scene_.walls[2 * axis + 1];
+  const double low = 0.5 + near.start_travel();
+  const double high = length - 0.5 - far.start_travel();
+  if (centre >= low - kStartRounding && centre <= high + kStartRounding) return;
   const int side = 2 * axis + (centre > high ? 1 : 0);
   const bool moves = scene_.walls[side]->moves();
   throw UserError(place_of(cell),
                   "at " + name + " = " + number_text(centre) + " the disk overlaps the " +
-                      kSideNames[side] + " wall" + (moves ? " where that moves farthest in" : ""),
-                  "give a number between " + number_text(low) + " and " + number_text(high));
+                      kSideNames[side] + " wall" + (moves ? ", as that is at time 0" : ""),
+                  "give a number between " + number_text(low) + " and " + number_text(high) +
+                      (moves ? ", or the wall the phase that it had" : ""));
 }
 
 void Reader::read_disk(State<2>& state) {
@@ -245,7 +245,8 @@ class Neighbours {
     Position cell;
     for (int axis = 0; axis < 2; ++axis) {
       const double share = centre[axis] / scene_.box[axis];
-      cell[axis] = std::min(counts_[axis] - 1, static_cast<std::int64_t>(share * counts_[axis]));
+      cell[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(share * counts_[axis]), 0,
+                                            counts_[axis] - 1);
     }
     return cell;
   }
@@ -283,7 +284,7 @@ void Reader::refuse_overlaps(const std::vector<Vec2>& centres) const {
         x[axis] -= scene_.box[axis] * std::round(x[axis] / scene_.box[axis]);
       }
       const double distance = x.norm();
-      if (distance < 1.0 - kRounding) refuse_pair(i, j, distance);
+      if (distance < 1.0 - kStartRounding) refuse_pair(i, j, distance);
     });
   }
 }

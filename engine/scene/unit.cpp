@@ -35,6 +35,11 @@ const char* unit_of(Field field) {
       return "m/t^3";
     case Field::Spin:
       return "1/t";
+    case Field::BalanceMass:
+    case Field::BalanceMomentumX:
+    case Field::BalanceMomentumY:
+    case Field::BalanceEnergy:
+      return "1";
   }
   return "";
 }

@@ -4,8 +4,10 @@
 
 namespace clatter {
 
-/// The unit of a field, in plain text such as "m a^2/t^2": a is the diameter of a disk, m its mass,
-/// t the scene's unit of time.
+/// What the letters in units stand for.
+inline constexpr const char* kUnits = "a: disk diameter, m: disk mass, t: time unit of the scene";
+
+/// The unit of a field in terms of these, in plain text such as "m a^2/t^2"; "1" of bare numbers.
 const char* unit_of(Field field);
 
 }  // namespace clatter

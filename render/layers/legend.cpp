@@ -18,7 +18,8 @@ constexpr float kArrowHeight = 2.0f;  // from the name's top to the arrow's midd
 constexpr float kLongestArrow = 5.0f;
 
 std::string unit_and_range(const Legend& legend, const char* range) {
-  return legend.quantity.unit + " · " + range;
+  const std::string& unit = legend.quantity.unit;
+  return (unit.empty() ? "" : unit + " · ") + range;
 }
 
 void draw_name(ImDrawList& list, const Quantity& quantity, const Fonts& fonts,

@@ -34,11 +34,11 @@ Outcome Shell::run(const std::string& line) const {
 }
 
 void Shell::write(const std::string& name, const std::string& text) const {
-  std::ofstream(folder_ / "here" / name, std::ios::binary) << text;
+  std::ofstream(path(name), std::ios::binary) << text;
 }
 
 std::string Shell::read(const std::string& name) const {
-  return bytes_of(folder_ / "here" / name);
+  return bytes_of(path(name));
 }
 
 std::vector<std::string> Shell::files() const {
@@ -48,6 +48,25 @@ std::vector<std::string> Shell::files() const {
   }
   std::ranges::sort(names);
   return names;
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+void check_refused(const Shell& shell, const std::string& line,
+                   const std::vector<std::string>& parts) {
+  CAPTURE(line);
+  const std::vector<std::string> before = shell.files();
+  const Outcome outcome = shell.run(line);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  for (const std::string& part : parts) {
+    CAPTURE(part);
+    CHECK(says(outcome.err, part));
+  }
+  CHECK(shell.files() == before);
 }
 
 }  // namespace clatter

@@ -29,11 +29,21 @@ class Shell {
   void write(const std::string& name, const std::string& text) const;
   /// The bytes of a file in the folder.
   std::string read(const std::string& name) const;
+  /// Where a file of the folder is.
+  std::filesystem::path path(const std::string& name) const { return folder_ / "here" / name; }
   /// The names in the folder, sorted.
   std::vector<std::string> files() const;
 
  private:
   std::filesystem::path folder_;
 };
+
+/// Whether a text has a part.
+bool says(const std::string& text, const std::string& part);
+
+/// Runs a line that must be refused: exit code 2, a message that holds all of `parts`, nothing on
+/// stdout and no file.
+void check_refused(const Shell& shell, const std::string& line,
+                   const std::vector<std::string>& parts);
 
 }  // namespace clatter

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/app/shell.h"
 
@@ -31,6 +32,33 @@ TEST_CASE("What check prints is a scene that checks to the same") {
     CHECK(outcome.out == shell.read("a.toml"));
     CHECK(outcome.out.size() > 100);
   }
+}
+
+TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
+  const Shell shell;
+  const std::string plain = shell.run("clatter check cooling --quiet").err;
+  CAPTURE(plain);
+  for (const char* part : {"spins", "gravity", "moving walls", "bulk drive", "t_c"}) {
+    CAPTURE(part);
+    CHECK(std::regex_search(plain, std::regex("\n  " + std::string(part) + " +0  no\n")));
+  }
+  CHECK_FALSE(says(plain, "kicks"));
+  const std::string all =
+      shell
+          .run(
+              "clatter check rough_driven --set collapse.contact_time=1e-6 --until 100 "
+              "--set gravity.acceleration=[0,-1] --set bulk_drive.interval=0.5 "
+              "--set measure.cells=[10,10] --set 'measure.fields=[\"density\",\"velocity\"]' "
+              "--set disks.count=100")
+          .err;
+  CAPTURE(all);
+  CHECK(says(all, ", 200 kicks of all disks; "));
+  CHECK(std::regex_search(all, std::regex("\n  spins +8  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  gravity +0  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  t_c +8  yes\n")));
+  // Three numbers for each of 100 cells in 66 windows, and in 65 maps; and for each of 10 columns
+  // in 1000 windows.
+  CHECK(std::regex_search(all, std::regex("\n  fields +5544  density, velocity\n")));
 }
 
 TEST_CASE("A flag wins over the scene") {
@@ -110,7 +138,7 @@ TEST_CASE("Every command explains each of its flags") {
            Command{"measure", true, {"--resume", "--checkpoint", "--out", "--csv", "--save-state"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
-           Command{"bench", false, {"--json", "--count", "--area-fraction"}},
+           Command{"bench", false, {"--json", "--count", "--area-fraction", "--duration"}},
        }) {
     const Outcome outcome = shell.run("clatter " + command.name + " --help");
     CAPTURE(command.name);

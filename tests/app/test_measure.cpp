@@ -97,6 +97,64 @@ TEST_CASE("A result has only what its scene has") {
   CHECK_FALSE(cooling.contains("spin_temperature"));
 }
 
+TEST_CASE("A result says what theory predicts of a gas in a periodic box") {
+  const Shell shell;
+  const auto theory = [&](const std::string& line) {
+    const Outcome outcome = shell.run("clatter measure " + line + " --quiet --until 5");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return json::parse(outcome.out).at("theory");
+  };
+  constexpr double kPi = 3.14159265358979;
+  // Sec. 5 with phi = N pi / (4 Lx Ly), rho = 4 phi/pi.
+  const double density = 1011.0 / (63.0 * 63.0), phi = density * kPi / 4.0;
+  const double chi = (1.0 - 7.0 * phi / 16.0) / ((1.0 - phi) * (1.0 - phi));
+  const json cooling = theory("cooling");
+  CHECK(cooling.size() == 3);
+  CHECK(cooling.at("compressibility").get<double>() == doctest::Approx(1.0 + 1.95 * phi * chi));
+  CHECK(cooling.at("haff_rate").get<double>() ==
+        doctest::Approx((1.0 - 0.95 * 0.95) / 4.0 * 2.0 * std::sqrt(kPi) * chi * density));
+
+  // alpha = 0.9, beta = 0.3, q = 1/2: eta = 0.65/3.
+  const double eta = 0.65 / 3.0, A = 0.095 + eta * (1.0 - eta), B = 2.0 * eta * eta;
+  const double C = 2.0 * eta * (1.0 - 2.0 * eta), D = A - 2.0 * C;
+  CHECK(theory("rough_cooling").at("temperature_ratio").get<double>() ==
+        doctest::Approx((D + std::sqrt(D * D + 8.0 * B * B)) / (2.0 * B)));
+
+  // Kicks of 0.1 per component every 0.05, their mean removed: H = 0.01 (1 - 1/400) / 0.05.
+  const json partial = theory("rough_driven --set measure.burn_in=0");
+  CHECK(partial.at("bulk_drive_power").get<double>() == doctest::Approx(0.1995));
+  CHECK_FALSE(partial.contains("temperature_driven"));  // friction has a limit
+  const json driven = theory("rough_driven --set measure.burn_in=0 --set disks.friction=inf");
+  CHECK(driven.at("temperature_ratio").get<double>() == doctest::Approx(0.25 / (1.0 - 0.5)));
+  CHECK_FALSE(theory("equilibrium --set disks.restitution=1 "
+                     "--set 'bulk_drive={interval=1,kick_speed=1}' --set measure.burn_in=0")
+                  .contains("temperature_driven"));  // nothing dissipates
+  CHECK_FALSE(theory("vibrated --set measure.burn_in=0").contains("compressibility"));
+}
+
+// 100 disks at phi = 0.1 with alpha = 0.9 and beta = 0.5 for 4000 time units after 50:
+// standard errors are about 0.5 %. Enskog's theory with Gaussian velocities is good to a few
+// percent here; at most 5 % may be off.
+TEST_CASE("Bulk driving gives the power and the temperatures that the result's theory predicts") {
+  const Shell shell;
+  shell.write("s.toml",
+              "box.size = [28.02, 28.02]\n"
+              "disks = { count = 100, restitution = 0.9, tangential_restitution = 0.5 }\n"
+              "bulk_drive = { interval = 0.05, kick_speed = 0.1 }\n"
+              "measure = { burn_in = 50.0, duration = 4000.0 }\n");
+  const json result = json::parse(shell.run("clatter measure s.toml --quiet --seed 3").out);
+  const json& theory = result.at("theory");
+  const json& bulk_in = result.at("energy").at("bulk_in");
+  CHECK(std::abs(mean(bulk_in) - 100.0 * theory.at("bulk_drive_power").get<double>()) <
+        5.0 * bulk_in.at("standard_error").get<double>());
+  const double temperature = mean(result.at("temperature"));
+  CHECK(temperature ==
+        doctest::Approx(theory.at("temperature_driven").get<double>()).epsilon(0.05));
+  CHECK(mean(result.at("spin_temperature")) / temperature ==
+        doctest::Approx(theory.at("temperature_ratio").get<double>()).epsilon(0.05));
+}
+
 TEST_CASE("The same seed gives the same run, another seed another") {
   const Shell shell;
   const auto run = [&](const std::string& flags) {
@@ -227,6 +285,22 @@ TEST_CASE("A state that was saved is where another run starts") {
   CHECK(shell.run("clatter check from/s.toml").out.find("count = 200\n") != std::string::npos);
 }
 
+TEST_CASE("Where t_c makes all collisions elastic, it is said which other one would help") {
+  const Shell shell;
+  const Outcome frozen = shell.run(
+      "clatter measure cooling --set collapse.contact_time=100 --set measure.burn_in=1 --until 20");
+  CHECK(frozen.code == 0);
+  CHECK(says(frozen.err, "a smaller one, say "));
+  shell.write("pile.toml",
+              "box.size = [10, 20]\ndisks = { count = 20, restitution = 0.5 }\n"
+              "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
+              "walls.top = { kind = 'static' }\ngravity.acceleration = [0, -1]\n"
+              "collapse.contact_time = 1e-2\nmeasure.burn_in = 20\n");
+  const Outcome resting = shell.run("clatter measure pile.toml --until 40");
+  CHECK(resting.code == 0);
+  CHECK(says(resting.err, "a larger one, say 0.1, would run faster"));
+}
+
 TEST_CASE("An interrupted measurement keeps what it has") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";
@@ -267,6 +341,26 @@ TEST_CASE("Progress is told on stderr as asked") {
   CHECK(progress.at("done") < 1.0);
   CHECK(progress.at("seconds_left") > 0.0);
   CHECK(json::accept(outcome.out));
+}
+
+TEST_CASE("Checking a scene foretells the memory that its measurement takes") {
+  const Shell shell;
+  for (const std::string fields : {"\"balance\"", "\"density\"", "\"velocity\", \"balance\""}) {
+    CAPTURE(fields);
+    const std::string rest =
+        " vibrated --set measure.cells=[400,400] --set measure.burn_in=0 "
+        "--set measure.duration=4 --set 'measure.fields=[" +
+        fields + "]' ";
+    const std::string told = shell.run("clatter check" + rest).err;
+    const std::string memory = "Memory: about ";
+    REQUIRE(told.find(memory) != std::string::npos);
+    const double megabytes = std::stod(told.substr(told.find(memory) + memory.size()));
+    REQUIRE(shell.run("clatter measure --quiet --out r.json" + rest).code == 0);
+    const double peak = json::parse(shell.read("r.json")).at("performance").at("peak_memory_bytes");
+    // There may be half as many parts of the run as there may be at most.
+    CHECK(1e6 * megabytes < 1.5 * peak);
+    CHECK(1e6 * megabytes > 0.7 * peak);
+  }
 }
 
 }  // namespace clatter

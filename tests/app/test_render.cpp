@@ -82,6 +82,13 @@ TEST_CASE("A picture of several samples a pixel has the size asked for, and othe
   CHECK(outcome.err.find("--supersample") != std::string::npos);
 }
 
+TEST_CASE("A picture from a time is the picture at that time") {
+  const Shell shell;
+  shell.run(kRender + "--from 3 --out from.png && " + kRender + "--to 3 --out to.png");
+  REQUIRE_FALSE(shell.read("to.png").empty());
+  CHECK(shell.read("from.png") == shell.read("to.png"));
+}
+
 TEST_CASE("Arrows need no heatmap, and take none along") {
   const Shell shell;
   const std::string empty = "box.size = [9, 9]\ndisks.count = 4\nview.colour_by = \"none\"\n";

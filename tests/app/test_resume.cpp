@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/checkpoint/checkpoint.h"
 #include "tests/app/shell.h"
 
 namespace clatter {
@@ -11,10 +12,6 @@ namespace clatter {
 using nlohmann::json;
 
 namespace {
-
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 json result_of(const Shell& shell, const std::string& name) {
   json result = json::parse(shell.read(name));
@@ -35,26 +32,11 @@ Outcome cut_off(const Shell& shell, const std::string& line, const std::string& 
 // Some seconds.
 const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --until 3000 --quiet ";
 
-void check_refused(const Shell& shell, const std::string& line,
-                   const std::vector<std::string>& parts) {
-  CAPTURE(line);
-  const std::vector<std::string> before = shell.files();
-  const Outcome outcome = shell.run(line);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.out.empty());
-  for (const std::string& part : parts) {
-    CAPTURE(part);
-    CHECK(says(outcome.err, part));
-  }
-  CHECK(shell.files() == before);
-}
-
 }  // namespace
 
 TEST_CASE("A measurement that was interrupted or killed goes on to the same result") {
   const Shell shell;
-  REQUIRE(shell.run(kRun + "--seed 7 --out whole.json").code == 0);
+  REQUIRE(shell.run(kRun + "--seed 7 --out whole.json --vtk whole").code == 0);
   int code = 0;
   SUBCASE("interrupted") {
     code = cut_off(shell, kRun + "--seed 7 --out part.json", "INT").code;
@@ -64,11 +46,12 @@ TEST_CASE("A measurement that was interrupted or killed goes on to the same resu
   }
   REQUIRE((code == 130 || code == 137));
   // Its seed comes from the checkpoint.
-  const Outcome outcome = shell.run(kRun + "--resume c --out resumed.json");
+  const Outcome outcome = shell.run(kRun + "--resume c --out resumed.json --vtk resumed");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   CHECK(result_of(shell, "resumed.json") == result_of(shell, "whole.json"));
+  CHECK(shell.run("diff -r whole resumed").code == 0);
 }
 
 TEST_CASE("An interrupted run leaves a checkpoint beside its result and names it") {
@@ -124,6 +107,7 @@ TEST_CASE(
   CHECK(shell.run(render + "--to 30 --set view.window=0.5 --resume c --out resumed.png").code == 0);
   CHECK(shell.read("resumed.png") == shell.read("whole.png"));
   check_refused(shell, render + "--to 20 --resume c --out x.png", {"--to", "25", "--resume"});
+  check_refused(shell, render + "--from 20 --resume c --out x.png", {"--from", "25"});
 
   const Outcome film =
       shell.run(render + "--to 26 --resume c --fps 4 --speed 1 --out f/ --checkpoint d");
@@ -144,8 +128,9 @@ TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
                                     "--until 9 --resume c --seed 3 --set disks.restitution=0.8 "
                                     "--set walls.left.drive_speed=2 --set view.speed=7");
   CHECK(outcome.code == 0);
-  CHECK(says(outcome.err,
-             "from t = 5 on other laws hold: disks.restitution, walls.left.drive_speed\n"));
+  CHECK(
+      says(outcome.err,
+           "from t = 5 on other laws hold: disks.restitution, walls.left.drive_speed, the seed\n"));
   CHECK(json::parse(outcome.out).at("seed") == 3);
 
   // What flights contribute is booked at their end, so averages cannot span two gravities.
@@ -155,6 +140,75 @@ TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
   CHECK(says(fallen.err, "other laws hold: gravity.acceleration\n"));
   CHECK(says(fallen.err, "averages start anew at t = 5\n"));
   CHECK(json::parse(fallen.out).at("time").at("burn_in") == 5.0);
+}
+
+// Where walls move otherwise, flights begin anew; where they only give otherwise, none does.
+TEST_CASE("Averages go on between walls that give more, and start anew between others") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure vibrated --set measure.burn_in=1 --set 'walls.left={kind=\"sawtooth\","
+      "stroke=0.1,frequency=2}' ";
+  REQUIRE(shell.run(line + "--until 5 --checkpoint c --out a.json").code == 0);
+  const auto resumed = [&](const std::string& change) {
+    return shell.run(line + "--until 9 --resume c --set walls." + change);
+  };
+  for (const std::string change :
+       {"left.stroke=0.05", "left.frequency=3", "left.phase=0.5", "left.kind=sinusoidal"}) {
+    CAPTURE(change);
+    const Outcome outcome = resumed(change);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(says(outcome.err, "averages start anew at t = 5\n"));
+    CHECK(json::parse(outcome.out).at("time").at("burn_in") == 5.0);
+  }
+  for (const std::string change : {"right.restitution=0.5", "left.restitution=0.9"}) {
+    CAPTURE(change);
+    const Outcome outcome = resumed(change);
+    CHECK(outcome.code == 0);
+    CHECK_FALSE(says(outcome.err, "anew"));
+    CHECK(json::parse(outcome.out).at("time").at("burn_in") == 1.0);
+  }
+}
+
+TEST_CASE("A run goes on without the file of its start state") {
+  const Shell shell;
+  shell.run("clatter measure vibrated --until 501 --out r.json --save-state start.csv --quiet");
+  shell.write("s.toml",
+              "disks = { start = { layout = 'file', file = 'start.csv' }, restitution = 0.9 }\n"
+              "walls.left = { kind = 'static' }\nwalls.right = { kind = 'static' }\n"
+              "measure.burn_in = 1\n");
+  REQUIRE(shell.run("clatter measure s.toml --until 20 --out whole.json").code == 0);
+  REQUIRE(shell.run("clatter measure s.toml --until 10 --out part.json --checkpoint c").code == 0);
+  shell.run("rm start.csv");
+  const Outcome outcome = shell.run("clatter measure s.toml --until 20 --out on.json --resume c");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  const json resumed = result_of(shell, "on.json"), whole = result_of(shell, "whole.json");
+  CHECK(resumed.at("state_hash") == whole.at("state_hash"));
+  CHECK(resumed.at("scene") == whole.at("scene"));
+  // From the temperature that the file gave.
+  CHECK(resumed.at("theory").at("haff_rate") == whole.at("theory").at("haff_rate"));
+  check_refused(shell, "clatter measure s.toml --until 20 --resume c --set disks.count=7",
+                {"c: ", "disks.count is 200 in the checkpoint and 7 in the scene"});
+}
+
+// What a run has found of itself goes with it, so a checkpoint may stand for a run that overlapped.
+TEST_CASE("A film of disks that overlapped is written, and the run fails") {
+  const Shell shell;
+  REQUIRE(shell.run("clatter measure vibrated --until 501 --checkpoint c --out r.json").code == 0);
+  Checkpoint checkpoint = read_checkpoint(shell.path("c"));
+  for (const auto& [overlap, code] : {std::pair{0.5e-9, 0}, std::pair{2e-9, 3}}) {
+    CAPTURE(overlap);
+    checkpoint.saved.checks.deepest_overlap = overlap;
+    write_checkpoint(shell.path("c"), checkpoint);
+    const Outcome outcome = shell.run(
+        "rm -f x.png; clatter render vibrated --size 64x64 --quiet --to 502 --resume c --out "
+        "x.png");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == code);
+    CHECK(says(outcome.err, "disks overlapped by 2e-09 diameters") == (code == 3));
+    CHECK_FALSE(shell.read("x.png").empty());
+  }
 }
 
 TEST_CASE("A checkpoint that does not fit is refused") {
@@ -193,7 +247,7 @@ TEST_CASE("A collapse leaves results, a checkpoint and the way on") {
   const Shell shell;
   const std::string scene =
       "cooling --set disks.restitution=0.1 --set disks.count=300 "
-      "--set box.size=[25,25] --until 1000 ";
+      "--set box.size=[25,25] --set measure.series_interval=0.125 --until 1000 ";
   const Outcome stopped = shell.run("clatter measure " + scene + "--quiet --out r.json");
   CHECK(stopped.code == 3);
   CHECK(says(stopped.err, "inelastic collapse"));

@@ -9,22 +9,6 @@ namespace clatter {
 
 namespace {
 
-// Runs a line that must be refused with a message that holds all of `parts`.
-void check_refused(const Shell& shell, const std::string& line,
-                   const std::vector<std::string>& parts) {
-  CAPTURE(line);
-  const std::vector<std::string> before = shell.files();
-  const Outcome outcome = shell.run(line);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.out.empty());
-  for (const std::string& part : parts) {
-    CAPTURE(part);
-    CHECK(outcome.err.find(part) != std::string::npos);
-  }
-  CHECK(shell.files() == before);
-}
-
 // A scene that is right: a mistake is put in by writing another line 4 or 5.
 std::string scene(const std::string& line_4 = "count = 10",
                   const std::string& line_5 = "restitution = 0.9") {
@@ -124,11 +108,72 @@ TEST_CASE("Where nothing can be written, nothing is run") {
     check_refused(shell, "clatter measure vibrated --until 1e6 --save-state " + out,
                   {"--save-state", "folder"});
   }
-  check_refused(shell, "clatter measure vibrated --until 1e6 --csv missing/x",
-                {"--csv", "missing"});
+  check_refused(shell, "clatter measure vibrated --until 1e6 --hdf5 folder", {"--hdf5", "folder"});
+  for (const std::string flag : {"--csv", "--vtk"}) {
+    check_refused(shell, "clatter measure vibrated --until 1e6 " + flag + " missing/x",
+                  {flag, "missing"});
+    const Outcome outcome = shell.run("clatter measure vibrated --until 1e6 " + flag + " /proc/x");
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("cannot make the folder /proc/x") != std::string::npos);
+  }
   check_refused(shell, "clatter render vibrated --to 1e5 --out missing/x.mp4",
                 {"--out", "missing"});
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.avi", {"x.avi", ".mp4"});
+}
+
+TEST_CASE("What cannot be written ends with exit code 1 and says so") {
+  const Shell shell;
+  for (const std::string flag : {"--out", "--hdf5", "--save-state"}) {
+    const Outcome outcome = shell.run(
+        "clatter measure vibrated --set measure.burn_in=0 "
+        "--set measure.cells=[40,40] --until 5 --quiet " +
+        flag + " /dev/full");
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("cannot write /dev/full: ") != std::string::npos);
+  }
+}
+
+TEST_CASE("Outputs that would replace each other are refused") {
+  const Shell shell;
+  shell.run("mkdir folder && ln -s folder link");
+  const std::vector<std::string> flags = {"--out",  "--csv",        "--vtk",
+                                          "--hdf5", "--save-state", "--checkpoint"};
+  for (std::size_t k = 0; k < flags.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other) {
+      check_refused(shell,
+                    "clatter measure vibrated --until 1e6 " + flags[k] + " link/x " + flags[other] +
+                        " ./folder/../folder/x",
+                    {flags[k], flags[other], "/x is what", "name of its own"});
+    }
+  }
+  check_refused(shell, "clatter measure vibrated --until 1e6 --csv x/ --vtk x", {"--vtk", "--csv"});
+  check_refused(shell, "clatter measure vibrated --until 1e6 --checkpoint c --out c.previous",
+                {"--checkpoint", "c.previous", "--out"});
+  for (const std::string file :
+       {"--csv d --out d/temperature_series.csv", "--csv d --hdf5 d/profile.csv",
+        "--csv d --save-state d/maps.csv", "--vtk d --out d/fields.vti",
+        "--vtk d --checkpoint d/series.pvd", "--vtk d --out d/series_63.vti"}) {
+    const std::string name = file.substr(file.rfind("d/"));
+    check_refused(shell, "clatter measure vibrated --until 1e6 " + file,
+                  {file.substr(0, 5), name + " is what", "name of its own"});
+  }
+  check_refused(shell, "clatter render vibrated --to 1e5 --out x.mp4 --checkpoint x.mp4",
+                {"--checkpoint", "--out"});
+  REQUIRE(shell.run("mkdir tables").code == 0);
+  CHECK(shell
+            .run("clatter measure vibrated --set measure.burn_in=0 --until 1 --quiet "
+                 "--csv tables --out tables/r.json --save-state tables/series_00.vti")
+            .code == 0);
+  CHECK(shell
+            .run("clatter measure vibrated --set measure.burn_in=0 --until 1 --quiet "
+                 "--out /dev/null --save-state /dev/null")
+            .code == 0);
+}
+
+TEST_CASE("Maps of no fields are refused") {
+  const Shell shell;
+  check_refused(shell, "clatter measure vibrated --set measure.fields=[] --vtk maps",
+                {"--vtk", "no fields", "measure.fields="});
 }
 
 TEST_CASE("A picture or film that cannot be is refused") {

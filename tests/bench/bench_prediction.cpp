@@ -16,8 +16,8 @@
 using namespace clatter;
 
 // Disks on a square lattice in a periodic box, with Gaussian velocities.
-static std::vector<Disk<2>> lattice(int side, double edge) {
-  std::vector<Disk<2>> disks(static_cast<std::size_t>(side * side));
+static LargeArray<Disk<2>> lattice(int side, double edge) {
+  LargeArray<Disk<2>> disks(static_cast<std::size_t>(side * side));
   for (std::size_t i = 0; i < disks.size(); ++i) {
     Random random(1, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
     const int n = static_cast<int>(i);
@@ -31,14 +31,16 @@ static double time_plan(int side, double area_fraction) {
   Model<2> model;
   const double edge = side * std::sqrt(std::numbers::pi / (4.0 * area_fraction));
   model.box = {edge, edge};
-  const std::vector<Disk<2>> disks = lattice(side, edge);
+  const LargeArray<Disk<2>> disks = lattice(side, edge);
   CellGrid<2> grid(model, disks.size());
   std::vector<Plan<2>> plans(disks.size());
   for (std::uint32_t i = 0; i < disks.size(); ++i) {
     plans[i].cell = grid.cell_at(disks[i].flight.r);
     grid.insert(i, plans[i].cell);
   }
-  const Prediction<2> prediction(model, disks, grid);
+  const Clock clock({0.0, 0.0});
+  const Boundary<2> boundary(model, clock);
+  const Prediction<2> prediction(model, boundary, disks, grid);
   const int rounds = 400000 / static_cast<int>(disks.size()) + 1;
   const double taken = bench::seconds([&] {
     for (int round = 0; round < rounds; ++round) {
@@ -49,18 +51,21 @@ static double time_plan(int side, double area_fraction) {
 }
 
 static double time_kernel(int size) {
-  Candidates<2> candidates{};
+  std::vector<Disk<2>> disks(Candidates<2>::kCapacity + 1);
   Random random(2, Stream::Velocity, 0, 0);
-  for (int i = 0; i < Candidates<2>::kCapacity; ++i) {
-    for (int k = 0; k < 2; ++k) {
-      candidates.r[k][i] = 6.0 * random.uniform() - 3.0;
-      candidates.v[k][i] = random.normal();
-    }
+  for (Disk<2>& disk : disks) {
+    for (double& x : disk.flight.r) x = 6.0 * random.uniform() - 3.0;
+    for (double& v : disk.flight.v) v = random.normal();
   }
-  const double r[] = {0.0, 0.0}, v[] = {0.3, -0.2};
+  Candidates<2> candidates;
+  for (int i = 0; i < size; ++i) candidates.disks[i] = static_cast<std::uint32_t>(i) + 1;
+  candidates.size = size;
+  const Vec2 box{100.0, 100.0};
   constexpr int kCalls = 1000000;
   const double taken = bench::seconds([&] {
-    for (int call = 0; call < kCalls; ++call) contact_times<2>(r, v, 0.0, 1.0, nullptr, candidates, size);
+    for (int call = 0; call < kCalls; ++call) {
+      first_contact<2>(disks.front().flight.r.data(), 0, candidates, box.data(), 1.0, nullptr);
+    }
   });
   return taken / kCalls;
 }
@@ -73,6 +78,6 @@ int main() {
                   1e9 * time_plan(side, area_fraction));
     }
   }
-  std::printf("%10s %29s\n", "candidates", "ns/call of contact_times");
+  std::printf("%10s %29s\n", "candidates", "ns/call of first_contact");
   for (const int size : {4, 8, 16, 48}) std::printf("%10d %29.1f\n", size, 1e9 * time_kernel(size));
 }

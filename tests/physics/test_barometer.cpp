@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "engine/dynamics/start.h"
+#include "engine/measure/cell_integrals.h"
+#include "engine/measure/fields.h"
+#include "engine/measure/totals.h"
 #include "tests/physics/experiment.h"
 #include "tests/support/statistics.h"
 
@@ -57,6 +60,35 @@ std::vector<double> virial_layers(int layers, double thickness, double slope, do
     (sum > total ? high : low) = middle;
   }
   return densities;
+}
+
+// A gas in layers of one diameter, watched over a window of time.
+struct Layers {
+  std::vector<double> pressure;  // -sigma_yy, mean over each layer
+  std::vector<double> weight;    // of what lies above, per width, mean over each layer
+};
+
+// The density is known in sub-layers. A disk weighs on a layer by the share of it that lies below.
+Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
+                 const CellSums& density, const MomentLayout<2>& density_layout, double width,
+                 double gravity) {
+  const std::size_t count = stress.rows.size() / static_cast<std::size_t>(stress_layout.size);
+  const std::size_t parts = density.rows.size() / count;
+  const double part = 1.0 / static_cast<double>(parts);
+  Layers layers{std::vector<double>(count), std::vector<double>(count)};
+  double above = 0.0;
+  for (std::size_t i = count; i-- > 0;) {
+    const auto averages = averages_of(stress_layout, stress, i, width);
+    layers.pressure[i] = -field_value(Field::StressYy, averages);
+    layers.weight[i] = above;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const double rho = averages_of(density_layout, density, i * parts + k, width * part).density;
+      const double weight = gravity * rho * part;
+      layers.weight[i] += weight * (static_cast<double>(k) + 0.5) * part;
+      above += weight;
+    }
+  }
+  return layers;
 }
 
 }  // namespace
@@ -168,4 +200,67 @@ TEST_CASE("barometer: a thin gas has the barometric profile at one temperature")
     CHECK(std::fabs(density.mean() - expected[k]) < 5.0 * density.standard_error());
     CHECK(std::fabs(temperature.mean() - kTemperature) < 5.0 * temperature.standard_error());
   }
+}
+
+TEST_CASE("barometer: the stress of every layer carries the weight above it") {
+  // dp/dy = -rho g. 160 disks over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04 below
+  // the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum forgets
+  // itself within some collisions, the column its swinging. Densities in sub-layers of 1/16, which
+  // miss the weight within a layer by some 1e-4 of it where contacts with the floor order the gas.
+  constexpr int kLayers = 40;
+  constexpr int kParts = 16;
+  constexpr int kWindows = 150;
+  constexpr double kSpan = 100.0;
+  constexpr double kWidth = 20.0;
+  constexpr double kGravity = 0.2;
+  const Scene scene = column(kWidth, kLayers, 160, kGravity);
+  Simulation<2> simulation(model_of(scene, 405), start_state(scene, 405));
+  const Field stress = Field::StressYy, density = Field::Density;
+  CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false));
+  CellIntegrals<2> densities(simulation, {1, kParts * kLayers},
+                             moment_layout<2>({&density, 1}, false));
+  Totals<2> totals(simulation);
+  simulation.add_observer(stresses);
+  simulation.add_observer(densities);
+  simulation.add_observer(totals);
+  // Of each layer: what its pressure exceeds that on the lid and the weight above by, and the same
+  // from layer to layer.
+  std::vector<Sample> excesses(kLayers), steps(kLayers), pressures(kLayers), weights(kLayers);
+  for (int window = 0; window < kWindows; ++window) {
+    simulation.run_until(simulation.time() + kSpan);
+    totals.close_window();
+    stresses.close_window();
+    densities.close_window();
+    simulation.run_until(simulation.time() + kSpan);
+    const double lid = totals.close_window().wall_impulse[kTop] / (kSpan * kWidth);
+    const Layers layers = layers_of(stresses.close_window(), stresses.layout(),
+                                    densities.close_window(), densities.layout(), kWidth, kGravity);
+    double below = 0.0;
+    for (std::size_t i = 0; i < kLayers; ++i) {
+      const double excess = layers.pressure[i] - layers.weight[i] - lid;
+      excesses[i].add(excess);
+      if (i > 0) steps[i].add(excess - below);
+      pressures[i].add(layers.pressure[i]);
+      weights[i].add(layers.weight[i]);
+      below = excess;
+    }
+  }
+  // A step is about the disks of two layers: every other has its own.
+  double chi_squared = 0.0, least = 1.0, most = 0.0;
+  for (std::size_t i = 0; i < kLayers; ++i) {
+    CAPTURE(i);
+    CHECK(std::fabs(excesses[i].mean()) < 5.0 * excesses[i].standard_error());
+    if (i == 0) continue;
+    const double error = steps[i].standard_error();
+    CHECK(std::fabs(steps[i].mean()) < 5.0 * error);
+    if (i % 2 == 1) chi_squared += std::pow(steps[i].mean() / error, 2);
+    const double precision = error / (weights[i - 1].mean() - weights[i].mean());
+    least = std::min(least, precision);
+    most = std::max(most, precision);
+  }
+  const double p = chi_squared_p(chi_squared, kLayers / 2);
+  MESSAGE("-sigma_yy from ", pressures.front().mean(), " to ", pressures.back().mean(),
+          "; dp/dy = -rho g in every layer within ", least, " to ", most, " of it, p = ", p);
+  CHECK(p > kLeastProbability);
+  CHECK(most < 0.02);
 }

@@ -23,9 +23,9 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 std::string archived(Checkpoint& checkpoint) {
-  auto& [program, command, scene, seed, saved, measurement] = checkpoint;
+  auto& [program, command, scene, start_temperature, seed, saved, measurement] = checkpoint;
   ArchiveWriter writer;
-  writer(program, command, scene, seed, saved, measurement);
+  writer(program, command, scene, start_temperature, seed, saved, measurement);
   return writer.written();
 }
 
@@ -39,12 +39,13 @@ Checkpoint example() {
   saved.spins = {Spin<2>(0.125), Spin<2>(-8.0)};
   saved.last_collisions = {-HUGE_VAL, 2.5};
   saved.until_base_moves = 11;
+  saved.mean_collision_time = 11.5;
   saved.kick_interval = 0.0625;
   saved.kick_origin = 12.0;
   saved.kicks_since_origin = 13;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
-  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 42, saved, std::string("\0bytes", 6)};
+  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6)};
 }
 
 // What reading the file says; empty where it is read.
@@ -55,6 +56,15 @@ std::string refusal(const std::filesystem::path& file) {
     return error.what();
   }
   return {};
+}
+
+std::uint32_t crc_32(const std::string& bytes) {
+  std::uint32_t crc = ~0u;
+  for (const char byte : bytes) {
+    crc ^= static_cast<std::uint8_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0u);
+  }
+  return ~crc;
 }
 
 bool says(const std::string& message, const std::string& part) {
@@ -88,6 +98,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { c.program += '!'; },
       [](Checkpoint& c) { c.command += '!'; },
       [](Checkpoint& c) { c.scene += '!'; },
+      [](Checkpoint& c) { c.start_temperature += 1.0; },
       [](Checkpoint& c) { ++c.seed; },
       [](Checkpoint& c) { c.measurement += '!'; },
       [](Checkpoint& c) { c.saved.gravity.x() += 1.0; },
@@ -101,6 +112,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { c.saved.spins[1][0] += 1.0; },
       [](Checkpoint& c) { c.saved.last_collisions[1] += 1.0; },
       [](Checkpoint& c) { ++c.saved.until_base_moves; },
+      [](Checkpoint& c) { c.saved.mean_collision_time += 1.0; },
       [](Checkpoint& c) { c.saved.kick_interval += 1.0; },
       [](Checkpoint& c) { c.saved.kick_origin += 1.0; },
       [](Checkpoint& c) { ++c.saved.kicks_since_origin; },
@@ -187,13 +199,28 @@ TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is
     return refusal(folder / "a");
   };
   const std::size_t version = sound.find('\n', sound.find('\n') + 1) + 1;
-  CHECK(says(refusal_of(version, 2), "newer"));
-  CHECK(says(refusal_of(version, 1), "no longer"));
+  CHECK(says(refusal_of(version, 2), "checksum"));
   CHECK(says(refusal_of(version + 5, 0xff), "cut short"));
   CHECK(says(refusal_of(version + 30, 1), "checksum"));
   CHECK(says(refusal_of(version + 30, 1), "the one before is "));
   std::filesystem::remove(folder / "a");
   CHECK(says(refusal(folder / "a"), "a.previous"));
+}
+
+TEST_CASE("Checkpoint: one of another version names the program that wrote it") {
+  const ScratchFolder folder;
+  Checkpoint checkpoint = example();
+  write_checkpoint(folder / "a", checkpoint);
+  std::string bytes = bytes_of(folder / "a");
+  const std::size_t version = bytes.find('\n', bytes.find('\n') + 1) + 1;
+  bytes[version] = 99;
+  bytes.resize(bytes.size() - 4);
+  const std::uint32_t sum = crc_32(bytes);
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(sum >> shift);
+  write_bytes(folder / "a", bytes);
+  CHECK(
+      says(refusal(folder / "a"), "`measure` of clatter 9.8 wrote this checkpoint, in version 99"));
+  CHECK(says(refusal(folder / "a"), "resume it with clatter 9.8"));
 }
 
 // As a file of another program's structs would, were its checksum right.

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -44,7 +45,9 @@ Vec2 random_place(const Model<2>& model, const CellGrid<2>& grid, Random& random
   for (int axis = 0; axis < 2; ++axis) {
     r[axis] = model.box[axis] * random.uniform();
     if (random.below(4) == 0) {
-      r[axis] = grid.border(axis, static_cast<int>(random.below(grid.counts()[axis] + 1)));
+      const double border =
+          grid.border(axis, static_cast<int>(random.below(grid.counts()[axis] + 1)));
+      r[axis] = std::clamp(border, 0.0, model.box[axis]);
     }
     if (!model.periodic(axis)) {
       r[axis] = std::clamp(r[axis], model.wall_plane(axis, 0), model.wall_plane(axis, 1));
@@ -89,8 +92,9 @@ TEST_CASE("cell grid: every position lies in a cell, and between its borders") {
     const Model<2> model = random_box(random);
     const CellGrid<2> grid(model, random.below(60));
     for (int axis = 0; axis < 2; ++axis) {
-      REQUIRE(grid.border(axis, 0) == 0.0);
-      REQUIRE(grid.border(axis, grid.counts()[axis]) == model.box[axis]);
+      const double beyond = model.periodic(axis) ? 0.0 : std::numeric_limits<double>::infinity();
+      REQUIRE(grid.border(axis, 0) == -beyond);
+      REQUIRE(grid.border(axis, grid.counts()[axis]) == model.box[axis] + beyond);
     }
     for (int k = 0; k < 50; ++k) {
       const Vec2 r = random_place(model, grid, random);

@@ -1,17 +1,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "engine/dynamics/simulation.h"
 #include "engine/dynamics/state_hash.h"
-#include "engine/error.h"
-#include "engine/measure/totals.h"
 #include "engine/physics/collision.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/reference.h"
@@ -22,39 +17,6 @@ using namespace clatter::testing;
 // Where numbers are few, huge, tiny or equal: nothing may hang, overlap or depend on the units.
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const Wall kElastic{};
-const Wall kLossy{.restitution = 0.9};
-const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
-const Wall kSawtooth{
-    .kind = WallKind::Sawtooth, .restitution = 0.9, .stroke = 0.25, .frequency = 2.0, .phase = 0.5};
-const Wall kSinusoidal{
-    .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 0.5, .frequency = 0.5};
-// Its acceleration is .18 at most, so that what lies on it under gravity 1 stays.
-const Wall kGentle{
-    .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 0.1, .frequency = 0.3};
-const Wall kRoughDriven{.kind = WallKind::Driven,
-                        .restitution = 0.9,
-                        .roughness = {.friction = 0.3, .tangential_restitution = 0.5},
-                        .drive_speed = 1.0};
-
-// A gas that stays clear of where walls go, here .5 at most; with spins where they are carried.
-State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed) {
-  Model<2> inner = model;
-  inner.box -= Vec2(1.0, 1.0);
-  State<2> state = random_gas(inner, count, seed);
-  for (Vec2& r : state.positions) r += Vec2(0.5, 0.5);
-  for (int i = 0; model.spins && i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
-  return state;
-}
-
-Model<2> rough(Model<2> model, double friction, double tangential_restitution) {
-  model.roughness = {friction, tangential_restitution};
-  model.spins = true;
-  return model;
-}
 
 // All there is: every kind of wall that forgets nothing or little, rough disks, gravity, kicks,
 // t_c.
@@ -68,38 +30,10 @@ Model<2> everything() {
   return model;
 }
 
-// Runs to a time and says what stopped it before; empty: nothing.
-std::string stop_of(Simulation<2>& simulation, double end) {
-  try {
-    simulation.run_until(end);
-  } catch (const PhysicalStop& stop) {
-    return stop.what();
-  }
-  return "";
-}
-
-// A row of disks along x that all fall upon the first.
-State<2> row(int count, double spacing) {
-  State<2> start;
-  for (int i = 0; i < count; ++i) {
-    start.positions.push_back({1.0 + spacing * i, 2.0});
-    start.velocities.push_back({i == 0 ? 0.5 : -1.0, 0.0});
-  }
-  return start;
-}
-
-// The t_c that a message advises.
-double advised_contact_time(const std::string& message) {
-  const std::string key = "collapse.contact_time = ";
-  const std::size_t at = message.find(key);
-  REQUIRE_MESSAGE(at != std::string::npos, message);
-  return std::stod(message.substr(at + key.size()));
-}
-
 }  // namespace
 
 TEST_CASE("extremes: no, one and two disks between walls of every kind come to the end") {
-  const std::optional<Wall> walls[] = {std::nullopt, kElastic,  kLossy,      kDriven,
+  const std::optional<Wall> walls[] = {std::nullopt, kStatic,   kLossy,      kDriven,
                                        kThermal,     kSawtooth, kSinusoidal, kRoughDriven};
   for (const auto& wall : walls) {
     for (int features = 0; features < 8; ++features) {
@@ -117,8 +51,10 @@ TEST_CASE("extremes: no, one and two disks between walls of every kind come to t
         const std::string stop = stop_of(simulation, 50.0);
         // Grains may come to rest under gravity; with t_c that is no end.
         CHECK_MESSAGE((stop.empty() || (features & 5) == 1), stop);
-        if (stop.empty()) CHECK(simulation.time() == 50.0);
-        CHECK(simulation.counts().kicks == ((features & 2) && stop.empty() ? 166 : 0));
+        if (stop.empty()) {
+          CHECK(simulation.time() == 50.0);
+          CHECK(simulation.counts().kicks == (features & 2 ? 166 : 0));
+        }
         CHECK(finite_and_inside(model, simulation.state()));
         CHECK(simulation.deepest_overlap() < 1e-9);
         CHECK(simulation.checks().deepest_overlap < 1e-9);
@@ -261,7 +197,7 @@ TEST_CASE("extremes: Newton's cradle of ten touching disks between walls, exact 
   // its velocity through ten that touch, the last flies 3 to the wall and 3 back, and so on.
   constexpr int kDisks = 11;
   constexpr double kSpeed = 0.5;
-  Model<2> model = with_walls(periodic_box(16.5, 6.0), 0, kElastic);
+  Model<2> model = with_walls(periodic_box(16.5, 6.0), 0, kStatic);
   State<2> start;
   for (int i = 0; i < kDisks; ++i) {
     start.positions.push_back({i == 0 ? 0.5 : 2.5 + i, 3.0});
@@ -334,6 +270,25 @@ TEST_CASE("extremes: powers of two scale the full model without a bit's change")
   CHECK(plain.counts().elasticised > 10);
 }
 
+// The first disks reach the walls late after the start and leave them fast: times there are rounded
+// by as much as these disks fly in 1e-10 diameters' time, unless the base moves.
+TEST_CASE("extremes: a cold gas between driven walls overlaps by rounding only") {
+  for (const double speed : {1e-4, 1e-8, 1e-12}) {
+    CAPTURE(speed);
+    Model<2> model = with_walls(periodic_box(20.0, 25.0), 0, kDriven);
+    model.restitution = 0.9;
+    State<2> start = random_gas(model, 100, 912);
+    for (Vec2& v : start.velocities) v *= speed;
+    Simulation<2> simulation(model, start);
+    Reference reference(model, start);
+    simulation.run_until(kNever, 100);
+    reference.run_until_collisions(100);
+    CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+    simulation.run_until(kNever, 20000);
+    check_sound(simulation);
+  }
+}
+
 TEST_CASE("extremes: speeds that differ by 1e12") {
   // One disk at 1e6 among others at 1e-6, which it sets in motion one after the other; and with a
   // wall that swings at a speed of order 1.
@@ -342,7 +297,7 @@ TEST_CASE("extremes: speeds that differ by 1e12") {
     if (walled) {
       Wall wall = kSinusoidal;
       wall.restitution = 1.0;
-      model = with_walls(with_walls(model, 0, wall), 1, kElastic);
+      model = with_walls(with_walls(model, 0, wall), 1, kStatic);
     }
     State<2> start = clear_gas(model, 12, 907);
     for (Vec2& v : start.velocities) v *= 1e-6;
@@ -359,197 +314,4 @@ TEST_CASE("extremes: speeds that differ by 1e12") {
     CHECK(simulation.deepest_overlap() < 1e-11);
     CHECK(simulation.checks().deepest_overlap < 1e-11);
   }
-}
-
-TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and time goes on") {
-  for (const Wall& kind : {kElastic, kSawtooth, kSinusoidal, kGentle}) {
-    CAPTURE(static_cast<int>(kind.kind));
-    Wall floor = kind;
-    floor.restitution = 0.0;
-    Model<2> model = periodic_box(6.0, 12.0);
-    model.walls[kBottom] = floor;
-    model.walls[kTop] = kElastic;
-    model.restitution = 0.0;
-    model.gravity = {0.0, -1.0};
-    model.contact_time = 0.02;
-    Simulation<2> simulation(model, clear_gas(model, 10, 908));
-    for (int k = 1; k <= 40; ++k) {
-      REQUIRE_NOTHROW(simulation.run_until(k));
-      REQUIRE(simulation.deepest_overlap() < 1e-9);
-    }
-    CHECK(simulation.checks().deepest_overlap < 1e-9);
-    // What t_c leaves: hops of some t_c, of speed g t_c. Sideways they slide without friction.
-    double vertical = 0.0;
-    for (const Vec2& v : simulation.state().velocities)
-      vertical = std::max(vertical, std::fabs(v.y()));
-    MESSAGE("collisions ", simulation.counts().collisions(), ", energy ",
-            simulation.kinetic_energy(), ", fastest up or down ", vertical);
-    if (floor.kind == WallKind::Static || floor.frequency == kGentle.frequency) {
-      CHECK(vertical < 0.3);
-    }
-  }
-}
-
-TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is reported") {
-  // Dropped from h it lands after t_0 = sqrt(2h/g); the bounces sum to t_0 (1 + alpha)/(1 - alpha).
-  for (const double restitution : {0.9, 0.5, 0.0}) {
-    CAPTURE(restitution);
-    Model<2> model = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = restitution});
-    model.gravity = {0.0, -0.5};
-    State<2> start{{{3.0, 4.5}}, {{0.0, 0.0}}};
-    Simulation<2> simulation(model, start);
-    const std::string message = stop_of(simulation, 1e6);
-    const double end = 4.0 * (1.0 + restitution) / (1.0 - restitution);
-    CAPTURE(message);
-    CHECK(message.find("disk 0 and the bottom wall collide without end") != std::string::npos);
-    CHECK(simulation.time() == doctest::Approx(end).epsilon(1e-5));
-    CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
-    // With the t_c that the message advises it hops on.
-    model.contact_time = advised_contact_time(message);
-    Simulation<2> on(model, start);
-    CHECK(stop_of(on, end + 1e5 * *model.contact_time) == "");
-    CHECK(on.checks().deepest_overlap < 1e-9);
-  }
-}
-
-TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with it they run on") {
-  for (const Wall& kind : {kElastic, kLossy, kSawtooth, kSinusoidal, kGentle, kRoughDriven}) {
-    for (const double restitution : {0.0, 0.5}) {
-      CAPTURE(static_cast<int>(kind.kind));
-      CAPTURE(restitution);
-      Wall floor = kind;
-      floor.restitution = std::min(floor.restitution, restitution);
-      Model<2> model = with_walls(rough(periodic_box(6.0, 12.0), 0.5, 0.5), 1, floor);
-      model.restitution = restitution;
-      model.gravity = {0.0, -1.0};
-      const State<2> start = clear_gas(model, 12, 909);
-      Simulation<2> simulation(model, start);
-      const std::string stop = stop_of(simulation, 50.0);
-      if (stop.empty()) CHECK(simulation.time() == 50.0);
-      CHECK(finite_and_inside(model, simulation.state()));
-      CHECK(simulation.deepest_overlap() < 1e-9);
-      if (stop.empty()) continue;
-      CHECK(stop.find("inelastic collapse") != std::string::npos);
-      model.contact_time = advised_contact_time(stop);
-      MESSAGE(stop);
-      Simulation<2> on(model, start);
-      CHECK(stop_of(on, simulation.time() + 1000.0 * *model.contact_time) == "");
-      CHECK(on.deepest_overlap() < 1e-9);
-    }
-  }
-}
-
-TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on") {
-  // In one dimension three free disks collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara & Young
-  // 1992), longer rows above.
-  struct Row {
-    int count;
-    double restitution;
-  };
-  for (const Row& r : {Row{3, 0.05}, Row{12, 0.3}, Row{20, 0.5}}) {
-    CAPTURE(r.count);
-    Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kElastic);
-    model.restitution = r.restitution;
-    const State<2> start = row(r.count, 1.5);
-    Simulation<2> simulation(model, start);
-    const std::string message = stop_of(simulation, 1000.0);
-    MESSAGE(message);
-    CHECK(message.find("inelastic collapse") != std::string::npos);
-    CHECK(message.find(" and disk ") != std::string::npos);
-    CHECK(simulation.deepest_overlap() < 1e-11);
-    model.contact_time = advised_contact_time(message);
-    Simulation<2> on(model, start);
-    CHECK(stop_of(on, 1000.0) == "");
-    CHECK(on.time() == 1000.0);
-    CHECK(on.deepest_overlap() < 1e-11);
-    for (const Vec2& r_i : on.state().positions) CHECK(r_i.y() == 2.0);
-  }
-}
-
-TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisions before") {
-  // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
-  // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
-  // some ten collisions per disk before it collapses.
-  Model<2> ball = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.9});
-  ball.gravity = {0.0, -0.5};
-  Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
-  const double ball_time = 1e3 * advised_contact_time(stop_of(bouncing, 1e6));
-  MESSAGE("mean time of the ball ", ball_time);
-  CHECK(ball_time > 0.4);  // 76 time units, the first flights 7
-  CHECK(ball_time < 8.0);
-  Model<2> pile = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.5});
-  pile.restitution = 0.5;
-  pile.gravity = {0.0, -1.0};
-  const State<2> start = clear_gas(pile, 12, 909);
-  Simulation<2> falling(pile, start), first(pile, start);
-  const double pile_time = 1e3 * advised_contact_time(stop_of(falling, 1e6));
-  first.run_until(kNever, 60);  // ten for each disk
-  const double expected =
-      first.time() * 12.0 /
-      static_cast<double>(2 * first.counts().disk_disk + first.counts().disk_wall);
-  MESSAGE("mean time of the pile ", pile_time, ", of its first collisions ", expected);
-  CHECK(pile_time > 0.1 * expected);
-  CHECK(pile_time < 10.0 * expected);
-}
-
-TEST_CASE("extremes: who looks for a standstill changes nothing") {
-  // The reference does not look. Rows with a t_c far below the time of the collapse come close to
-  // it; a thermal wall's restitution is not used, but makes a run be looked at.
-  Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kElastic);
-  model.restitution = 0.3;
-  model.contact_time = 1e-9;
-  const State<2> start = row(8, 1.5);
-  Simulation<2> simulation(model, start);
-  Reference reference(model, start);
-  simulation.run_until(kNever, 8000);
-  reference.run_until_collisions(8000);
-  CHECK(simulation.counts().elasticised > 1000);
-  CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
-
-  Model<2> plain = with_walls(periodic_box(9.0, 8.0), 0, kThermal);
-  Model<2> looked_at = plain;
-  looked_at.walls[kLeft]->restitution = 0.5;
-  const State<2> gas = random_gas(plain, 20, 910);
-  Simulation<2> a(plain, gas), b(looked_at, gas);
-  a.run_until(kNever, 200000);
-  b.run_until(kNever, 200000);
-  CHECK(a.state_hash() == b.state_hash());
-}
-
-TEST_CASE("extremes: dense, fast and hot gases are no standstill") {
-  // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic disks at phi = .68,
-  // kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they take,
-  // for which inelastic disks make up.
-  Model<2> dense = periodic_box(9.2, 9.0);
-  dense.restitution = 0.9;
-  dense.bulk_drive = BulkDrive{0.01, 0.1, 0.0};
-  Wall hot = kThermal;
-  hot.temperature = 1e16;
-  Model<2> heated = with_walls(periodic_box(10.0, 9.0), 0, hot);
-  heated.restitution = 0.95;
-  Model<2> gaining =
-      with_walls(periodic_box(10.0, 9.0), 0,
-                 {.kind = WallKind::Driven, .restitution = 1.05, .drive_speed = 0.1});
-  gaining.restitution = 0.8;
-  int count = 72;
-  for (const Model<2>& model : {dense, heated, gaining}) {
-    Simulation<2> simulation(model, random_gas(model, count, 911));
-    CHECK_NOTHROW(simulation.run_until(kNever, 200000));
-    CHECK(simulation.counts().collisions() == 200000);
-    CHECK(finite_and_inside(model, simulation.state()));
-    CHECK(brute_force_overlap(model, simulation.state()) < 1e-11);
-    count = 30;
-  }
-}
-
-TEST_CASE("extremes: one disk between walls of restitution 1.05 gains without bound and stops") {
-  // v grows by 1.05 with each crossing of 9: the times sum to 9/v (1 + 1/1.05 + ...) = 21 * 9/v.
-  const Wall gaining{.restitution = 1.05};
-  Model<2> model = with_walls(periodic_box(10.0, 9.0), 0, gaining);
-  Simulation<2> simulation(model, State<2>{{{0.5, 3.0}}, {{2.0, 0.25}}});
-  const std::string message = stop_of(simulation, 1e6);
-  CHECK(message.find("the temperature diverges") != std::string::npos);
-  CHECK(simulation.time() == doctest::Approx(21.0 * 9.0 / 2.0).epsilon(1e-5));
-  CHECK(finite_and_inside(model, simulation.state()));
-  CHECK(simulation.state().velocities[0].y() == 0.25);
 }

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,79 +16,13 @@ using namespace clatter::testing;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const Wall kStatic{};
-const Wall kLossy{.restitution = 0.8};
-const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
-const Wall kRoughDriven{.kind = WallKind::Driven,
-                        .restitution = 0.9,
-                        .roughness = {.friction = 0.3, .tangential_restitution = 0.5},
-                        .drive_speed = 1.0};
-const Wall kSawtooth{
-    .kind = WallKind::Sawtooth, .restitution = 0.9, .stroke = 0.3, .frequency = 2.0, .phase = 0.25};
-const Wall kSinusoidal{.kind = WallKind::Sinusoidal,
-                       .restitution = 0.8,
-                       .stroke = 0.4,
-                       .frequency = 1.0,
-                       .phase = 0.125};
-
-Model<2> inelastic(Model<2> model, double restitution) {
-  model.restitution = restitution;
-  return model;
-}
-
-Model<2> rough(Model<2> model, double friction, double tangential_restitution) {
-  model.roughness = {friction, tangential_restitution};
-  model.spins = true;
-  return model;
-}
-
-Model<2> falling(Model<2> model, const Vec2& gravity) {
-  model.gravity = gravity;
-  return model;
-}
-
-Model<2> kicked(Model<2> model, double interval, double speed) {
-  model.bulk_drive = BulkDrive{interval, speed, model.spins ? speed : 0.0};
-  return model;
-}
-
-Model<2> with_contact_time(Model<2> model, double contact_time) {
-  model.contact_time = contact_time;
-  return model;
-}
-
-Model<2> four(const Wall& sides, const Wall& ends) {
-  return with_walls(with_walls(periodic_box(9.0, 8.0), 0, sides), 1, ends);
-}
-
-// A gas that clears the innermost travel of every wall of these tests, with spins where they are
-// carried.
-State<2> gas(const Model<2>& model, int count, std::uint64_t seed) {
-  Model<2> inner = model;
-  Vec2 low = Vec2::Zero();
-  for (int side = 0; side < 4; ++side) {
-    if (!model.walls[side]) continue;
-    const double travel = model.walls[side]->innermost_travel();
-    inner.box[side / 2] -= travel;
-    if (side % 2 == 0) low[side / 2] = travel;
-  }
-  State<2> state = random_gas(inner, count, seed);
-  for (Vec2& r : state.positions) r += low;
-  if (model.spins) {
-    for (int i = 0; i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
-  }
-  return state;
-}
-
 // The state after as many collisions must be that of the reference to the last bit.
 void compare(const std::string& name, const Model<2>& model, const std::vector<int>& counts,
              std::uint64_t collisions = 1000) {
   for (const int count : counts) {
     CAPTURE(name);
     CAPTURE(count);
-    const State<2> start = gas(model, count, 83);
+    const State<2> start = clear_gas(model, count, 83);
     Simulation<2> simulation(model, start);
     Totals<2> totals(simulation);
     simulation.add_observer(totals);

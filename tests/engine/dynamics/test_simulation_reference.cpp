@@ -20,16 +20,6 @@ struct Case {
   std::vector<int> counts;  // numbers of disks
 };
 
-const Wall kStatic{};
-const Wall kLossy{.restitution = 0.8};
-const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
-
-Model<2> inelastic(Model<2> model, double restitution) {
-  model.restitution = restitution;
-  return model;
-}
-
 // The state after 2000 collisions must be that of the reference to the last bit.
 void compare(const Model<2>& model, const State<2>& start, std::uint64_t collisions = 2000) {
   Simulation<2> simulation(model, start);

@@ -1,11 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <optional>
 #include <string>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/error.h"
 #include "tests/engine/support/gas.h"
 
 using namespace clatter;
@@ -15,27 +13,17 @@ using namespace clatter::testing;
 
 namespace {
 
-const Wall kStatic{};
 const Wall kShaking{
     .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 1e-4, .frequency = 1e4};
 
-std::optional<PhysicalStop> stop_of(Simulation<2>& simulation, double time) {
-  try {
-    simulation.run_until(time);
-  } catch (const PhysicalStop& stop) {
-    return stop;
-  }
-  return std::nullopt;
-}
-
-bool says(const std::optional<PhysicalStop>& stop, const std::string& words) {
-  return stop && std::string(stop->what()).find(words) != std::string::npos;
+bool says(const std::string& stop, const std::string& words) {
+  return stop.find(words) != std::string::npos;
 }
 
 }  // namespace
 
 // The lone disk's speed grows by the factor in every bounce, long before time can stand still.
-TEST_CASE("standstill: speeds that diverge stop the run before times lose their meaning") {
+TEST_CASE("standstill: speeds that diverge stop the run before numbers lose their meaning") {
   for (const double restitution : {1.2, 2.0, 10.0}) {
     for (const int count : {1, 3, 100}) {
       CAPTURE(restitution);
@@ -48,6 +36,19 @@ TEST_CASE("standstill: speeds that diverge stop the run before times lose their 
       CHECK(finite_and_inside(model, simulation.state()));
     }
   }
+}
+
+// The first bounces come late and make disks 10^11 times as fast, and that is all.
+TEST_CASE("standstill: a cold gas between walls that heat it is no divergence") {
+  Model<2> model = with_walls(periodic_box(20.0, 25.0), 0,
+                              {.kind = WallKind::Driven, .restitution = 1.05, .drive_speed = 0.1});
+  model.restitution = 0.8;
+  State<2> start = random_gas(model, 50, 964);
+  for (Vec2& v : start.velocities) v *= 1e-12;
+  Simulation<2> simulation(model, start);
+  CHECK_NOTHROW(simulation.run_until(kNever, 20000));
+  CHECK(simulation.counts().collisions() == 20000);
+  check_sound(simulation);
 }
 
 TEST_CASE("standstill: elastic disks at rest on a floor are seen, and t_c lets them rest") {
@@ -69,10 +70,9 @@ TEST_CASE("standstill: no t_c is advised against a thermal wall that gives no sp
   model.walls[kBottom] = Wall{.kind = WallKind::Thermal, .temperature = 0.0};
   model.gravity = {0.0, -1.0};
   Simulation<2> simulation(model, random_gas(model, 3, 952));
-  const auto stop = stop_of(simulation, 100.0);
+  const std::string stop = stop_of(simulation, 100.0);
   CHECK(says(stop, "temperature 0"));
-  REQUIRE(stop);
-  CHECK(stop->remedy().empty());
+  CHECK_FALSE(says(stop, "contact_time"));
 }
 
 // Kicks, and crossings of cells, are steps although nothing collides.

@@ -7,11 +7,12 @@
 
 namespace clatter::testing {
 
-/// Every field that there is; without spins, every one that a smooth gas has.
+/// Every field that is an average; without spins, every one that a smooth gas has.
 inline std::vector<Field> all_fields(bool spins = true) {
   std::vector<Field> fields;
   for (const auto& [name, field] : kHeatmaps) {
-    if (spins || (field != Field::Spin && field != Field::SpinTemperature)) fields.push_back(field);
+    const bool of_spins = field == Field::Spin || field == Field::SpinTemperature;
+    if ((spins || !of_spins) && !is_residual(field)) fields.push_back(field);
   }
   return fields;
 }

@@ -252,12 +252,15 @@ class PointByPoint : public Observer<2> {
   int through_borders = 0;    ///< branch vectors that leave the box
 
   void on_collision(const PairCollision<2>& c) override {
-    // The image of the partner that touches.
+    // The image of the partner that touches; flights may have gone round the box several times.
+    const Vec2 apart = c.disks[0].position - c.disks[1].position;
+    const Vec2 near = c.disks[1].position +
+                      apart.cwiseQuotient(box()).array().round().matrix().cwiseProduct(box());
     Vec2 touching;
     double best = 1.0;
     for (int i = -3; i <= 3; ++i) {
       for (int j = -3; j <= 3; ++j) {
-        const Vec2 image = c.disks[1].position + box().cwiseProduct(Vec2(i, j));
+        const Vec2 image = near + box().cwiseProduct(Vec2(i, j));
         const double gap = std::fabs((c.disks[0].position - image).norm() - 1.0);
         if (gap < best) touching = image;
         best = std::min(best, gap);

@@ -1,11 +1,14 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "engine/measure/fields.h"
 #include "engine/measure/live_field.h"
+#include "engine/measure/residuals.h"
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
 
@@ -67,6 +70,53 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
       if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
     }
   }
+}
+
+TEST_CASE("LiveField: every residual is that of its cells over the window") {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness.friction = 0.4;
+  scene.gravity = Vec2(0.2, -0.5);
+  // 20 disks in 72 cells: some see none.
+  for (const Field field : kResiduals) {
+    CAPTURE(static_cast<int>(field));
+    const auto simulation = simulation_of(scene, 35);
+    LiveField live(*simulation, view_of(field, 8.0));
+    Balance<2> balance(*simulation, {9, 8});
+    simulation->add_observer(balance);
+    simulation->run_until(0.4);
+    map_of(live);
+    Imbalances<2> sum = balance.close_window().imbalances;
+    simulation->run_until(0.9);
+    sum += balance.close_window().imbalances;
+    const FieldMap map = map_of(live);
+    REQUIRE(map.field == field);
+    REQUIRE(map.values.size() == 72);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      CHECK(std::isnan(map.values[i]) == (sum.sizes[i].maxCoeff() == 0.0));
+      if (std::isnan(map.values[i])) continue;
+      CHECK(map.values[i] == sum.residual(i)[equation_of(field)]);
+      largest = std::max(largest, std::fabs(map.values[i]));
+    }
+    CHECK(largest < 1e-12);
+    CHECK((largest > 0.0) == (field != Field::BalanceMass));
+    CHECK(std::ranges::any_of(map.values, [](double value) { return std::isnan(value); }));
+  }
+}
+
+TEST_CASE("MovingSum: of the last eight parts and of what came since") {
+  MovingSum<int> window;
+  CHECK(window.sum() == 0);
+  for (const int part : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
+    window.add(part);
+    CHECK(window.sum() == 2 * part - 1);
+    CHECK(window.whole() == (part == 256));
+    window.next_part();
+  }
+  CHECK(window.sum() == 510);
+  window.add(1000);
+  window.add(1);
+  CHECK(window.sum() == 1511);
 }
 
 TEST_CASE("LiveField: cells that no disk visited are gaps") {
@@ -201,6 +251,37 @@ TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {
       CHECK((arrow.value - expected).norm() < 1e-10);
       CHECK(arrow.place == Vec2(2.0 * column + 0.5 * width, 2.0 * row + 1.0));
     }
+  }
+}
+
+TEST_CASE("LiveField: a residual and arrows are those that each alone is") {
+  const auto shown = [](std::optional<Field> field, std::optional<Arrows> arrows) {
+    const auto simulation = simulation_of(rough_mixture(20), 36);
+    View view;
+    view.field = field;
+    view.arrows = arrows;
+    view.window = 2.0;
+    LiveField live(*simulation, view);
+    simulation->run_until(2.1);
+    Snapshot snapshot;
+    live.publish(snapshot);
+    return snapshot;
+  };
+  const Snapshot both = shown(Field::BalanceEnergy, Arrows::Velocity);
+  const FieldMap residual = *shown(Field::BalanceEnergy, std::nullopt).field;
+  const ArrowMap arrows = *shown(std::nullopt, Arrows::Velocity).arrows;
+  REQUIRE(both.field);
+  REQUIRE(both.arrows);
+  CHECK(both.field->field == Field::BalanceEnergy);
+  CHECK(both.field->whole_window);
+  REQUIRE(both.field->values.size() == residual.values.size());
+  for (std::size_t i = 0; i < residual.values.size(); ++i) {
+    CHECK(std::isnan(both.field->values[i]) == std::isnan(residual.values[i]));
+    if (!std::isnan(residual.values[i])) CHECK(both.field->values[i] == residual.values[i]);
+  }
+  REQUIRE(both.arrows->arrows.size() == arrows.arrows.size());
+  for (std::size_t k = 0; k < arrows.arrows.size(); ++k) {
+    CHECK(both.arrows->arrows[k].value == arrows.arrows[k].value);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -63,6 +64,10 @@ Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
   return run;
 }
 
+std::uint64_t bits(double number) {
+  return std::bit_cast<std::uint64_t>(number);
+}
+
 // All but the cell crossings and the stale predictions before the averages, two neighbouring
 // counts: a run that is taken up plans anew, so that it may have others.
 bool same(const std::string& a, const std::string& b) {
@@ -74,6 +79,13 @@ bool same(const std::string& a, const std::string& b) {
     last = i;
   }
   return first == a.size() || last - first < 2 * sizeof(std::uint64_t);
+}
+
+bool same(const FieldMaps& a, const FieldMaps& b) {
+  return a.begin == b.begin && a.end == b.end &&
+         std::ranges::equal(a.maps, b.maps, [](const FieldMap& x, const FieldMap& y) {
+           return x.cells == y.cells && std::ranges::equal(x.values, y.values, {}, bits, bits);
+         });
 }
 
 void check_same(const Run& a, const Run& b) {
@@ -88,6 +100,12 @@ void check_same(const Run& a, const Run& b) {
   CHECK(x.ledger_residual == y.ledger_residual);
   CHECK(x.series_time == y.series_time);
   CHECK(x.series_temperature == y.series_temperature);
+  REQUIRE(x.residuals.has_value() == y.residuals.has_value());
+  if (x.residuals) CHECK(x.residuals->cells == y.residuals->cells);
+  CHECK(x.maps.has_value() == y.maps.has_value());
+  if (x.maps) CHECK(same(*x.maps, *y.maps));
+  CHECK(
+      std::ranges::equal(x.map_series, y.map_series, [](auto& a, auto& b) { return same(a, b); }));
   CHECK(same(a.measurement->save(), b.measurement->save()));
 }
 
@@ -95,7 +113,8 @@ void check_same(const Run& a, const Run& b) {
 
 TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
   for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
-    for (const Measure& measure : {measure_of({Field::Density}), measure_of({})}) {
+    for (const Measure& measure :
+         {measure_of({Field::Density}), measure_of({}), measure_of({Field::BalanceEnergy})}) {
       const Run straight = started(scene, measure);
       straight.simulation->run_until(kEnd);
       Run halted = started(scene, measure);
@@ -116,7 +135,7 @@ TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
 }
 
 TEST_CASE("Measurement: taken up for longer it goes on with windows of the same length") {
-  const Measure measure = measure_of({Field::Density});
+  const Measure measure = measure_of({Field::Density, Field::BalanceMass});
   const Run first = started(rough_mixture(20), measure);
   first.simulation->run_until(kEnd);
   const Run longer = taken_up(rough_mixture(20), measure, first);
@@ -127,6 +146,7 @@ TEST_CASE("Measurement: taken up for longer it goes on with windows of the same 
   CHECK(measured.duration == doctest::Approx(3.0 * span));
   CHECK(measured.series_time.back() == doctest::Approx(kBurnIn + 3.0 * span).epsilon(0.01));
   CHECK(measured.ledger_residual < 1e-12);
+  CHECK(measured.residuals->largest().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("Measurement: one that starts in the midst of a run averages from then on") {

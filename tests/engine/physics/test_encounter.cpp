@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
+#include "engine/dynamics/disk.h"
 #include "engine/physics/contact_kernel.h"
 #include "engine/physics/encounter.h"
 #include "engine/physics/flight.h"
@@ -23,7 +26,8 @@ const Vec2 kGravities[] = {kNone, {0.3, -0.7}};
 
 double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, double diameter = 1.0,
                  const Vec2& gravity = kNone) {
-  const auto formula = gravity == kNone ? encounter_time<2, false> : encounter_time<2, true>;
+  const auto formula =
+      gravity == kNone ? encounter_time<2, false, double> : encounter_time<2, true, double>;
   return formula(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time, shift.data(),
                  diameter, gravity.data());
 }
@@ -170,29 +174,87 @@ TEST_CASE("encounter: powers of two scale lengths and velocities without a bit's
   CHECK(different == 0);
 }
 
-TEST_CASE("contact kernel: the bits of encounter_time for every number of candidates") {
-  int different = 0;
-  std::uint32_t number = 0;
-  for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
-    for (int repeat = 0; repeat < 50; ++repeat) {
-      const Vec2& gravity = kGravities[repeat % 2];
-      const Flight<2> self = random_pair(++number).a;
-      Candidates<2> candidates{};
-      double expected[Candidates<2>::kCapacity];
-      for (int i = 0; i < size; ++i) {
-        const Pair p = random_pair(++number);
-        for (int k = 0; k < 2; ++k) {
-          candidates.r[k][i] = p.b.r[k];
-          candidates.v[k][i] = p.b.v[k];
-          candidates.shift[k][i] = p.shift[k];
-        }
-        candidates.time[i] = p.b.time;
-        expected[i] = encounter(self, p.b, p.shift, 1.0, gravity);
+namespace {
+
+// A disk and others that it may meet, and what encounter_time says of each.
+struct Crowd {
+  Vec2 box{10.0, 8.0};
+  std::vector<Disk<2>> disks;  // the first is the one that asks
+  Candidates<2> candidates;
+  std::vector<double> times;  // [candidates.size]
+
+  Crowd(std::uint32_t number, int size, const Vec2& gravity) {
+    Random random(13, Stream::Placement, number, 0);
+    const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
+    for (int i = 0; i <= size; ++i) {
+      Disk<2> disk;
+      disk.flight = random_pair(1000 * number + static_cast<std::uint32_t>(i)).a;
+      disk.image = {image(), image()};
+      disks.push_back(disk);
+    }
+    candidates.size = size;
+    candidates.wrapped = random.below(2) == 0;
+    for (int i = 0; i < size; ++i) {
+      candidates.disks[i] = static_cast<std::uint32_t>(i) + 1;
+      Vec2 shift = disks[static_cast<std::size_t>(i) + 1].image - disks[0].image;
+      for (int k = 0; k < 2; ++k) {
+        candidates.wraps[k][i] = image();
+        if (candidates.wrapped) shift[k] -= candidates.wraps[k][i];
       }
-      contact_times<2>(self.r.data(), self.v.data(), self.time, 1.0,
-                       gravity == kNone ? nullptr : gravity.data(), candidates, size);
-      for (int i = 0; i < size; ++i) different += bits(candidates.contact[i]) != bits(expected[i]);
+      times.push_back(encounter(disks[0].flight, disks[static_cast<std::size_t>(i) + 1].flight,
+                                shift.cwiseProduct(box), 1.0, gravity));
+    }
+  }
+
+  FirstContact first(const Vec2& gravity) {
+    return first_contact<2>(disks.front().flight.r.data(), 0, candidates, box.data(), 1.0,
+                            gravity == kNone ? nullptr : gravity.data());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("contact kernel: the first encounter_time, to the bit, of every number of candidates") {
+  int different = 0, others = 0, met = 0, touching = 0;
+  for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
+    for (std::uint32_t repeat = 0; repeat < 200; ++repeat) {
+      const Vec2& gravity = kGravities[repeat % 2];
+      Crowd crowd(200 * static_cast<std::uint32_t>(size) + repeat, size, gravity);
+      const FirstContact first = crowd.first(gravity);
+      const auto earliest = std::min_element(crowd.times.begin(), crowd.times.end());
+      const double expected = size > 0 ? *earliest : kNever;
+      different += bits(first.time) != bits(expected);
+      touching += first.time == kTouching;
+      REQUIRE(first.told_apart == (expected != kTouching));
+      if (!std::isfinite(expected)) continue;
+      ++met;
+      others += first.candidate != earliest - crowd.times.begin();
     }
   }
   CHECK(different == 0);
+  CHECK(others == 0);
+  CHECK(met > 2000);
+  CHECK(touching > 100);
+}
+
+TEST_CASE(
+    "contact kernel: disks that share the first time are not told apart, later ones do not "
+    "matter") {
+  int first_shared = 0, later_shared = 0;
+  for (std::uint32_t number = 0; number < 2000; ++number) {
+    Crowd crowd(number, 12, kNone);
+    const FirstContact alone = crowd.first(kNone);
+    if (!std::isfinite(alone.time)) continue;
+    const int copied = static_cast<int>(number % 12);
+    const int copy = static_cast<int>(number / 12 % 12);
+    if (copy == copied || copy == alone.candidate) continue;
+    crowd.candidates.disks[copy] = crowd.candidates.disks[copied];
+    for (auto& wraps : crowd.candidates.wraps) wraps[copy] = wraps[copied];
+    const FirstContact first = crowd.first(kNone);
+    REQUIRE(bits(first.time) == bits(alone.time));
+    REQUIRE(first.told_apart == (copied != alone.candidate));
+    (copied == alone.candidate ? first_shared : later_shared) += 1;
+  }
+  CHECK(first_shared > 20);
+  CHECK(later_shared > 200);
 }

@@ -6,232 +6,12 @@
 #include <numbers>
 
 #include "engine/physics/contact.h"
-#include "engine/physics/fraction.h"
-#include "engine/physics/random.h"
-#include "engine/physics/wall_motion.h"
+#include "tests/engine/support/wall_scan.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-// A disk before a wall: the arguments of moving_wall_contact.
-struct Case {
-  WallMotion motion;
-  double start = 0.0;
-  double distance = 0.0;
-  double speed = 0.0;
-  double acceleration = 0.0;
-
-  double contact() const {
-    return moving_wall_contact(motion, start, distance, speed, acceleration);
-  }
-  double height(double t) const { return distance + speed * t + 0.5 * acceleration * t * t; }
-  double velocity(double t) const { return speed + acceleration * t; }
-  double peak_speed() const {
-    const double speed = motion.stroke * motion.frequency;
-    return motion.path == WallPath::Sawtooth ? speed : std::numbers::pi * speed;
-  }
-  double peak_acceleration() const {
-    return motion.path == WallPath::Sawtooth ? 0.0 : kTwoPi * motion.frequency * peak_speed();
-  }
-  // By how much the disk starts behind the wall: what rounding left of the flight before.
-  double overlap() const {
-    return std::max(0.0, wall_state(motion, start).displacement - distance);
-  }
-  // The speeds and lengths that occur until t after the start, on the moving base: their rounding
-  // is the error.
-  double speeds(double t) const {
-    return std::fabs(speed) + std::fabs(acceleration * t) + peak_speed() +
-           peak_acceleration() * (std::fabs(start) + t);
-  }
-  double lengths(double t) const {
-    return std::fabs(distance) + motion.stroke +
-           (std::fabs(speed) + std::fabs(acceleration * t) + peak_speed()) *
-               (std::fabs(start) + t) +
-           overlap() / kEpsilon;
-  }
-};
-
-double sign(Random& random) {
-  return random.below(2) ? 1.0 : -1.0;
-}
-
-// 10^x with x uniform.
-double log_uniform(Random& random, double from, double to) {
-  return std::pow(10.0, from + (to - from) * random.uniform());
-}
-
-// --- The reference: a scan of the gap over the wall's periods ---
-
-double displacement(const WallMotion& motion, double phase) {
-  return motion.path == WallPath::Sawtooth ? motion.stroke * phase
-                                           : 0.5 * motion.stroke * std::sin(kTwoPi * phase);
-}
-
-// The times after the start between which the disk is lower than a plane, in order: the parabola
-// gives at most two intervals.
-struct Stays {
-  double from[2], to[2];
-  int count = 0;
-
-  void add(double begin, double end) {
-    begin = std::max(begin, 0.0);
-    if (!(end > begin)) return;
-    from[count] = begin;
-    to[count++] = end;
-  }
-};
-
-Stays stays_below(const Case& c, double plane) {
-  const long double a = 0.5L * c.acceleration, b = c.speed;
-  const long double above = static_cast<long double>(c.distance) - plane;
-  Stays stays;
-  const auto add = [&](long double begin, long double end) {
-    stays.add(static_cast<double>(begin), static_cast<double>(end));
-  };
-  if (a == 0.0L) {
-    if (b == 0.0L) {
-      if (above < 0.0L) add(0.0L, kNever);
-    } else {
-      b < 0.0L ? add(-above / b, kNever) : add(0.0L, -above / b);
-    }
-    return stays;
-  }
-  const long double discriminant = b * b - 4.0L * a * above;
-  if (discriminant <= 0.0L) {
-    if (a < 0.0L) add(0.0L, kNever);
-    return stays;
-  }
-  const long double q = -0.5L * (b + std::copysign(std::sqrt(discriminant), b));
-  const long double one = q / a, other = q != 0.0L ? above / q : 0.0L;
-  const long double first = std::min(one, other), last = std::max(one, other);
-  if (a > 0.0L) {
-    add(first, last);
-  } else {
-    add(0.0L, first);
-    add(last, kNever);
-  }
-  return stays;
-}
-
-// The least gap in a period that begins at `begin`, from a time to another: every local minimum of
-// samples that may hide a negative one is narrowed in.
-double least_gap(const Case& c, double begin, double from, double to) {
-  const auto gap = [&](double t) {
-    const double phase = std::clamp((t - begin) * c.motion.frequency, 0.0, 1.0);
-    return c.height(t) - displacement(c.motion, phase);
-  };
-  constexpr int samples = 150;
-  const double step = (to - from) / samples;
-  const double hidden = (std::fabs(c.acceleration) + c.peak_acceleration()) * step * step;
-  double least = gap(from), before = least, here = least;
-  for (int i = 1; i <= samples; ++i) {
-    const double after = gap(i < samples ? from + step * i : to);
-    least = std::min(least, after);
-    if (here <= before && here <= after && here < hidden) {
-      double left = from + step * std::max(i - 2, 0), right = from + step * i;
-      for (int k = 0; k < 60; ++k) {
-        const double third = (right - left) / 3.0;
-        gap(left + third) < gap(right - third) ? right -= third : left += third;
-      }
-      least = std::min(least, gap(left));
-    }
-    before = here;
-    here = after;
-  }
-  return least;
-}
-
-// The least gap from the start until `until`, in units of the lengths' rounding. A disk that stays
-// where the wall goes is scanned for three periods: it is met in the first.
-double least_gap_until(const Case& c, double until) {
-  const double f = c.motion.frequency, phase = fraction(c.motion.phase + f * c.start);
-  const Stays stays = stays_below(c, innermost_travel(c.motion));
-  double least = kNever;
-  for (int i = 0; i < stays.count; ++i) {
-    double from = stays.from[i];
-    const double to = std::min({stays.to[i], from + 3.0 / f, until});
-    for (double n = std::floor(phase + f * from); from < to; ++n) {
-      const double end = std::min((n + 1.0 - phase) / f, to);
-      if (!(end > from)) continue;
-      least = std::min(least, least_gap(c, (n - phase) / f, from, end) / c.lengths(end));
-      from = end;
-    }
-  }
-  return least / kEpsilon;
-}
-
-// What contact times left to be desired, over many cases; worst values in units of the rounding.
-struct Verdict {
-  int contacts = 0, at_once = 0, never = 0, early = 0, missed = 0;
-  double residual = 0.0, overlap = 0.0, recession = 0.0;
-
-  void add(const Case& c, double time) {
-    if (time == c.start) {
-      ++at_once;
-    } else if (time == kNever) {
-      ++never;
-    } else {
-      ++contacts;
-    }
-    early += time < c.start;
-    if (time < kNever) judge_contact(c, time);
-    const double least = least_gap_until(c, time - c.start);
-    overlap = std::max(overlap, -least);
-    missed += least < -kRoundings;
-  }
-
-  void judge_contact(const Case& c, double time) {
-    const double t = time - c.start;
-    const WallState wall = wall_state(c.motion, time);
-    double gap = std::fabs(c.height(t) - wall.displacement);
-    // At the saw-tooth's jump rounding decides on which side the time lies.
-    if (c.motion.path == WallPath::Sawtooth) gap = std::min(gap, std::fabs(gap - c.motion.stroke));
-    residual = std::max(residual, gap / (kEpsilon * c.lengths(t)));
-    recession = std::max(recession, (c.velocity(t) - wall.velocity) / (kEpsilon * c.speeds(t)));
-  }
-
-  void check() const {
-    MESSAGE(contacts, " contacts, ", at_once, " at once, ", never, " without; residual ", residual,
-            ", overlap before ", overlap, ", recession ", recession);
-    CHECK(early == 0);
-    CHECK(missed == 0);
-    CHECK(residual < kRoundings);
-    CHECK(recession < kRoundings);
-  }
-
-  static constexpr double kRoundings = 10.0;
-};
-
-// A disk before a wall, over wide ranges of what the wall's stroke and frequency leave free.
-Case random_case(WallPath path, Random& random) {
-  Case c;
-  const double stroke = log_uniform(random, -3.0, 3.0), frequency = log_uniform(random, -3.0, 3.0);
-  c.motion = {path, stroke, frequency, random.uniform()};
-  if (random.below(8) == 0) {
-    c.motion.phase = fraction(0.25 * static_cast<double>(random.below(4)) +
-                              sign(random) * log_uniform(random, -17.0, -6.0));
-  }
-  if (random.below(4)) c.start = sign(random) * log_uniform(random, -6.0, 3.0) / frequency;
-  c.distance =
-      wall_state(c.motion, c.start).displacement + stroke * log_uniform(random, -15.0, 1.0);
-  c.speed = sign(random) * stroke * frequency * log_uniform(random, -4.0, 4.0);
-  if (random.below(3)) {
-    c.acceleration = sign(random) * stroke * frequency * frequency * log_uniform(random, -3.0, 4.0);
-  }
-  return c;
-}
-
-// The disk after the wall has hit it, section 3.
-void reflect_at(Case& c, double time, double restitution) {
-  const double t = time - c.start, wall = wall_state(c.motion, time).velocity;
-  c.distance = c.height(t);
-  c.speed = -restitution * c.velocity(t) + (1.0 + restitution) * wall;
-  c.start = time;
-}
 
 constexpr WallPath kPaths[] = {WallPath::Sawtooth, WallPath::Sinusoidal};
 
@@ -269,37 +49,37 @@ TEST_CASE("wall motion: a wall at rest is a plane") {
       const WallState wall = wall_state(motion, 7.0);
       CHECK(wall.velocity == 0.0);
       const double place = wall.displacement;
-      CHECK(Case{motion, 7.0, place + 3.0, -2.0, 0.0}.contact() == 8.5);
-      CHECK(Case{motion, 7.0, place + 3.0, 2.0, 0.0}.contact() == kNever);
-      CHECK(Case{motion, 7.0, place + 3.0, 2.0, -2.0}.contact() == 10.0);
-      CHECK(Case{motion, 7.0, place, -1e-300, 0.0}.contact() == 7.0);
-      CHECK(Case{motion, 7.0, place, 0.0, 0.0}.contact() == kNever);
-      CHECK(Case{motion, 7.0, place, 0.0, -1.0}.contact() == 7.0);
-      CHECK(Case{motion, 7.0, place, 1.0, -1.0}.contact() == 9.0);
+      CHECK(WallCase{motion, 7.0, place + 3.0, -2.0, 0.0}.contact() == 8.5);
+      CHECK(WallCase{motion, 7.0, place + 3.0, 2.0, 0.0}.contact() == kNever);
+      CHECK(WallCase{motion, 7.0, place + 3.0, 2.0, -2.0}.contact() == 10.0);
+      CHECK(WallCase{motion, 7.0, place, -1e-300, 0.0}.contact() == 7.0);
+      CHECK(WallCase{motion, 7.0, place, 0.0, 0.0}.contact() == kNever);
+      CHECK(WallCase{motion, 7.0, place, 0.0, -1.0}.contact() == 7.0);
+      CHECK(WallCase{motion, 7.0, place, 1.0, -1.0}.contact() == 9.0);
     }
   }
 }
 
 TEST_CASE("wall motion: hits by a saw-tooth") {
   const WallMotion wall{WallPath::Sawtooth, 2.0, 0.5, 0.0};  // of speed 1 and period 2
-  CHECK(Case{wall, 0.0, 1.0, 0.0}.contact() == 1.0);
-  CHECK(Case{wall, 0.0, 3.0, -1.0}.contact() == 1.5);
-  CHECK(Case{wall, -4.0, 3.0, -1.0}.contact() == -2.5);
-  CHECK(Case{wall, 0.0, 5.0, -1.0}.contact() == 3.5);
-  CHECK(Case{wall, 2e6, 5.0, -1.0}.contact() == 2e6 + 3.5);
-  CHECK(Case{wall, 0.0, 0.5, 0.5}.contact() == 1.0);     // chased
-  CHECK(Case{wall, 0.0, 1.5, 0.5}.contact() == kNever);  // It leaves before the wall arrives.
-  CHECK(Case{wall, 0.0, 2.0, 0.0}.contact() == kNever);  // out of reach
-  CHECK(Case{wall, 1.0, 1.5, 0.1875, 0.0}.contact() == 1.0 + 0.5 / 0.8125);
+  CHECK(WallCase{wall, 0.0, 1.0, 0.0}.contact() == 1.0);
+  CHECK(WallCase{wall, 0.0, 3.0, -1.0}.contact() == 1.5);
+  CHECK(WallCase{wall, -4.0, 3.0, -1.0}.contact() == -2.5);
+  CHECK(WallCase{wall, 0.0, 5.0, -1.0}.contact() == 3.5);
+  CHECK(WallCase{wall, 2e6, 5.0, -1.0}.contact() == 2e6 + 3.5);
+  CHECK(WallCase{wall, 0.0, 0.5, 0.5}.contact() == 1.0);     // chased
+  CHECK(WallCase{wall, 0.0, 1.5, 0.5}.contact() == kNever);  // It leaves before the wall arrives.
+  CHECK(WallCase{wall, 0.0, 2.0, 0.0}.contact() == kNever);  // out of reach
+  CHECK(WallCase{wall, 1.0, 1.5, 0.1875, 0.0}.contact() == 1.0 + 0.5 / 0.8125);
   // Thrown out of the zone and back: 1 + 4t - t^2 = t - 2 on the second ramp.
-  CHECK(Case{wall, 0.0, 1.0, 4.0, -2.0}.contact() == (3.0 + std::sqrt(21.0)) / 2.0);
+  CHECK(WallCase{wall, 0.0, 1.0, 4.0, -2.0}.contact() == (3.0 + std::sqrt(21.0)) / 2.0);
 }
 
 TEST_CASE("wall motion: hits by a sinusoidal wall") {
   const WallMotion wall{WallPath::Sinusoidal, 2.0, 0.25, 0.0};  // of amplitude 1 and period 4
   const auto check = [&](double start, double distance, double speed, double acceleration,
                          double expected) {
-    const double time = Case{wall, start, distance, speed, acceleration}.contact();
+    const double time = WallCase{wall, start, distance, speed, acceleration}.contact();
     CHECK(std::fabs(time - expected) < 4e-15);
   };
   check(0.0, 0.5, 0.0, 0.0, 1.0 / 3.0);
@@ -309,17 +89,17 @@ TEST_CASE("wall motion: hits by a sinusoidal wall") {
   check(0.0, 0.25, 0.75, 0.0, 1.0 / 3.0);                // chased
   check(2.0, 0.5 - 7.0 / 24.0, 0.125, 0.0, 13.0 / 3.0);  // chased in the next period
   check(0.0, 6.0, 6.0, -2.0, 7.0);                       // thrown out of the zone and back
-  CHECK(Case{wall, 0.0, 0.5, 2.0}.contact() == kNever);
-  CHECK(Case{wall, 0.0, 1.0 + 1e-15, 0.0}.contact() == kNever);  // out of reach
-  CHECK(Case{wall, 1.5, 0.75, 0.5}.contact() == kNever);         // leaves before the wall returns
-  CHECK(Case{wall, 0.0, 10.0, -4.0, 1.0}.contact() == kNever);   // turns before the zone
+  CHECK(WallCase{wall, 0.0, 0.5, 2.0}.contact() == kNever);
+  CHECK(WallCase{wall, 0.0, 1.0 + 1e-15, 0.0}.contact() == kNever);  // out of reach
+  CHECK(WallCase{wall, 1.5, 0.75, 0.5}.contact() == kNever);  // leaves before the wall returns
+  CHECK(WallCase{wall, 0.0, 10.0, -4.0, 1.0}.contact() == kNever);  // turns before the zone
 }
 
 TEST_CASE("wall motion: disks that touch the wall") {
   const WallMotion ramps{WallPath::Sawtooth, 2.0, 0.5, 0.0};
   for (const double overlap : {0.0, 1e-15}) {
     const auto contact = [&](double speed, double acceleration) {
-      return Case{ramps, 1.0, 1.0 - overlap, speed, acceleration}.contact();
+      return WallCase{ramps, 1.0, 1.0 - overlap, speed, acceleration}.contact();
     };
     CHECK(contact(0.0, 0.0) == 1.0);
     CHECK(contact(0.0, 8.0) == 1.0);
@@ -335,7 +115,7 @@ TEST_CASE("wall motion: disks that touch the wall") {
   const WallMotion wave{WallPath::Sinusoidal, 2.0, 0.25, 0.0};
   const auto ride = [&](double start) {
     const WallState wall = wall_state(wave, start);
-    return Case{wave, start, wall.displacement, wall.velocity}.contact();
+    return WallCase{wave, start, wall.displacement, wall.velocity}.contact();
   };
   CHECK(ride(1.5) > 2.0);
   CHECK(ride(1.5) < 4.0);
@@ -348,7 +128,7 @@ TEST_CASE("wall motion: a disk that rides the wall, but for rounding") {
     Verdict verdict;
     for (std::uint32_t i = 0; i < 10000; ++i) {
       Random random(41, Stream::Velocity, i, 0);
-      Case c = random_case(path, random);
+      WallCase c = random_case(path, random);
       const WallState wall = wall_state(c.motion, c.start);
       c.distance = wall.displacement * (1.0 - kEpsilon * static_cast<double>(random.below(3)));
       c.speed = wall.velocity * (1.0 + kEpsilon * (random.uniform() - 0.5));
@@ -366,7 +146,7 @@ TEST_CASE("wall motion: the smallest hops come to their end, and not before") {
     double longest = 0.0, shortest = kNever;
     for (std::uint32_t i = 0; i < 100000; ++i) {
       Random random(42, Stream::Velocity, i, 0);
-      Case c = random_case(path, random);
+      WallCase c = random_case(path, random);
       c.start = 0.0;
       const WallState wall = wall_state(c.motion, 0.0);
       c.acceleration = -std::fabs(c.acceleration) - 0.1 * c.peak_speed() * c.motion.frequency;
@@ -395,7 +175,7 @@ TEST_CASE("wall motion: grazing passes") {
   int behind = 0, met = 0, before = 0, invented = 0;
   for (std::uint32_t i = 0; i < 50000; ++i) {
     Random random(43, Stream::Velocity, i, 0);
-    Case c = random_case(WallPath::Sinusoidal, random);
+    WallCase c = random_case(WallPath::Sinusoidal, random);
     c.start = 0.0;
     const double graze = 0.3 * random.uniform() / c.motion.frequency;
     const WallState wall = wall_state(c.motion, graze);
@@ -428,7 +208,7 @@ TEST_CASE("wall motion: a disk that creeps, or rests but for rounding, ends the 
     for (const double speed : {0.0, 1e-30, 1e-17, -1e-30, -1e-17, -1e-10}) {
       for (const double above : {-4.0, -1.0, 0.0, 1.0, 4.0}) {
         for (const double acceleration : {0.0, -1e-25, 1e-25}) {
-          const Case c{wall, 0.0, travel * (1.0 + above * kEpsilon), speed, acceleration};
+          const WallCase c{wall, 0.0, travel * (1.0 + above * kEpsilon), speed, acceleration};
           const double time = c.contact();
           if (time == kNever) {
             // Only a disk that never sinks by more than rounding.
@@ -447,11 +227,12 @@ TEST_CASE("wall motion: walls so slow or disks so fast that the other seems to s
   for (const WallPath path : kPaths) {
     for (const double frequency : {1e-12, 1e-100, 1e-200}) {
       const WallMotion wall{path, 2.0, frequency, 0.0};
-      CHECK(std::fabs(Case{wall, 0.0, 4.0, 2.0, -4.0}.contact() - 2.0) < 1e-11);
-      CHECK(std::fabs(Case{wall, 0.0, 4.0, -2.0, 0.0}.contact() - 2.0) < 1e-11);
+      CHECK(std::fabs(WallCase{wall, 0.0, 4.0, 2.0, -4.0}.contact() - 2.0) < 1e-11);
+      CHECK(std::fabs(WallCase{wall, 0.0, 4.0, -2.0, 0.0}.contact() - 2.0) < 1e-11);
     }
     // They cross the wall's way within the rounding of the time.
-    CHECK(std::fabs(Case{{path, 1e-3, 0.3, 0.0}, 0.0, 1e15, -1e15}.contact() - 1.0) <= kEpsilon);
+    CHECK(std::fabs(WallCase{{path, 1e-3, 0.3, 0.0}, 0.0, 1e15, -1e15}.contact() - 1.0) <=
+          kEpsilon);
   }
 }
 
@@ -463,7 +244,7 @@ TEST_CASE("wall motion: powers of two scale lengths and velocities without a bit
         const double l = std::ldexp(1.0, length), s = std::ldexp(1.0, speed);
         for (std::uint32_t i = 0; i < 3000; ++i) {
           Random random(44, Stream::Velocity, i, 0);
-          Case c = random_case(path, random), d = c;
+          WallCase c = random_case(path, random), d = c;
           if (i % 3 == 0) reflect_at(c, c.start, random.uniform()), d = c;
           d.motion.stroke *= l;
           d.motion.frequency *= s / l;
@@ -484,7 +265,7 @@ static void check_random_cases(WallPath path, std::uint32_t cases) {
   Verdict verdict;
   for (std::uint32_t i = 0; i < cases; ++i) {
     Random random(45, Stream::Velocity, i, 0);
-    const Case c = random_case(path, random);
+    const WallCase c = random_case(path, random);
     verdict.add(c, c.contact());
   }
   verdict.check();
@@ -498,7 +279,7 @@ static void check_bounces(WallPath path, std::uint32_t disks) {
   Verdict verdict;
   for (std::uint32_t i = 0; i < disks; ++i) {
     Random random(46, Stream::Velocity, i, 0);
-    Case c = random_case(path, random);
+    WallCase c = random_case(path, random);
     if (random.below(2)) c.acceleration = -std::fabs(c.acceleration);
     const double restitution = random.below(8) ? random.uniform() : 0.0;
     double time = c.contact();

@@ -27,10 +27,11 @@ Scene rough_scene() {
   return scene;
 }
 
-/// Walls to the left and right; the left one moves in by 2 at most.
+/// Walls to the left and right; the left one moves in by 2, and has come by 1.5 at time 0.
 Scene walled_scene() {
   Scene scene = smooth_scene();
-  scene.walls[kLeft] = Wall{.kind = WallKind::Sawtooth, .stroke = 2.0, .frequency = 1.0};
+  scene.walls[kLeft] =
+      Wall{.kind = WallKind::Sawtooth, .stroke = 2.0, .frequency = 1.0, .phase = -0.25};
   scene.walls[kRight] = Wall{};
   return scene;
 }
@@ -157,11 +158,11 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
        "a.csv:3:1: x = 10.5 lies outside the box; give a number between 0 and 10"},
       {kHeader + "1,-1e-9,3,4\n", "a.csv:2:3: y = -1e-09 lies outside the box"},
       {kHeader + "9.6,2,3,4\n",
-       "a.csv:2:1: at x = 9.6 the disk overlaps the right wall; give a number between 2.5 and 9.5",
+       "a.csv:2:1: at x = 9.6 the disk overlaps the right wall; give a number between 2 and 9.5",
        walled_scene()},
-      {kHeader + "2.4,2,3,4\n",
-       "a.csv:2:1: at x = 2.4 the disk overlaps the left wall where that moves farthest in; give a "
-       "number between 2.5 and 9.5",
+      {kHeader + "1.9,2,3,4\n",
+       "a.csv:2:1: at x = 1.9 the disk overlaps the left wall, as that is at time 0; give a "
+       "number between 2 and 9.5, or the wall the phase that it had",
        walled_scene()},
       // overlaps
       {kHeader + "1,2,3,4\n\n5,5,0,0\n1.5,2,3,4\n",
@@ -184,10 +185,20 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
 
 TEST_CASE("disks that touch each other or a wall, up to rounding, are sound") {
   CHECK(refusal(kHeader + "5,2,0,0\n5,2.9999999999995,0,0\n6,2,0,0\n") == "");
-  CHECK(refusal(kHeader + "2.4999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
+  CHECK(refusal(kHeader + "1.9999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
   CHECK(refusal(kHeader + "9.75,2,3,4\n0.5,7,3,4\n0.75,2,0,0\n") == "");
   // Where walls are, nothing wraps.
   CHECK(refusal(kHeader + "9.5,2,3,4\n2.5,7,3,4\n2.5,0.5,3,4\n9.5,3,0,0\n", walled_scene()) == "");
+}
+
+TEST_CASE("disks may lie wherever the walls are not at time 0, out of the box too") {
+  CHECK(refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // where the wall will come
+  Scene scene = walled_scene();
+  scene.walls[kRight] =
+      Wall{.kind = WallKind::Sinusoidal, .stroke = 2.0, .frequency = 1.0, .phase = 0.75};
+  CHECK(refusal(kHeader + "10.4,2,0,0\n10.4,3,0,0\n", scene) == "");
+  CHECK(has(refusal(kHeader + "10.6,2,0,0\n", scene), "overlaps the right wall"));
+  CHECK(has(refusal(kHeader + "10.4,2,0,0\n10.4,2.9,0,0\n", scene), "overlap by 0.1"));
 }
 
 TEST_CASE("no overlap hides, in boxes of any shape") {

@@ -5,20 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/error.h"
 #include "engine/physics/random.h"
 
 namespace clatter::testing {
-
-Model<2> periodic_box(double lx, double ly) {
-  Model<2> model;
-  model.box = {lx, ly};
-  return model;
-}
-
-Model<2> with_walls(Model<2> model, int axis, const Wall& wall) {
-  model.walls[2 * axis] = model.walls[2 * axis + 1] = wall;
-  return model;
-}
 
 // Plots of at least one diameter, in rows along x and y: the most nearly square that hold `count`.
 static IntVec<2> divide(const Model<2>& model, int count) {
@@ -58,6 +48,21 @@ State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed) {
   if (model.periodic(0) && model.periodic(1) && count > 1) {
     for (Vec2& v : state.velocities) v -= mean;
   }
+  return state;
+}
+
+State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed) {
+  Model<2> inner = model;
+  Vec2 low = Vec2::Zero();
+  for (int side = 0; side < 4; ++side) {
+    if (!model.walls[side]) continue;
+    const double travel = model.walls[side]->innermost_travel();
+    inner.box[side / 2] -= travel;
+    if (side % 2 == 0) low[side / 2] = travel;
+  }
+  State<2> state = random_gas(inner, count, seed);
+  for (Vec2& r : state.positions) r += low;
+  for (int i = 0; model.spins && i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
   return state;
 }
 
@@ -101,6 +106,15 @@ bool finite_and_inside(const Model<2>& model, const State<2>& state) {
     if ((r.array() < 0.0).any() || (r.array() > model.box.array()).any()) return false;
   }
   return true;
+}
+
+std::string stop_of(Simulation<2>& simulation, double time) {
+  try {
+    simulation.run_until(time);
+  } catch (const PhysicalStop& stop) {
+    return stop.what();
+  }
+  return "";
 }
 
 void check_sound(const Simulation<2>& simulation) {

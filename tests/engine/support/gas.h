@@ -5,18 +5,16 @@
 
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/simulation.h"
+#include "tests/engine/support/models.h"
 
 namespace clatter::testing {
-
-/// An elastic gas in a periodic box.
-Model<2> periodic_box(double lx, double ly);
-
-/// The same box with the same wall at both ends of an axis.
-Model<2> with_walls(Model<2> model, int axis, const Wall& wall);
 
 /// Disks at random places within equal plots of the box, with Gaussian velocities of temperature 1;
 /// without walls the momentum is zero.
 State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed);
+
+/// The same clear of wherever moving walls come, with spins where the model carries them.
+State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed);
 
 /// Deepest overlap of any two disks, through any image, and of any disk with a wall, in diameters:
 /// every pair and every image is looked at.
@@ -27,6 +25,9 @@ Vec2 momentum(const State<2>& state);
 
 /// Whether every number of the state is finite and every centre lies in the box.
 bool finite_and_inside(const Model<2>& model, const State<2>& state);
+
+/// Runs to a time and gives the message of what stopped it before; empty: nothing did.
+std::string stop_of(Simulation<2>& simulation, double time);
 
 /// What a run must never show: a clock that steps back, disks that overlap where they collide. When
 /// the base moves, times are rounded anew, so that the order of events that coincide may change:

@@ -46,12 +46,13 @@ bool Reference::step() {
       return true;
     }
     now_ = std::max(now_, next.event.time);
+    --until_base_moves_;
     if (next.event.partner < kWall) {
       collide(next);
     } else {
       hit_wall(next.event);
     }
-    if (--until_base_moves_ == 0) move_base();
+    if (until_base_moves_ == 0) move_base();
     return true;
   }
   return false;
@@ -164,6 +165,7 @@ void Reference::kick() {
 }
 
 void Reference::renew(std::uint32_t i, const Vec2& r, const Vec2& v, const Spin<2>& spin) {
+  if (v.cwiseAbs().maxCoeff() * now_ > 16384.0 * model_.diameter) until_base_moves_ = 0;
   flights_[i] = {wrapped(r), v, now_, flights_[i].number + 1};
   if (!spins_.empty()) spins_[i] = spin;
 }

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/measure/cell_integrals.h"
+#include "engine/measure/field_grid.h"
+#include "engine/measure/moment_layout.h"
+#include "engine/publish/snapshot.h"
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// Fields on the cells of a grid over the whole box, averaged over a span of time.
+struct FieldMaps {
+  double begin = 0.0;  ///< simulation times
+  double end = 0.0;
+  Vec2 cell = {0.0, 0.0};      ///< edges of a cell
+  std::vector<FieldMap> maps;  ///< one of each field asked for
+};
+
+/// The map of a field that a grid's sums give, NaN where it has no value (see field_value).
+FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<2>& grid,
+                   const MomentLayout<2>& layout);
+
+/// A run's sums as a series of parts, whose number stays bounded however long the run goes on:
+/// whenever there are as many as may be, each two neighbours become one, and parts are twice as
+/// long from there on.
+class PartSums {
+ public:
+  /// Parts there are at most; fewer, but at least 2, where they would take more than kMostBytes.
+  static constexpr std::size_t kMostParts = 64;
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
+  /// How many there may be where each takes so many bytes; even, so that all have a neighbour.
+  static std::size_t most_parts(std::size_t bytes);
+
+  /// Adds a window of time; all have the same length and grid.
+  void add(CellSums window);
+
+  /// The parts in order of time; the last may be shorter than the others.
+  const std::vector<CellSums>& parts() const { return parts_; }
+  /// The windows in each part but perhaps the last.
+  std::uint64_t windows_per_part() const { return windows_per_part_; }
+
+  /// What a checkpoint keeps.
+  template <class Archive>
+  void visit(Archive& io) {
+    auto& [parts, windows_per_part, windows] = *this;
+    io(parts, windows_per_part, windows);
+  }
+
+ private:
+  void join_neighbours();
+
+  std::vector<CellSums> parts_;
+  std::uint64_t windows_per_part_ = 1;
+  std::uint64_t windows_ = 0;  // in all parts
+};
+
+}  // namespace clatter

@@ -1,0 +1,37 @@
+#include "engine/measure/residuals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+
+int equation_of(Field residual) {
+  return static_cast<int>(std::ranges::find(kResiduals, residual) - kResiduals.begin());
+}
+
+void Residuals::include(const Imbalances<2>& window) {
+  cells.resize(window.gaps.size(), Conserved<2>::Zero());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Conserved<2> residual = window.residual(i);
+    for (int k = 0; k < residual.size(); ++k) {
+      if (std::fabs(residual[k]) > std::fabs(cells[i][k])) cells[i][k] = residual[k];
+    }
+  }
+}
+
+Conserved<2> Residuals::largest() const {
+  Conserved<2> largest = Conserved<2>::Zero();
+  for (const Conserved<2>& cell : cells) {
+    largest = largest.cwiseMax(cell.cwiseAbs());
+  }
+  return largest;
+}
+
+std::vector<double> Residuals::map(Field residual) const {
+  std::vector<double> values;
+  values.reserve(cells.size());
+  for (const Conserved<2>& cell : cells) values.push_back(cell[equation_of(residual)]);
+  return values;
+}
+
+}  // namespace clatter

@@ -1,0 +1,110 @@
+// The balance equations of mass, momentum and energy, as a person asks for them.
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+namespace {
+
+const std::string kBalance = " --quiet --set 'measure.fields=[\"balance\"]' ";
+
+}  // namespace
+
+TEST_CASE("The balance equations close in every cell, whatever acts") {
+  const Shell shell;
+  for (const std::string scene :
+       {"equilibrium --set disks.restitution=0.9",  // smooth
+        "rough_cooling --set disks.start.spin_temperature=1",
+        "barometer --set bulk_drive.interval=0.1 --set bulk_drive.kick_speed=0.2",
+        "conduction",                              // thermal walls
+        "vibrated --set walls.left.friction=0.5",  // driven walls
+        "shaker",                                  // a finite stroke
+        "collapse --set gravity.acceleration=[0.1,0] --set measure.cells=[31,17]"}) {
+    CAPTURE(scene);
+    const Outcome outcome =
+        shell.run("clatter measure " + scene + kBalance + "--set measure.burn_in=1 --until 5");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json result = json::parse(outcome.out);
+    CHECK(result.at("events").at("disk_disk") > 0);
+    CHECK_FALSE(result.contains("profile"));
+    const json& balance = result.at("balance");
+    CHECK(balance.size() == 3);
+    CHECK(balance.at("mass") == 0.0);
+    for (const char* equation : {"momentum", "energy"}) {
+      CAPTURE(equation);
+      CHECK(balance.at(equation) > 0.0);
+      CHECK(balance.at(equation) <= 1e-10);
+    }
+  }
+}
+
+TEST_CASE("Balances close beside fields, by the same numbers, and only where asked for") {
+  const Shell shell;
+  const auto measure = [&](const std::string& fields) {
+    return json::parse(shell
+                           .run("clatter measure vibrated --quiet --set measure.burn_in=1 "
+                                "--until 5 --csv tables --set 'measure.fields=[" +
+                                fields + "]'")
+                           .out);
+  };
+  const json both = measure("\"density\", \"balance\"");
+  CHECK(both.at("scene").at("measure").at("fields") == json({"density", "balance"}));
+  CHECK(both.at("profile").contains("density"));
+  CHECK_FALSE(both.at("profile").contains("balance_energy"));
+  CHECK(both.at("balance") == measure("\"balance\"").at("balance"));
+  CHECK_FALSE(measure("\"density\"").contains("balance"));
+}
+
+TEST_CASE("A balance goes on from a checkpoint, anew where cells hold another energy") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure rough_driven --set measure.burn_in=1" + kBalance + "--out r.json ";
+  REQUIRE(shell.run(line + "--until 5 --checkpoint c").code == 0);
+  CHECK(shell.run(line + "--until 9 --resume c").code == 0);
+  CHECK(json::parse(shell.read("r.json")).at("time").at("burn_in") == 1.0);
+  CHECK(json::parse(shell.read("r.json")).at("balance").at("energy") <= 1e-10);
+  CHECK(shell.run(line + "--until 9 --resume c --set disks.inertia=0.4").code == 0);
+  CHECK(json::parse(shell.read("r.json")).at("time").at("burn_in") == 5.0);
+  CHECK(json::parse(shell.read("r.json")).at("balance").at("energy") <= 1e-10);
+}
+
+// A lone disk far from all faces, under a gravity that its velocity can hardly hold, is the one way
+// there that needs no mistake in the engine.
+TEST_CASE("A balance that does not close ends the run with 1, once its results are written") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure equilibrium" + kBalance +
+      "--set disks.count=1 --set box.size=[1000,1000] --set measure.cells=[1,1] "
+      "--set measure.burn_in=0 --until 16 --out r.json --set gravity.acceleration=";
+  const Outcome outcome = shell.run(line + "[1e-13,0]");
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("balance equations do not close: residuals are as large as ") !=
+        std::string::npos);
+  CHECK(json::parse(shell.read("r.json")).at("balance").at("momentum") > 1e-6);
+  const Outcome stronger = shell.run(line + "[1e-7,0]");
+  CHECK(stronger.code == 0);
+  CHECK(json::parse(shell.read("r.json")).at("balance").at("momentum") <= 1e-6);
+}
+
+TEST_CASE("A film shows residuals") {
+  const Shell shell;
+  for (const std::string field :
+       {"balance_mass", "balance_momentum_x", "balance_momentum_y", "balance_energy"}) {
+    CAPTURE(field);
+    const Outcome outcome =
+        shell.run("clatter render vibrated --quiet --size 320x240 --to 2 --out " + field +
+                  ".png --set view.field=" + field);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(shell.read(field + ".png").size() > 1000);
+  }
+}
+
+}  // namespace clatter

@@ -1,0 +1,250 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/dynamics/state_hash.h"
+#include "tests/engine/support/gas.h"
+#include "tests/engine/support/reference.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+// Where collisions go on without end: piles, rows and bouncing balls that collapse are reported,
+// t_c carries them on, and what only looks like them runs through.
+
+namespace {
+
+// Its acceleration is .18 at most, so that what lies on it under gravity 1 stays.
+const Wall kGentle{
+    .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 0.1, .frequency = 0.3};
+// A row of disks along x that all fall upon the first.
+State<2> row(int count, double spacing) {
+  State<2> start;
+  for (int i = 0; i < count; ++i) {
+    start.positions.push_back({1.0 + spacing * i, 2.0});
+    start.velocities.push_back({i == 0 ? 0.5 : -1.0, 0.0});
+  }
+  return start;
+}
+
+// The t_c that a message advises.
+double advised_contact_time(const std::string& message) {
+  const std::string key = "collapse.contact_time = ";
+  const std::size_t at = message.find(key);
+  REQUIRE_MESSAGE(at != std::string::npos, message);
+  return std::stod(message.substr(at + key.size()));
+}
+
+}  // namespace
+
+TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and time goes on") {
+  for (const Wall& kind : {kStatic, kSawtooth, kSinusoidal, kGentle}) {
+    CAPTURE(static_cast<int>(kind.kind));
+    Wall floor = kind;
+    floor.restitution = 0.0;
+    Model<2> model = periodic_box(6.0, 12.0);
+    model.walls[kBottom] = floor;
+    model.walls[kTop] = kStatic;
+    model.restitution = 0.0;
+    model.gravity = {0.0, -1.0};
+    model.contact_time = 0.02;
+    Simulation<2> simulation(model, clear_gas(model, 10, 908));
+    for (int k = 1; k <= 40; ++k) {
+      REQUIRE_NOTHROW(simulation.run_until(k));
+      REQUIRE(simulation.deepest_overlap() < 1e-9);
+    }
+    CHECK(simulation.checks().deepest_overlap < 1e-9);
+    // What t_c leaves: hops of some t_c, of speed g t_c. Sideways they slide without friction.
+    double vertical = 0.0;
+    for (const Vec2& v : simulation.state().velocities)
+      vertical = std::max(vertical, std::fabs(v.y()));
+    MESSAGE("collisions ", simulation.counts().collisions(), ", energy ",
+            simulation.kinetic_energy(), ", fastest up or down ", vertical);
+    if (floor.kind == WallKind::Static || floor.frequency == kGentle.frequency) {
+      CHECK(vertical < 0.3);
+    }
+  }
+}
+
+TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is reported") {
+  // Dropped from h it lands after t_0 = sqrt(2h/g); the bounces sum to t_0 (1 + alpha)/(1 - alpha).
+  for (const double restitution : {0.9, 0.5, 0.0}) {
+    CAPTURE(restitution);
+    Model<2> model = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = restitution});
+    model.gravity = {0.0, -0.5};
+    State<2> start{{{3.0, 4.5}}, {{0.0, 0.0}}};
+    Simulation<2> simulation(model, start);
+    const std::string message = stop_of(simulation, 1e6);
+    const double end = 4.0 * (1.0 + restitution) / (1.0 - restitution);
+    CAPTURE(message);
+    CHECK(message.find("disk 0 and the bottom wall collide without end") != std::string::npos);
+    CHECK(simulation.time() == doctest::Approx(end).epsilon(1e-5));
+    CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
+    // With the t_c that the message advises it hops on.
+    model.contact_time = advised_contact_time(message);
+    Simulation<2> on(model, start);
+    CHECK(stop_of(on, end + 1e5 * *model.contact_time) == "");
+    CHECK(on.checks().deepest_overlap < 1e-9);
+  }
+}
+
+TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with it they run on") {
+  for (const Wall& kind : {kStatic, kLossy, kSawtooth, kSinusoidal, kGentle, kRoughDriven}) {
+    for (const double restitution : {0.0, 0.5}) {
+      CAPTURE(static_cast<int>(kind.kind));
+      CAPTURE(restitution);
+      Wall floor = kind;
+      floor.restitution = std::min(floor.restitution, restitution);
+      Model<2> model = with_walls(rough(periodic_box(6.0, 12.0), 0.5, 0.5), 1, floor);
+      model.restitution = restitution;
+      model.gravity = {0.0, -1.0};
+      const State<2> start = clear_gas(model, 12, 909);
+      Simulation<2> simulation(model, start);
+      const std::string stop = stop_of(simulation, 50.0);
+      if (stop.empty()) CHECK(simulation.time() == 50.0);
+      CHECK(finite_and_inside(model, simulation.state()));
+      CHECK(simulation.deepest_overlap() < 1e-9);
+      if (stop.empty()) continue;
+      CHECK(stop.find("inelastic collapse") != std::string::npos);
+      model.contact_time = advised_contact_time(stop);
+      MESSAGE(stop);
+      Simulation<2> on(model, start);
+      CHECK(stop_of(on, simulation.time() + 1000.0 * *model.contact_time) == "");
+      CHECK(on.deepest_overlap() < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on") {
+  // In one dimension three free disks collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara & Young
+  // 1992), longer rows above.
+  struct Row {
+    int count;
+    double restitution;
+  };
+  for (const Row& r : {Row{3, 0.05}, Row{12, 0.3}, Row{20, 0.5}}) {
+    CAPTURE(r.count);
+    Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
+    model.restitution = r.restitution;
+    const State<2> start = row(r.count, 1.5);
+    Simulation<2> simulation(model, start);
+    const std::string message = stop_of(simulation, 1000.0);
+    MESSAGE(message);
+    CHECK(message.find("inelastic collapse") != std::string::npos);
+    CHECK(message.find(" and disk ") != std::string::npos);
+    CHECK(simulation.deepest_overlap() < 1e-11);
+    model.contact_time = advised_contact_time(message);
+    Simulation<2> on(model, start);
+    CHECK(stop_of(on, 1000.0) == "");
+    CHECK(on.time() == 1000.0);
+    CHECK(on.deepest_overlap() < 1e-11);
+    for (const Vec2& r_i : on.state().positions) CHECK(r_i.y() == 2.0);
+  }
+}
+
+// The run that goes on stands still from its first collision; its own mean time would be far too
+// short.
+TEST_CASE("extremes: a run that goes on from where time stood still is advised the same t_c") {
+  Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
+  model.restitution = 0.3;
+  Simulation<2> first(model, row(12, 1.5));
+  const std::string message = stop_of(first, 1000.0);
+  Simulation<2> second(model, first.save());
+  const std::string again = stop_of(second, 1000.0);
+  CAPTURE(message);
+  CAPTURE(again);
+  CHECK(advised_contact_time(again) == advised_contact_time(message));
+  Simulation<2> third(model, second.save());
+  CHECK(advised_contact_time(stop_of(third, 1000.0)) == advised_contact_time(message));
+}
+
+TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisions before") {
+  // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
+  // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
+  // some ten collisions per disk before it collapses.
+  Model<2> ball = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.9});
+  ball.gravity = {0.0, -0.5};
+  Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
+  const double ball_time = 1e3 * advised_contact_time(stop_of(bouncing, 1e6));
+  MESSAGE("mean time of the ball ", ball_time);
+  CHECK(ball_time > 0.4);  // 76 time units, the first flights 7
+  CHECK(ball_time < 8.0);
+  Model<2> pile = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.5});
+  pile.restitution = 0.5;
+  pile.gravity = {0.0, -1.0};
+  const State<2> start = clear_gas(pile, 12, 909);
+  Simulation<2> falling(pile, start), first(pile, start);
+  const double pile_time = 1e3 * advised_contact_time(stop_of(falling, 1e6));
+  first.run_until(kNever, 60);  // ten for each disk
+  const double expected =
+      first.time() * 12.0 /
+      static_cast<double>(2 * first.counts().disk_disk + first.counts().disk_wall);
+  MESSAGE("mean time of the pile ", pile_time, ", of its first collisions ", expected);
+  CHECK(pile_time > 0.1 * expected);
+  CHECK(pile_time < 10.0 * expected);
+}
+
+TEST_CASE("extremes: who looks for a standstill changes nothing") {
+  // The reference does not look. Rows with a t_c far below the time of the collapse come close to
+  // it; a thermal wall's restitution is not used, but makes a run be looked at.
+  Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
+  model.restitution = 0.3;
+  model.contact_time = 1e-9;
+  const State<2> start = row(8, 1.5);
+  Simulation<2> simulation(model, start);
+  Reference reference(model, start);
+  simulation.run_until(kNever, 8000);
+  reference.run_until_collisions(8000);
+  CHECK(simulation.counts().elasticised > 1000);
+  CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+
+  Model<2> plain = with_walls(periodic_box(9.0, 8.0), 0, kThermal);
+  Model<2> looked_at = plain;
+  looked_at.walls[kLeft]->restitution = 0.5;
+  const State<2> gas = random_gas(plain, 20, 910);
+  Simulation<2> a(plain, gas), b(looked_at, gas);
+  a.run_until(kNever, 200000);
+  b.run_until(kNever, 200000);
+  CHECK(a.state_hash() == b.state_hash());
+}
+
+TEST_CASE("extremes: dense, fast and hot gases are no standstill") {
+  // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic disks at phi = .68,
+  // kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they take,
+  // for which inelastic disks make up.
+  Model<2> dense = periodic_box(9.2, 9.0);
+  dense.restitution = 0.9;
+  dense.bulk_drive = BulkDrive{0.01, 0.1, 0.0};
+  Wall hot = kThermal;
+  hot.temperature = 1e16;
+  Model<2> heated = with_walls(periodic_box(10.0, 9.0), 0, hot);
+  heated.restitution = 0.95;
+  Model<2> gaining =
+      with_walls(periodic_box(10.0, 9.0), 0,
+                 {.kind = WallKind::Driven, .restitution = 1.05, .drive_speed = 0.1});
+  gaining.restitution = 0.8;
+  int count = 72;
+  for (const Model<2>& model : {dense, heated, gaining}) {
+    Simulation<2> simulation(model, random_gas(model, count, 911));
+    CHECK_NOTHROW(simulation.run_until(kNever, 200000));
+    CHECK(simulation.counts().collisions() == 200000);
+    CHECK(finite_and_inside(model, simulation.state()));
+    CHECK(brute_force_overlap(model, simulation.state()) < 1e-11);
+    count = 30;
+  }
+}
+
+TEST_CASE("extremes: one disk between walls of restitution 1.05 gains without bound and stops") {
+  // v grows by 1.05 with each crossing of 9: the times sum to 9/v (1 + 1/1.05 + ...) = 21 * 9/v.
+  const Wall gaining{.restitution = 1.05};
+  Model<2> model = with_walls(periodic_box(10.0, 9.0), 0, gaining);
+  Simulation<2> simulation(model, State<2>{{{0.5, 3.0}}, {{2.0, 0.25}}});
+  const std::string message = stop_of(simulation, 1e6);
+  CHECK(message.find("the temperature diverges") != std::string::npos);
+  CHECK(simulation.time() == doctest::Approx(21.0 * 9.0 / 2.0).epsilon(1e-5));
+  CHECK(finite_and_inside(model, simulation.state()));
+  CHECK(simulation.state().velocities[0].y() == 0.25);
+}

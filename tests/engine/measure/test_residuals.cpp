@@ -1,0 +1,154 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/measure/measurement.h"
+#include "engine/measure/residuals.h"
+#include "engine/scene/scene_keys.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+// Everything that books: rough disks, gravity, kicks, thermal, driven and moving walls.
+Scene everything() {
+  Scene scene = rough_mixture(20);
+  scene.disks.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
+  scene.walls[kRight] = {
+      .kind = WallKind::Sinusoidal, .restitution = 0.7, .stroke = 0.3, .frequency = 1.3};
+  scene.gravity = Vec2(0.1, -0.2);
+  scene.bulk_drive = BulkDrive{.interval = 0.3, .kick_speed = 0.2, .kick_spin = 0.1};
+  return scene;
+}
+
+Measure measure_of(std::vector<Field> fields) {
+  Measure measure;
+  measure.burn_in = 3.3;
+  measure.duration = 52.0;
+  measure.series_interval = 0.1;  // 520 windows
+  measure.fields = std::move(fields);
+  measure.cells = {5, 4};
+  return measure;
+}
+
+Measured measured(const Scene& scene, const Measure& measure) {
+  const auto simulation = simulation_of(scene, 61);
+  const double end = measure.burn_in + measure.duration;
+  Measurement measurement(*simulation, measure, end);
+  simulation->run_until(end);
+  return measurement.result();
+}
+
+const std::vector<Field> kBalance(kResiduals.begin(), kResiduals.end());
+
+}  // namespace
+
+TEST_CASE("Residuals: of each equation that of the window in which it was largest, with its sign") {
+  const Imbalances<2> first{{{1.0, -2.0, 0.0, 3.0}, {0.0, 0.0, 0.0, -5.0}},
+                            {{2.0, 4.0, 8.0, 16.0}, {1.0, 1.0, 1.0, 10.0}}};
+  const Imbalances<2> second{{{0.5, 3.0, -1.0, 1.0}, {0.0, 0.0, 4.0, 1.0}},
+                             {{2.0, 4.0, 8.0, 16.0}, {1.0, 1.0, 0.0, 10.0}}};
+  Residuals residuals;
+  residuals.include(first);
+  residuals.include(second);
+  CHECK(residuals.map(Field::BalanceMass) == std::vector{0.5, 0.0});
+  CHECK(residuals.map(Field::BalanceMomentumX) == std::vector{0.75, 0.0});
+  CHECK(residuals.map(Field::BalanceMomentumY) == std::vector{-0.125, 1.0});
+  CHECK(residuals.map(Field::BalanceEnergy) == std::vector{0.1875, -0.5});
+  CHECK(residuals.largest() == Conserved<2>(0.5, 0.75, 1.0, 0.5));
+}
+
+TEST_CASE("Imbalances: of two times they are those of both") {
+  Imbalances<2> sum;
+  sum += {{{1.0, -2.0, 0.0, 3.0}}, {{2.0, 4.0, 8.0, 16.0}}};
+  sum += {{{1.0, 3.0, 0.0, -3.0}}, {{2.0, 4.0, 8.0, 16.0}}};
+  CHECK(sum.residual(0) == Conserved<2>(0.5, 0.125, 0.0, 0.0));
+}
+
+TEST_CASE("Residuals: what is no number is larger than any") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Residuals residuals;
+  residuals.include({{{0.0, nan, 0.0, 0.0}}, {{1.0, 1.0, 1.0, 1.0}}});
+  residuals.include({{{1.0, 1.0, 0.0, 0.0}}, {{1.0, 1.0, 1.0, 1.0}}});
+  CHECK(std::isinf(residuals.largest()[1]));
+  CHECK(residuals.largest()[0] == 1.0);
+}
+
+TEST_CASE("Measurement: balances close where residuals are asked for, and only there") {
+  const Measured balanced = measured(everything(), measure_of(kBalance));
+  REQUIRE(balanced.residuals);
+  CHECK(balanced.residuals->cells.size() == 20);
+  CHECK(balanced.residuals->largest()[0] == 0.0);
+  CHECK(balanced.residuals->largest().minCoeff() == 0.0);
+  CHECK(balanced.residuals->largest().maxCoeff() > 0.0);
+  CHECK(balanced.residuals->largest().maxCoeff() < 1e-12);
+  CHECK_FALSE(balanced.profile);
+
+  const Measured averaged = measured(everything(), measure_of({Field::Density}));
+  CHECK_FALSE(averaged.residuals);
+  CHECK(averaged.profile);
+
+  std::vector<Field> fields = kBalance;
+  fields.push_back(Field::Density);
+  const Measured both = measured(everything(), measure_of(fields));
+  CHECK(both.residuals->cells == balanced.residuals->cells);
+  CHECK(both.profile->fields == std::vector{Field::Density});
+  CHECK(both.temperature.mean == averaged.temperature.mean);
+  CHECK_FALSE(measured(gas(9.0, 8.0, 0, 1.0), measure_of(kBalance)).residuals);
+}
+
+TEST_CASE("Measurement: residuals have maps over the whole time, after those of averages") {
+  std::vector<Field> fields = kBalance;
+  fields.push_back(Field::Density);
+  const Measured both = measured(everything(), measure_of(fields));
+  REQUIRE(both.maps->maps.size() == 5);
+  CHECK(both.maps->maps[0].field == Field::Density);
+  CHECK(both.maps->maps[4].field == Field::BalanceEnergy);
+  CHECK(both.map_series[0].maps.size() == 1);
+
+  const Measured alone = measured(everything(), measure_of(kBalance));
+  CHECK(alone.map_series.empty());
+  CHECK(alone.maps->begin == both.maps->begin);
+  CHECK(alone.maps->end == both.maps->end);
+  CHECK(alone.maps->cell == both.maps->cell);
+  for (std::size_t k = 0; k < kBalance.size(); ++k) {
+    const FieldMap& map = alone.maps->maps.at(k);
+    CHECK(map.field == kBalance[k]);
+    CHECK(map.cells == std::array{5, 4});
+    CHECK(map.values == alone.residuals->map(kBalance[k]));
+  }
+}
+
+// 32 averaging windows make one of the balance; of 520, 8 are left over for the last.
+TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
+  const Measure measure = measure_of(kBalance);
+  const auto simulation = simulation_of(everything(), 61);
+  const double window = measure.duration / 520.0;
+  std::optional<Balance<2>> balance;
+  Residuals residuals;
+  int windows = -1;
+  simulation->every(measure.burn_in, window, [&](double) {
+    if (++windows == 0) {
+      balance.emplace(*simulation, IntVec<2>(5, 4));
+      simulation->add_observer(*balance);
+    } else if (windows % 32 == 0) {
+      residuals.include(balance->close_window().imbalances);
+    }
+  });
+  simulation->run_until(measure.burn_in + measure.duration);
+  residuals.include(balance->close_window().imbalances);
+  REQUIRE(windows / 32 == 16);
+  CHECK(measured(everything(), measure).residuals->cells == residuals.cells);
+}
+
+TEST_CASE("Measurement: snapshots leave the balance as it is") {
+  Measure measure = measure_of(kBalance);
+  const auto exact = measured(everything(), measure).residuals->cells;
+  measure.estimator = Estimator::Snapshot;
+  measure.interval = 0.7;
+  CHECK(measured(everything(), measure).residuals->cells == exact);
+}
