@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/bench_fields.h"
+#include "app/bench_render.h"
 #include "app/commands.h"
 #include "app/flag_checks.h"
 #include "app/resources.h"
@@ -18,7 +19,7 @@ namespace {
 struct BenchOptions {
   std::string name = "engine";
   std::string json;
-  int count = 0;               // of one cell of the table; 0: the whole table
+  int count = 0;               // of disks of a part of the table; 0: the whole table
   double area_fraction = 0.5;  // of that cell
   double duration = 10000.0;   // simulated time of each run for the fields' table
 };
@@ -94,11 +95,14 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("bench", "Print performance tables");
   command
       ->add_option("name", options->name,
-                   "Which table: engine, how fast collisions are; fields, what they cost")
-      ->check(CLI::IsMember({"engine", "fields"}))
+                   "Which table: engine, how fast collisions are; fields, what they cost; render, "
+                   "what a frame costs")
+      ->check(CLI::IsMember({"engine", "fields", "render"}))
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the table to a file, too")->type_name("FILE");
-  command->add_option("--count", options->count, "One cell of the engine's table: number of disks")
+  command
+      ->add_option("--count", options->count,
+                   "One cell of the engine's table, one number of disks of that of render")
       ->check(CLI::Range(2, 100'000'000));
   command
       ->add_option("--area-fraction", options->area_fraction, "One cell of the engine's table: phi")
@@ -110,8 +114,13 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       ->check(positive_number())
       ->capture_default_str();
   command->callback([options, &exit_code] {
-    exit_code = options->name == "fields" ? bench_fields(options->duration, options->json)
-                                          : bench_engine(*options);
+    if (options->name == "fields") {
+      exit_code = bench_fields(options->duration, options->json);
+    } else if (options->name == "render") {
+      exit_code = bench_render(options->json, options->count);
+    } else {
+      exit_code = bench_engine(*options);
+    }
   });
 }
 

@@ -19,15 +19,37 @@ namespace clatter {
 
 namespace {
 
+// Presets of size and rate.
+enum class Quality { Low, Medium, High };
+
+struct Preset {
+  const char* size;
+  double fps;
+};
+
+Preset preset_of(Quality quality) {
+  switch (quality) {
+    case Quality::Low:
+      return {"854x480", 15.0};
+    case Quality::Medium:
+      return {"1280x720", 30.0};
+    case Quality::High:
+      return {"1920x1080", 60.0};
+  }
+  return {};
+}
+
 struct RenderOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
   std::string out;
-  std::string size = "1280x720";
-  double fps = 30.0;
-  std::optional<double> from;  // absent: 0, or the time of the checkpoint
+  Quality quality = Quality::Medium;
+  std::optional<std::string> size;  // absent: that of the quality
+  std::optional<double> fps;        // likewise
+  std::optional<double> from;       // absent: 0, or the time of the checkpoint
   std::optional<double> to;
   std::optional<double> speed;
+  int supersample = 1;
   bool no_overlay = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
@@ -53,6 +75,10 @@ Size parse_size(const std::string& text) {
                   "write WIDTHxHEIGHT, each from 16 to 16384, for instance 1280x720");
 }
 
+double fps_of(const RenderOptions& options) {
+  return options.fps.value_or(preset_of(options.quality).fps);
+}
+
 // The run is at `start`, 0 or the time of a checkpoint, and the film begins there or at --from.
 FrameTimes frame_times(const RenderOptions& options, double start, double speed) {
   constexpr double kFilmSeconds = 20.0;
@@ -72,7 +98,7 @@ FrameTimes frame_times(const RenderOptions& options, double start, double speed)
     const double time = options.from ? from : from + kPictureSeconds * speed;
     return {to.value_or(time), 0.0, 1};
   }
-  const double interval = speed / options.fps;
+  const double interval = speed / fps_of(options);
   const double span = to ? *to - from : kFilmSeconds * speed;
   constexpr double kMostFrames = 1e7;
   const double frames = std::max(1.0, std::round(span / interval));
@@ -85,18 +111,16 @@ FrameTimes frame_times(const RenderOptions& options, double start, double speed)
 
 // Draws one frame after the other; fewer than there are times where the run ended early.
 long film(Run& run, const View& view, const OverlayText& text, const FrameTimes& times,
-          GlContext& context, Size size, FrameSink& sink, Progress& progress) {
-  Canvas canvas(context.gl(), size);
+          Renderer& renderer, const Canvas& canvas, FrameSink& sink, Progress& progress) {
   canvas.bind();
-  Renderer renderer(context.gl());
   run.scheduled().show(view);
   std::optional<Camera> camera;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
     if (!run.until(time, progress)) return k;
     const Snapshot snapshot = run.scheduled().snapshot();
-    if (!camera) camera = renderer.fit(snapshot, size, view, text);
-    renderer.draw(snapshot, *camera, size, view, text);
+    if (!camera) camera = renderer.fit(snapshot, canvas.size(), view, text);
+    renderer.draw(snapshot, *camera, canvas.size(), view, text);
     sink.add(canvas.read(), time);
     progress.update(time);
   }
@@ -110,7 +134,7 @@ int render(const RenderOptions& options) {
   view.overlay = view.overlay && !options.no_overlay;
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
   const FrameTimes times = frame_times(options, resumed ? resumed->time() : 0.0, view.speed);
-  const Size size = parse_size(options.size);
+  const Size size = parse_size(options.size.value_or(preset_of(options.quality).size));
   constexpr double kMostWindows = 1e7;
   if (view.shows_averages() && times.last() / view.window > kMostWindows) {
     throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
@@ -123,9 +147,11 @@ int render(const RenderOptions& options) {
 
   Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   const auto context = open_context(options.backend);
+  const Canvas canvas(context->gl(), size);
+  Renderer renderer(context->gl(), options.supersample);
   SinkOptions sink_options;
   sink_options.size = size;
-  sink_options.fps = options.fps;
+  sink_options.fps = fps_of(options);
   sink_options.texts = {{"Title", scene.title},
                         {"Software", "clatter " CLATTER_VERSION},
                         {"Seed", std::to_string(run.seed())},
@@ -137,7 +163,8 @@ int render(const RenderOptions& options) {
   {
     Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
                       times.last());
-    frames = film(run, view, {scene.title, scene.caption}, times, *context, size, *sink, progress);
+    frames =
+        film(run, view, {scene.title, scene.caption}, times, renderer, canvas, *sink, progress);
   }
   run.put_aside();
   if (frames == 0) return run.end();
@@ -157,12 +184,20 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command
       ->add_option(
           "--out", options->out,
-          "FILE.mp4, .webm or .gif (film), FILE.png (one picture), or DIR (a picture a frame)")
+          "FILE.mp4, .webm, .gif or, without loss, .mkv (film), FILE.png (one picture), or DIR "
+          "(a picture a frame)")
       ->required();
-  command->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
-  command->add_option("--fps", options->fps, "Frames per second of film")
-      ->check(number_between(1.0, 1000.0))
-      ->capture_default_str();
+  command
+      ->add_option("-q,--quality", options->quality,
+                   "-ql: 854x480, 15 frames a second; -qm: 1280x720, 30; -qh: 1920x1080, 60 "
+                   "(default: m)")
+      ->transform(
+          one_of<Quality>({{"l", Quality::Low}, {"m", Quality::Medium}, {"h", Quality::High}}))
+      ->type_name("l|m|h");
+  command->add_option("--size", options->size, "Picture size in pixels (default: the quality's)")
+      ->type_name("WIDTHxHEIGHT");
+  command->add_option("--fps", options->fps, "Frames per second of film (default: the quality's)")
+      ->check(number_between(1.0, 1000.0));
   command
       ->add_option("--from", options->from,
                    "Simulation time of the first frame, or of the one picture (default: 0, or that "
@@ -178,6 +213,11 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->add_option("--speed", options->speed,
                    "Simulation time per second of film (default: the scene's view.speed)")
       ->check(positive_number());
+  command
+      ->add_option("--supersample", options->supersample,
+                   "Draw all but the overlay so many times larger, and average in linear light")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--overwrite", options->overwrite,

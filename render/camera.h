@@ -28,16 +28,19 @@ struct Camera {
   static Camera fit(const Vec2& low, const Vec2& high, Size size, const Margins& margins);
 };
 
-/// From the world to a picture's pixels: x to the right, y up, from the lower left corner.
+/// From the world to the pixels that are drawn: x to the right, y up, from the lower left corner.
 struct Projection {
   Camera camera;
-  Size size;
+  Size size;        ///< of the finished picture
+  int samples = 1;  ///< drawn along each axis for one pixel of the finished picture
 
+  /// The extent of what is drawn.
+  Size drawn() const { return {samples * size.width, samples * size.height}; }
   /// How many pixels a world unit takes.
-  double scale() const { return size.width / camera.width; }
+  double scale() const { return drawn().width / camera.width; }
   /// Exact in double, so that single precision does for the result.
   Vec2 pixels(const Vec2& world) const {
-    return (world - camera.centre) * scale() + 0.5 * Vec2(size.width, size.height);
+    return (world - camera.centre) * scale() + 0.5 * Vec2(drawn().width, drawn().height);
   }
 };
 

@@ -10,19 +10,21 @@ namespace clatter {
 Canvas::Canvas(const Gl& gl, Size size)
     : gl_(&gl),
       size_(size),
-      colour_(generate<Renderbuffer>(gl, gl.GenRenderbuffers)),
+      colour_(generate<Texture>(gl, gl.GenTextures)),
       framebuffer_(generate<Framebuffer>(gl, gl.GenFramebuffers)) {
   GLint largest = 0;
-  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(size.width, size.height) > largest) {
     throw RunError("a picture of " + std::to_string(size.width) + "x" +
                    std::to_string(size.height) + " pixels is too large: at most " +
                    std::to_string(largest) + " a side");
   }
-  gl.BindRenderbuffer(GL_RENDERBUFFER, colour_.id());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
+  gl.BindTexture(GL_TEXTURE_2D, colour_.id());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, size.width, size.height, 0, GL_RGBA,
+                GL_UNSIGNED_BYTE, nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   bind();
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw RunError("this OpenGL cannot draw into a picture of its own");
   }

@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-/// An off-screen picture that OpenGL draws into: RGBA, 8 bits each.
+/// An off-screen picture that OpenGL draws into: RGBA, 8 bits each, colours in sRGB.
 class Canvas {
  public:
   /// Throws RunError where the picture is larger than this OpenGL allows.
@@ -20,11 +20,13 @@ class Canvas {
   /// Copies the picture into the window that the context is of, with its lower left corner at a
   /// pixel of it, and sends what is drawn from now on into that window.
   void show(int x, int y) const;
+  /// The name of the texture that it is.
+  GLuint texture() const { return colour_.id(); }
 
  private:
   const Gl* gl_;
   Size size_;
-  Renderbuffer colour_;
+  Texture colour_;
   Framebuffer framebuffer_;
 };
 

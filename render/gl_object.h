@@ -38,7 +38,6 @@ class GlObject {
 
 using Buffer = GlObject<&Gl::DeleteBuffers>;
 using Framebuffer = GlObject<&Gl::DeleteFramebuffers>;
-using Renderbuffer = GlObject<&Gl::DeleteRenderbuffers>;
 using Shader = GlObject<&Gl::DeleteShader>;
 using ShaderProgram = GlObject<&Gl::DeleteProgram>;
 using Texture = GlObject<&Gl::DeleteTextures>;

@@ -1,6 +1,7 @@
 #include "render/palette.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace clatter {
@@ -40,9 +41,21 @@ constexpr auto kCoolWarm = colours({0x3b4cc0, 0x4e68d7, 0x6282ea, 0x779af7, 0x8d
 
 }  // namespace
 
+float linear_light(std::uint8_t channel) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> light;
+    for (int i = 0; i < 256; ++i) {
+      const double c = i / 255.0;
+      light[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return light;
+  }();
+  return table[channel];
+}
+
 Colour mix(Colour a, Colour b, double t) {
   auto channel = [t](int from, int to) {
-    return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
+    return static_cast<std::uint8_t>(from + t * (to - from) + 0.5);
   };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue),
           channel(a.alpha, b.alpha)};

@@ -18,6 +18,9 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
+/// The light that a channel of a colour stands for, as a share of the most, IEC 61966-2-1.
+float linear_light(std::uint8_t channel);
+
 /// The colour a share `t` in 0..1 of the way from `a` to `b`.
 Colour mix(Colour a, Colour b, double t);
 

@@ -66,8 +66,16 @@ bool shows_field(const Snapshot& snapshot, const View& view) {
 
 }  // namespace
 
-Renderer::Renderer(const Gl& gl)
-    : gl_(&gl), field_(gl), grid_(gl), walls_(gl), disks_(gl), arrows_(gl), overlay_(gl) {}
+Renderer::Renderer(const Gl& gl, int samples)
+    : gl_(&gl),
+      samples_(samples),
+      average_(gl),
+      field_(gl),
+      grid_(gl),
+      walls_(gl),
+      disks_(gl),
+      arrows_(gl),
+      overlay_(gl) {}
 
 Legend Renderer::Followed::legend(const Quantity& shown, const ColourRange& range, ColourMap map,
                                   double robust_extent, bool lockable) {
@@ -126,27 +134,53 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   const Projection projection{camera, size};
   const Legends legends = legends_for(snapshot, view, projection.scale());
   const ThemeColours theme = theme_of(view);
-  gl_->Viewport(0, 0, size.width, size.height);
+  gl_->Enable(GL_BLEND);
+  gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  // A window's own framebuffer, whose name is 0, need not be of sRGB; what is averaged into it is.
+  GLint target = 0;
+  gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  if (samples_ == 1 && target != 0) {
+    draw_world(snapshot, projection, view, legends, theme);
+  } else {
+    draw_averaged(snapshot, projection, view, legends, theme, static_cast<GLuint>(target));
+  }
+  if (view.overlay) overlay_.draw(snapshot, projection, legends, text, theme);
+}
+
+void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
+                          const Legends& legends, const ThemeColours& theme) {
+  const Size drawn = projection.drawn();
+  gl_->Viewport(0, 0, drawn.width, drawn.height);
   const Colour background = theme.background;
   gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
                   1.0f);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
-  gl_->Enable(GL_BLEND);
-  gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-
   if (legends.field) {
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
                 thin(theme.static_wall, kHatch));
   }
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, theme);
-  disks_.draw(snapshot, projection, view.colour_by,
-              legends.disks ? legends.disks->scale : ColourScale{}, theme.disk);
+  disks_.draw(snapshot, projection,
+              {view.colour_by, legends.disks ? legends.disks->scale : ColourScale{}, theme.disk});
   if (legends.arrows) {
-    arrows_.draw(*snapshot.arrows, projection, legends.arrows->pixels, theme.text,
-                 theme.background);
+    arrows_.draw(*snapshot.arrows, projection, projection.samples * legends.arrows->pixels,
+                 theme.text, theme.background);
   }
-  if (view.overlay) overlay_.draw(snapshot, projection, legends, text, theme);
+}
+
+void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,
+                             const View& view, const Legends& legends, const ThemeColours& theme,
+                             GLuint target) {
+  const Projection finer{projection.camera, projection.size, samples_};
+  const Size drawn = finer.drawn();
+  if (!fine_ || fine_->size().width != drawn.width || fine_->size().height != drawn.height) {
+    fine_.emplace(*gl_, drawn);
+  }
+  fine_->bind();
+  draw_world(snapshot, finer, view, legends, theme);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
+  average_.draw(*fine_, samples_);
 }
 
 }  // namespace clatter

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
 #include "render/colour_range.h"
 #include "render/layers/arrow_layer.h"
+#include "render/layers/average_layer.h"
 #include "render/layers/disk_layer.h"
 #include "render/layers/field_layer.h"
 #include "render/layers/grid_layer.h"
@@ -16,13 +19,14 @@ namespace clatter {
 /// it is given, so a film has a Renderer of its own.
 class Renderer {
  public:
-  /// Compiles the shaders; throws RunError. `gl` must outlive the renderer.
-  explicit Renderer(const Gl& gl);
+  /// Compiles the shaders; throws RunError. `gl` must outlive the renderer. All but the overlay is
+  /// drawn `samples` times larger and averaged in linear light.
+  explicit Renderer(const Gl& gl, int samples = 1);
 
   /// The camera that shows the whole box, clear of what the overlay writes.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text);
 
-  /// Draws a picture of `size`.
+  /// Draws a picture of `size`. Throws RunError where it is too large for its samples.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text);
 
@@ -38,8 +42,15 @@ class Renderer {
                   double robust_extent, bool lockable);
   };
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
+  void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
+                  const Legends& legends, const ThemeColours& theme);
+  void draw_averaged(const Snapshot& snapshot, const Projection& projection, const View& view,
+                     const Legends& legends, const ThemeColours& theme, GLuint target);
 
   const Gl* gl_;
+  int samples_;
+  std::optional<Canvas> fine_;  ///< what has several samples a pixel; absent: not drawn yet
+  AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;
   WallLayer walls_;

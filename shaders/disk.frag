@@ -3,33 +3,32 @@
 // and squares give the same picture.
 
 flat in vec2 v_centre;
-flat in vec4 v_colour;
+flat in vec4 v_colour;  // linear light
 
-uniform float u_radius;  // pixels
+uniform float u_radius;   // pixels drawn
+uniform float u_samples;  // pixels drawn for one of the finished picture, along each axis
 uniform vec2 u_box_low;  // corners between the faces of the walls, pixels
 uniform vec2 u_box_high;
 
 out vec4 o_colour;
 
-const float kGhost = 0.3;  // opacity of what a periodic border shows a second time
+const float kGhost = 0.15;  // opacity of what a periodic border shows a second time
 
 // The share of a pixel that lies inside an edge, at a distance (positive: inside) in pixels.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
 void main() {
-  float radius = max(u_radius, 0.5);
-  float distance = radius - length(gl_FragCoord.xy - v_centre);
+  // The soft edge would add a twelfth of pi pixels to the area.
+  float distance = sqrt(u_radius * u_radius - 1.0 / 12.0) - length(gl_FragCoord.xy - v_centre);
   float alpha = coverage(distance);
   if (alpha == 0.0) discard;
-
-  // Disks smaller than a pixel fade with the area they cover.
-  float share = u_radius / radius;
-  alpha *= share * share;
 
   vec2 inside = min(gl_FragCoord.xy - u_box_low, u_box_high - gl_FragCoord.xy);
   alpha *= mix(kGhost, 1.0, coverage(min(inside.x, inside.y)));
 
-  float rim = clamp(0.14 * u_radius, 0.0, 2.5);
-  float shade = mix(0.55, 1.0, coverage(distance - rim));
-  o_colour = vec4(mix(1.0, shade, min(rim, 1.0)) * v_colour.rgb, v_colour.a * alpha);
+  // Small disks, which are drawn as their coverage, have no rim.
+  float rim = min(0.14 * u_radius, 2.5 * u_samples);
+  float rimmed = clamp((u_radius / u_samples - 1.5) / 5.5, 0.0, 1.0);
+  float shade = mix(0.3, 1.0, coverage(distance - rim));
+  o_colour = vec4(mix(1.0, shade, rimmed) * v_colour.rgb, v_colour.a * alpha);
 }

@@ -2,7 +2,7 @@
 // A disk as a point: one vertex, as long as it is no larger than the driver's largest point.
 
 layout(location = 0) in vec2 a_centre;  // pixels
-layout(location = 1) in vec4 a_colour;
+layout(location = 1) in vec4 a_colour;  // linear light
 
 uniform vec2 u_origin;  // lower left corner and extent of the viewport, pixels; larger than the
 uniform vec2 u_extent;  // picture, because a point whose centre lies outside is not drawn at all

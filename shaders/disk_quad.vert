@@ -2,7 +2,7 @@
 // A disk as an instance of a square, for disks larger than the driver's largest point.
 
 layout(location = 0) in vec2 a_centre;  // pixels
-layout(location = 1) in vec4 a_colour;
+layout(location = 1) in vec4 a_colour;  // linear light
 
 uniform vec2 u_origin;  // lower left corner and extent of the viewport, pixels
 uniform vec2 u_extent;

@@ -11,16 +11,15 @@ namespace clatter {
 /// The functions of OpenGL 3.3 core that clatter calls.
 // clang-format off
 #define CLATTER_GL_FUNCTIONS(X)                                                                   \
-  X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer)           \
-  X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)         \
+  X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindTexture)                \
+  X(BindVertexArray) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)                        \
   X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)              \
-  X(CreateShader) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram)                         \
-  X(DeleteRenderbuffers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable)       \
-  X(DrawArrays) X(DrawArraysInstanced) X(DrawElementsBaseVertex) X(Enable)                        \
-  X(EnableVertexAttribArray) X(FramebufferRenderbuffer) X(GenBuffers) X(GenFramebuffers)          \
-  X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays) X(GetFloatv) X(GetIntegerv)               \
-  X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString)            \
-  X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadPixels) X(RenderbufferStorage)        \
+  X(CreateShader) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)         \
+  X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) X(DrawArraysInstanced)         \
+  X(DrawElementsBaseVertex) X(Enable) X(EnableVertexAttribArray) X(Finish)                        \
+  X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenTextures) X(GenVertexArrays)      \
+  X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog)            \
+  X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadPixels)   \
   X(Scissor) X(ShaderSource) X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i)             \
   X(Uniform2f) X(Uniform4f) X(UseProgram) X(VertexAttribDivisor) X(VertexAttribPointer)           \
   X(Viewport)

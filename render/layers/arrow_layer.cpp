@@ -5,8 +5,8 @@
 
 namespace clatter {
 
-ArrowShape ArrowShape::in(Size size) {
-  const double shaft = std::max(1.0, 0.0014 * std::min(size.width, size.height));
+ArrowShape ArrowShape::in(Size size, int samples) {
+  const double shaft = samples * std::max(1.0, 0.0014 * std::min(size.width, size.height));
   return {shaft, 7.0 * shaft, 3.5 * shaft};
 }
 
@@ -45,10 +45,11 @@ void ArrowLayer::draw(const ArrowMap& map, const Projection& projection, double 
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, arrows_.size() * sizeof(Arrow), arrows_.data(), GL_STREAM_DRAW);
 
-  const ArrowShape shape = ArrowShape::in(projection.size);
+  const ArrowShape shape = ArrowShape::in(projection.size, projection.samples);
+  const Size drawn = projection.drawn();
   const double rim_width = shape.shaft;
   program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), projection.size.width, projection.size.height);
+  gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
   gl_->Uniform1f(program_.uniform("u_margin"), shape.head_width + rim_width + 1.0);
   gl_->Uniform1f(program_.uniform("u_shaft"), shape.shaft);
   gl_->Uniform2f(program_.uniform("u_head"), shape.head_length, shape.head_width);

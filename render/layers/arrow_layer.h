@@ -15,8 +15,9 @@ struct ArrowShape {
   double head_length = 1.0;  ///< of the head, along the arrow
   double head_width = 1.0;   ///< half width of the head
 
-  /// That of arrows in a picture of `size`; shorter ones than 1.5 heads shrink as a whole.
-  static ArrowShape in(Size size);
+  /// That of arrows in a picture of `size`, in pixels drawn, of which each of the picture's has
+  /// `samples` along an axis; shorter ones than 1.5 heads shrink as a whole.
+  static ArrowShape in(Size size, int samples = 1);
 };
 
 /// Draws a vector field as arrows, the middle of each at the place of its value.

@@ -28,17 +28,18 @@ void FieldLayer::draw(const FieldMap& map, const Vec2& box, const Projection& pr
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, map.cells[0], map.cells[1], 0, GL_RGBA,
                   GL_UNSIGNED_BYTE, colours_.data());
 
-  const Size size = projection.size;
+  const Size size = projection.size, drawn = projection.drawn();
   const Vec2 low = projection.pixels({0.0, 0.0});
   const Vec2 high = projection.pixels(box);
   program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), size.width, size.height);
+  gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
   gl_->Uniform2f(program_.uniform("u_low"), low.x(), low.y());
   gl_->Uniform2f(program_.uniform("u_high"), high.x(), high.y());
   gl_->Uniform1i(program_.uniform("u_cells"), 0);
   set_colour(*gl_, program_, "u_gap", gap);
-  gl_->Uniform1f(program_.uniform("u_period"),
-                 std::max(5.0, std::round(std::min(size.width, size.height) / 90.0)));
+  gl_->Uniform1f(
+      program_.uniform("u_period"),
+      projection.samples * std::max(5.0, std::round(std::min(size.width, size.height) / 90.0)));
   gl_->BindVertexArray(vertices_.id());
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -8,7 +8,7 @@
 namespace clatter {
 
 double scale_length(const Snapshot& snapshot, const Projection& projection) {
-  const Size size = projection.size;
+  const Size size = projection.drawn();
   const double longest = std::min(0.2 * std::min(size.width, size.height), 0.15 * size.width);
   return round_down(longest / (snapshot.diameter * projection.scale()));
 }
@@ -19,16 +19,17 @@ GridLayer::GridLayer(const Gl& gl)
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {}
 
 void GridLayer::draw(const Snapshot& snapshot, const Projection& projection, Colour colour) const {
-  const Size size = projection.size;
+  const Size size = projection.size, drawn = projection.drawn();
   const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(snapshot.box);
   const double square = scale_length(snapshot, projection) * snapshot.diameter * projection.scale();
   program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), size.width, size.height);
+  gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
   gl_->Uniform2f(program_.uniform("u_low"), low.x(), low.y());
   gl_->Uniform2f(program_.uniform("u_high"), high.x(), high.y());
   gl_->Uniform1f(program_.uniform("u_square"), square);
-  gl_->Uniform1f(program_.uniform("u_line"),
-                 std::max(1.0, std::round(std::min(size.width, size.height) / 720.0)));
+  gl_->Uniform1f(
+      program_.uniform("u_line"),
+      projection.samples * std::max(1.0, std::round(std::min(size.width, size.height) / 720.0)));
   set_colour(*gl_, program_, "u_colour", colour);
   gl_->BindVertexArray(vertices_.id());
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -73,8 +73,13 @@ std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
   return corners;
 }
 
-double line_width(Size size) {
-  return std::max(1.0, std::round(wall_thickness(size) / 10.0));
+// In pixels drawn, as whole ones of the finished picture.
+double thickness_of(const Projection& projection) {
+  return projection.samples * wall_thickness(projection.size);
+}
+
+double line_width(const Projection& projection) {
+  return projection.samples * std::max(1.0, std::round(wall_thickness(projection.size) / 10.0));
 }
 
 }  // namespace
@@ -113,9 +118,10 @@ WallLayer::WallLayer(const Gl& gl)
 void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
                      const ThemeColours& theme) const {
   program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), projection.size.width, projection.size.height);
-  gl_->Uniform1f(program_.uniform("u_thickness"), wall_thickness(projection.size));
-  gl_->Uniform1f(program_.uniform("u_line"), line_width(projection.size));
+  const Size drawn = projection.drawn();
+  gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
+  gl_->Uniform1f(program_.uniform("u_thickness"), thickness_of(projection));
+  gl_->Uniform1f(program_.uniform("u_line"), line_width(projection));
   gl_->BindVertexArray(vertices_.id());
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   for (Side side : {kLeft, kRight, kBottom, kTop}) {
@@ -127,7 +133,7 @@ void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
 
 void WallLayer::draw_place(Side side, const Snapshot& snapshot, const Projection& projection,
                            const ThemeColours& theme) const {
-  const double line = line_width(projection.size);
+  const double line = line_width(projection);
   // What the field shows behind the face is no part of the gas.
   const double moved_in = snapshot.wall_displacement[side] * projection.scale();
   if (moved_in > 0.0) {
@@ -143,8 +149,8 @@ void WallLayer::draw_place(Side side, const Snapshot& snapshot, const Projection
 void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection& projection,
                           const ThemeColours& theme) const {
   const Look look = look_of(snapshot.walls[side], snapshot, theme);
-  const double thickness = wall_thickness(projection.size);
-  const double line = line_width(projection.size);
+  const double thickness = thickness_of(projection);
+  const double line = line_width(projection);
   const bool is_line = look.pattern == kDashes;
   const double periods = look.advance * projection.scale() / (kToothPeriod * thickness);
   gl_->Uniform1f(program_.uniform("u_advance"), periods - std::floor(periods));

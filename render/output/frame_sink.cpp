@@ -15,7 +15,7 @@ std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path,
     return std::make_unique<PngSequence>(path, options);
   }
   throw UserError({path.string()}, "no such kind of output: " + extension,
-                  "use .mp4, .webm, .gif or .png, or a folder for a sequence of pictures");
+                  "use .mp4, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
 }
 
 }  // namespace clatter

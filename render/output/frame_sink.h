@@ -28,15 +28,16 @@ class FrameSink {
 
 /// How pictures are kept.
 struct SinkOptions {
-  Size size;               ///< of every picture
-  double fps = 30.0;       ///< pictures per second of a film
-  std::vector<PngText> texts;  ///< kept in the file; a film has a title, and the rest as its comment
+  Size size;          ///< of every picture
+  double fps = 30.0;  ///< pictures per second of a film
+  std::vector<PngText>
+      texts;               ///< kept in the file; a film has a title, and the rest as its comment
   bool overwrite = false;  ///< whether a sequence may replace pictures that exist
   int threads = 2;         ///< that encode a sequence's pictures
 };
 
-/// The sink that a path asks for: a film (.mp4, .webm, .gif), one picture (.png), or else a folder
-/// for a sequence of pictures. Throws UserError for any other extension.
+/// The sink that a path asks for: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or else a
+/// folder for a sequence of pictures. Throws UserError for any other extension.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 
 }  // namespace clatter

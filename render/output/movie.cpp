@@ -20,6 +20,7 @@ struct Format {
   const char* extension;
   const char* muxer;
   std::vector<std::string> encoding;
+  bool index_later = false;  // in a second file, once the film is whole
 };
 
 // The colours are those of BT.709, said and done: left alone, ffmpeg converts by BT.601 and players
@@ -36,16 +37,22 @@ std::vector<std::string> video(std::vector<std::string> codec) {
   return all;
 }
 
-// VP9's "realtime" is five times as fast as "good" for a fifth more bytes at the same quality.
-// A GIF has a palette for each frame: one for the whole film would have ffmpeg keep every frame in
-// memory.
-const std::array<Format, 3>& formats() {
-  static const std::array<Format, 3> all = {{
+// An mp4 is written in fragments of a second of film, which play even where the machine stops
+// halfway. VP9's "realtime" is five times as fast as "good" for a fifth more bytes at the same
+// quality. FFV1 keeps every bit of a picture, with checksums. A GIF has a palette for each frame:
+// one for the whole film would have ffmpeg keep every frame in memory.
+const std::array<Format, 4>& formats() {
+  static const std::array<Format, 4> all = {{
       {".mp4", "mp4",
-       video({"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-movflags", "+faststart"})},
+       video({"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-movflags",
+              "+empty_moov+default_base_moof", "-frag_duration", "1000000"}),
+       true},
       {".webm", "webm",
        video({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used",
               "5", "-row-mt", "1", "-tile-columns", "2"})},
+      {".mkv",
+       "matroska",
+       {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1", "-pix_fmt", "bgr0"}},
       {".gif",
        "gif",
        {"-filter_complex",
@@ -86,6 +93,14 @@ std::vector<std::string> arguments_for(const std::string& encoder, const Format&
   return all;
 }
 
+// Copies fragments into one film with its index first, so that it can play before it is loaded.
+std::vector<std::string> indexing_arguments(const std::string& encoder,
+                                            const std::filesystem::path& part,
+                                            const std::filesystem::path& indexed) {
+  return {encoder, "-v",   "error",     "-nostdin",   "-y", "-i",  "file:" + part.string(),
+          "-c",    "copy", "-movflags", "+faststart", "-f", "mp4", "file:" + indexed.string()};
+}
+
 std::filesystem::path part_name(const std::filesystem::path& path) {
   std::filesystem::path part = path;
   part.replace_extension(".part" + path.extension().string());
@@ -110,6 +125,7 @@ ChildProcess start_encoder(const std::string& encoder, const SinkOptions& option
 Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::string& encoder)
     : path_(std::move(path)),
       part_(part_name(path_)),
+      program_(encoder),
       encoder_(start_encoder(encoder, options, path_, part_)),
       queue_(1, 4) {}
 
@@ -140,10 +156,23 @@ void Movie::finish() {
     fail();
   }
   if (!encoder_.wait()) fail();
+  if (find_format(path_.extension())->index_later) index();
   if (rename(part_.c_str(), path_.c_str()) != 0) {
     throw RunError("cannot write " + path_.string() + ": " + std::strerror(errno));
   }
   part_.clear();
+}
+
+void Movie::index() {
+  const std::filesystem::path indexed = part_name(part_);
+  ChildProcess indexer(indexing_arguments(program_, part_, indexed));
+  if (indexer.wait()) {
+    unlink(part_.c_str());
+    part_ = indexed;
+  } else {
+    // Where there is no room for a copy, the film stays as it is, which plays as well.
+    unlink(indexed.c_str());
+  }
 }
 
 void Movie::fail() {

@@ -15,7 +15,7 @@ class Movie final : public FrameSink {
         const std::string& encoder = "ffmpeg");
   ~Movie() override;
 
-  /// Whether there is a kind of film of this extension: ".mp4", ".webm", ".gif".
+  /// Whether there is a kind of film of this extension: ".mp4", ".webm", ".gif", ".mkv".
   static bool knows(const std::string& extension);
 
   void add(Image image, double time) override;
@@ -23,9 +23,11 @@ class Movie final : public FrameSink {
 
  private:
   [[noreturn]] void fail();
+  void index();  // into a second file, where there is room
 
   std::filesystem::path path_;
-  std::filesystem::path part_;  ///< what ffmpeg writes; empty once renamed
+  std::filesystem::path part_;  ///< what ffmpeg writes, playable at any time; empty once renamed
+  std::string program_;         ///< that encodes
   ChildProcess encoder_;
   WorkQueue queue_;  ///< last, so that its thread ends before the rest
 };

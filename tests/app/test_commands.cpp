@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "tests/app/shell.h"
@@ -99,6 +100,26 @@ TEST_CASE("The version is told") {
   CHECK(outcome.out == "clatter " CLATTER_VERSION "\n");
 }
 
+TEST_CASE("The table of render has what each stage costs, in pictures of two sizes") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter bench render --count 500 --json table.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(std::ranges::count(outcome.out, '\n') == 3);
+  const auto rows = nlohmann::json::parse(shell.read("table.json"));
+  REQUIRE(rows.size() == 2);
+  for (const auto& row : rows) {
+    CHECK(row["count"] == 500);
+    for (const std::string stage :
+         {"simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"}) {
+      CAPTURE(stage);
+      CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
+    }
+  }
+  CHECK(rows[0]["width"] == 1280);
+  CHECK(rows[1]["width"] == 1920);
+}
+
 TEST_CASE("Every command explains each of its flags") {
   const Shell shell;
   const std::vector<std::string> common = {"SCENE",     "--set",   "--seed",    "--until",
@@ -112,7 +133,8 @@ TEST_CASE("Every command explains each of its flags") {
            Command{"render",
                    true,
                    {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
-                    "--overwrite", "--backend", "--resume", "--checkpoint", "--checkpoint-every"}},
+                    "--supersample", "--quality", "--overwrite", "--backend", "--resume",
+                    "--checkpoint", "--checkpoint-every"}},
            Command{"measure", true, {"--resume", "--checkpoint", "--out", "--csv", "--save-state"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},

@@ -31,6 +31,25 @@ TEST_CASE("A film has the frames, the rate and the size asked for") {
   CHECK(shell.files() == Files{"film.mp4"});
 }
 
+TEST_CASE("A quality stands for a size and a rate, before which those asked for go") {
+  const Shell shell;
+  const std::string line = "clatter render vibrated --quiet --to 0.1 --speed 1 --out ";
+  struct Asked {
+    std::string flags;
+    std::string found;  // 0.1 s of film
+  };
+  for (const Asked& asked : {Asked{"-ql", "854,480,2\n"},
+                             {"", "1280,720,3\n"},
+                             {"-qm", "1280,720,3\n"},
+                             {"-qh", "1920,1080,6\n"},
+                             {"-qh --size 160x120 --fps 50", "160,120,5\n"}}) {
+    CAPTURE(asked.flags);
+    CHECK(shell.run(line + "film.mp4 " + asked.flags).code == 0);
+    CHECK(probe(shell, "film.mp4") == asked.found);
+  }
+  CHECK(shell.run(line + "film.mp4 -qx").code == 2);
+}
+
 TEST_CASE("A picture has the size asked for and says which scene and seed it shows") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --seed 42 --out picture.png").code == 0);
@@ -51,6 +70,16 @@ TEST_CASE("A picture is the same whenever it is drawn, another seed draws anothe
   };
   CHECK(shell.read("a.png") == shell.read("b.png"));
   CHECK(pixels("a.png") != pixels("c.png"));
+}
+
+TEST_CASE("A picture of several samples a pixel has the size asked for, and other edges") {
+  const Shell shell;
+  shell.run(kRender + "--to 1 --out a.png && " + kRender + "--to 1 --supersample 3 --out b.png");
+  CHECK(probe(shell, "b.png") == "160,120,1\n");
+  CHECK(shell.read("a.png") != shell.read("b.png"));
+  const Outcome outcome = shell.run(kRender + "--to 1 --supersample 5 --out c.png");
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("--supersample") != std::string::npos);
 }
 
 TEST_CASE("A picture from a time is the picture at that time") {
@@ -136,6 +165,18 @@ TEST_CASE("On a full disk rendering fails, says so and leaves nothing") {
     if (name != "frames") CHECK(outcome.out.empty());
     CHECK(outcome.out.find(".part") == std::string::npos);
   }
+}
+
+TEST_CASE("An mp4 whose run and encoder are killed at once can be played as far as it got") {
+  const Shell shell;
+  shell.run(kRender +
+            "--to 1e5 --out film.mp4 & pid=$!; sleep 4; kill -9 $pid $(cat "
+            "/proc/$pid/task/$pid/children)");
+  CHECK(shell.files() == Files{"film.part.mp4"});
+  int width = 0, height = 0, frames = 0;
+  char comma;
+  std::istringstream(probe(shell, "film.part.mp4")) >> width >> comma >> height >> comma >> frames;
+  CHECK(frames > 30);
 }
 
 TEST_CASE("An interrupted film plays up to where it got") {

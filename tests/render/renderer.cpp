@@ -286,6 +286,31 @@ TEST_CASE("A grid is drawn where it is asked for") {
         20);
 }
 
+TEST_CASE("A picture of several samples a pixel looks like the one of one sample") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_with_field();
+  view.grid = true;
+  view.arrows = Arrows::Velocity;
+  Snapshot snapshot = driven_box();
+  snapshot.walls[kLeft] = Wall{.kind = WallKind::Sinusoidal, .stroke = 1.0, .frequency = 1.0};
+  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
+  for (const Size size : {Size{1280, 720}, {500, 300}, {1080, 1920}}) {
+    Renderer normal(context->gl());
+    const Camera camera = normal.fit(snapshot, size, view, kText);
+    const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
+    CHECK(similarity(one, one) == 1.0);
+    for (const int samples : {2, 4}) {
+      CAPTURE(size.width);
+      CAPTURE(samples);
+      Renderer finer(context->gl(), samples);
+      const Image many = draw(finer, context->gl(), snapshot, camera, size, view);
+      CHECK(similarity(one, many) >= 0.98);
+      CHECK(difference(one, many) > 10);
+      for (std::size_t i = 3; i < many.rgba.size(); i += 4) REQUIRE(many.rgba[i] == 255);
+    }
+  }
+}
+
 TEST_CASE("An empty box is drawn too") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());

@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 
+#include "render/layers/average_layer.h"
 #include "tests/render/picture.h"
 
 namespace clatter {
@@ -30,7 +32,8 @@ Image draw(const Gl& gl, const Snapshot& snapshot, double largest_point,
            ColourBy colour_by = ColourBy::None) {
   const Canvas canvas = blank_canvas(gl, kSize);
   DiskLayer(gl, largest_point)
-      .draw(snapshot, kUnitProjection, colour_by, {colour_map(Palette::Viridis)}, kDarkTheme.disk);
+      .draw(snapshot, kUnitProjection,
+            {colour_by, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
   return canvas.read();
 }
 
@@ -89,7 +92,7 @@ TEST_CASE("Points and squares give the same picture") {
     snapshot.positions.push_back({x, 0.4 * x + 3.3});
     snapshot.velocities.push_back({0.005 * x, 0.0});
   }
-  for (double diameter : {0.3, 1.0, 7.7, 40.0}) {
+  for (double diameter : {3.1, 7.7, 40.0}) {
     snapshot.diameter = diameter;
     const Image points = draw(context->gl(), snapshot, kAlwaysPoints, ColourBy::Speed);
     const Image squares = draw(context->gl(), snapshot, kAlwaysSquares, ColourBy::Speed);
@@ -104,7 +107,7 @@ TEST_CASE("Disks beyond the largest point of the driver are drawn as well") {
   snapshot.box = {10.0, 10.0};
   const Projection close{{{0.6, 0.6}, 1.2}, {1200, 1200}};  // centre (500, 700), radius 500 pixels
   DiskLayer(context->gl())
-      .draw(snapshot, close, ColourBy::None, {colour_map(Palette::Viridis)}, kDarkTheme.disk);
+      .draw(snapshot, close, {ColourBy::None, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
   const Image image = canvas.read();
   CHECK(pixel(image, 500, 700) == kDarkTheme.disk);
   CHECK(pixel(image, 20, 700) == kDarkTheme.disk);
@@ -150,12 +153,80 @@ TEST_CASE("A disk's colour shows its velocity") {
   CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
 }
 
-TEST_CASE("Disks smaller than a pixel keep the brightness of their area") {
+TEST_CASE("Disks smaller than a pixel send the light of their area") {
   const auto context = open_context(Backend::Osmesa);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
-  // The pixel's centre is the disk's: full coverage times (0.25 / 0.5)^2.
-  const Colour expected = mix(kDarkTheme.background, kDarkTheme.disk, 0.25);
-  CHECK(difference(pixel(image, 60, 59), expected) <= 2);
+  const double area = M_PI / 16.0;
+  const auto light = [](std::uint8_t channel) { return linear_light(channel); };
+  const double expected =
+      area * light(kDarkTheme.disk.green) + (1.0 - area) * light(kDarkTheme.background.green);
+  CHECK(light(pixel(image, 60, 59).green) == doctest::Approx(expected).epsilon(0.02));
+  CHECK(pixel(image, 59, 59) == kDarkTheme.background);
+}
+
+namespace {
+
+// Disks as dense as half the area, in order, of all colours.
+Snapshot many_disks(double diameter) {
+  Snapshot snapshot = one_disk({0.0, 0.0}, diameter);
+  snapshot.positions.clear();
+  snapshot.velocities.clear();
+  const double apart = 1.26 * diameter;
+  for (double y = diameter; y < kSize.height - diameter; y += apart) {
+    for (double x = diameter; x < kSize.width - diameter; x += apart) {
+      snapshot.positions.push_back({x + 0.1 * std::sin(7.0 * y), y + 0.1 * std::cos(5.0 * x)});
+      snapshot.velocities.push_back({0.5 + 0.5 * std::sin(0.2 * x) * std::cos(0.3 * y), 0.0});
+    }
+  }
+  return snapshot;
+}
+
+std::array<double, 3> mean_colour(const Image& image) {
+  std::array<double, 3> mean{};
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    if (i % 4 < 3) mean[i % 4] += image.rgba[i] / (0.25 * image.rgba.size());
+  }
+  return mean;
+}
+
+}  // namespace
+
+TEST_CASE("Disks look the same on both sides of the radius below which they have no shape") {
+  const auto context = open_context(Backend::Osmesa);
+  const double switch_over = 2.0 * Coverage::kLargestRadius;
+  Snapshot snapshot = many_disks(switch_over);
+  for (const ColourBy colour_by : {ColourBy::None, ColourBy::Speed}) {
+    snapshot.diameter = switch_over - 1e-6;
+    const Image light = draw(context->gl(), snapshot, kAlwaysPoints, colour_by);
+    snapshot.diameter = switch_over + 1e-6;
+    const Image shapes = draw(context->gl(), snapshot, kAlwaysPoints, colour_by);
+    for (int channel : {0, 1, 2}) {
+      CHECK(std::abs(mean_colour(light)[channel] - mean_colour(shapes)[channel]) < 2.0);
+    }
+    CHECK(similarity(light, shapes) >= 0.98);
+    CHECK(difference(light, shapes) > 0);
+  }
+}
+
+TEST_CASE("The light of small disks is that of their shapes, drawn larger and averaged") {
+  const auto context = open_context(Backend::Osmesa);
+  const Gl& gl = context->gl();
+  for (const double diameter : {0.8, 1.5, 2.5}) {
+    CAPTURE(diameter);
+    const Snapshot snapshot = many_disks(diameter);
+    const Image light = draw(gl, snapshot, kAlwaysPoints, ColourBy::Speed);
+    const Canvas fine = blank_canvas(gl, {4 * kSize.width, 4 * kSize.height});
+    DiskLayer(gl, kAlwaysPoints)
+        .draw(snapshot, {kUnitProjection.camera, kSize, 4},
+              {ColourBy::Speed, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
+    const Canvas canvas = blank_canvas(gl, kSize);
+    AverageLayer(gl).draw(fine, 4);
+    const Image shapes = canvas.read();
+    for (int channel : {0, 1, 2}) {
+      CHECK(std::abs(mean_colour(light)[channel] - mean_colour(shapes)[channel]) < 2.0);
+    }
+    CHECK(similarity(light, shapes) >= 0.98);
+  }
 }
 
 }  // namespace clatter

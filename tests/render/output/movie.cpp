@@ -60,6 +60,7 @@ TEST_CASE("A film has its frames, its codec, even sides and its texts") {
   };
   for (const Kind& kind : {Kind{"film.mp4", "codec_name=h264\n", "width=102\nheight=76\n"},
                            Kind{"film.webm", "codec_name=vp9\n", "width=102\nheight=76\n"},
+                           Kind{"film.mkv", "codec_name=ffv1\n", "width=101\nheight=75\n"},
                            Kind{"film.gif", "codec_name=gif\n", "width=101\nheight=75\n"}}) {
     CAPTURE(kind.name);
     Movie movie(folder / kind.name, options());
@@ -71,14 +72,39 @@ TEST_CASE("A film has its frames, its codec, even sides and its texts") {
     CHECK(facts.find(kind.size) != std::string::npos);
     CHECK(facts.find("nb_read_frames=20\n") != std::string::npos);
     CHECK(facts.find("r_frame_rate=25/1\n") != std::string::npos);
-    if (std::string(kind.name) != "film.gif") {
+    const std::string extension = std::filesystem::path(kind.name).extension();
+    if (extension == ".mp4" || extension == ".webm") {
       CHECK(facts.find("pix_fmt=yuv420p\n") != std::string::npos);
+    }
+    if (extension != ".gif") {
       CHECK(facts.find("Gas ρ") != std::string::npos);
       CHECK(facts.find("a \"comment\"") != std::string::npos);
     }
     std::filesystem::remove(folder / kind.name);
     CHECK(folder.empty());
   }
+}
+
+TEST_CASE("An mkv has every bit of the pictures") {
+  const TemporaryFolder folder;
+  SinkOptions small = options();
+  small.size = {3, 3};
+  Image image{small.size, {}};
+  for (int i = 0; i < 9; ++i) {
+    const auto value = static_cast<unsigned char>(28 * i);
+    image.rgba.insert(image.rgba.end(), {value, static_cast<unsigned char>(255 - value),
+                                         static_cast<unsigned char>(value / 3), 255});
+  }
+  Movie movie(folder / "film.mkv", small);
+  movie.add(image, 0.0);
+  movie.finish();
+  const std::string command = "ffmpeg -v error -i '" + (folder / "film.mkv").string() +
+                              "' -f rawvideo -pix_fmt rgba - 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::vector<unsigned char> decoded(100);
+  decoded.resize(std::fread(decoded.data(), 1, decoded.size(), pipe));
+  pclose(pipe);
+  CHECK(decoded == image.rgba);
 }
 
 TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
@@ -88,6 +114,20 @@ TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
   std::ifstream file(folder / "film.mp4", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   CHECK(bytes.find("moov") < bytes.find("mdat"));
+  CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
+}
+
+TEST_CASE("Where an mp4 cannot be copied, it stays in fragments and plays") {
+  const TemporaryFolder folder, programs;
+  const auto encoder = make_encoder(
+      programs / "encoder", "case \"$*\" in *'-c copy'*) exit 1 ;; esac; exec ffmpeg \"$@\"");
+  {
+    Movie movie(folder / "film.mp4", options(), encoder);
+    write_film(movie, 20);
+  }
+  CHECK(probe(folder / "film.mp4").find("nb_read_frames=20\n") != std::string::npos);
+  std::filesystem::remove(folder / "film.mp4");
+  CHECK(folder.empty());
 }
 
 TEST_CASE("Names that look like options or protocols are names") {

@@ -1,0 +1,201 @@
+#include "app/bench_render.h"
+
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/commands.h"
+#include "app/run.h"
+#include "app/write_file.h"
+#include "engine/measure/live_field.h"
+#include "engine/publish/publish.h"
+#include "render/canvas.h"
+#include "render/context/context.h"
+#include "render/output/movie.h"
+#include "render/renderer.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr int kFrames = 10;
+constexpr double kFps = 30.0;
+
+// What a frame passes through. Disks, heatmap and overlay are parts of the drawing, done once more
+// by themselves.
+enum Stage { kSimulate, kSnapshot, kDraw, kDisks, kHeatmap, kOverlay, kRead, kPng, kX264, kStages };
+constexpr std::array<const char*, kStages> kNames = {
+    "simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"};
+using Times = std::array<double, kStages>;  // milliseconds of CPU a frame
+
+// Of all threads of the program, since OpenGL may draw on several.
+double cpu_milliseconds() {
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+// Of child processes that have ended.
+double children_milliseconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto milliseconds = [](const timeval& time) {
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
+  };
+  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
+// Adds to `times` what a stage takes, once its drawing is done.
+template <class Work>
+void spend(Times& times, Stage stage, const Gl& gl, Work work) {
+  const double began = cpu_milliseconds();
+  work();
+  gl.Finish();
+  times[stage] += (cpu_milliseconds() - began) / kFrames;
+}
+
+// Elastic disks at half the area of a periodic box as wide as a film, coloured over a heatmap.
+Scene scene_of(int count) {
+  Scene scene;
+  scene.title = "Bench";
+  scene.disks.count = count;
+  const double area = count * 0.25 * std::numbers::pi / 0.5;
+  scene.box = {std::sqrt(area * 16.0 / 9.0), std::sqrt(area * 9.0 / 16.0)};
+  scene.view.field = Field::Density;
+  return scene;
+}
+
+// The milliseconds of CPU that the encoder takes for a film.
+double encode(std::vector<Image> images) {
+  const std::filesystem::path film = std::filesystem::temp_directory_path() /
+                                     ("clatter-bench-" + std::to_string(getpid()) + ".mp4");
+  const double before = children_milliseconds();
+  SinkOptions options;
+  options.size = images.front().size;
+  Movie movie(film, options);
+  for (Image& image : images) movie.add(std::move(image), 0.0);
+  movie.finish();
+  std::filesystem::remove(film);
+  return children_milliseconds() - before;
+}
+
+// A film of the simulation from now on.
+class Filming {
+ public:
+  Filming(const Gl& gl, Simulation<2>& simulation, LiveField& field, const View& view, Size size)
+      : gl_(gl),
+        simulation_(simulation),
+        field_(field),
+        view_(view),
+        canvas_(gl, size),
+        renderer_(gl),
+        disks_(gl),
+        heatmap_(gl),
+        overlay_(gl) {}
+
+  // The first frame, which warms caches up, does not count.
+  Times measure() {
+    frame(simulation_.time());
+    times_ = {};
+    std::vector<Image> images;
+    const double start = simulation_.time();
+    for (int k = 1; k <= kFrames; ++k) images.push_back(frame(start + k / kFps));
+    for (const Image& image : images) spend(times_, kPng, gl_, [&] { encode_png(image); });
+    times_[kX264] = encode(std::move(images)) / kFrames;
+    return times_;
+  }
+
+ private:
+  Image frame(double time) {
+    const Size size = canvas_.size();
+    canvas_.bind();
+    Snapshot snapshot;
+    Image image;
+    spend(times_, kSimulate, gl_, [&] { simulation_.run_until(time); });
+    spend(times_, kSnapshot, gl_, [&] {
+      snapshot = snapshot_of(simulation_);
+      field_.publish(snapshot);
+    });
+    const Projection projection{renderer_.fit(snapshot, size, view_, {}), size};
+    draw_parts(snapshot, projection);
+    spend(times_, kDraw, gl_,
+          [&] { renderer_.draw(snapshot, projection.camera, size, view_, {}); });
+    spend(times_, kRead, gl_, [&] { image = canvas_.read(); });
+    return image;
+  }
+
+  void draw_parts(const Snapshot& snapshot, const Projection& projection) {
+    const ThemeColours theme = theme_of(view_);
+    const ColourScale scale{colour_map(view_.palette), 0.0, 3.0};
+    const Legends legends{Legend{quantity_of(view_.colour_by), scale, "auto"},
+                          Legend{quantity_of(*view_.field), scale, "auto"},
+                          {}};
+    spend(times_, kHeatmap, gl_, [&] {
+      heatmap_.draw(*snapshot.field, snapshot.box, projection, scale, theme.static_wall);
+    });
+    spend(times_, kDisks, gl_, [&] {
+      disks_.draw(snapshot, projection, {view_.colour_by, scale, theme.disk});
+    });
+    spend(times_, kOverlay, gl_, [&] {
+      overlay_.draw(snapshot, projection, legends, {"Bench", ""}, theme);
+    });
+  }
+
+  const Gl& gl_;
+  Simulation<2>& simulation_;
+  LiveField& field_;
+  const View& view_;
+  Canvas canvas_;
+  Renderer renderer_;
+  DiskLayer disks_;
+  FieldLayer heatmap_;
+  Overlay overlay_;
+  Times times_{};
+};
+
+}  // namespace
+
+int bench_render(const std::string& json, int count) {
+  const std::vector<int> counts =
+      count > 0 ? std::vector{count} : std::vector{1'000, 10'000, 100'000, 1'000'000};
+  const auto context = open_context(Backend::Auto);
+  std::fprintf(stderr,
+               "elastic disks at phi = 0.5 over a heatmap, %g frames a time unit, %s\n"
+               "milliseconds of CPU a frame, all threads; draw: the whole picture, of which disks, "
+               "heatmap and overlay are parts\n",
+               kFps, context->description().c_str());
+  std::printf("%8s %10s", "N", "size");
+  for (const char* name : kNames) std::printf(" %8s", name);
+  std::printf("\n");
+  auto rows = nlohmann::ordered_json::array();
+  for (const int disks : counts) {
+    const Scene scene = scene_of(disks);
+    const auto simulation = simulation_of(scene, 1);
+    LiveField field(*simulation, scene.view);
+    for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
+      const Times times = Filming(context->gl(), *simulation, field, scene.view, size).measure();
+      const std::string size_text = std::to_string(size.width) + "x" + std::to_string(size.height);
+      std::printf("%8d %10s", disks, size_text.c_str());
+      nlohmann::ordered_json row = {
+          {"count", disks}, {"width", size.width}, {"height", size.height}};
+      for (int stage = 0; stage < kStages; ++stage) {
+        std::printf(" %8.2f", times[stage]);
+        row[std::string(kNames[stage]) + "_milliseconds"] = times[stage];
+      }
+      std::printf("\n");
+      std::fflush(stdout);
+      rows.push_back(row);
+    }
+  }
+  if (!json.empty()) write_file(json, rows.dump(1) + "\n");
+  return kOk;
+}
+
+}  // namespace clatter

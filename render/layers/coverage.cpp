@@ -1,0 +1,75 @@
+#include "render/layers/coverage.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace clatter {
+
+static constexpr int kBandHeight = 16;  // pixels
+
+void Coverage::restart(Size size, double radius) {
+  assert(radius < kLargestRadius);
+  size_ = size;
+  pixels_.assign(static_cast<std::size_t>(extent().width) * extent().height,
+                 Eigen::Array4f::Zero());
+  bands_.resize(extent().height / kBandHeight + 1);
+  for (std::vector<Disk>& band : bands_) band.clear();
+  if (radius == radius_) return;
+  radius_ = radius;
+  side_ = static_cast<int>(2.0 * radius + (kPhases - 0.5) / kPhases) + 1;
+  stencils_.clear();
+  for (int y = 0; y < kPhases; ++y) {
+    for (int x = 0; x < kPhases; ++x) {
+      stencils_.push_back(stencil(radius + (x + 0.5) / kPhases, radius + (y + 0.5) / kPhases));
+    }
+  }
+}
+
+// The chords of the disk about (x, y), laid over the pixels of their row.
+Coverage::Stencil Coverage::stencil(double x, double y) const {
+  constexpr int kChords = 64;
+  Stencil areas{};
+  double sum = 0.0;
+  for (int k = 0; k < kChords; ++k) {
+    const double share = (2.0 * k + 1.0) / kChords - 1.0;
+    const int row = static_cast<int>(y + share * radius_);
+    const double half = radius_ * std::sqrt(1.0 - share * share);
+    sum += 2.0 * half;
+    for (int column = 0; column < kSide; ++column) {
+      const double length = std::min(x + half, column + 1.0) - std::max(x - half, column + 0.0);
+      areas[row * kSide + column] += static_cast<float>(std::max(0.0, length));
+    }
+  }
+  const double area = std::numbers::pi * radius_ * radius_;
+  for (float& part : areas) part *= static_cast<float>(area / sum);
+  return areas;
+}
+
+void Coverage::add(const Vec2& centre, Colour colour) {
+  const Vec2 corner = centre.array() - radius_ + kMargin;
+  bands_[static_cast<std::size_t>(corner.y()) / kBandHeight].push_back(
+      {static_cast<float>(corner.x()), static_cast<float>(corner.y()), colour});
+}
+
+void Coverage::sum() {
+  for (const std::vector<Disk>& band : bands_) {
+    for (const Disk& disk : band) add_to_pixels(disk);
+  }
+}
+
+void Coverage::add_to_pixels(const Disk& disk) {
+  const int x = static_cast<int>(disk.x), y = static_cast<int>(disk.y);
+  const int phase_x = static_cast<int>((disk.x - x) * kPhases);
+  const int phase_y = static_cast<int>((disk.y - y) * kPhases);
+  const Stencil& areas = stencils_[phase_y * kPhases + phase_x];
+  const Eigen::Array4f light(linear_light(disk.colour.red), linear_light(disk.colour.green),
+                             linear_light(disk.colour.blue), 1.0f);
+  Eigen::Array4f* row = &pixels_[static_cast<std::size_t>(y) * extent().width + x];
+  for (int j = 0; j < side_; ++j, row += extent().width) {
+    for (int i = 0; i < side_; ++i) row[i] += areas[j * kSide + i] * light;
+  }
+}
+
+}  // namespace clatter
