@@ -25,7 +25,7 @@ void main() {
   vec2 beyond = vec2(max(-place.x, place.x - neck), place.y - shrink * u_shaft);
   float shaft = -min(max(beyond.x, beyond.y), 0.0) - length(max(beyond, 0.0));
   // To the slanted side of the head, and to its base.
-  vec2 side = normalize(vec2(head.y, head.x));
+  vec2 side = normalize(vec2(u_head.y, u_head.x));
   float tip = min(dot(vec2(v_length, 0.0) - place, side), place.x - neck);
 
   float distance = max(shaft, tip);

@@ -27,11 +27,12 @@ ArrowLayer::ArrowLayer(const Gl& gl)
 }
 
 void ArrowLayer::collect(const ArrowMap& map, const Projection& projection, double pixels) {
+  constexpr double kShortest = 0.5;  // pixels; below, no direction can be seen
   const double longest = 2.0 * map.cell.minCoeff() * projection.scale();
   arrows_.clear();
   for (const auto& [place, value] : map.arrows) {
     const double length = pixels * value.norm();
-    if (!(length > 0.0)) continue;
+    if (!(length >= kShortest)) continue;
     const Vec2 half = 0.5 * std::min(1.0, longest / length) * pixels * value;
     const Eigen::Vector2f tail = (projection.pixels(place) - half).cast<float>();
     const Eigen::Vector2f tip = (projection.pixels(place) + half).cast<float>();
