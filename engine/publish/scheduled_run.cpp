@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/dynamics/start.h"
+#include "engine/error.h"
 #include "engine/publish/publish.h"
 
 namespace clatter {
@@ -37,7 +38,11 @@ void ScheduledRun::settle() {
 }
 
 void ScheduledRun::change(const std::vector<Override>& laws) {
-  settle();
+  try {
+    settle();
+  } catch (const PhysicalStop&) {
+    // Other laws are what lets time go on where it stands still.
+  }
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
   changed.advance();
