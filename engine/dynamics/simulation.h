@@ -132,7 +132,7 @@ class Simulation {
   std::uint64_t until_base_moves_;    // physical events left
   bool heats_ = false;                // whether a wall has a restitution > 1
   std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
-  std::uint64_t fetched_bucket_ = 0;
+  std::int64_t fetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
   std::deque<Timer> timers_;  // stay where they are while an action adds others
   double kick_origin_;        // simulation time from which kicks are counted
