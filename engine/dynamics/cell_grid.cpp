@@ -42,8 +42,12 @@ CellGrid<D>::CellGrid(const Model<D>& model, std::size_t disks)
   for (int axis = 0; axis < D; ++axis) {
     periodic_[axis] = model.periodic(axis);
     widths_[axis] = box_[axis] / counts_[axis];
-    first_borders_[axis] = periodic_[axis] ? 0.0 : -kInfinity;
-    last_borders_[axis] = periodic_[axis] ? box_[axis] : kInfinity;
+    for (int cell = 0; cell < counts_[axis]; ++cell) borders_[axis].push_back(cell * widths_[axis]);
+    borders_[axis].push_back(box_[axis]);
+    if (!periodic_[axis]) {
+      borders_[axis].front() = -kInfinity;
+      borders_[axis].back() = kInfinity;
+    }
     strides_[axis] = stride;
     stride *= counts_[axis];
   }

@@ -31,12 +31,16 @@ class CellGrid {
   const IntVec<D>& counts() const { return counts_; }
   /// The cell that holds a position inside the box.
   IntVec<D> cell_at(const Vec<D>& position) const;
+  /// The cell next to one along an axis, on the side of `step` = +1 or -1, round the periodic
+  /// border.
+  IntVec<D> neighbour(IntVec<D> cell, int axis, int step) const {
+    cell[axis] += step;
+    if (cell[axis] < 0 || cell[axis] == counts_[axis]) cell[axis] -= step * counts_[axis];
+    return cell;
+  }
   /// Place along an axis of the border below cell number `cell`, or of the last cell's far border
   /// for counts(); infinitely far off where the box ends at a wall, for there is no cell beyond.
-  double border(int axis, int cell) const {
-    if (cell == 0) return first_borders_[axis];
-    return cell == counts_[axis] ? last_borders_[axis] : cell * widths_[axis];
-  }
+  double border(int axis, int cell) const { return borders_[axis][static_cast<std::size_t>(cell)]; }
   /// Edge length of the cells along an axis.
   double width(int axis) const { return widths_[axis]; }
 
@@ -62,9 +66,13 @@ class CellGrid {
   template <typename Visit>
   void visit(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
 
-  /// Calls visit(line) with the first line of each cell of the stencil, to fetch it early.
+  /// The same for the first line of each cell only. Cells go on after those that are full.
   template <typename Visit>
   void visit_first_lines(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
+
+  /// The same for the other lines.
+  template <typename Visit>
+  void visit_chained_lines(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
 
  private:
   /// The cells of a stencil along the axes up to Axis, for given places along the others; kInside:
@@ -81,8 +89,7 @@ class CellGrid {
   IntVec<D> strides_;
   Vec<D> box_;
   Vec<D> widths_;
-  Vec<D> first_borders_;
-  Vec<D> last_borders_;
+  std::array<std::vector<double>, D> borders_;  // [counts + 1] along each axis
   std::array<bool, D> periodic_;
   LargeArray<Line> lines_;            // the cells' own lines first, then the chained ones
   std::vector<std::uint32_t> spare_;  // chained lines not in use
@@ -97,8 +104,7 @@ template <int Axis, bool kInside, typename VisitCell>
                                                             const VisitCell& visit) const {
   const int count = counts_[Axis];
   const int stride = strides_[Axis];
-  const int last = stencil.to[Axis];
-  for (int offset = stencil.from[Axis]; offset <= last; ++offset) {
+  for (int offset = stencil.from[Axis]; offset <= stencil.to[Axis]; ++offset) {
     int k = cell[Axis] + offset;
     if constexpr (!kInside) {
       wrap[Axis] = 0.0;
@@ -135,25 +141,32 @@ template <typename VisitCell>
 
 template <int D>
 template <typename Visit>
-[[gnu::always_inline]] inline void CellGrid<D>::visit(const IntVec<D>& cell, const Stencil& stencil,
-                                                      const Visit& visit) const {
+[[gnu::always_inline]] inline void CellGrid<D>::visit_first_lines(const IntVec<D>& cell,
+                                                                  const Stencil& stencil,
+                                                                  const Visit& visit) const {
   const Line* const lines = lines_.data();
-  const auto visit_chain = [&](std::size_t at, const Vec<D>* wrap) __attribute__((always_inline)) {
-    const Line* line = &lines[at];
-    visit(*line, wrap);
-    while (line->next != kNone) {
-      line = &lines[line->next];
-      visit(*line, wrap);
-    }
-  };
-  visit_cells(cell, stencil, visit_chain);
+  visit_cells(
+      cell, stencil, [&](std::size_t at, const Vec<D>* wrap) __attribute__((always_inline)) {
+        visit(lines[at], wrap);
+      });
 }
 
 template <int D>
 template <typename Visit>
-void CellGrid<D>::visit_first_lines(const IntVec<D>& cell, const Stencil& stencil,
-                                    const Visit& visit) const {
-  visit_cells(cell, stencil, [&](std::size_t at, const Vec<D>*) { visit(lines_[at]); });
+void CellGrid<D>::visit_chained_lines(const IntVec<D>& cell, const Stencil& stencil,
+                                      const Visit& visit) const {
+  visit_first_lines(cell, stencil, [&](const Line& first, const Vec<D>* wrap) {
+    for (const Line* line = &first; line->next != kNone; visit(*line, wrap)) {
+      line = &lines_[line->next];
+    }
+  });
+}
+
+template <int D>
+template <typename Visit>
+void CellGrid<D>::visit(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const {
+  visit_first_lines(cell, stencil, visit);
+  visit_chained_lines(cell, stencil, visit);
 }
 
 extern template class CellGrid<2>;

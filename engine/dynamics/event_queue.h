@@ -16,6 +16,10 @@ namespace clatter {
 /// says which are still live, and the others are dropped as they come up.
 class EventQueue {
  public:
+  EventQueue() = default;
+  EventQueue(const EventQueue&) = delete;
+  EventQueue& operator=(const EventQueue&) = delete;
+
   /// Replaces the contents and chooses the bucket width from how dense the first events lie.
   void rebuild(std::vector<Event>& events);
 
@@ -36,37 +40,43 @@ class EventQueue {
   void look_ahead(std::size_t ahead, const Visit& visit) const;
 
   /// Number of the bucket at hand; changes when top() moves on.
-  std::uint64_t bucket() const { return bucket_; }
+  std::int64_t bucket() const { return bucket_; }
 
  private:
-  static constexpr std::size_t kRows = 1024;
-  static constexpr std::size_t kInsertedUpTo = 16;  // events of a bucket; more are sorted at once
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::int64_t kRows = 1024;
   // Rows grow by chunks from a common store, so that memory follows what is planned and not what
   // each row once held.
   struct Chunk {
-    std::uint32_t size = 0;
-    std::uint32_t next = kNone;
+    Chunk* next = nullptr;
+    std::size_t size = 0;
     std::array<Event, 63> events;
   };
 
-  std::uint64_t bucket_of(double time) const;
+  std::int64_t bucket_of(double time) const;
+  std::int64_t last_of_row() const { return bucket_ | in_row_; }
+  Chunk*& row_of(std::int64_t bucket) { return rows_[(bucket >> row_shift_) & (kRows - 1)]; }
+  void spread(std::vector<Event>& events, std::size_t first);
+  void sort_current();
   void push_current(const Event& event);
+  void thin_out();
   void next_bucket();
-  void spread_row();
-  void add_to_row(const Event& event, std::uint64_t bucket);
+  void next_row();
+  void add_to_row(const Event& event, std::int64_t bucket);
+  Chunk* add_chunk(Chunk* next);
 
-  double per_width_ = 1.0;      // buckets per time
-  double origin_ = 0.0;         // time at which bucket 0 starts
-  std::uint64_t bucket_ = 0;    // number of the bucket at hand
-  unsigned row_shift_ = 8;      // log2 of the buckets per row
-  std::vector<Event> current_;  // the bucket at hand, the earliest last
+  double per_width_ = 1.0;       // buckets per time
+  double origin_ = 0.0;          // time at which bucket 0 starts
+  std::int64_t bucket_ = 0;      // number of the bucket at hand
+  unsigned row_shift_ = 8;       // log2 of the buckets per row
+  std::int64_t in_row_ = 255;    // the bits of a bucket's number that say which of its row it is
+  std::vector<Event> current_;   // the bucket at hand, the earliest last
+  std::size_t moved_aside_ = 0;  // events, to make room for others in current_
   // [1 << row_shift_] of the row at hand
   std::vector<std::vector<Event>> buckets_ = std::vector<std::vector<Event>>(1u << row_shift_);
-  // [kRows], a ring over the coming rows: their newest chunks
-  std::vector<std::uint32_t> rows_ = std::vector<std::uint32_t>(kRows, kNone);
+  // [kRows], a ring over the coming rows: their newest chunks, or null
+  std::vector<Chunk*> rows_ = std::vector<Chunk*>(kRows);
   std::deque<Chunk> chunks_;  // of all rows
-  std::vector<std::uint32_t> spare_chunks_;
+  Chunk* spare_ = nullptr;    // chunks not in use
   std::vector<Event> later_;  // beyond the last row
   std::size_t in_buckets_ = 0;
   std::size_t in_rows_ = 0;
@@ -86,7 +96,7 @@ const Event* EventQueue::top(const Live& live) {
 
 template <typename Visit>
 void EventQueue::look_ahead(std::size_t ahead, const Visit& visit) const {
-  const std::size_t in_row = (bucket_ & (buckets_.size() - 1)) + ahead;
+  const std::size_t in_row = static_cast<std::size_t>(bucket_ & in_row_) + ahead;
   if (in_row >= buckets_.size()) return;
   for (const Event& event : buckets_[in_row]) visit(event);
 }

@@ -12,6 +12,8 @@ static_assert(sizeof(Disk<2>) == kRowLength<2> * sizeof(double));
 static_assert(offsetof(Disk<2>, flight) == 0 && offsetof(Flight<2>, v) == 2 * sizeof(double) &&
               offsetof(Flight<2>, time) == 4 * sizeof(double) &&
               offsetof(Disk<2>, image) == 6 * sizeof(double));
+// They hold the first lines of a neighbourhood.
+static_assert(Candidates<2>::kCapacity >= 9 * CellGrid<2>::Line::kCapacity);
 
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
@@ -20,7 +22,8 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       boundary_(boundary),
       disks_(disks),
       grid_(grid),
-      gravity_((model.gravity.array() != 0.0).any() ? model.gravity.data() : nullptr) {
+      falling_((model.gravity.array() != 0.0).any()),
+      first_contact_(first_contact_kernel<D>(falling_)) {
   for (int side = 0; side < 2 * D; ++side) {
     const double travel = boundary.innermost_travel(side);
     if (travel == 0.0) continue;
@@ -30,22 +33,71 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
   }
 }
 
+// Copies a fixed number of a line's disks, for how many it holds cannot be foreseen.
+template <int D, int kCopies>
+[[gnu::always_inline]] static inline void copy(const typename CellGrid<D>::Line& line,
+                                               const Vec<D>* wrap, int to, Candidates<D>& near) {
+  std::memcpy(near.disks + to, line.disks.data(), kCopies * sizeof(std::uint32_t));
+  if (!wrap) return;
+  for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + to, kCopies, (*wrap)[k]);
+  near.wrapped = true;
+}
+
+// Inlined by force, so that the loops over a whole neighbourhood are unrolled.
+template <int D>
+[[gnu::always_inline]] inline void Prediction<D>::look_at_disks(std::uint32_t disk,
+                                                                const Stencil& stencil,
+                                                                Plan<D>& plan) const {
+  constexpr int kUsualPerCell = 8;  // few cells hold more disks
+  Candidates<D> near;
+  int size = 0;
+  bool crowded = false;
+  const auto add = [&](const Line& line, const Vec<D>* wrap) __attribute__((always_inline)) {
+    const int count = static_cast<int>(line.count);
+    copy<D, kUsualPerCell>(line, wrap, size, near);
+    if (count > kUsualPerCell) [[unlikely]] {
+      copy<D, Line::kCapacity>(line, wrap, size, near);
+      crowded = true;
+    }
+    size += count;
+  };
+  grid_.visit_first_lines(plan.cell, stencil, add);
+  if (crowded) [[unlikely]]
+    size = add_chained(disk, stencil, size, near, plan);
+  weigh(disk, near, size, plan);
+}
+
+// Returns the size with what crowded cells hold beyond their first lines.
+template <int D>
+int Prediction<D>::add_chained(std::uint32_t disk, const Stencil& stencil, int size,
+                               Candidates<D>& near, Plan<D>& plan) const {
+  grid_.visit_chained_lines(plan.cell, stencil, [&](const Line& line, const Vec<D>* wrap) {
+    if (size + Line::kCapacity > Candidates<D>::kCapacity) {
+      weigh(disk, near, size, plan);
+      size = 0;
+    }
+    copy<D, Line::kCapacity>(line, wrap, size, near);
+    size += static_cast<int>(line.count);
+  });
+  return size;
+}
+
 template <int D>
 void Prediction<D>::plan(std::uint32_t disk, double now, Plan<D>& plan) const {
   plan.contact = kNever;
   look_at_disks(disk, {}, plan);
   look_at_walls(disk, now, plan);
-  gravity_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
+  falling_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
 }
 
 template <int D>
 void Prediction<D>::plan_entered(std::uint32_t disk, double now, int axis, int step,
                                  Plan<D>& plan) const {
-  typename CellGrid<D>::Stencil ahead;
+  Stencil ahead;
   ahead.from[axis] = ahead.to[axis] = step;
   look_at_disks(disk, ahead, plan);
   look_at_walls(disk, now, plan);
-  gravity_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
+  falling_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
 }
 
 // Whether the pair's image comes first where one pair touches through two images at once; the same
@@ -74,37 +126,11 @@ void Prediction<D>::offer(double time, std::uint32_t disk, std::uint32_t partner
 }
 
 template <int D>
-void Prediction<D>::look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
-                                  Plan<D>& plan) const {
-  using Line = typename CellGrid<D>::Line;
-  Candidates<D> near;
-  int size = 0;
-  const auto add = [&](const Line& line, const Vec<D>* wrap) __attribute__((always_inline)) {
-    // A fixed number is copied, for how many a cell holds cannot be foreseen and few hold more.
-    std::memcpy(near.disks + size, line.disks.data(), 8 * sizeof(std::uint32_t));
-    if (line.count > 8) {
-      std::memcpy(near.disks + size + 8, line.disks.data() + 8,
-                  (Line::kCapacity - 8) * sizeof(std::uint32_t));
-    }
-    if (wrap) {
-      for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + size, line.count, (*wrap)[k]);
-      near.wrapped = true;
-    }
-    size += static_cast<int>(line.count);
-    if (size > Candidates<D>::kCapacity - Line::kCapacity) {
-      weigh(disk, near, size, plan);
-      size = 0;
-    }
-  };
-  grid_.visit(plan.cell, stencil, add);
-  weigh(disk, near, size, plan);
-}
-
-template <int D>
 void Prediction<D>::weigh(std::uint32_t disk, Candidates<D>& near, int size, Plan<D>& plan) const {
   near.size = size;
-  const FirstContact first = first_contact<D>(disks_.data()->flight.r.data(), disk, near,
-                                              model_.box.data(), model_.diameter, gravity_);
+  const FirstContact first =
+      first_contact_(disks_.data()->flight.r.data(), disk, near, model_.box.data(), model_.diameter,
+                     model_.gravity.data());
   if (!first.told_apart) {
     for (int i = 0; i < size; ++i) offer_disk(disk, near, i, kTouching, plan);
   } else if (plan.contact == kNever) {
@@ -167,8 +193,8 @@ void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& pla
         grid_.border(axis, plan.cell[axis] + (v > 0.0)) + self.image[axis] * model_.box[axis];
     const double time = self.flight.time + (place - self.flight.r[axis]) / v;
     const double crossing = v != 0.0 ? std::max(now, time) : kNever;
-    first_axis = crossing < first ? axis : first_axis;
-    first = crossing < first ? crossing : first;
+    first_axis += (crossing < first) * (axis - first_axis);
+    first = std::min(first, crossing);
   }
   plan.crossing = first;
   plan.crossing_axis = static_cast<std::int8_t>(first_axis);

@@ -49,8 +49,13 @@ class Prediction {
   void plan_entered(std::uint32_t disk, double now, int axis, int step, Plan<D>& plan) const;
 
  private:
-  void look_at_disks(std::uint32_t disk, const typename CellGrid<D>::Stencil& stencil,
-                     Plan<D>& plan) const;
+  using Line = typename CellGrid<D>::Line;
+  using Stencil = typename CellGrid<D>::Stencil;
+
+  [[gnu::always_inline]] void look_at_disks(std::uint32_t disk, const Stencil& stencil,
+                                            Plan<D>& plan) const;
+  int add_chained(std::uint32_t disk, const Stencil& stencil, int size, Candidates<D>& near,
+                  Plan<D>& plan) const;
   void weigh(std::uint32_t disk, Candidates<D>& near, int size, Plan<D>& plan) const;
   Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near, int i) const;
   void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
@@ -65,7 +70,8 @@ class Prediction {
   const Boundary<D>& boundary_;
   const LargeArray<Disk<D>>& disks_;
   const CellGrid<D>& grid_;
-  const double* gravity_;           // of the model; null: none
+  bool falling_;  // whether there is gravity
+  FirstContactKernel<D>* first_contact_;
   std::array<int, 2 * D> reach_{};  // cells from the side's edge in which its wall can be touched
 };
 

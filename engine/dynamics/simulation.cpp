@@ -150,12 +150,15 @@ void Simulation<D>::schedule(std::uint32_t disk) {
 }
 
 template <int D>
+bool Simulation<D>::holds(const Event& event) const {
+  const Event planned = plans_[event.disk].event(event.disk);
+  return planned.time == event.time && planned.partner == event.partner;
+}
+
+template <int D>
 typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t collisions,
                                                     std::uint64_t steps) {
-  const auto live = [this](const Event& event) {
-    const Event planned = plans_[event.disk].event(event.disk);
-    return planned.time == event.time && planned.partner == event.partner;
-  };
+  const auto live = [this](const Event& event) { return holds(event); };
   const bool fetch = disks_.size() >= kFetchAheadFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
     const Event* next = queue_.top(live);
@@ -355,8 +358,27 @@ double Simulation<D>::deepest_overlap() const {
   return deepest;
 }
 
+// The first lines of the cells where the disks of an event will look for partners.
+template <int D>
+template <typename Visit>
+void Simulation<D>::visit_lines_needed(const Event& event, const Visit& visit) const {
+  const Plan<D>& plan = plans_[event.disk];
+  if (event.partner == kCellBorder) {
+    const int axis = plan.crossing_axis;
+    const int step = plan.crossing_step;
+    typename CellGrid<D>::Stencil ahead;
+    ahead.from[axis] = ahead.to[axis] = step;
+    grid_.visit_first_lines(grid_.neighbour(plan.cell, axis, step), ahead, visit);
+    return;
+  }
+  grid_.visit_first_lines(plan.cell, {}, visit);
+  if (event.partner < kWall && plans_[event.partner].cell != plan.cell) {
+    grid_.visit_first_lines(plans_[event.partner].cell, {}, visit);
+  }
+}
+
 // Three looks ahead, each of which finds in the cache what the one before fetched: the disk and its
-// plan, then its partner and the cells about it, then the disks in those cells.
+// plan, then its partner and the cells that it will look at, then the disks in those cells.
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();
@@ -365,14 +387,16 @@ void Simulation<D>::fetch_ahead() {
     fetch(plans_[event.disk]);
   });
   queue_.look_ahead(5, [&](const Event& event) {
+    if (!holds(event)) return;
     if (event.partner < kWall) {
       fetch(disks_[event.partner]);
       fetch(plans_[event.partner]);
     }
-    grid_.visit_first_lines(plans_[event.disk].cell, {}, [](const auto& line) { fetch(line); });
+    visit_lines_needed(event, [](const auto& line, const Vec<D>*) { fetch(line); });
   });
   queue_.look_ahead(3, [&](const Event& event) {
-    grid_.visit_first_lines(plans_[event.disk].cell, {}, [&](const auto& line) {
+    if (!holds(event)) return;
+    visit_lines_needed(event, [&](const auto& line, const Vec<D>*) {
       for (std::uint32_t k = 0; k < line.count; ++k) fetch(disks_[line.disks[k]]);
     });
   });

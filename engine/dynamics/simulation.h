@@ -112,7 +112,10 @@ class Simulation {
   void schedule(std::uint32_t disk);
   void plan_all();
   void move_base();
+  bool holds(const Event& event) const;
   void fetch_ahead();
+  template <typename Visit>
+  void visit_lines_needed(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
   DiskChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
                           const Impulse<D>& gain) const;
@@ -132,7 +135,7 @@ class Simulation {
   std::uint64_t until_base_moves_;    // physical events left
   bool heats_ = false;                // whether a wall has a restitution > 1
   std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
-  std::uint64_t fetched_bucket_ = 0;
+  std::int64_t fetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
   std::deque<Timer> timers_;  // stay where they are while an action adds others
   double kick_origin_;        // simulation time from which kicks are counted

@@ -15,12 +15,10 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
   const int axis = plan.crossing_axis;
   const int step = plan.crossing_step;
+  const IntVec<D> next = grid_.neighbour(plan.cell, axis, step);
+  if (next[axis] != plan.cell[axis] + step) disks_[number].image[axis] += step;
   grid_.remove(number, plan.cell);
-  plan.cell[axis] += step;
-  if (plan.cell[axis] < 0 || plan.cell[axis] == grid_.counts()[axis]) {
-    plan.cell[axis] -= step * grid_.counts()[axis];
-    disks_[number].image[axis] += step;
-  }
+  plan.cell = next;
   grid_.insert(number, plan.cell);
   ++counts_.cell_crossings;
   prediction_.plan_entered(number, now_, axis, step, plan);

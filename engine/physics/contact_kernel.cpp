@@ -21,6 +21,10 @@ using Lanes = double __attribute__((vector_size(8 * kLanes)));
   return lanes;
 }
 
+[[gnu::always_inline]] inline Lanes broadcast(double number) {
+  return Lanes{number, number, number, number};
+}
+
 // Numbers first ... first + 3 of four rows, number by number.
 [[gnu::always_inline]] inline void transpose(const double* const* row, int first, Lanes* columns) {
   Lanes in[4];
@@ -37,9 +41,9 @@ using Lanes = double __attribute__((vector_size(8 * kLanes)));
 
 // The earliest of several times, and the number that goes with it.
 struct Earliest {
-  Lanes time = Lanes{} + kNever;
+  Lanes time = broadcast(kNever);
   Lanes number{};
-  Lanes tie = Lanes{} + kNever;  ///< the last time that came up again
+  Lanes tie = broadcast(kNever);  ///< the last time that came up again
 
   [[gnu::always_inline]] void offer(const Lanes& other, const Lanes& its_number) {
     tie = other == time ? other : tie;
@@ -49,14 +53,22 @@ struct Earliest {
   }
 };
 
+// The least of four numbers, in every lane.
+[[gnu::always_inline]] inline Lanes least(const Lanes& lanes) {
+  const auto lesser = [](const Lanes& a, const Lanes& b) { return a < b ? a : b; };
+  const Lanes pairs = lesser(lanes, __builtin_shufflevector(lanes, lanes, 2, 3, 0, 1));
+  return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
+}
+
 [[gnu::always_inline]] inline FirstContact first_of(const Earliest& lanes) {
-  const int low = lanes.time[1] < lanes.time[0], high = 2 + (lanes.time[3] < lanes.time[2]);
-  const int lane = lanes.time[high] < lanes.time[low] ? high : low;
-  const double time = lanes.time[lane];
-  int sharing = 0;
-  for (int i = 0; i < kLanes; ++i) sharing += (lanes.time[i] == time) + (lanes.tie[i] == time);
-  return {time, static_cast<int>(lanes.number[lane]),
-          (sharing == 1 || time == kNever) && time != kTouching};
+  const Lanes time = least(lanes.time);
+  const Lanes once = broadcast(1.0), not_at_all{};
+  const Lanes number = least(lanes.time == time ? lanes.number : broadcast(kNever));
+  const Lanes sharing =
+      (lanes.time == time ? once : not_at_all) + (lanes.tie == time ? once : not_at_all);
+  const double count = (sharing[0] + sharing[1]) + (sharing[2] + sharing[3]);
+  return {time[0], static_cast<int>(number[0]),
+          (count == 1.0 || time[0] == kNever) && time[0] != kTouching};
 }
 
 template <int D, bool kFalling>
@@ -68,11 +80,11 @@ template <int D, bool kFalling>
   const double* const own = rows + static_cast<std::size_t>(self) * kRow;
   Lanes r[D], v[D], image[D];
   for (int k = 0; k < D; ++k) {
-    r[k] = Lanes{} + own[k];
-    v[k] = Lanes{} + own[D + k];
-    image[k] = Lanes{} + own[2 * D + 2 + k];
+    r[k] = broadcast(own[k]);
+    v[k] = broadcast(own[D + k]);
+    image[k] = broadcast(own[2 * D + 2 + k]);
   }
-  const Lanes time = Lanes{} + own[2 * D];
+  const Lanes time = broadcast(own[2 * D]);
   for (int i = 0; i < Candidates<D>::kMargin; ++i) candidates.disks[candidates.size + i] = self;
 
   Earliest earliest;
@@ -124,17 +136,10 @@ auto widest_loop() {
 }  // namespace
 
 template <int D>
-FirstContact first_contact(const double* rows, std::uint32_t self, Candidates<D>& candidates,
-                           const double* box, double diameter, const double* gravity) {
-  static const struct {
-    decltype(widest_loop<D, false>()) straight = widest_loop<D, false>();
-    decltype(widest_loop<D, true>()) falling = widest_loop<D, true>();
-  } loops;
-  const auto loop = gravity ? loops.falling : loops.straight;
-  return loop(rows, self, candidates, box, diameter, gravity);
+FirstContactKernel<D>* first_contact_kernel(bool falling) {
+  return falling ? widest_loop<D, true>() : widest_loop<D, false>();
 }
 
-template FirstContact first_contact<2>(const double*, std::uint32_t, Candidates<2>&, const double*,
-                                       double, const double*);
+template FirstContactKernel<2>* first_contact_kernel<2>(bool);
 
 }  // namespace clatter

@@ -15,7 +15,7 @@ inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
 /// frame lies off the box.
 template <int D>
 struct Candidates {
-  static constexpr int kCapacity = 48;
+  static constexpr int kCapacity = 128;
 
   /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
   static constexpr int kMargin = 3;
@@ -32,12 +32,16 @@ struct FirstContact {
   bool told_apart;  ///< false: others may share the time, or touch too, and must be asked
 };
 
-/// The first encounter_time of the disk in row `self` with the candidates, by vectors as wide as
-/// the processor has; the same bits on any. The disk itself may be among them: it never meets
-/// itself. `rows` holds all disks, `box` are its D edge lengths, `gravity` is null where there is
-/// none.
+/// The first encounter_time of the disk in row `self` with the candidates. The disk itself may be
+/// among them: it never meets itself. `rows` holds all disks, `box` are its D edge lengths.
 template <int D>
-FirstContact first_contact(const double* rows, std::uint32_t self, Candidates<D>& candidates,
-                           const double* box, double diameter, const double* gravity);
+using FirstContactKernel = FirstContact(const double* rows, std::uint32_t self,
+                                        Candidates<D>& candidates, const double* box,
+                                        double diameter, const double* gravity);
+
+/// The kernel with vectors as wide as the processor has; the same bits on any. `gravity` is not
+/// read unless disks are falling.
+template <int D>
+FirstContactKernel<D>* first_contact_kernel(bool falling);
 
 }  // namespace clatter

@@ -29,6 +29,14 @@ template <class Number>
   }
 }
 
+/// Sum of the products of two vectors' components.
+template <int D, class Number>
+[[gnu::always_inline]] inline Number dot(const Number* a, const Number* b) {
+  Number sum = a[0] * b[0];
+  for (int k = 1; k < D; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
 /// Time at which the disks of two flights touch, kNever, or kTouching. Exchanging the flights and
 /// negating the shift gives the same bits, so it does not matter who asks or when. Number is
 /// double, or a vector of doubles for as many pairs.
@@ -48,7 +56,6 @@ template <int D, bool kFalling, class Number>
   const Number start = time_a > time_b ? time_a : time_b;
   const Number since_a = start - time_a, since_b = start - time_b;
   Number x[D], g[D];
-  Number approach = zero, distance_squared = zero, speed_squared = zero, wedge_squared = zero;
   for (int k = 0; k < D; ++k) {
     if constexpr (kFalling) {
       x[k] = ((r_a[k] + (v_a[k] + gravity[k] * (0.5 * since_a)) * since_a) -
@@ -59,10 +66,11 @@ template <int D, bool kFalling, class Number>
       x[k] = ((r_a[k] + v_a[k] * since_a) - (r_b[k] + v_b[k] * since_b)) + shift[k];
       g[k] = v_a[k] - v_b[k];
     }
-    approach += x[k] * g[k];
-    distance_squared += x[k] * x[k];
-    speed_squared += g[k] * g[k];
   }
+  const Number approach = dot<D>(x, g);
+  const Number distance_squared = dot<D>(x, x);
+  const Number speed_squared = dot<D>(g, g);
+  Number wedge_squared{};
   for (int k = 0; k < D; ++k) {
     for (int l = k + 1; l < D; ++l) {
       const Number area = x[k] * g[l] - x[l] * g[k];
@@ -71,7 +79,7 @@ template <int D, bool kFalling, class Number>
   }
   const Number gap = distance_squared - diameter * diameter;
   const Number discriminant = speed_squared * (diameter * diameter) - wedge_squared;
-  const Number root = root_of<Number>(discriminant < zero ? zero : discriminant);
+  const Number root = root_of<Number>(discriminant > zero ? discriminant : zero);
   const Number time = gap > zero ? start + gap / (root - approach) : zero + kTouching;
   const Number met = discriminant > zero ? time : zero + kNever;
   return approach < zero ? met : zero + kNever;

@@ -112,7 +112,7 @@ TEST_CASE("cell grid: every position lies in a cell, and between its borders") {
 
 TEST_CASE("cell grid: no image of a disk within one diameter is missed, and none comes twice") {
   Random random(63, Stream::Placement, 0, 0);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 10000; ++i) {
     const Model<2> model = random_box(random);
     const std::size_t count = 2 + random.below(40);
     CellGrid<2> grid(model, count);

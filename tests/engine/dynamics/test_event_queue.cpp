@@ -62,16 +62,16 @@ class TwoQueues {
 
 using NextTime = std::function<double(double now, Random& random)>;
 
-// 10^5 operations on about `pending` events: take the first, add one or a burst, disown one in
-// five.
-void compare(std::size_t pending, const NextTime& next, std::uint32_t seed) {
+// Operations on about `pending` events: take the first, add one or a burst, disown one in five.
+void compare(std::size_t pending, const NextTime& next, std::uint32_t seed,
+             int least_operations = 100000) {
   TwoQueues queues;
   Random random(71, Stream::Placement, seed, 0);
   queues.rebuild();
   double now = 0.0;
   for (std::size_t i = 0; i < pending; ++i) queues.add(next(0.0, random), random);
   if (random.below(2)) queues.rebuild();
-  for (int operations = 0; operations < 100000; ++operations) {
+  for (int operations = 0; operations < least_operations; ++operations) {
     const double taken = queues.take();
     if (taken >= 0.0) now = taken;
     if (queues.size() < pending) {
@@ -103,6 +103,11 @@ TEST_CASE("event queue: the order of the standard queue over 10^6 operations and
        }},
       {"a little before what was taken last",
        [&](double now, Random& r) { return std::max(0.0, now + 0.1 * (r.uniform() - 0.2)); }},
+      {"a hot crowd before many cold disks",
+       [&](double now, Random& r) {
+         const double cold = r.below(10) == 0 ? 1e9 : 3000.0;
+         return now + exponential(r) * (now > 0.0 || r.below(5) == 0 ? 1e-9 : cold);
+       }},
       {"slower and slower, as a gas that cools",
        [&](double now, Random& r) { return now + (1e-6 + 0.1 * now) * exponential(r); }},
       {"faster and faster, as a gas that is heated",
@@ -115,6 +120,16 @@ TEST_CASE("event queue: the order of the standard queue over 10^6 operations and
       compare(pending, next, ++seed);
     }
   }
+}
+
+TEST_CASE("event queue: the order of the standard queue over 10^7 operations" *
+          doctest::test_suite("slow")) {
+  // One in three at a time that others have.
+  const auto next = [](double now, Random& r) {
+    const double time = now - 3.0 * std::log(r.uniform());
+    return r.below(3) == 0 ? std::ceil(time) : time;
+  };
+  compare(20000, next, 100, 10'000'000);
 }
 
 TEST_CASE("event queue: ties go to disks, then walls, then cell borders, and to low numbers") {

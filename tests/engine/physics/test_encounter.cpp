@@ -207,8 +207,8 @@ struct Crowd {
   }
 
   FirstContact first(const Vec2& gravity) {
-    return first_contact<2>(disks.front().flight.r.data(), 0, candidates, box.data(), 1.0,
-                            gravity == kNone ? nullptr : gravity.data());
+    return first_contact_kernel<2>(gravity != kNone)(disks.front().flight.r.data(), 0, candidates,
+                                                     box.data(), 1.0, gravity.data());
   }
 };
 
