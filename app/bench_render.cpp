@@ -80,8 +80,8 @@ double encode(std::vector<Image> images) {
   SinkOptions options;
   options.size = images.front().size;
   Movie movie(film, options);
-  for (Image& image : images) movie.add(std::move(image), 0.0);
-  movie.finish();
+  for (Image& image : images) movie.add(std::move(image), {});
+  movie.finish(Ending::Whole);
   std::filesystem::remove(film);
   return children_milliseconds() - before;
 }
