@@ -82,8 +82,10 @@ long Movie::start_of_piece(long number) const {
 void Movie::start_piece() {
   piece_ = next_;
   const std::filesystem::path piece = piece_path(piece_);
+  // The encoder of a run that was killed may still be writing into a file of that name.
+  unlink(piece.c_str());
   // Found out now rather than after the first hour of a run.
-  const FileDescriptor file(open(piece.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  const FileDescriptor file(open(piece.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
   if (!file) fail(std::strerror(errno));
   try {
     encoder_ =
