@@ -84,6 +84,26 @@ TEST_CASE("A film goes on with the flags it began with, and refuses others") {
   CHECK(shell.run(on + "--from 7 --to 7.2 --out other.mp4").code == 0);
 }
 
+TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes on") {
+  const Shell shell;
+  write_scene(shell);
+  REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
+  const Outcome killed =
+      shell.run(kFilm +
+                "--out film.mp4 & pid=$!\n"
+                "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n"
+                "kill -9 $(cat /proc/$pid/task/$pid/children); wait $pid");
+  CAPTURE(killed.err);
+  CHECK(killed.code == 1);
+  CHECK(says(killed.err,
+             "Killed; what was filmed before is in film.mp4.part; go on with --resume "
+             "film.checkpoint"));
+  CHECK(hashes(shell, "-i film.mp4.part/000000.mp4").size() == 60 * 33);
+  check_refused(shell, kFilm + "--out film.mp4", {"film.mp4.part", "--resume", "--overwrite"});
+  CHECK(shell.run(kFilm + "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole").code ==
+        0);
+}
+
 TEST_SUITE_BEGIN("slow");
 
 // Instants drawn from the film's usual time, seed 6; some fall before the first frame.

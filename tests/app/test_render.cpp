@@ -60,6 +60,31 @@ TEST_CASE("A picture has the size asked for and says which scene and seed it sho
   CHECK(shell.files() == Files{"picture.png"});
 }
 
+TEST_CASE("Pictures and films say which scene, seed and state they show, and what drew them") {
+  const Shell shell;
+  const Outcome measured = shell.run(
+      "clatter measure vibrated --seed 5 --set measure.burn_in=0 --until 2 --quiet | "
+      "sed -n 's/.*state_hash\": \"\\(.*\\)\".*/\\1/p'");
+  REQUIRE(measured.out.size() == 17);
+  const std::string hash = measured.out.substr(0, 16);
+  // The last of these frames is at time 2.
+  const std::string line = kRender + "--seed 5 --speed 1 --fps 4 --to 2.25 --out ";
+  for (const std::string name : {"film.mp4", "film.webm", "film.mkv"}) {
+    CAPTURE(name);
+    REQUIRE(shell.run(line + name).code == 0);
+    const std::string tags =
+        shell.run("ffprobe -v error -show_entries format_tags -of json " + name).out;
+    CAPTURE(tags);
+    CHECK(says(tags, "\"Vibrated box\""));
+    CHECK(says(tags, "Simulation time: 2\\nState hash: " + hash));
+    CHECK(says(tags, "Software: clatter " CLATTER_VERSION "\\nSeed: 5\\nScene: schema = 1"));
+  }
+  REQUIRE(shell.run(line + "frames").code == 0);
+  CHECK(
+      says(shell.read("frames/frame_000008.png"), std::string("State hash\0\0\0\0\0", 15) + hash));
+  CHECK_FALSE(says(shell.read("frames/frame_000007.png"), hash));
+}
+
 TEST_CASE("A picture is the same whenever it is drawn, another seed draws another") {
   const Shell shell;
   shell.run(kRender + "--to 1 --out a.png && " + kRender + "--to 1 --out b.png && " + kRender +
