@@ -11,7 +11,8 @@ namespace clatter {
 
 namespace {
 
-// 150 frames of a gas under a heatmap with automatic ranges, whose laws change on the way.
+// 150 frames of a gas under a heatmap with automatic ranges, one of whose walls swings wider later,
+// so that a camera would show more.
 const std::string kFilm =
     "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --to 15 ";
 
@@ -19,10 +20,10 @@ void write_scene(const Shell& shell) {
   shell.write("scene.toml",
               "title = \"Parts\"\nbox.size = [20, 15]\n"
               "disks = { count = 100, restitution = 0.9 }\n"
-              "walls.left = { kind = \"driven\", drive_speed = 1.0 }\n"
+              "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
               "walls.right = { kind = \"static\" }\n"
               "view = { field = \"temperature\", window = 2.0, arrows = \"velocity\" }\n"
-              "[[change]]\ntime = 4.0\nset = { \"walls.left.drive_speed\" = 3.0 }\n");
+              "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }
 
 // A line that lists the pixels of each frame of a film, or of the pictures of a folder.
