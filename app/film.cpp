@@ -72,9 +72,9 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
     // Also of frames that are not drawn: averages are the same to the last bit only where they are
     // looked at as often.
     const Snapshot snapshot = run_.scheduled().snapshot();
-    canvas_.bind();
     if (!state_.camera) state_.camera = renderer_.fit(snapshot, canvas_.size(), view_, text_);
     if (frame < first) continue;
+    canvas_.bind();
     renderer_.draw(snapshot, *state_.camera, canvas_.size(), view_, text_);
     sink.add(canvas_.read(), notes());
     progress.update(snapshot.time);

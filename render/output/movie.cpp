@@ -138,7 +138,7 @@ void Movie::join() {
                   static_cast<double>(after - piece) / options_.fps);
     pieces += line;
   }
-  std::ofstream(list) << pieces;
+  if (!(std::ofstream(list) << pieces << std::flush)) fail("cannot write " + list.string());
 
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
