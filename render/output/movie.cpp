@@ -53,8 +53,9 @@ Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::
     throw UserError(
         {path_.string()},
         "the film goes on, but its piece " + piece_path(piece).string() + " is not there",
-        "name the film that was cut, or begin one by --frames " + std::to_string(options.next) +
-            ":");
+        (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
+            ("name the film that was cut, or begin one by --frames " +
+             std::to_string(options.next) + ":"));
   }
   make_folder(folder_, path_);
   start_piece();
