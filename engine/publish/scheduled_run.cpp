@@ -64,6 +64,16 @@ void ScheduledRun::show(const View& view) {
   if (view.shows_averages()) field_ = std::make_unique<LiveField>(*simulation_, view);
 }
 
+void ScheduledRun::show(const View& view, const std::string& saved) {
+  if (saved.empty()) return show(view);
+  view_ = view;
+  field_ = std::make_unique<LiveField>(*simulation_, view, ArchiveReader(saved, "averages"));
+}
+
+std::string ScheduledRun::save_shown() const {
+  return field_ ? field_->save() : "";
+}
+
 Snapshot ScheduledRun::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   if (field_) field_->publish(snapshot);

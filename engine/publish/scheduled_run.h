@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
@@ -46,6 +47,11 @@ class ScheduledRun {
 
   /// From now on snapshots have the averages that the view shows, if any.
   void show(const View& view);
+  /// Likewise, with averages that go on from what save_shown() gave at this time of a run with the
+  /// same scene and view; empty: anew.
+  void show(const View& view, const std::string& saved);
+  /// The averages as they are now; empty: the view shows none.
+  std::string save_shown() const;
   /// The gas at the simulation's time.
   Snapshot snapshot();
 

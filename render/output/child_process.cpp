@@ -49,7 +49,12 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments)
   posix_spawn_file_actions_adddup2(&setup.files, output.get(), STDIN_FILENO);
   posix_spawn_file_actions_addopen(&setup.files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&setup.files, errors_.get(), STDERR_FILENO);
-  posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETPGROUP);
+  sigset_t interrupts;
+  sigemptyset(&interrupts);
+  sigaddset(&interrupts, SIGINT);
+  sigaddset(&interrupts, SIGTERM);
+  posix_spawnattr_setsigmask(&setup.attributes, &interrupts);
+  posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
 
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -65,17 +70,16 @@ ChildProcess::~ChildProcess() {
 
 bool ChildProcess::wait() {
   input_.close();
-  int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  while (pid_ >= 0 && waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
   pid_ = -1;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
 }
 
 void ChildProcess::kill() {
   if (pid_ < 0) return;
   ::kill(pid_, SIGKILL);
-  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
   pid_ = -1;
 }
@@ -88,6 +92,7 @@ std::string ChildProcess::last_words() const {
   const ssize_t got = pread(errors_.get(), text.data(), length, size - length);
   text.resize(std::max<ssize_t>(got, 0));
   while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.empty() && WIFSIGNALED(status_)) return strsignal(WTERMSIG(status_));
   return text;
 }
 

@@ -13,8 +13,9 @@ namespace clatter {
 /// A program that runs beside ours and reads what we write.
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, found on the PATH, without any shell. It has a process group of its
-  /// own, so that an interrupt at the terminal leaves it time to end well. Throws RunError.
+  /// Starts `arguments[0]`, found on the PATH, without any shell. It has a process group of its own
+  /// and blocks SIGINT and SIGTERM, so that an interrupt, at the terminal or by a batch system,
+  /// leaves it time to end well. Throws RunError.
   explicit ChildProcess(const std::vector<std::string>& arguments);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -27,11 +28,12 @@ class ChildProcess {
   bool wait();
   /// Ends it at once: a write() under way on another thread then fails.
   void kill();
-  /// The end of what it wrote on its standard error.
+  /// The end of what it wrote on its standard error, or which signal ended it.
   std::string last_words() const;
 
  private:
   pid_t pid_ = -1;         ///< -1: has ended
+  int status_ = 0;         ///< of its end, as waitpid() tells it
   FileDescriptor input_;   ///< our end of the pipe
   FileDescriptor errors_;  ///< a file in memory, which never makes it wait
 };

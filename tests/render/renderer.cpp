@@ -193,6 +193,27 @@ TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
   CHECK(colours()[3] == middle);
 }
 
+TEST_CASE("Ranges that are fixed follow no more, but for those that are given") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_of(Field::Temperature);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
+  const RangeEnds ends = range_ends(snapshot, view);
+  CHECK(ends.field == 1.0);
+  CHECK(ends.disks == 0.0);
+  CHECK(ends.arrows == 0.0);
+  Renderer renderer(context->gl());
+  renderer.fix(ends);
+  const Colour top = colour_map(Palette::Viridis).back(), middle = colour_map(Palette::Viridis)[8];
+  CHECK(field_colour(renderer, context->gl(), view, 100.0, true) == top);
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
+  view.field_range = {ColourRange::Locked};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
+  view.field_range = {ColourRange::Given, {0.0, 0.5}};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == top);
+}
+
 TEST_CASE("A locked range is found anew for another field") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "engine/error.h"
@@ -98,4 +100,35 @@ TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
   CHECK(run.scene().changes.empty());
   CHECK(run.scene().disks.restitution == 0.9);
   CHECK(run.run_until(4.0));
+}
+
+TEST_CASE("ScheduledRun: averages that go on from a checkpoint are to the bit those of one run") {
+  for (const std::string field : {"temperature", "balance_energy"}) {
+    CAPTURE(field);
+    Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
+    scene.view.arrows = Arrows::Velocity;
+    scene.changes = {{.time = 4.0, .set = {{"disks.restitution", "0.8"}}}};
+    ScheduledRun whole(scene, 14);
+    whole.show(scene.view);
+    whole.run_until(3.1);  // within a part of a window
+    whole.snapshot();
+    whole.run_until(3.2);
+    const std::string averages = whole.save_shown();
+    ScheduledRun resumed(scene, 14, whole.simulation().save());
+    resumed.show(scene.view, averages);
+    for (const double time : {3.3, 4.7, 9.0}) {
+      whole.run_until(time);
+      resumed.run_until(time);
+      const Snapshot wanted = whole.snapshot(), found = resumed.snapshot();
+      REQUIRE(found.field->values.size() == wanted.field->values.size());
+      CHECK(std::ranges::equal(found.field->values, wanted.field->values, {},
+                               std::bit_cast<std::uint64_t, double>,
+                               std::bit_cast<std::uint64_t, double>));
+      CHECK(found.field->whole_window == wanted.field->whole_window);
+      REQUIRE(found.arrows->arrows.size() == wanted.arrows->arrows.size());
+      for (std::size_t i = 0; i < found.arrows->arrows.size(); ++i) {
+        CHECK(found.arrows->arrows[i].value == wanted.arrows->arrows[i].value);
+      }
+    }
+  }
 }
