@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/accuracy.h"
 #include "app/commands.h"
 #include "app/hdf5_file.h"
 #include "app/interrupt.h"
@@ -27,6 +28,7 @@ namespace {
 struct MeasureOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
+  AccuracyGoal accuracy;
   std::string out;         // result file; empty: stdout
   std::string csv;         // folder for tables; empty: none
   std::string vtk;         // folder for maps; empty: none
@@ -106,6 +108,18 @@ void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
   if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
 }
 
+nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene, Run& run,
+                               const Measured& measured, const Performance& performance) {
+  auto json = result_json(scene, run.seed(), run.simulation(), measured, performance);
+  const AccuracyGoal& goal = options.accuracy;
+  if (goal.asked_for() && measured.duration > 0.0) {
+    json["accuracy"] = {{"of", goal.of},
+                        {"asked", goal.relative},
+                        {"reached", relative_error(estimate_for(goal, measured))}};
+  }
+  return json;
+}
+
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
                    const Measured& measured) {
   if (options.out.empty()) {
@@ -154,16 +168,24 @@ int measure(const MeasureOptions& options) {
   const double cpu_before = cpu_seconds();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   Measurement& measurement = run.measure(end);
+  if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
   {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
-    run.until(end, progress);
+    if (options.accuracy.asked_for()) {
+      run_to_goal(options.accuracy, run, measurement, end, progress);
+    } else {
+      run.until(end, progress);
+    }
   }
   run.put_aside();
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  write_results(options, result_json(scene, run.seed(), run.simulation(), measured, performance),
-                measured);
-  if (!options.common.quiet) advise_on_contact_time(scene, measured);
+  write_results(options, json_of(options, scene, run, measured, performance), measured);
+  if (!options.common.quiet) {
+    advise_on_contact_time(scene, measured);
+    if (options.accuracy.asked_for()) tell_accuracy(options.accuracy, measured);
+    warn_of_drift(options.accuracy, measured);
+  }
   if (!options.save_state.empty()) {
     write_file(options.save_state, state_to_csv(run.simulation().state()));
   }
@@ -180,6 +202,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
       "measure", "Run a scene without pictures and write what its [measure] block asks for");
   add_common_flags(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
+  add_accuracy_flags(*command, options->accuracy);
   command->add_option("--out", options->out, "Result file (default: stdout)")
       ->type_name("FILE.json");
   command->add_option("--csv", options->csv, "Folder for tables of series, profiles and maps")
