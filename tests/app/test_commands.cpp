@@ -135,10 +135,16 @@ TEST_CASE("Every command explains each of its flags") {
                    {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
                     "--supersample", "--quality", "--overwrite", "--backend", "--resume",
                     "--checkpoint", "--checkpoint-every"}},
-           Command{"measure", true, {"--resume", "--checkpoint", "--out", "--csv", "--save-state"}},
+           Command{"measure",
+                   true,
+                   {"--resume", "--checkpoint", "--out", "--csv", "--save-state", "--accuracy",
+                    "--accuracy-of"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
-           Command{"bench", false, {"--json", "--count", "--area-fraction", "--duration"}},
+           Command{"bench",
+                   false,
+                   {"--json", "--count", "--area-fraction", "--duration", "--dial", "--csv",
+                    "--plot", "--markdown"}},
        }) {
     const Outcome outcome = shell.run("clatter " + command.name + " --help");
     CAPTURE(command.name);

@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/bench_fields.h"
-#include "app/bench_render.h"
+#include "app/bench/accuracy.h"
+#include "app/bench/fields.h"
+#include "app/bench/render.h"
 #include "app/commands.h"
 #include "app/flag_checks.h"
 #include "app/resources.h"
@@ -21,7 +22,8 @@ struct BenchOptions {
   std::string json;
   int count = 0;               // of disks of a part of the table; 0: the whole table
   double area_fraction = 0.5;  // of that cell
-  double duration = 10000.0;   // simulated time of each run for the fields' table
+  double duration = 0.0;       // simulated time of each run; 0: the table's own
+  AccuracyBench accuracy;
 };
 
 // What one cell of the engine's table shows.
@@ -88,6 +90,24 @@ int bench_engine(const BenchOptions& options) {
   return kOk;
 }
 
+void add_accuracy_options(CLI::App& command, AccuracyBench& accuracy) {
+  command
+      .add_option("scene", accuracy.scene, "Scene of the table of accuracy: path or gallery name")
+      ->capture_default_str();
+  command.add_option("--dial", accuracy.dials, "Of accuracy, this dial; may be given again")
+      ->type_name("NAME")
+      ->take_all();
+  command.add_option("--csv", accuracy.csv, "Of accuracy: write its tables as CSV, too")
+      ->type_name("FILE");
+  command.add_option("--plot", accuracy.plot, "Of accuracy: draw cost against error")
+      ->type_name("FILE.png");
+  command
+      .add_option("--markdown", accuracy.markdown,
+                  "Of accuracy: put its tables between the lines <!-- tables --> and "
+                  "<!-- end of tables --> of a page")
+      ->type_name("FILE.md");
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& program, int& exit_code) {
@@ -96,8 +116,8 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("name", options->name,
                    "Which table: engine, how fast collisions are; fields, what they cost; render, "
-                   "what a frame costs")
-      ->check(CLI::IsMember({"engine", "fields", "render"}))
+                   "what a frame costs; accuracy, what each dial costs and how far off it is")
+      ->check(CLI::IsMember({"engine", "fields", "render", "accuracy"}))
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the table to a file, too")->type_name("FILE");
   command
@@ -110,12 +130,17 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--duration", options->duration,
-                   "Simulated time of each run for the fields' table")
-      ->check(positive_number())
-      ->capture_default_str();
+                   "Simulated time of each run (default: 10000 for fields, 1000 for accuracy)")
+      ->check(positive_number());
+  add_accuracy_options(*command, options->accuracy);
   command->callback([options, &exit_code] {
     if (options->name == "fields") {
-      exit_code = bench_fields(options->duration, options->json);
+      exit_code =
+          bench_fields(options->duration > 0.0 ? options->duration : 10000.0, options->json);
+    } else if (options->name == "accuracy") {
+      options->accuracy.json = options->json;
+      if (options->duration > 0.0) options->accuracy.duration = options->duration;
+      exit_code = bench_accuracy(options->accuracy);
     } else if (options->name == "render") {
       exit_code = bench_render(options->json, options->count);
     } else {
