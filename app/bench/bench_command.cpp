@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/bench/accuracy.h"
+#include "app/bench/features.h"
 #include "app/bench/fields.h"
 #include "app/bench/render.h"
 #include "app/commands.h"
@@ -114,15 +115,18 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = program.add_subcommand("bench", "Print performance tables");
   command
-      ->add_option("name", options->name,
-                   "Which table: engine, how fast collisions are; fields, what they cost; render, "
-                   "what a frame costs; accuracy, what each dial costs and how far off it is")
-      ->check(CLI::IsMember({"engine", "fields", "render", "accuracy"}))
+      ->add_option(
+          "name", options->name,
+          "Which table: engine, how fast collisions are; features, what each thing that a scene "
+          "adds takes of that; fields, what they cost; render, "
+          "what a frame costs; accuracy, what each dial costs and how far off it is")
+      ->check(CLI::IsMember({"engine", "features", "fields", "render", "accuracy"}))
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the table to a file, too")->type_name("FILE");
   command
-      ->add_option("--count", options->count,
-                   "One cell of the engine's table, one number of disks of that of render")
+      ->add_option(
+          "--count", options->count,
+          "One cell of the engine's table, the number of disks of those of features and render")
       ->check(CLI::Range(2, 100'000'000));
   command
       ->add_option("--area-fraction", options->area_fraction, "One cell of the engine's table: phi")
@@ -141,6 +145,8 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       options->accuracy.json = options->json;
       if (options->duration > 0.0) options->accuracy.duration = options->duration;
       exit_code = bench_accuracy(options->accuracy);
+    } else if (options->name == "features") {
+      exit_code = bench_features(options->json, options->count);
     } else if (options->name == "render") {
       exit_code = bench_render(options->json, options->count);
     } else {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/output/similarity.h"
 #include "app/resources.h"
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/output/similarity.h"
 #include "render/renderer.h"
 
 namespace clatter {

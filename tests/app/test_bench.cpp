@@ -146,4 +146,21 @@ TEST_CASE("Coarser pictures are less like the best" * doctest::test_suite("slow"
   CHECK(dial_of(table, "antialiasing")[0].at("ssim") == 1.0);
 }
 
+TEST_CASE("The table of features has each as a share of the bare run") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter bench features --count 50 --json t.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json table = json::parse(shell.read("t.json"));
+  REQUIRE(table.size() == 16);
+  CHECK(std::ranges::count(outcome.out, '\n') == 17);
+  CHECK(table[0].at("feature") == "bare");
+  CHECK(table[0].at("rate_over_bare") == 1.0);
+  for (const json& row : table) {
+    CAPTURE(row.dump());
+    CHECK(row.at("rate_over_bare") > 0.01);
+    CHECK(row.at("rate_over_bare") < 3.0);
+  }
+}
+
 }  // namespace clatter
