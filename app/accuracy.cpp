@@ -13,17 +13,20 @@
 namespace clatter {
 
 void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal) {
-  command
-      .add_option("--accuracy", goal.relative,
-                  "End once the standard error of the temperature is that share of it, e.g. 1% or "
-                  "0.01; at --until, or else at the scene's end, at the latest")
-      ->transform(share())
-      ->type_name("SHARE");
+  CLI::Option* accuracy =
+      command
+          .add_option(
+              "--accuracy", goal.relative,
+              "End once the standard error of the temperature is that share of it, e.g. 1% or "
+              "0.01; at --until, or else at the scene's end, at the latest")
+          ->transform(share())
+          ->type_name("SHARE");
   command
       .add_option("--accuracy-of", goal.of,
                   "Of which mean of the result --accuracy speaks, e.g. pressure.left or "
                   "energy.dissipated")
       ->type_name("NAME")
+      ->needs(accuracy)
       ->capture_default_str();
 }
 

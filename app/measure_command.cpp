@@ -7,6 +7,7 @@
 
 #include "app/accuracy.h"
 #include "app/commands.h"
+#include "app/ensemble.h"
 #include "app/hdf5_file.h"
 #include "app/interrupt.h"
 #include "app/resources.h"
@@ -29,6 +30,7 @@ struct MeasureOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
   AccuracyGoal accuracy;
+  int replicas = 1;
   std::string out;         // result file; empty: stdout
   std::string csv;         // folder for tables; empty: none
   std::string vtk;         // folder for maps; empty: none
@@ -136,6 +138,39 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
   if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured);
 }
 
+void require_bounded_samples(const Measure& spec, double end) {
+  if (end / spec.series_interval > kMostSamples) {
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMostSamples));
+  }
+  if (spec.estimator == Estimator::Snapshot &&
+      (end - spec.burn_in) / spec.interval > kMostSamples) {
+    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
+                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
+  }
+}
+
+// Seeds alone differ, so that nothing else can be asked of a single run.
+int measure_replicas(const MeasureOptions& options, const Scene& scene, double end) {
+  if (!scene.changes.empty()) {
+    throw UserError({"--replicas", 0, 0}, "the scene's laws change",
+                    "measure it seed by seed, or take out [[change]]");
+  }
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
+  catch_interrupts();
+  const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end};
+  Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
+  const std::string text = measure_ensemble(scene, ensemble, progress).dump(1) + "\n";
+  if (options.out.empty()) {
+    print(text);
+  } else {
+    write_file(options.out, text);
+  }
+  return interrupted() ? kInterrupted : kOk;
+}
+
 int measure(const MeasureOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
   const Measure& spec = scene.measure;
@@ -151,17 +186,8 @@ int measure(const MeasureOptions& options) {
                         ", and the run ends at " + number_text(end),
                     "go beyond that");
   }
-  if (end / spec.series_interval > kMostSamples) {
-    throw UserError(
-        {"measure.series_interval", 0, 0},
-        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
-        "choose at least " + number_text(end / kMostSamples));
-  }
-  if (spec.estimator == Estimator::Snapshot &&
-      (end - spec.burn_in) / spec.interval > kMostSamples) {
-    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
-                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
-  }
+  require_bounded_samples(spec, end);
+  if (options.replicas > 1) return measure_replicas(options, scene, end);
   prepare_outputs(options, spec);
   catch_interrupts();
 
@@ -223,6 +249,17 @@ void add_measure_command(CLI::App& program, int& exit_code) {
                    "Write the disks at the end, from which a scene may start: "
                    "--set 'disks.start={layout=\"file\",file=\"FILE.csv\"}'")
       ->type_name("FILE.csv");
+  CLI::Option* replicas =
+      command
+          ->add_option("--replicas", options->replicas,
+                       "Measure so many runs, of the seed and those that follow it, on all "
+                       "processors at once; the result has means over them, and all of theirs")
+          ->check(CLI::Range(1, 100'000))
+          ->type_name("N");
+  for (const char* other :
+       {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5", "--save-state"}) {
+    replicas->excludes(command->get_option(other));
+  }
   command->callback([options, &exit_code] { exit_code = measure(*options); });
 }
 

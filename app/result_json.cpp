@@ -40,8 +40,7 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
   return estimates;
 }
 
-// Where a dotted name points to.
-static Json::json_pointer pointer(std::string name) {
+Json::json_pointer estimate_pointer(std::string name) {
   std::ranges::replace(name, '.', '/');
   return Json::json_pointer("/" + name);
 }
@@ -87,7 +86,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   const bool averaged = measured.duration > 0.0;
   if (averaged) {
     for (const auto& [name, estimate] : estimates_of(measured)) {
-      json[pointer(name)] = estimate_json(estimate);
+      json[estimate_pointer(name)] = estimate_json(estimate);
     }
     json["energy"]["ledger_residual"] = measured.ledger_residual;
   }

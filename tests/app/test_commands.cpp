@@ -140,7 +140,7 @@ TEST_CASE("Every command explains each of its flags") {
            Command{"measure",
                    true,
                    {"--resume", "--checkpoint", "--out", "--csv", "--save-state", "--accuracy",
-                    "--accuracy-of"}},
+                    "--accuracy-of", "--replicas"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
            Command{"bench",

@@ -359,6 +359,26 @@ TEST_CASE("A measurement ends once its mean is as precise as asked, and says how
   check_refused(shell, line + "--accuracy 100%", {"a share such as 1% or 0.01"});
 }
 
+TEST_CASE("Replicas measured at once have the numbers of those measured one by one") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.burn_in=10 --until 40 ";
+  const Outcome outcome = shell.run(line + "--replicas 3 --seed 5 --out all.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json all = json::parse(shell.read("all.json"));
+  CHECK(all.at("seeds") == json{5, 6, 7});
+  REQUIRE(all.at("results").size() == 3);
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    json one = json::parse(shell.run(line + "--seed " + std::to_string(5 + k)).out);
+    one.erase("performance");
+    CHECK(all.at("results")[k] == one);
+    sum += one.at("pressure").at("left").at("mean").get<double>();
+  }
+  CHECK(mean(all.at("pressure").at("left")) == doctest::Approx(sum / 3.0));
+  check_refused(shell, line + "--replicas 2 --checkpoint c", {"--replicas", "--checkpoint"});
+}
+
 TEST_CASE("Of a gas that cools it is said that it is not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
