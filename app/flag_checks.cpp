@@ -37,6 +37,23 @@ CLI::Validator number_between(double low, double high) {
   return number_check([=](double x) { return x >= low && x <= high; }, wanted);
 }
 
+CLI::Validator share() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const bool percent = text.ends_with('%');
+        const double number = number_in(percent ? text.substr(0, text.size() - 1) : text);
+        const double value = percent ? 0.01 * number : number;
+        if (!(value > 0.0 && value < 1.0)) {
+          return "'" + text + "' is wrong; give a share such as 1% or 0.01";
+        }
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%.17g", value);
+        text = digits;
+        return "";
+      },
+      "");
+}
+
 CLI::Validator seed_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {

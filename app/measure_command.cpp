@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/accuracy.h"
 #include "app/commands.h"
+#include "app/ensemble.h"
 #include "app/hdf5_file.h"
 #include "app/interrupt.h"
 #include "app/resources.h"
@@ -27,6 +29,8 @@ namespace {
 struct MeasureOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
+  AccuracyGoal accuracy;
+  int replicas = 1;
   std::string out;         // result file; empty: stdout
   std::string csv;         // folder for tables; empty: none
   std::string vtk;         // folder for maps; empty: none
@@ -106,6 +110,18 @@ void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
   if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
 }
 
+nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene, Run& run,
+                               const Measured& measured, const Performance& performance) {
+  auto json = result_json(scene, run.seed(), run.simulation(), measured, performance);
+  const AccuracyGoal& goal = options.accuracy;
+  if (goal.asked_for() && measured.duration > 0.0) {
+    json["accuracy"] = {{"of", goal.of},
+                        {"asked", goal.relative},
+                        {"reached", relative_error(estimate_for(goal, measured))}};
+  }
+  return json;
+}
+
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
                    const Measured& measured) {
   if (options.out.empty()) {
@@ -120,6 +136,39 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
                   ", state hash " + result.at("state_hash").get<std::string>());
   }
   if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured);
+}
+
+void require_bounded_samples(const Measure& spec, double end) {
+  if (end / spec.series_interval > kMostSamples) {
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMostSamples));
+  }
+  if (spec.estimator == Estimator::Snapshot &&
+      (end - spec.burn_in) / spec.interval > kMostSamples) {
+    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
+                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
+  }
+}
+
+// Seeds alone differ, so that nothing else can be asked of a single run.
+int measure_replicas(const MeasureOptions& options, const Scene& scene, double end) {
+  if (!scene.changes.empty()) {
+    throw UserError({"--replicas", 0, 0}, "the scene's laws change",
+                    "measure it seed by seed, or take out [[change]]");
+  }
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
+  catch_interrupts();
+  const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end};
+  Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
+  const std::string text = measure_ensemble(scene, ensemble, progress).dump(1) + "\n";
+  if (options.out.empty()) {
+    print(text);
+  } else {
+    write_file(options.out, text);
+  }
+  return interrupted() ? kInterrupted : kOk;
 }
 
 int measure(const MeasureOptions& options) {
@@ -137,33 +186,32 @@ int measure(const MeasureOptions& options) {
                         ", and the run ends at " + number_text(end),
                     "go beyond that");
   }
-  if (end / spec.series_interval > kMostSamples) {
-    throw UserError(
-        {"measure.series_interval", 0, 0},
-        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
-        "choose at least " + number_text(end / kMostSamples));
-  }
-  if (spec.estimator == Estimator::Snapshot &&
-      (end - spec.burn_in) / spec.interval > kMostSamples) {
-    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
-                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
-  }
+  require_bounded_samples(spec, end);
+  if (options.replicas > 1) return measure_replicas(options, scene, end);
   prepare_outputs(options, spec);
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   Measurement& measurement = run.measure(end);
+  if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
   {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
-    run.until(end, progress);
+    if (options.accuracy.asked_for()) {
+      run_to_goal(options.accuracy, run, measurement, end, progress);
+    } else {
+      run.until(end, progress);
+    }
   }
   run.put_aside();
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
-  write_results(options, result_json(scene, run.seed(), run.simulation(), measured, performance),
-                measured);
-  if (!options.common.quiet) advise_on_contact_time(scene, measured);
+  write_results(options, json_of(options, scene, run, measured, performance), measured);
+  if (!options.common.quiet) {
+    advise_on_contact_time(scene, measured);
+    if (options.accuracy.asked_for()) tell_accuracy(options.accuracy, measured);
+    warn_of_drift(options.accuracy, measured);
+  }
   if (!options.save_state.empty()) {
     write_file(options.save_state, state_to_csv(run.simulation().state()));
   }
@@ -180,6 +228,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
       "measure", "Run a scene without pictures and write what its [measure] block asks for");
   add_common_flags(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
+  add_accuracy_flags(*command, options->accuracy);
   command->add_option("--out", options->out, "Result file (default: stdout)")
       ->type_name("FILE.json");
   command->add_option("--csv", options->csv, "Folder for tables of series, profiles and maps")
@@ -200,6 +249,17 @@ void add_measure_command(CLI::App& program, int& exit_code) {
                    "Write the disks at the end, from which a scene may start: "
                    "--set 'disks.start={layout=\"file\",file=\"FILE.csv\"}'")
       ->type_name("FILE.csv");
+  CLI::Option* replicas =
+      command
+          ->add_option("--replicas", options->replicas,
+                       "Measure so many runs, of the seed and those that follow it, on all "
+                       "processors at once; the result has means over them, and all of theirs")
+          ->check(CLI::Range(1, 100'000))
+          ->type_name("N");
+  for (const char* other :
+       {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5", "--save-state"}) {
+    replicas->excludes(command->get_option(other));
+  }
   command->callback([options, &exit_code] { exit_code = measure(*options); });
 }
 

@@ -21,6 +21,11 @@ Progress::~Progress() {
   if (bar_shown_) std::fputs("\r\033[K", stderr);
 }
 
+void Progress::expect(double end, std::string doing) {
+  end_ = end;
+  doing_ = std::move(doing);
+}
+
 static std::string spell_seconds(double seconds) {
   constexpr double kLongest = 1e9;  // some thirty years
   if (!(seconds < kLongest)) return "ages";

@@ -18,6 +18,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// The run is now expected to end at `end`; `doing` names it from now on.
+  void expect(double end, std::string doing);
   /// The run has come to `time`; prints if it is time to.
   void update(double time);
 

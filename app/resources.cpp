@@ -1,5 +1,6 @@
 #include "app/resources.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <fstream>
@@ -19,6 +20,11 @@ double cpu_seconds() {
 
 std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage().ru_maxrss) * 1024;
+}
+
+double heap_bytes() {
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
 void restart_peak_memory() {

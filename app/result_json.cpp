@@ -17,23 +17,32 @@ static Json estimate_json(const Estimate& estimate) {
   return {{"mean", estimate.mean}, {"standard_error", estimate.standard_error}};
 }
 
-static Json pressure_json(const Measured& measured) {
-  Json json = Json::object();
+std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measured) {
+  std::vector<std::pair<std::string, Estimate>> estimates;
+  const auto add = [&](const std::string& name, const std::optional<Estimate>& estimate) {
+    if (estimate) estimates.emplace_back(name, *estimate);
+  };
+  add("temperature", measured.temperature);
+  add("temperature_x", measured.temperature_x);
+  add("temperature_y", measured.temperature_y);
+  add("spin_temperature", measured.spin_temperature);
+  add("kurtosis_excess_x", measured.kurtosis_excess_x);
+  add("kurtosis_excess_y", measured.kurtosis_excess_y);
+  add("collision_rate", measured.collision_rate);
+  add("energy.walls_in", measured.walls_in);
+  add("energy.bulk_in", measured.bulk_in);
+  add("energy.gravity_in", measured.gravity_in);
+  add("energy.dissipated", measured.dissipated);
   for (int side = 0; side < 4; ++side) {
-    if (measured.pressure[side]) json[kSideNames[side]] = estimate_json(*measured.pressure[side]);
+    add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
   }
-  if (measured.compressibility) json["virial"] = estimate_json(*measured.compressibility);
-  return json;
+  add("pressure.virial", measured.compressibility);
+  return estimates;
 }
 
-static Json energy_json(const Measured& measured) {
-  Json json = Json::object();
-  if (measured.walls_in) json["walls_in"] = estimate_json(*measured.walls_in);
-  if (measured.bulk_in) json["bulk_in"] = estimate_json(*measured.bulk_in);
-  if (measured.gravity_in) json["gravity_in"] = estimate_json(*measured.gravity_in);
-  json["dissipated"] = estimate_json(measured.dissipated);
-  json["ledger_residual"] = measured.ledger_residual;
-  return json;
+Json::json_pointer estimate_pointer(std::string name) {
+  std::ranges::replace(name, '.', '/');
+  return Json::json_pointer("/" + name);
 }
 
 static Json profile_json(const Profile& profile) {
@@ -76,28 +85,20 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   // A run that was interrupted in its burn-in has no averages, and nor have no disks.
   const bool averaged = measured.duration > 0.0;
   if (averaged) {
-    json["temperature"] = estimate_json(measured.temperature);
-    json["temperature_x"] = estimate_json(measured.temperature_x);
-    json["temperature_y"] = estimate_json(measured.temperature_y);
-    if (measured.spin_temperature) {
-      json["spin_temperature"] = estimate_json(*measured.spin_temperature);
+    for (const auto& [name, estimate] : estimates_of(measured)) {
+      json[estimate_pointer(name)] = estimate_json(estimate);
     }
+    json["energy"]["ledger_residual"] = measured.ledger_residual;
   }
   json["temperature_series"] = {{"time", measured.series_time},
                                 {"translational", measured.series_temperature}};
   if (scene.spins()) json["temperature_series"]["spin"] = measured.series_spin_temperature;
-  if (averaged) {
-    json["kurtosis_excess_x"] = estimate_json(measured.kurtosis_excess_x);
-    json["kurtosis_excess_y"] = estimate_json(measured.kurtosis_excess_y);
-    json["collision_rate"] = estimate_json(measured.collision_rate);
-    json["energy"] = energy_json(measured);
-  }
-  if (Json pressure = pressure_json(measured); !pressure.empty()) json["pressure"] = pressure;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
   if (measured.residuals) json["balance"] = balance_json(*measured.residuals);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
+  if (averaged) json["checks"]["temperature_drift"] = measured.temperature.drift;
   if (scene.contact_time) {
     const double collisions = std::max<double>(1.0, static_cast<double>(measured.disk_disk));
     json["checks"]["elasticised_share"] = static_cast<double>(measured.elasticised) / collisions;

@@ -1,14 +1,25 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
 namespace clatter {
 
-/// A mean and its standard error.
+/// A mean, its standard error, and how far both may be relied on.
 struct Estimate {
   double mean = 0.0;
   double standard_error = 0.0;
+  /// By how much the squared error has risen over the last two doublings of the blocks that it was
+  /// found from, at least 1; what is far above 1 may rise further in a longer series.
+  double rise = 1.0;
+  /// The mean of the series' second half less that of the first, over their combined standard
+  /// error, each enlarged by its rise: beyond some 3 the series is not stationary. 0 where there
+  /// are fewer than 512 values.
+  double drift = 0.0;
+
+  /// The standard error if the squared one rises once more as it did.
+  double cautious_error() const { return standard_error * std::sqrt(rise); }
 };
 
 /// Standard error of the mean of a correlated, stationary series by blocking (Flyvbjerg & Petersen
@@ -20,6 +31,10 @@ double blocked_error(std::vector<double> series);
 
 /// Mean of a series and its standard error by blocking.
 Estimate mean_estimate(std::span<const double> series);
+
+/// A function of means, `mean`, whose error and course are those of a series of contributions: what
+/// each value of the means adds to it, linearised.
+Estimate linear_estimate(double mean, const std::vector<double>& contributions);
 
 /// sum(numerator)/sum(denominator) and its standard error by blocking of the linearised ratio; mean
 /// 0 where the denominator is.

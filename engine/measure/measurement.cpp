@@ -199,32 +199,30 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<2>>& windows, int
   for (std::size_t k = 0; k < fourth.size(); ++k) {
     fourth[k] = (fourth[k] / (m2 * m2) - 2.0 * m4 * second[k] / (m2 * m2 * m2)) / 3.0;
   }
-  return {m4 / (3.0 * m2 * m2) - 1.0, blocked_error(std::move(fourth))};
+  return linear_estimate(m4 / (3.0 * m2 * m2) - 1.0, fourth);
 }
 
-Measured Measurement::result() {
+Measured Measurement::means() const {
   const Model<2>& model = simulation_.model();
   const auto count = static_cast<double>(simulation_.disks().size());
-  // The last window ends with the run, perhaps a rounding error before its time.
-  const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
-  if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
   Measured measured;
   measured.burn_in = averages_start_;
   measured.series_time = series_time_;
   measured.series_temperature = series_temperature_;
   measured.series_spin_temperature = series_spin_temperature_;
   measured.ledger_residual = totals_.ledger_residual();
-  if (windows_.empty() || count == 0.0) return measured;
+  if (count == 0.0) return measured;
   const auto estimate = [&](const auto& quantity) {
     return mean_estimate(series_of(windows_, quantity));
   };
   measured.duration = static_cast<double>(windows_.size()) * window_;
   const EventCounts& counts = simulation_.counts();
-  measured.disk_disk = counts.disk_disk - counts_at_start_.disk_disk;
-  measured.disk_wall = counts.disk_wall - counts_at_start_.disk_wall;
-  measured.kicks = counts.kicks - counts_at_start_.kicks;
-  measured.elasticised = counts.elasticised - counts_at_start_.elasticised;
-  measured.elasticised_wall = counts.elasticised_wall - counts_at_start_.elasticised_wall;
+  const EventCounts& at_start = started_ ? counts_at_start_ : counts;
+  measured.disk_disk = counts.disk_disk - at_start.disk_disk;
+  measured.disk_wall = counts.disk_wall - at_start.disk_wall;
+  measured.kicks = counts.kicks - at_start.kicks;
+  measured.elasticised = counts.elasticised - at_start.elasticised;
+  measured.elasticised_wall = counts.elasticised_wall - at_start.elasticised_wall;
   measured.temperature = estimate([](const auto& w) { return 0.5 * w.temperature.sum(); });
   measured.temperature_x = estimate([](const auto& w) { return w.temperature.x(); });
   measured.temperature_y = estimate([](const auto& w) { return w.temperature.y(); });
@@ -266,6 +264,15 @@ Measured Measurement::result() {
     measured.compressibility = ratio_estimate(virial, thermal);
     measured.compressibility->mean += 1.0;
   }
+  return measured;
+}
+
+Measured Measurement::result() {
+  // The last window ends with the run, perhaps a rounding error before its time.
+  const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
+  if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
+  Measured measured = means();
+  if (windows_.empty() || simulation_.disks().empty()) return measured;
   if (balance_) {
     if (windows_.size() % kWindowsPerBalance != 0) close_balance();
     measured.residuals = residuals_;

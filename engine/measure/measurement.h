@@ -65,6 +65,14 @@ class Measurement {
 
   /// What has been measured up to the simulation's time.
   Measured result();
+  /// Likewise, in whole windows and without fields; before the first window has passed means are 0,
+  /// and there are those that result() will have.
+  Measured means() const;
+
+  /// Simulation time at which averages start.
+  double averages_start() const { return averages_start_; }
+  /// Duration of the windows of time that averages consist of.
+  double window() const { return window_; }
 
   /// All that has been measured up to the simulation's time, for a checkpoint.
   std::string save();

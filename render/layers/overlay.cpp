@@ -13,21 +13,6 @@ namespace clatter {
 
 namespace {
 
-// Dear ImGui's functions act on a context that is global: ours is current only while we work, so
-// that the window's own is left alone.
-class CurrentContext {
- public:
-  explicit CurrentContext(ImGuiContext* context) : previous_(ImGui::GetCurrentContext()) {
-    ImGui::SetCurrentContext(context);
-  }
-  CurrentContext(const CurrentContext&) = delete;
-  CurrentContext& operator=(const CurrentContext&) = delete;
-  ~CurrentContext() { ImGui::SetCurrentContext(previous_); }
-
- private:
-  ImGuiContext* previous_;
-};
-
 // In units of a line of text: from the picture's edge to the texts, and the column's width.
 constexpr float kEdge = 1.2f;
 constexpr float kColumn = 16.0f;
@@ -205,13 +190,7 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
 
 }  // namespace
 
-Overlay::Overlay(const Gl& gl) : gui_(gl) {
-  const CurrentContext restored(ImGui::GetCurrentContext());
-  context_.reset(ImGui::CreateContext());
-  ImGui::SetCurrentContext(context_.get());
-  ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-}
+Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
 
 Fonts Overlay::fonts_for(Size size) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <imgui.h>
-
-#include <memory>
 #include <string>
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
+#include "render/layers/gui_context.h"
 #include "render/layers/gui_layer.h"
 #include "render/layers/legend.h"
 #include "render/theme.h"
@@ -34,15 +32,11 @@ class Overlay {
             const OverlayText& text, const ThemeColours& theme);
 
  private:
-  struct DestroyContext {
-    void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
-  };
-
   /// Loads the fonts for a picture of `size`; the context must be current.
   Fonts fonts_for(Size size);
 
   GuiLayer gui_;
-  std::unique_ptr<ImGuiContext, DestroyContext> context_;
+  GuiContext context_;
   float loaded_size_ = 0.0f;  ///< of the text of the loaded fonts, pixels; 0: none yet
 };
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/shell.h"
@@ -37,6 +38,129 @@ TEST_CASE("The table of what fields cost has a row of each estimator, and of the
   // Thirty snapshots know less than whole flights.
   CHECK(table[1].at("variance") == table[2].at("variance"));
   CHECK(table[7].at("variance") > table[2].at("variance"));
+}
+
+namespace {
+
+const json& dial_of(const json& table, const std::string& name) {
+  for (const json& dial : table.at("dials")) {
+    if (dial.at("dial") == name) return dial.at("settings");
+  }
+  FAIL("no dial " << name);
+  return table;
+}
+
+double bias(const json& setting, const std::string& quantity) {
+  return setting.at("bias").at(quantity).at("mean");
+}
+
+double error(const json& setting, const std::string& quantity) {
+  return setting.at("bias").at(quantity).at("standard_error");
+}
+
+}  // namespace
+
+TEST_CASE("The table of accuracy compares each setting of a dial with the finest") {
+  const Shell shell;
+  shell.write("page.md", "before\n<!-- tables -->\nold\n<!-- end of tables -->\nafter\n");
+  const Outcome outcome = shell.run(
+      "clatter bench accuracy --duration 40 --dial contact_time --dial estimator "
+      "--json t.json --csv t.csv --plot t.png --markdown page.md");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(says(outcome.err, "8 runs of each setting, seeds 1 to 8, of 40 time units"));
+  const json table = json::parse(shell.read("t.json"));
+  REQUIRE(table.at("dials").size() == 2);
+
+  const json& contact_time = dial_of(table, "contact_time");
+  REQUIRE(contact_time.size() == 7);
+  CHECK(contact_time[0].at("setting") == "off");
+  CHECK(bias(contact_time[0], "temperature") == 0.0);
+  CHECK(contact_time[0].at("elasticised_share").is_null());
+  // 8 runs: 7 standard errors of as few as that happen once in 5000 numbers.
+  CHECK(std::fabs(bias(contact_time[1], "temperature")) <
+        7.0 * error(contact_time[1], "temperature"));
+  CHECK(bias(contact_time[6], "temperature") > 0.5);
+  CHECK(contact_time[6].at("elasticised_share") > 0.1);
+  CHECK(contact_time[6].at("error") > 0.5);
+
+  // Snapshots leave the run as it is.
+  const json& estimator = dial_of(table, "estimator");
+  CHECK(bias(estimator[5], "temperature") == 0.0);
+  CHECK(bias(estimator[5], "dissipation") == 0.0);
+  CHECK(error(estimator[5], "stress") > error(estimator[1], "stress"));
+
+  CHECK(std::ranges::count(shell.read("t.csv"), '\n') == 1 + 7 + 6);
+  CHECK(shell.read("t.png").substr(1, 3) == "PNG");
+  const std::string page = shell.read("page.md");
+  CHECK(page.starts_with("before\n<!-- tables -->\n"));
+  CHECK(page.ends_with("<!-- end of tables -->\nafter\n"));
+  CHECK(says(page, "| off |"));
+  CHECK_FALSE(says(page, "\nold\n"));
+  check_refused(shell, "clatter bench accuracy --dial colour",
+                {"no dial 'colour'", "contact_time"});
+}
+
+TEST_CASE("A time-stepped gas is the exact one in the limit of short steps only") {
+  const Shell shell;
+  shell.write("elastic.toml",
+              "box.size = [10, 10]\ndisks = { count = 40, restitution = 1.0 }\n"
+              "walls.left = { kind = 'static' }\nwalls.right = { kind = 'static' }\n");
+  const Outcome outcome = shell.run(
+      "clatter bench accuracy elastic.toml --duration 100 --dial time_step --json t.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json table = json::parse(shell.read("t.json"));
+  const json& steps = dial_of(table, "time_step");
+  CHECK(steps[0].at("deepest_overlap") < 1e-12);
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    // Bounces of elastic disks conserve their energy whatever the step.
+    CHECK(std::fabs(bias(steps[k], "temperature")) < 1e-9);
+    CHECK(steps[k].at("deepest_overlap") > steps[k - 1].at("deepest_overlap"));
+  }
+  // 8 runs, as above, and what is left of the error at dt = 0.001 and 0.003.
+  CHECK(std::fabs(bias(steps[2], "pressure")) < 7.0 * error(steps[2], "pressure") + 0.02);
+  CHECK(std::fabs(bias(steps[2], "stress")) < 7.0 * error(steps[2], "stress") + 0.02);
+  CHECK(bias(steps[6], "stress") < -0.1);
+}
+
+TEST_CASE("Coarser pictures are less like the best" * doctest::test_suite("slow")) {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "clatter bench accuracy --duration 20 --dial antialiasing --dial picture_size "
+      "--dial frame_rate --json t.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json table = json::parse(shell.read("t.json"));
+  for (const char* name : {"antialiasing", "picture_size", "frame_rate"}) {
+    CAPTURE(name);
+    const json& settings = dial_of(table, name);
+    CHECK(settings.front().at("ssim") > 0.99);
+    CHECK(settings.front().at("centre_error_pixels") < 0.3);
+    for (std::size_t k = 1; k < settings.size(); ++k) {
+      CHECK(settings[k].at("ssim") < settings[k - 1].at("ssim"));
+      CHECK(settings[k].at("centre_error_pixels") > settings[k - 1].at("centre_error_pixels"));
+      CHECK(settings[k].at("cpu_seconds_per_picture") > 0.0);
+    }
+  }
+  CHECK(dial_of(table, "antialiasing")[0].at("ssim") == 1.0);
+}
+
+TEST_CASE("The table of features has each as a share of the bare run") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter bench features --count 50 --json t.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json table = json::parse(shell.read("t.json"));
+  REQUIRE(table.size() == 16);
+  CHECK(std::ranges::count(outcome.out, '\n') == 17);
+  CHECK(table[0].at("feature") == "bare");
+  CHECK(table[0].at("rate_over_bare") == 1.0);
+  for (const json& row : table) {
+    CAPTURE(row.dump());
+    CHECK(row.at("rate_over_bare") > 0.01);
+    CHECK(row.at("rate_over_bare") < 3.0);
+  }
 }
 
 }  // namespace clatter

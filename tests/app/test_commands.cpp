@@ -40,7 +40,8 @@ TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
   CAPTURE(plain);
   for (const char* part : {"spins", "gravity", "moving walls", "bulk drive", "t_c"}) {
     CAPTURE(part);
-    CHECK(std::regex_search(plain, std::regex("\n  " + std::string(part) + " +0  no\n")));
+    CHECK(std::regex_search(plain,
+                            std::regex("\n  " + std::string(part) + " +0 +(x[0-9.]+|-)  no\n")));
   }
   CHECK_FALSE(says(plain, "kicks"));
   const std::string all =
@@ -53,12 +54,13 @@ TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
           .err;
   CAPTURE(all);
   CHECK(says(all, ", 200 kicks of all disks; "));
-  CHECK(std::regex_search(all, std::regex("\n  spins +8  yes\n")));
-  CHECK(std::regex_search(all, std::regex("\n  gravity +0  yes\n")));
-  CHECK(std::regex_search(all, std::regex("\n  t_c +8  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  spins +8 +x1.05  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  gravity +0 +x1.1  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  bulk drive +0 +x[0-9.]+  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  t_c +8 +x1  yes\n")));
   // Three numbers for each of 100 cells in 66 windows, and in 65 maps; and for each of 10 columns
   // in 1000 windows.
-  CHECK(std::regex_search(all, std::regex("\n  fields +5544  density, velocity\n")));
+  CHECK(std::regex_search(all, std::regex("\n  fields +5544 +x1.4  density, velocity\n")));
 }
 
 TEST_CASE("A flag wins over the scene") {
@@ -135,10 +137,16 @@ TEST_CASE("Every command explains each of its flags") {
                    {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
                     "--supersample", "--quality", "--overwrite", "--backend", "--resume",
                     "--checkpoint", "--checkpoint-every"}},
-           Command{"measure", true, {"--resume", "--checkpoint", "--out", "--csv", "--save-state"}},
+           Command{"measure",
+                   true,
+                   {"--resume", "--checkpoint", "--out", "--csv", "--save-state", "--accuracy",
+                    "--accuracy-of", "--replicas"}},
            Command{"check", true, {}},
            Command{"scenes", false, {}},
-           Command{"bench", false, {"--json", "--count", "--area-fraction", "--duration"}},
+           Command{"bench",
+                   false,
+                   {"--json", "--count", "--area-fraction", "--duration", "--dial", "--csv",
+                    "--plot", "--markdown"}},
        }) {
     const Outcome outcome = shell.run("clatter " + command.name + " --help");
     CAPTURE(command.name);

@@ -330,6 +330,65 @@ TEST_CASE("An interrupted measurement keeps what it has") {
   CHECK(shell.files() == std::vector<std::string>{"r.checkpoint", "r.json"});
 }
 
+TEST_CASE("A measurement ends once its mean is as precise as asked, and says how precise") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.fields=[] ";
+  const Outcome enough = shell.run(line + "--accuracy 3%");
+  REQUIRE(enough.code == 0);
+  const json result = json::parse(enough.out);
+  CHECK(result.at("accuracy").at("of") == "temperature");
+  CHECK(result.at("accuracy").at("asked") == 0.03);
+  const double reached = result.at("accuracy").at("reached");
+  CHECK(reached <= 0.03);
+  const json& temperature = result.at("temperature");
+  CHECK(reached >= temperature.at("standard_error").get<double>() / mean(temperature));
+  const double measured = result.at("time").at("measured");
+  CHECK(measured >= 256.0);
+  CHECK(measured < 2000.0);  // the scene's duration
+  CHECK(says(enough.err, "note: temperature = "));
+
+  const Outcome more = shell.run(line + "--accuracy 0.01 --accuracy-of pressure.left --until 800");
+  REQUIRE(more.code == 0);
+  const json late = json::parse(more.out);
+  CHECK(late.at("time").at("measured").get<double>() == doctest::Approx(300.0));
+  CHECK(late.at("accuracy").at("reached") > 0.01);
+  CHECK(says(more.err, "give that to --until"));
+
+  check_refused(shell, line + "--accuracy 1% --accuracy-of pressure.top",
+                {"no mean 'pressure.top'", "pressure.left"});
+  check_refused(shell, line + "--accuracy 100%", {"a share such as 1% or 0.01"});
+}
+
+TEST_CASE("Replicas measured at once have the numbers of those measured one by one") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.burn_in=10 --until 40 ";
+  const Outcome outcome = shell.run(line + "--replicas 3 --seed 5 --out all.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json all = json::parse(shell.read("all.json"));
+  CHECK(all.at("seeds") == json{5, 6, 7});
+  REQUIRE(all.at("results").size() == 3);
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    json one = json::parse(shell.run(line + "--seed " + std::to_string(5 + k)).out);
+    one.erase("performance");
+    CHECK(all.at("results")[k] == one);
+    sum += one.at("pressure").at("left").at("mean").get<double>();
+  }
+  CHECK(mean(all.at("pressure").at("left")) == doctest::Approx(sum / 3.0));
+  check_refused(shell, line + "--replicas 2 --checkpoint c", {"--replicas", "--checkpoint"});
+}
+
+TEST_CASE("Of a gas that cools it is said that it is not stationary") {
+  const Shell shell;
+  const Outcome cooling = shell.run("clatter measure cooling --until 5");
+  CHECK(says(cooling.err, "temperature is not stationary: in the second half"));
+  CHECK(says(cooling.err, "lower by"));
+  CHECK(json::parse(cooling.out).at("checks").at("temperature_drift") < -3.0);
+  const Outcome equilibrium = shell.run("clatter measure equilibrium --until 20");
+  CHECK_FALSE(says(equilibrium.err, "stationary"));
+}
+
 TEST_CASE("Progress is told on stderr as asked") {
   const Shell shell;
   const std::string interrupted =

@@ -54,6 +54,17 @@ TEST_CASE("A measurement that was interrupted or killed goes on to the same resu
   CHECK(shell.run("diff -r whole resumed").code == 0);
 }
 
+TEST_CASE("A measurement of a given accuracy goes on to the same result") {
+  const Shell shell;
+  const std::string line = kRun + "--accuracy 0.8% ";
+  REQUIRE(shell.run(line + "--out whole.json").code == 0);
+  const json whole = result_of(shell, "whole.json");
+  REQUIRE(whole.at("time").at("measured") < 2979.0);
+  REQUIRE(cut_off(shell, line + "--out part.json", "KILL").code == 137);
+  REQUIRE(shell.run(line + "--resume c --out resumed.json").code == 0);
+  CHECK(result_of(shell, "resumed.json") == whole);
+}
+
 TEST_CASE("An interrupted run leaves a checkpoint beside its result and names it") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 1 ";

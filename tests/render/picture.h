@@ -7,6 +7,7 @@
 #include "engine/publish/snapshot.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/output/similarity.h"
 #include "render/palette.h"
 #include "render/theme.h"
 
@@ -33,9 +34,8 @@ inline int difference(const Image& a, const Image& b) {
   return largest;
 }
 
-/// How alike two pictures of one size look, 1: the same; the structural similarity of Wang et al.,
 /// IEEE Trans. Image Process. 13, 600 (2004), of the green channel, over squares of 8 pixels.
-inline double similarity(const Image& a, const Image& b) {
+inline double structural_similarity(const Image& a, const Image& b) {
   constexpr int kSide = 8;
   const double c1 = std::pow(0.01 * 255.0, 2), c2 = std::pow(0.03 * 255.0, 2);
   double sum = 0.0;

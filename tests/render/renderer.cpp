@@ -319,13 +319,13 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);
     const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
-    CHECK(similarity(one, one) == 1.0);
+    CHECK(structural_similarity(one, one) == 1.0);
     for (const int samples : {2, 4}) {
       CAPTURE(size.width);
       CAPTURE(samples);
       Renderer finer(context->gl(), samples);
       const Image many = draw(finer, context->gl(), snapshot, camera, size, view);
-      CHECK(similarity(one, many) >= 0.98);
+      CHECK(structural_similarity(one, many) >= 0.98);
       CHECK(difference(one, many) > 10);
       for (std::size_t i = 3; i < many.rgba.size(); i += 4) REQUIRE(many.rgba[i] == 255);
     }

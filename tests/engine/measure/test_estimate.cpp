@@ -124,3 +124,35 @@ TEST_CASE("ratio_estimate: nothing below the line gives nothing") {
   CHECK(ratio.mean == 0.0);
   CHECK(ratio.standard_error == 0.0);
 }
+
+TEST_CASE("mean_estimate: a stationary series has no drift, and one that rises has") {
+  // Of 100 series of 4096 values none is expected beyond 5 errors; of one that is higher by 20
+  // errors in its second half the drift is that, within the 13 % to which errors are known.
+  std::vector<double> drifts;
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    drifts.push_back(mean_estimate(autoregressive(4096, 0.5, k)).drift);
+  }
+  CHECK(std::ranges::max(drifts) < 5.0);
+  CHECK(std::ranges::min(drifts) > -5.0);
+  CHECK(std::fabs(mean(drifts)) < 0.5);  // 5 standard errors
+
+  auto series = autoregressive(4096, 0.0, 101);
+  for (std::size_t k = 2048; k < 4096; ++k) series[k] += 20.0 * std::sqrt(2.0 / 2048.0);
+  CHECK(mean_estimate(series).drift == doctest::Approx(20.0).epsilon(0.4));
+  CHECK(mean_estimate(std::vector<double>(4096, 0.1)).drift == 0.0);
+  CHECK(mean_estimate(autoregressive(511, 0.5, 0)).drift == 0.0);
+}
+
+TEST_CASE("mean_estimate: its error is known to rise where blocks are shorter than correlations") {
+  // Blocks of 4, 2 and 1 of 128 values, against a correlation time of 100; and of 4096 values that
+  // are independent, of which the last level is uncertain to 1/sqrt(62).
+  double slow = 0.0, white = 0.0;
+  for (std::uint32_t k = 0; k < 20; ++k) {
+    slow += mean_estimate(autoregressive(128, 0.99, k)).rise / 20.0;
+    white += mean_estimate(autoregressive(4096, 0.0, k)).rise / 20.0;
+  }
+  CHECK(slow > 3.0);
+  CHECK(white < 1.5);
+  const Estimate estimate{1.0, 0.1, 4.0, 0.0};
+  CHECK(estimate.cautious_error() == doctest::Approx(0.2));
+}

@@ -1,4 +1,4 @@
-#include "app/bench_fields.h"
+#include "app/bench/fields.h"
 
 #include <algorithm>
 #include <cstdio>

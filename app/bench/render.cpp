@@ -1,4 +1,4 @@
-#include "app/bench_render.h"
+#include "app/bench/render.h"
 
 #include <sys/resource.h>
 #include <time.h>

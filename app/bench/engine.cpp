@@ -1,0 +1,151 @@
+#include "app/bench/engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/resources.h"
+#include "app/write_file.h"
+#include "engine/error.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/lattice.h"
+#include "render/context/context.h"
+#include "render/layers/plot.h"
+
+namespace clatter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What one cell of the engine's table shows.
+struct EngineRate {
+  int count;
+  double area_fraction;
+  double rate;            // millions of disk-disk collisions per CPU second, best of three
+  double setup_seconds;   // CPU time to build the start state and the simulation
+  double bytes_per_disk;  // peak resident size less that before the state was built
+};
+
+// Elastic disks in a periodic square box.
+Scene scene_of(int count, double area_fraction) {
+  Scene scene;
+  scene.disks.count = count;
+  scene.box.setConstant(std::sqrt(count * 0.25 * std::numbers::pi / area_fraction));
+  return scene;
+}
+
+bool has_room(int count, double area_fraction) {
+  return lattice_capacity(start_room(scene_of(count, area_fraction))) >= count;
+}
+
+// In equilibrium.
+EngineRate measure_engine(int count, double area_fraction) {
+  constexpr std::uint64_t kEquilibration = 10;  // collisions per disk
+  constexpr int kRepetitions = 3;
+  const Scene scene = scene_of(count, area_fraction);
+  restart_peak_memory();
+  const std::uint64_t memory_before = peak_memory_bytes();
+  const double setup_began = cpu_seconds();
+  const auto simulation = simulation_of(scene, 1);
+  EngineRate result{count, area_fraction, 0.0, cpu_seconds() - setup_began, 0.0};
+  const auto disks = static_cast<std::uint64_t>(count);
+  simulation->run_until(kNever, kEquilibration * disks / 2);
+  const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, disks);
+  for (int k = 0; k < kRepetitions; ++k) {
+    const double began = cpu_seconds();
+    simulation->run_until(kNever, simulation->counts().disk_disk + batch);
+    const double rate = 1e-6 * static_cast<double>(batch) / (cpu_seconds() - began);
+    result.rate = std::max(result.rate, rate);
+  }
+  result.bytes_per_disk =
+      static_cast<double>(peak_memory_bytes() - memory_before) / static_cast<double>(count);
+  return result;
+}
+
+// Prints the rows of a table and gives them as JSON.
+Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<EngineRate>& rates) {
+  std::fprintf(stderr,
+               "elastic disks, periodic box; Mcoll/s: 10^6 disk-disk collisions per CPU second\n");
+  std::printf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s", "bytes/disk");
+  Json json = Json::array();
+  for (const auto& [count, area_fraction] : cells) {
+    const EngineRate r = measure_engine(count, area_fraction);
+    rates.push_back(r);
+    std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.area_fraction, r.rate,
+                r.setup_seconds, r.bytes_per_disk);
+    std::fflush(stdout);
+    json.push_back({{"count", r.count},
+                    {"area_fraction", r.area_fraction},
+                    {"million_collisions_per_cpu_second", r.rate},
+                    {"setup_seconds", r.setup_seconds},
+                    {"bytes_per_disk", r.bytes_per_disk}});
+  }
+  return json;
+}
+
+void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) {
+  Plot plot{.title = "How fast collisions are",
+            .caption = "Elastic disks in a periodic box, one core, by area fraction phi",
+            .x_name = "number of disks",
+            .y_name = "million collisions per CPU second",
+            .panels = {}};
+  double area_fraction = 0.0;
+  for (const EngineRate& rate : rates) {
+    char text[32];
+    if (rate.area_fraction != area_fraction) {
+      std::snprintf(text, sizeof text, "phi = %g", rate.area_fraction);
+      plot.panels.push_back({text, {}});
+      area_fraction = rate.area_fraction;
+    }
+    std::snprintf(text, sizeof text, "%.2f", rate.rate);
+    plot.panels.back().points.push_back({static_cast<double>(rate.count), rate.rate, text, false});
+  }
+  const auto context = open_context(Backend::Auto);
+  write_png(file, plot_image(context->gl(), plot, {1600, 1000}, kLightTheme));
+}
+
+}  // namespace
+
+int bench_engine(const std::string& json, int count, double area_fraction) {
+  std::vector<std::pair<int, double>> cells;
+  if (count > 0) {
+    if (!has_room(count, area_fraction)) {
+      throw UserError({"--area-fraction", 0, 0}, "no square box holds so many disks so densely",
+                      "choose a smaller one, or another --count");
+    }
+    cells = {{count, area_fraction}};
+  } else {
+    for (const double phi : {0.1, 0.3, 0.5, 0.7}) {
+      for (const int disks : {1'000, 10'000, 100'000, 1'000'000}) cells.emplace_back(disks, phi);
+    }
+  }
+  std::vector<EngineRate> rates;
+  const Json rows = print_rates(cells, rates);
+  if (!json.empty()) write_file(json, rows.dump(1) + "\n");
+  return kOk;
+}
+
+int bench_growth(const std::string& json, const std::string& plot, int count) {
+  constexpr double kMiddle = 0.5;  // area fraction that is followed to the largest numbers
+  std::vector<std::pair<int, double>> cells;
+  for (const double phi : {0.01, 0.1, 0.3, kMiddle, 0.7, 0.88}) {
+    for (const int disks : {100, 1'000, 10'000, 100'000, 1'000'000, 4'000'000}) {
+      const int most = phi == kMiddle ? 4'000'000 : 100'000;
+      const bool wanted = disks <= (count > 0 ? std::min(count, most) : most);
+      if (wanted && has_room(disks, phi)) cells.emplace_back(disks, phi);
+    }
+  }
+  if (!plot.empty()) require_writable_file(plot, "--plot");
+  std::vector<EngineRate> rates;
+  const Json rows = print_rates(cells, rates);
+  if (!json.empty()) write_file(json, rows.dump(1) + "\n");
+  if (!plot.empty()) plot_growth(plot, rates);
+  return kOk;
+}
+
+}  // namespace clatter

@@ -1,0 +1,228 @@
+#include "app/bench/features.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "app/commands.h"
+#include "app/resources.h"
+#include "app/write_file.h"
+#include "engine/checkpoint/checkpoint.h"
+#include "engine/measure/balance.h"
+#include "engine/measure/cell_integrals.h"
+#include "engine/publish/latest.h"
+#include "engine/publish/publish.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr double kAreaFraction = 0.3;
+constexpr int kRounds = 7;
+constexpr std::uint64_t kPerDisk = 200;  // collisions in a round
+
+// A gas with one thing more than the bare one.
+struct Feature {
+  const char* name;
+  std::function<void(Scene&)> add;       // to the bare scene
+  std::vector<Field> fields = {};        // taken while it runs
+  std::optional<double> snapshots = {};  // apart by this time; absent: exact
+  double frames = 0.0;                   // published a time unit
+  bool balance = false;                  // whether all balance equations are booked
+  bool checkpoint = false;               // whether one is written after each round
+};
+
+// A run of a feature, from which a batch of collisions is timed again and again.
+class Trial {
+ public:
+  Trial(const Feature& feature, const Scene& scene)
+      : feature_(feature), scene_(scene), simulation_(simulation_of(scene, 1)) {
+    equilibrate();
+    if (!feature.fields.empty()) take_fields();
+    if (feature.balance) {
+      balance_.emplace(*simulation_, IntVec<2>(scene_.box.cast<int>()));
+      simulation_->add_observer(*balance_);
+    }
+    if (feature.frames > 0.0) {
+      simulation_->every(simulation_->time(), 1.0 / feature.frames, [this](double) {
+        frames_.back() = snapshot_of(*simulation_);
+        frames_.publish();
+      });
+    }
+  }
+
+  // Collisions with disks and walls per CPU second.
+  double rate(std::uint64_t batch) {
+    const std::uint64_t before = collisions();
+    const double began = cpu_seconds();
+    simulation_->run_until(kNever, before + batch);
+    if (feature_.checkpoint) put_aside();
+    return static_cast<double>(collisions() - before) / (cpu_seconds() - began);
+  }
+
+ private:
+  std::uint64_t collisions() const {
+    return simulation_->counts().disk_disk + simulation_->counts().disk_wall;
+  }
+
+  void equilibrate() {
+    constexpr std::uint64_t kAtFirst = 20;
+    simulation_->run_until(kNever, kAtFirst * static_cast<std::uint64_t>(scene_.disks.count));
+  }
+
+  void take_fields() {
+    const bool samples = feature_.snapshots.has_value();
+    integrals_.emplace(*simulation_, IntVec<2>(scene_.box.cast<int>()),
+                       moment_layout<2>(feature_.fields, simulation_->model().spins),
+                       Coarsening{samples ? Estimator::Snapshot : Estimator::Exact, {}});
+    simulation_->add_observer(*integrals_);
+    if (samples) {
+      simulation_->every(simulation_->time() + *feature_.snapshots, *feature_.snapshots,
+                         [this](double) { integrals_->sample(); });
+    }
+  }
+
+  void put_aside() {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("clatter-bench-" + std::to_string(getpid()));
+    Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
+                          .command = "bench",
+                          .scene = scene_to_toml(scene_),
+                          .start_temperature = scene_.disks.start.temperature,
+                          .seed = 1,
+                          .saved = simulation_->save(),
+                          .measurement = {}};
+    write_checkpoint(file, checkpoint);
+    std::filesystem::remove(file);
+    std::filesystem::remove(previous_checkpoint(file));
+  }
+
+  const Feature& feature_;
+  Scene scene_;
+  std::unique_ptr<Simulation<2>> simulation_;
+  std::optional<CellIntegrals<2>> integrals_;
+  std::optional<Balance<2>> balance_;
+  Latest<Snapshot> frames_;
+};
+
+void add_walls(Scene& scene, Side near, const Wall& wall) {
+  scene.walls[near] = scene.walls[near + 1] = wall;
+}
+
+// Little enough for a gas that nothing drives to stay what it was while it is timed.
+void lose_energy(Scene& scene) {
+  scene.disks.restitution = 0.999;
+}
+
+void shake(Scene& scene) {
+  scene.disks.restitution = 0.9;
+  add_walls(scene, kLeft, {.kind = WallKind::Driven, .drive_speed = 1.0});
+}
+
+std::vector<Feature> features() {
+  const auto nothing = [](Scene&) {};
+  const std::vector<Field> temperature = {Field::Temperature};
+  const std::vector<Field> all = {
+      Field::Density,  Field::VelocityX, Field::VelocityY, Field::Temperature, Field::StressXx,
+      Field::StressYy, Field::StressXy,  Field::HeatFluxX, Field::HeatFluxY,   Field::Dissipation};
+  return {{"bare", nothing},
+          {"bare again", nothing},
+          {"inelastic", lose_energy},
+          {"inelastic, driven walls", shake},
+          {"inelastic, moving walls",
+           [](Scene& scene) {
+             scene.disks.restitution = 0.9;
+             add_walls(scene, kLeft, {.kind = WallKind::Sawtooth, .stroke = 0.1, .frequency = 5.0});
+           }},
+          {"inelastic, bulk drive",
+           [](Scene& scene) {
+             scene.disks.restitution = 0.9;
+             scene.bulk_drive = BulkDrive{.interval = 0.05, .kick_speed = 0.12};
+           }},
+          {"walls on four sides",
+           [](Scene& scene) {
+             add_walls(scene, kLeft, {});
+             add_walls(scene, kBottom, {});
+           }},
+          {"gravity",
+           [](Scene& scene) {
+             add_walls(scene, kBottom, {});
+             scene.gravity = Vec2(0.0, -0.02);
+           }},
+          {"rough",
+           [](Scene& scene) {
+             scene.disks.roughness = {.friction = std::numeric_limits<double>::infinity(),
+                                      .tangential_restitution = 1.0};
+           }},
+          {"t_c",
+           [](Scene& scene) {
+             lose_energy(scene);
+             scene.contact_time = 1e-6;
+           }},
+          {"fields exact", nothing, temperature},
+          {"fields exact, all", nothing, all},
+          {"fields snapshot 1", nothing, temperature, 1.0},
+          {"balance", nothing, {}, {}, 0.0, true},
+          {"60 frames a time unit", nothing, {}, {}, 60.0},
+          {"checkpoint each round", nothing, {}, {}, 0.0, false, true}};
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+}  // namespace
+
+int bench_features(const std::string& json, int count) {
+  Scene bare;
+  bare.disks.count = count > 0 ? count : 1000;
+  bare.box.setConstant(std::sqrt(bare.disks.count * 0.25 * std::numbers::pi / kAreaFraction));
+  const auto batch = kPerDisk * static_cast<std::uint64_t>(bare.disks.count);
+  std::fprintf(stderr,
+               "%d disks, phi = %g; each %d rounds of %llu collisions, interleaved; rate: "
+               "collisions with disks and walls per CPU second over those of the bare run "
+               "(elastic, periodic) in the "
+               "same round, median\n",
+               bare.disks.count, kAreaFraction, kRounds, static_cast<unsigned long long>(batch));
+
+  const std::vector<Feature> added = features();
+  std::vector<std::unique_ptr<Trial>> trials;
+  for (const Feature& feature : added) {
+    Scene scene = bare;
+    feature.add(scene);
+    trials.push_back(std::make_unique<Trial>(feature, scene));
+  }
+  std::vector<std::vector<double>> rates(added.size()), ratios(added.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      rates[k].push_back(trials[k]->rate(batch));
+      ratios[k].push_back(rates[k].back() / rates[0].back());
+    }
+  }
+
+  std::printf("%-24s %9s %7s\n", "with", "Mcoll/s", "rate");
+  auto rows = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    const double rate = 1e-6 * median(rates[k]), ratio = median(ratios[k]);
+    std::printf("%-24s %9.3f %7.3f\n", added[k].name, rate, ratio);
+    rows.push_back({{"feature", added[k].name},
+                    {"million_collisions_per_cpu_second", rate},
+                    {"rate_over_bare", ratio}});
+  }
+  if (!json.empty()) write_file(json, rows.dump(1) + "\n");
+  return kOk;
+}
+
+}  // namespace clatter

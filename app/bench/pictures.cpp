@@ -1,0 +1,191 @@
+#include "app/bench/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/resources.h"
+#include "engine/publish/publish.h"
+#include "engine/publish/scheduled_run.h"
+#include "render/canvas.h"
+#include "render/context/context.h"
+#include "render/output/similarity.h"
+#include "render/renderer.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Size kLarge{1920, 1080}, kMedium{1280, 720};
+constexpr int kMostSamples = 4;
+
+// Disks in their plain colour on a plain ground, so that a centre is that of their light.
+View plain_view() {
+  View view;
+  view.colour_by = ColourBy::None;
+  view.field.reset();
+  view.overlay = false;
+  return view;
+}
+
+struct Drawn {
+  Image image;
+  Projection projection;
+  double cpu_seconds;
+};
+
+Drawn draw(const Gl& gl, const Snapshot& snapshot, Size size, int samples) {
+  constexpr int kFrames = 5;
+  const View view = plain_view();
+  const Canvas canvas(gl, size);
+  Renderer renderer(gl, samples);
+  Drawn drawn{{}, {renderer.fit(snapshot, size, view, {}), size}, 0.0};
+  double began = 0.0;
+  for (int k = 0; k <= kFrames; ++k) {
+    if (k == 1) began = cpu_seconds();  // the first warms caches up
+    canvas.bind();
+    renderer.draw(snapshot, drawn.projection.camera, size, view, {});
+    drawn.image = canvas.read();
+  }
+  drawn.cpu_seconds = (cpu_seconds() - began) / kFrames;
+  return drawn;
+}
+
+// Disks that stand apart, at all places within a pixel.
+Snapshot apart(const Snapshot& snapshot) {
+  constexpr double kSpacing = 2.5;
+  Snapshot sparse = snapshot;
+  sparse.positions.clear();
+  double shift = 0.0;
+  for (double y = kSpacing; y < sparse.box.y() - 0.5 * kSpacing; y += kSpacing) {
+    for (double x = kSpacing; x < sparse.box.x() - 0.5 * kSpacing; x += kSpacing) {
+      shift = std::fmod(shift + std::numbers::phi - 1.0, 1.0);
+      sparse.positions.push_back({x + 0.3 * shift, y + 0.3 * std::fmod(7.0 * shift, 1.0)});
+    }
+  }
+  sparse.velocities.assign(sparse.positions.size(), Vec2(0.0, 0.0));
+  sparse.spins.clear();
+  return sparse;
+}
+
+// The centre of the light around a place, pixels from the upper left corner.
+Vec2 centre_of_light(const Image& image, const Vec2& place, double radius) {
+  const auto brightness = [&](int x, int y) {
+    const auto at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.size.width) +
+                         static_cast<std::size_t>(x));
+    return static_cast<double>(image.rgba[at] + image.rgba[at + 1] + image.rgba[at + 2]);
+  };
+  const auto low = [&](double at) { return std::max(0, static_cast<int>(at - radius)); };
+  const int left = low(place.x()), top = low(place.y());
+  const int right = std::min(image.size.width - 1, static_cast<int>(place.x() + radius));
+  const int bottom = std::min(image.size.height - 1, static_cast<int>(place.y() + radius));
+  const double ground = brightness(left, top);
+  Vec2 sum(0.0, 0.0);
+  double light = 0.0;
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x) {
+      const double here = std::fabs(brightness(x, y) - ground);
+      light += here;
+      sum += here * Vec2(x + 0.5, y + 0.5);
+    }
+  }
+  return light > 0.0 ? Vec2(sum / light) : place;
+}
+
+// Root mean square distance of centres in a picture from where disks are, in its pixels.
+double centre_error(const Drawn& drawn, const Snapshot& snapshot) {
+  double squares = 0.0;
+  for (const Vec2& position : snapshot.positions) {
+    Vec2 place = drawn.projection.pixels(position);
+    place.y() = drawn.projection.size.height - place.y();
+    const double radius = 0.9 * snapshot.diameter * drawn.projection.scale();
+    squares += (centre_of_light(drawn.image, place, radius) - place).squaredNorm();
+  }
+  return std::sqrt(squares / static_cast<double>(snapshot.positions.size()));
+}
+
+PictureTable antialiasing(const Gl& gl, const Snapshot& snapshot) {
+  PictureTable table{"antialiasing", "samples a pixel, along each axis, at 1280x720", {}};
+  const Snapshot sparse = apart(snapshot);
+  const Drawn best = draw(gl, snapshot, kMedium, kMostSamples);
+  for (const int samples : {4, 3, 2, 1}) {
+    const Drawn drawn = draw(gl, snapshot, kMedium, samples);
+    table.rows.push_back({std::to_string(samples), static_cast<double>(samples), drawn.cpu_seconds,
+                          structural_similarity(drawn.image, best.image),
+                          centre_error(draw(gl, sparse, kMedium, samples), sparse)});
+  }
+  return table;
+}
+
+PictureTable sizes(const Gl& gl, const Snapshot& snapshot) {
+  PictureTable table{"picture_size", "size, enlarged to 1920x1080", {}};
+  const Snapshot sparse = apart(snapshot);
+  const Drawn best = draw(gl, snapshot, kLarge, kMostSamples);
+  for (const Size size : {kLarge, kMedium, Size{854, 480}, {426, 240}, {214, 120}}) {
+    const Drawn drawn = draw(gl, snapshot, size, 1);
+    const double enlarged = static_cast<double>(kLarge.width) / size.width;
+    table.rows.push_back({std::to_string(size.width) + "x" + std::to_string(size.height),
+                          static_cast<double>(size.width), drawn.cpu_seconds,
+                          structural_similarity(resized(drawn.image, kLarge), best.image),
+                          enlarged * centre_error(draw(gl, sparse, size, 1), sparse)});
+  }
+  return table;
+}
+
+// A frame stays until the next, so that what is seen is on average half a frame old.
+PictureTable frame_rates(const Gl& gl, Simulation<2>& simulation, double speed) {
+  PictureTable table{
+      "frame_rate", "frames a second of film, at 1280x720; ms for a second of film", {}};
+  double start = simulation.time();
+  for (const double fps : {240.0, 120.0, 60.0, 30.0, 15.0}) {
+    simulation.run_until(start);
+    const Snapshot shown = snapshot_of(simulation);
+    simulation.run_until(start + 0.5 * speed / fps);
+    const Snapshot now = snapshot_of(simulation);
+    start = simulation.time();
+    const Drawn drawn = draw(gl, shown, kMedium, 1);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < now.positions.size(); ++i) {
+      Vec2 moved = now.positions[i] - shown.positions[i];
+      for (int axis = 0; axis < 2; ++axis) {
+        moved[axis] -= now.box[axis] * std::round(moved[axis] / now.box[axis]);
+      }
+      squares += moved.squaredNorm();
+    }
+    const auto count = static_cast<double>(now.positions.size());
+    table.rows.push_back(
+        {std::to_string(static_cast<int>(fps)), fps, fps * drawn.cpu_seconds,
+         structural_similarity(drawn.image, draw(gl, now, kMedium, kMostSamples).image),
+         drawn.projection.scale() * std::sqrt(squares / count)});
+  }
+  return table;
+}
+
+void mark_dominated(std::vector<PictureRow>& rows) {
+  for (PictureRow& row : rows) {
+    row.dominated = std::ranges::any_of(rows, [&](const PictureRow& other) {
+      return other.cpu_seconds < 0.9 * row.cpu_seconds && other.ssim > row.ssim &&
+             other.centre_error < row.centre_error;
+    });
+  }
+}
+
+}  // namespace
+
+PictureTable measure_pictures(const std::string& dial, const Scene& scene, double time) {
+  const auto simulation = simulation_of(scene, 1);
+  simulation->run_until(time);
+  const auto context = open_context(Backend::Auto);
+  PictureTable table;
+  if (dial == kPictureDials[0]) {
+    table = antialiasing(context->gl(), snapshot_of(*simulation));
+  } else if (dial == kPictureDials[1]) {
+    table = sizes(context->gl(), snapshot_of(*simulation));
+  } else {
+    table = frame_rates(context->gl(), *simulation, scene.view.speed);
+  }
+  mark_dominated(table.rows);
+  return table;
+}
+
+}  // namespace clatter

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/state.h"
+
+namespace clatter {
+
+/// What a time-stepped run adds up.
+struct SteppedSums {
+  double time = 0.0;
+  std::uint64_t collisions = 0;      ///< of disks
+  double squares = 0.0;              ///< time integral of sum v^2
+  double wall_impulse = 0.0;         ///< of both walls
+  double stress = 0.0;               ///< time integral of that along the axis, times area
+  double dissipated = 0.0;           ///< energy
+  double deepest_overlap = 0.0;      ///< of two disks, in diameters, before it is resolved
+  std::vector<double> disks;         ///< [columns] time integral of the disks in each
+  std::vector<double> heat_carried;  ///< [columns] likewise of the heat flux times the area
+};
+
+/// A gas moved as games and first courses do it: all disks fly for a time step, and then those that
+/// overlap bounce and are put side by side. Smooth disks between two static or driven walls,
+/// periodic along them; what is measured against the exact engine, no mode of the program.
+class TimeStepped {
+ public:
+  /// Whether a scene has only what this engine knows.
+  static bool can_run(const Scene& scene);
+
+  /// Starts at a state; `columns` are those of profiles along the axis from wall to wall.
+  TimeStepped(const Scene& scene, const State<2>& state, double step, int columns);
+
+  /// Goes on for a time, rounded to whole steps.
+  void run(double time);
+  /// Forgets what has been added up so far.
+  void restart_sums();
+
+  /// What has been added up since then.
+  const SteppedSums& sums() const { return sums_; }
+  /// Memory of its arrays, bytes.
+  double bytes() const;
+
+ private:
+  void advance();
+  void hit_walls();
+  void sort_into_cells();
+  void resolve_overlaps();
+  void resolve(std::uint32_t first, std::uint32_t second);
+  void bounce(std::uint32_t first, std::uint32_t second, const Vec2& separation);
+  void observe();
+  void add_heat(double from, double to, double heat);
+  Vec2 nearest(Vec2 separation) const;
+  int cell_of(const Vec2& position) const;
+  int column_of(double place) const;
+
+  int axis_;  // from wall to wall
+  Vec2 box_;
+  double restitution_;
+  std::array<Wall, 2> walls_;
+  double step_;
+  std::vector<Vec2> positions_, velocities_;
+  std::array<int, 2> cells_;
+  std::vector<int> starts_;            // [cells + 1] into sorted_
+  std::vector<std::uint32_t> sorted_;  // disks by cell
+  SteppedSums sums_;
+};
+
+}  // namespace clatter

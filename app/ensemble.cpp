@@ -1,0 +1,132 @@
+#include "app/ensemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "app/interrupt.h"
+#include "app/result_json.h"
+#include "engine/publish/scheduled_run.h"
+
+namespace clatter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Replica {
+  Json result;
+  std::vector<std::pair<std::string, Estimate>> estimates;
+};
+
+// Hands the replicas to threads and keeps what they bring.
+class Replicas {
+ public:
+  Replicas(const Scene& scene, const Ensemble& ensemble, Progress& progress)
+      : scene_(scene),
+        ensemble_(ensemble),
+        progress_(progress),
+        done_(static_cast<std::size_t>(ensemble.replicas)),
+        times_(done_.size()) {}
+
+  void run() {
+    const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 0; k < std::min(processors, done_.size()); ++k) {
+      threads.emplace_back([this] { work(); });
+    }
+    threads.clear();  // joins them
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  const std::vector<std::optional<Replica>>& done() const { return done_; }
+
+ private:
+  void work() {
+    while (const std::optional<std::size_t> next = take()) {
+      try {
+        measure(*next);
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        failure_ = std::current_exception();
+      }
+    }
+  }
+
+  std::optional<std::size_t> take() {
+    const std::scoped_lock lock(mutex_);
+    if (next_ == done_.size() || interrupted()) return {};
+    return next_++;
+  }
+
+  void measure(std::size_t index) {
+    constexpr std::uint64_t kSlice = 1 << 16;  // steps between looks at interrupts
+    const std::uint64_t seed = ensemble_.first_seed + index;
+    const auto simulation = simulation_of(scene_, seed);
+    Measurement measurement(*simulation, scene_.measure, ensemble_.end);
+    while (!simulation->run_until(ensemble_.end, Simulation<2>::kNoLimit,
+                                  simulation->counts().steps() + kSlice)) {
+      if (interrupted()) return;
+      tell(index, simulation->time());
+    }
+    const Measured measured = measurement.result();
+    Json result = result_json(scene_, seed, *simulation, measured, {});
+    result.erase("performance");
+    const std::scoped_lock lock(mutex_);
+    done_[index] = Replica{std::move(result), estimates_of(measured)};
+  }
+
+  void tell(std::size_t index, double time) {
+    const std::scoped_lock lock(mutex_);
+    times_[index] = time;
+    double sum = 0.0;
+    for (const double each : times_) sum += each;
+    progress_.update(sum);
+  }
+
+  const Scene& scene_;
+  Ensemble ensemble_;
+  Progress& progress_;
+  std::mutex mutex_;  // of all below
+  std::size_t next_ = 0;
+  std::vector<std::optional<Replica>> done_;
+  std::vector<double> times_;
+  std::exception_ptr failure_;
+};
+
+// The mean over replicas, which are independent.
+Json ensemble_estimate(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double value : values) mean += value / count;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {{"mean", mean},
+          {"standard_error", count > 1.0 ? std::sqrt(squares / (count * (count - 1.0))) : 0.0}};
+}
+
+}  // namespace
+
+Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
+  Replicas replicas(scene, ensemble, progress);
+  replicas.run();
+  Json json{{"schema", 1}, {"seeds", Json::array()}, {"results", Json::array()}};
+  std::vector<const Replica*> done;
+  for (const std::optional<Replica>& replica : replicas.done()) {
+    if (!replica) continue;
+    done.push_back(&*replica);
+    json["seeds"].push_back(replica->result.at("seed"));
+    json["results"].push_back(replica->result);
+  }
+  for (std::size_t k = 0; !done.empty() && k < done.front()->estimates.size(); ++k) {
+    std::vector<double> values;
+    for (const Replica* replica : done) values.push_back(replica->estimates[k].second.mean);
+    json[estimate_pointer(done.front()->estimates[k].first)] = ensemble_estimate(values);
+  }
+  return json;
+}
+
+}  // namespace clatter
