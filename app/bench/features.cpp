@@ -101,7 +101,8 @@ class Trial {
                           .start_temperature = scene_.disks.start.temperature,
                           .seed = 1,
                           .saved = simulation_->save(),
-                          .measurement = {}};
+                          .measurement = {},
+                          .film = {}};
     write_checkpoint(file, checkpoint);
     std::filesystem::remove(file);
     std::filesystem::remove(previous_checkpoint(file));
