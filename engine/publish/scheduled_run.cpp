@@ -50,23 +50,31 @@ void ScheduledRun::change(const std::vector<Override>& laws) {
 }
 
 void ScheduledRun::change_laws(Schedule changed) {
-  auto next =
-      std::make_unique<Simulation<2>>(model_of(changed.scene(), seed_), simulation_->save());
-  if (on_change) on_change(*next);
-  if (field_) field_ = std::make_unique<LiveField>(*next, view_, std::move(*field_));
-  simulation_ = std::move(next);
+  go_on_as(std::make_unique<Simulation<2>>(model_of(changed.scene(), seed_), simulation_->save()));
   schedule_ = std::move(changed);
 }
 
-void ScheduledRun::show(const View& view) {
+// All that watches is handed over to another simulation with the disks where they are.
+void ScheduledRun::go_on_as(std::unique_ptr<Simulation<2>> next) {
+  if (on_change) on_change(*next);
+  if (shown_) shown_ = std::make_unique<ViewObservers>(*next, view_, exposure_, shown_.get());
+  simulation_ = std::move(next);
+}
+
+// Observers stay with their simulation, so that those of another view need another one.
+void ScheduledRun::show(const View& view, double exposure) {
   view_ = view;
-  field_.reset();
-  if (view.shows_averages()) field_ = std::make_unique<LiveField>(*simulation_, view);
+  exposure_ = exposure;
+  if (shown_) {
+    go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+  } else {
+    shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure);
+  }
 }
 
 Snapshot ScheduledRun::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
-  if (field_) field_->publish(snapshot);
+  if (shown_) shown_->publish(snapshot);
   return snapshot;
 }
 

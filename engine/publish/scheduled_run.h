@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/measure/live_field.h"
 #include "engine/publish/snapshot.h"
+#include "engine/publish/view_observers.h"
 #include "engine/scene/schedule.h"
 
 namespace clatter {
@@ -44,8 +44,9 @@ class ScheduledRun {
   /// UserError or PhysicalStop where they cannot; nothing has then happened.
   void change(const std::vector<Override>& laws);
 
-  /// From now on snapshots have the averages that the view shows, if any.
-  void show(const View& view);
+  /// From now on snapshots have all that the view shows, in pictures of a time `exposure` >= 0
+  /// each: averages, flights, the angles by which disks have turned.
+  void show(const View& view, double exposure = 0.0);
   /// The gas at the simulation's time.
   Snapshot snapshot();
 
@@ -54,12 +55,14 @@ class ScheduledRun {
 
  private:
   void change_laws(Schedule changed);
+  void go_on_as(std::unique_ptr<Simulation<2>> next);
 
   Schedule schedule_;
   std::uint64_t seed_;
   std::unique_ptr<Simulation<2>> simulation_;
   View view_;
-  std::unique_ptr<LiveField> field_;
+  double exposure_ = 0.0;
+  std::unique_ptr<ViewObservers> shown_;  // absent: nothing asked for
 };
 
 }  // namespace clatter

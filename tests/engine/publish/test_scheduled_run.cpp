@@ -85,6 +85,33 @@ TEST_CASE("ScheduledRun: the live field goes on across changes") {
   }
 }
 
+TEST_CASE(
+    "ScheduledRun: pictures show flights and angles where they are asked for, and disks turn on") {
+  const Scene scene = load_scene("rough_driven");
+  ScheduledRun plain(scene, 16), shown(scene, 16);
+  plain.run_until(1.0);
+  shown.show(scene.view);
+  shown.run_until(0.5);
+  CHECK(plain.snapshot().angles.empty());
+  CHECK(shown.snapshot().angles.size() == shown.simulation().disks().size());
+  CHECK(shown.snapshot().flights.empty());
+  // Whatever is shown from now on: nothing of the former view may be told of events any more.
+  View view = scene.view;
+  for (int k = 1; k <= 20; ++k) {
+    view.field = k % 2 == 0 ? std::optional(Field::Density) : std::nullopt;
+    shown.show(view, 0.01);
+    shown.run_until(0.5 + 0.025 * k);
+  }
+  CHECK(shown.snapshot().exposure == doctest::Approx(0.01));
+  CHECK(shown.snapshot().flights.size() >= shown.simulation().disks().size());
+  CHECK(shown.simulation().state_hash() == plain.simulation().state_hash());
+  ScheduledRun steady(scene, 16);
+  steady.show(scene.view);
+  steady.run_until(1.0);
+  const std::vector<double> a = shown.snapshot().angles, b = steady.snapshot().angles;
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == b[i]);
+}
+
 TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
   ScheduledRun run(vibrated(), 15);
   run.run_until(3.0);
