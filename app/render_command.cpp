@@ -10,6 +10,7 @@
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
+#include "render/camera_path.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
 #include "render/output/frame_sink.h"
@@ -50,7 +51,9 @@ struct RenderOptions {
   std::optional<double> to;
   std::optional<double> speed;
   int supersample = 1;
+  double shutter = 0.0;
   bool no_overlay = false;
+  bool transparent = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
 };
@@ -109,19 +112,32 @@ FrameTimes frame_times(const RenderOptions& options, double start, double speed)
   return {from, interval, static_cast<long>(frames)};
 }
 
+// Films have no transparency.
+void require_pictures(const RenderOptions& options) {
+  const auto extension = std::filesystem::path(options.out).extension();
+  if (!options.transparent || extension.empty() || extension == ".png") return;
+  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be without a background",
+                  "write to a FILE.png or to a folder, or leave --transparent out");
+}
+
 // Draws one frame after the other; fewer than there are times where the run ended early.
-long film(Run& run, const View& view, const OverlayText& text, const FrameTimes& times,
-          Renderer& renderer, const Canvas& canvas, FrameSink& sink, Progress& progress) {
+long film(Run& run, const View& view, double exposure, OverlayText text, const FrameTimes& times,
+          Renderer& renderer, const Canvas& canvas, bool transparent, FrameSink& sink,
+          Progress& progress) {
   canvas.bind();
-  run.scheduled().show(view);
-  std::optional<Camera> camera;
+  run.scheduled().show(view, exposure);
+  std::optional<Camera> whole;
   for (long k = 0; k < times.count; ++k) {
     const double time = times.from + static_cast<double>(k) * times.interval;
     if (!run.until(time, progress)) return k;
     const Snapshot snapshot = run.scheduled().snapshot();
-    if (!camera) camera = renderer.fit(snapshot, canvas.size(), view, text);
-    renderer.draw(snapshot, *camera, canvas.size(), view, text);
-    sink.add(canvas.read(), time);
+    if (!whole) whole = renderer.fit(snapshot, canvas.size(), view, text);
+    const Camera camera = camera_at(view.camera, snapshot, *whole);
+    if (view.card && times.interval > 0.0) {
+      text.card = card_opacity(*view.card, (time - times.from) / view.speed);
+    }
+    renderer.draw(snapshot, camera, canvas.size(), view, text);
+    sink.add(transparent ? with_own_colours(canvas.read()) : canvas.read(), time);
     progress.update(time);
   }
   return times.count;
@@ -143,12 +159,13 @@ int render(const RenderOptions& options) {
   const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
   require_distinct(outputs);
   require_folder_of(options.out, "--out");
+  require_pictures(options);
   catch_interrupts();
 
   Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   const auto context = open_context(options.backend);
   const Canvas canvas(context->gl(), size);
-  Renderer renderer(context->gl(), options.supersample);
+  Renderer renderer(context->gl(), options.supersample, options.transparent);
   SinkOptions sink_options;
   sink_options.size = size;
   sink_options.fps = fps_of(options);
@@ -163,8 +180,9 @@ int render(const RenderOptions& options) {
   {
     Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
                       times.last());
-    frames =
-        film(run, view, {scene.title, scene.caption}, times, renderer, canvas, *sink, progress);
+    const double exposure = options.shutter * view.speed / fps_of(options);
+    frames = film(run, view, exposure, {scene.title, scene.caption}, times, renderer, canvas,
+                  options.transparent, *sink, progress);
   }
   run.put_aside();
   if (frames == 0) return run.end();
@@ -218,8 +236,15 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "Draw all but the overlay so many times larger, and average in linear light")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
+  command
+      ->add_option("--shutter", options->shutter,
+                   "Blur disks by their motion: share of the time between frames for which the "
+                   "shutter is open before each")
+      ->check(number_between(0.0, 1.0));
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
+  command->add_flag("--transparent", options->transparent,
+                    "Leave the background out, of a PNG picture or of a folder of them");
   command->add_flag("--overwrite", options->overwrite,
                     "Replace frames that a folder holds already");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")

@@ -131,7 +131,7 @@ int wrong_pixels(const Image& golden, const Image& image) {
 
 void compare(const Gl& gl) {
   for (const Golden& golden : kGolden) {
-    CAPTURE(golden.name);
+    CAPTURE(std::string(golden.name));
     const Image image = drawn(golden, gl);
     if (std::getenv("CLATTER_WRITE_GOLDEN")) write_png(file_of(golden), image);
     const Image kept = read_png(file_of(golden));
