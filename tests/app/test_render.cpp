@@ -106,9 +106,9 @@ TEST_CASE("A film begins with its title where a card is asked for") {
   const auto hash = [&](const std::string& file) {
     return shell.run("ffmpeg -v error -i " + file + " -f md5 -").out;
   };
-  CHECK(hash("card/000000.png") != hash("plain/000000.png"));
-  CHECK(hash("card/000001.png") != hash("plain/000001.png"));
-  for (const char* frame : {"000002", "000003"}) {
+  CHECK(hash("card/frame_000000.png") != hash("plain/frame_000000.png"));
+  CHECK(hash("card/frame_000001.png") != hash("plain/frame_000001.png"));
+  for (const char* frame : {"frame_000002", "frame_000003"}) {
     CHECK(hash("card/" + std::string(frame) + ".png") ==
           hash("plain/" + std::string(frame) + ".png"));
   }
