@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,6 +71,12 @@ class Archive {
   void item(std::vector<T>& vector) {
     self().length(vector);
     for (T& element : vector) item(element);
+  }
+
+  template <class T>
+  void item(std::deque<T>& deque) {
+    self().length(deque);
+    for (T& element : deque) item(element);
   }
 
   void item(std::string& text) {

@@ -65,6 +65,13 @@ struct Imbalances {
   Imbalances& operator+=(const Imbalances& other);
 };
 
+/// Passes over all members, in order, for checkpoints.
+template <class Archive, int D>
+void visit(Archive& io, Imbalances<D>& imbalances) {
+  auto& [gaps, sizes] = imbalances;
+  io(gaps, sizes);
+}
+
 /// How the balance equations close in one window of time.
 template <int D>
 struct BalanceWindow {

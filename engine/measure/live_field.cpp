@@ -81,6 +81,30 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& be
   watch(simulation, view.window / kWindowParts);
 }
 
+LiveField::LiveField(Simulation<2>& simulation, const View& view, ArchiveReader saved)
+    : field_(view.field),
+      arrows_(view.arrows),
+      averages_(averages_for(simulation, view)),
+      closure_(closure_for(simulation, view)) {
+  visit(saved);
+  saved.finish();
+  watch(simulation, view.window / kWindowParts);
+}
+
+std::string LiveField::save() {
+  ArchiveWriter writer;
+  visit(writer);
+  return writer.written();
+}
+
+template <class Archive>
+void LiveField::visit(Archive& io) {
+  auto& [field, arrows, averages, closure, start, closed] = *this;
+  if (averages) io(averages->observer, averages->sums);
+  if (closure) io(closure->observer, closure->sums);
+  io(start, closed);
+}
+
 void LiveField::watch(Simulation<2>& simulation, double part) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "engine/checkpoint/archive.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/moving_sum.h"
@@ -21,6 +22,12 @@ class LiveField {
   /// Goes on where that of the simulation before ended: this one has its disks at its time, under
   /// other laws.
   LiveField(Simulation<2>& simulation, const View& view, LiveField&& before);
+  /// Goes on where one that was saved ended: the simulation is at that time, under those laws.
+  /// Throws UserError where the view is another one.
+  LiveField(Simulation<2>& simulation, const View& view, ArchiveReader saved);
+
+  /// All that the averages to come depend on, beside simulation and view. Nothing changes by it.
+  std::string save();
 
   /// Puts into the snapshot what the view shows, over the window up to the simulation's time, or
   /// since the start where that is less.
@@ -38,6 +45,8 @@ class LiveField {
     FieldMap map(Field field) const;
   };
 
+  template <class Archive>
+  void visit(Archive& io);
   static std::optional<Averages> averages_for(const Simulation<2>& simulation, const View& view);
   static std::optional<Closure> closure_for(const Simulation<2>& simulation, const View& view);
   void watch(Simulation<2>& simulation, double part);

@@ -29,6 +29,13 @@ class MovingSum {
   /// Whether that reaches back by a whole window.
   bool whole() const { return parts_.size() == kWindowParts; }
 
+  /// What a checkpoint keeps: all of it.
+  template <class Archive>
+  void visit(Archive& io) {
+    auto& [parts, open] = *this;
+    io(parts, open);
+  }
+
  private:
   std::deque<Sums> parts_;  // closed, oldest first
   Sums open_{};             // under way

@@ -72,6 +72,21 @@ void ScheduledRun::show(const View& view, double exposure) {
   }
 }
 
+void ScheduledRun::show(const View& view, const std::string& saved, double exposure) {
+  if (saved.empty()) return show(view, exposure);
+  if (std::exchange(shown_, nullptr)) {
+    go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+  }
+  view_ = view;
+  exposure_ = exposure;
+  shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure,
+                                           ArchiveReader(saved, "what is shown"));
+}
+
+std::string ScheduledRun::save_shown() const {
+  return shown_ ? shown_->save() : "";
+}
+
 Snapshot ScheduledRun::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   if (shown_) shown_->publish(snapshot);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
@@ -47,6 +48,11 @@ class ScheduledRun {
   /// From now on snapshots have all that the view shows, in pictures of a time `exposure` >= 0
   /// each: averages, flights, the angles by which disks have turned.
   void show(const View& view, double exposure = 0.0);
+  /// Likewise, going on from what save_shown() gave at this time of a run with the same scene, view
+  /// and exposure; empty: anew.
+  void show(const View& view, const std::string& saved, double exposure = 0.0);
+  /// What snapshots have of the time before, as it is now; empty: nothing.
+  std::string save_shown() const;
   /// The gas at the simulation's time.
   Snapshot snapshot();
 

@@ -17,6 +17,32 @@ ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double
   if (simulation.model().spins) watch_spins(simulation, before);
 }
 
+ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
+                             ArchiveReader saved)
+    : view_(view), exposure_(exposure) {
+  if (view.shows_averages()) {
+    std::string averages;
+    saved(averages);
+    field_.emplace(simulation, view, ArchiveReader(averages, "averages"));
+  }
+  if (exposure > 0.0 || view.trails) watch_flights(simulation, nullptr);
+  if (simulation.model().spins) watch_spins(simulation, nullptr);
+  if (flights_) saved(*flights_);
+  if (angles_) saved(*angles_);
+  saved.finish();
+}
+
+std::string ViewObservers::save() {
+  ArchiveWriter writer;
+  if (field_) {
+    std::string averages = field_->save();
+    writer(averages);
+  }
+  if (flights_) writer(*flights_);
+  if (angles_) writer(*angles_);
+  return writer.written();
+}
+
 void ViewObservers::watch_field(Simulation<2>& simulation, ViewObservers* before) {
   if (before && before->field_ && same_averages(before->view_, view_)) {
     field_.emplace(simulation, view_, std::move(*before->field_));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include "engine/checkpoint/archive.h"
 #include "engine/measure/flight_recorder.h"
 #include "engine/measure/live_field.h"
 #include "engine/measure/spin_angles.h"
@@ -16,9 +18,14 @@ class ViewObservers {
   /// on with all that those `before` have of it, whose simulation had its disks there at its time.
   ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
                 ViewObservers* before = nullptr);
+  /// Goes on where those that were saved ended: the simulation is at that time, under those laws.
+  /// Throws UserError where they watched for another view.
+  ViewObservers(Simulation<2>& simulation, const View& view, double exposure, ArchiveReader saved);
   ViewObservers(const ViewObservers&) = delete;
   ViewObservers& operator=(const ViewObservers&) = delete;
 
+  /// All that pictures to come depend on, beside simulation and view; empty: nothing.
+  std::string save();
   /// Puts into the snapshot what the view shows at the simulation's time.
   void publish(Snapshot& snapshot);
 

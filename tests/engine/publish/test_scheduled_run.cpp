@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "engine/error.h"
@@ -125,4 +127,63 @@ TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
   CHECK(run.scene().changes.empty());
   CHECK(run.scene().disks.restitution == 0.9);
   CHECK(run.run_until(4.0));
+}
+
+TEST_CASE("ScheduledRun: averages that go on from a checkpoint are to the bit those of one run") {
+  for (const std::string field : {"temperature", "balance_energy"}) {
+    CAPTURE(field);
+    Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
+    scene.view.arrows = Arrows::Velocity;
+    scene.changes = {{.time = 4.0, .set = {{"disks.restitution", "0.8"}}}};
+    ScheduledRun whole(scene, 14);
+    whole.show(scene.view);
+    whole.run_until(3.1);  // within a part of a window
+    whole.snapshot();
+    whole.run_until(3.2);
+    const std::string averages = whole.save_shown();
+    ScheduledRun resumed(scene, 14, whole.simulation().save());
+    resumed.show(scene.view, averages);
+    for (const double time : {3.3, 4.7, 9.0}) {
+      whole.run_until(time);
+      resumed.run_until(time);
+      const Snapshot wanted = whole.snapshot(), found = resumed.snapshot();
+      REQUIRE(found.field->values.size() == wanted.field->values.size());
+      CHECK(std::ranges::equal(found.field->values, wanted.field->values, {},
+                               std::bit_cast<std::uint64_t, double>,
+                               std::bit_cast<std::uint64_t, double>));
+      CHECK(found.field->whole_window == wanted.field->whole_window);
+      REQUIRE(found.arrows->arrows.size() == wanted.arrows->arrows.size());
+      for (std::size_t i = 0; i < found.arrows->arrows.size(); ++i) {
+        CHECK(found.arrows->arrows[i].value == wanted.arrows->arrows[i].value);
+      }
+    }
+  }
+}
+
+TEST_CASE("ScheduledRun: flights and angles go on from a checkpoint as those of one run") {
+  Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
+  scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
+  ScheduledRun whole(scene, 15);
+  whole.show(scene.view, 0.1);
+  whole.run_until(2.0);
+  const std::string shown = whole.save_shown();
+  ScheduledRun resumed(scene, 15, whole.simulation().save());
+  resumed.show(scene.view, shown, 0.1);
+  for (const double time : {2.0, 2.4, 5.0}) {
+    whole.run_until(time);
+    resumed.run_until(time);
+    const Snapshot wanted = whole.snapshot(), found = resumed.snapshot();
+    CHECK(found.exposure == wanted.exposure);
+    CHECK(found.angles == wanted.angles);
+    REQUIRE(found.flights.size() == wanted.flights.size());
+    for (std::size_t i = 0; i < found.flights.size(); ++i) {
+      CHECK(found.flights[i].disk == wanted.flights[i].disk);
+      CHECK(found.flights[i].from == wanted.flights[i].from);
+      CHECK(found.flights[i].position == wanted.flights[i].position);
+    }
+  }
+  View other = scene.view;
+  other.trails.reset();
+  ScheduledRun unlike(scene, 15, whole.simulation().save());
+  CHECK_THROWS_AS(unlike.show(other, shown), UserError);
 }
