@@ -18,6 +18,7 @@
 #include "engine/publish/publish.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/output/child_process.h"
 #include "render/output/movie.h"
 #include "render/renderer.h"
 
@@ -30,9 +31,22 @@ constexpr double kFps = 30.0;
 
 // What a frame passes through. Disks, heatmap and overlay are parts of the drawing, done once more
 // by themselves.
-enum Stage { kSimulate, kSnapshot, kDraw, kDisks, kHeatmap, kOverlay, kRead, kPng, kX264, kStages };
-constexpr std::array<const char*, kStages> kNames = {
-    "simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"};
+enum Stage {
+  kSimulate,
+  kSnapshot,
+  kDraw,
+  kDisks,
+  kHeatmap,
+  kOverlay,
+  kRead,
+  kPng,
+  kX264,
+  kVeryfast,
+  kStages
+};
+constexpr std::array<const char*, kStages> kNames = {"simulate", "snapshot", "draw", "disks",
+                                                     "heatmap",  "overlay",  "read", "png",
+                                                     "x264",     "veryfast"};
 using Times = std::array<double, kStages>;  // milliseconds of CPU a frame
 
 // Of all threads of the program, since OpenGL may draw on several.
@@ -72,16 +86,51 @@ Scene scene_of(int count) {
   return scene;
 }
 
+std::filesystem::path temporary_file(const char* extension) {
+  return std::filesystem::temp_directory_path() /
+         ("clatter-bench-" + std::to_string(getpid()) + extension);
+}
+
+// The milliseconds of CPU that ffmpeg takes.
+double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> images = {}) {
+  const double before = children_milliseconds();
+  std::vector<std::string> command = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-f", "rawvideo"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  ChildProcess process(command);
+  for (const Image& image : images) process.write(image.rgba);
+  if (!process.wait()) throw RunError("ffmpeg failed: " + process.last_words());
+  return children_milliseconds() - before;
+}
+
+// The milliseconds of CPU a frame that x264 takes by its preset "veryfast", for pictures of which
+// it gets the very colours it encodes, and without its start.
+double encode_veryfast(std::span<const Image> images) {
+  const std::filesystem::path colours = temporary_file(".yuv");
+  const Size size = images.front().size;
+  const std::string size_text = std::to_string(size.width) + "x" + std::to_string(size.height);
+  ffmpeg({"-pix_fmt", "rgba", "-video_size", size_text, "-i", "pipe:0", "-f", "rawvideo",
+          "-pix_fmt", "yuv420p", colours.string()},
+         images);
+  const auto encode = [&](std::size_t frames) {
+    return ffmpeg({"-pix_fmt", "yuv420p", "-video_size", size_text, "-framerate",
+                   std::to_string(kFps), "-i", colours.string(), "-frames:v",
+                   std::to_string(frames), "-c:v", "libx264", "-preset", "veryfast", "-f", "null",
+                   "-"});
+  };
+  const double all = encode(images.size()), first = encode(1);
+  std::filesystem::remove(colours);
+  return (all - first) / static_cast<double>(images.size() - 1);
+}
+
 // The milliseconds of CPU that the encoder takes for a film.
 double encode(std::vector<Image> images) {
-  const std::filesystem::path film = std::filesystem::temp_directory_path() /
-                                     ("clatter-bench-" + std::to_string(getpid()) + ".mp4");
+  const std::filesystem::path film = temporary_file(".mp4");
   const double before = children_milliseconds();
   SinkOptions options;
   options.size = images.front().size;
   Movie movie(film, options);
-  for (Image& image : images) movie.add(std::move(image), 0.0);
-  movie.finish();
+  for (Image& image : images) movie.add(std::move(image), {});
+  movie.finish(Ending::Whole);
   std::filesystem::remove(film);
   return children_milliseconds() - before;
 }
@@ -108,6 +157,7 @@ class Filming {
     const double start = simulation_.time();
     for (int k = 1; k <= kFrames; ++k) images.push_back(frame(start + k / kFps));
     for (const Image& image : images) spend(times_, kPng, gl_, [&] { encode_png(image); });
+    times_[kVeryfast] = encode_veryfast(images);
     times_[kX264] = encode(std::move(images)) / kFrames;
     return times_;
   }
@@ -166,11 +216,13 @@ int bench_render(const std::string& json, int count) {
   const std::vector<int> counts =
       count > 0 ? std::vector{count} : std::vector{1'000, 10'000, 100'000, 1'000'000};
   const auto context = open_context(Backend::Auto);
-  std::fprintf(stderr,
-               "elastic disks at phi = 0.5 over a heatmap, %g frames a time unit, %s\n"
-               "milliseconds of CPU a frame, all threads; draw: the whole picture, of which disks, "
-               "heatmap and overlay are parts\n",
-               kFps, context->description().c_str());
+  std::fprintf(
+      stderr,
+      "elastic disks at phi = 0.5 over a heatmap, %g frames a time unit, %s\n"
+      "milliseconds of CPU a frame, all threads; draw: the whole picture, of which disks, "
+      "heatmap and overlay are parts; x264: as films are encoded, veryfast: by that preset\n"
+      "of x264 from its own colours\n",
+      kFps, context->description().c_str());
   std::printf("%8s %10s", "N", "size");
   for (const char* name : kNames) std::printf(" %8s", name);
   std::printf("\n");

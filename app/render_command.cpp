@@ -1,20 +1,19 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "app/commands.h"
+#include "app/film.h"
 #include "app/flag_checks.h"
 #include "app/interrupt.h"
 #include "app/run.h"
 #include "app/write_file.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
-#include "render/camera_path.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
 #include "render/output/frame_sink.h"
-#include "render/renderer.h"
 
 namespace clatter {
 
@@ -44,27 +43,21 @@ struct RenderOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
   std::string out;
-  Quality quality = Quality::Medium;
+  std::optional<Quality> quality;   // absent: medium
   std::optional<std::string> size;  // absent: that of the quality
   std::optional<double> fps;        // likewise
   std::optional<double> from;       // absent: 0, or the time of the checkpoint
   std::optional<double> to;
   std::optional<double> speed;
-  int supersample = 1;
-  double shutter = 0.0;
+  std::optional<std::string> frames;  // absent: all
+  std::optional<int> supersample;     // absent: 1
+  std::optional<double> shutter;      // absent: 0
   bool no_overlay = false;
   bool transparent = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
-};
 
-// When the frames are: k-th at from + k interval.
-struct FrameTimes {
-  double from;
-  double interval;
-  long count;
-
-  double last() const { return from + static_cast<double>(count - 1) * interval; }
+  bool one_picture() const { return std::filesystem::path(out).extension() == ".png"; }
 };
 
 Size parse_size(const std::string& text) {
@@ -78,38 +71,58 @@ Size parse_size(const std::string& text) {
                   "write WIDTHxHEIGHT, each from 16 to 16384, for instance 1280x720");
 }
 
-double fps_of(const RenderOptions& options) {
-  return options.fps.value_or(preset_of(options.quality).fps);
+FrameRange parse_frames(const std::string& text) {
+  FrameRange range;
+  char after;
+  const int read = std::sscanf(text.c_str(), "%ld:%ld%c", &range.begin, &range.end, &after);
+  if (read == 1 && text.ends_with(':')) range.end = std::numeric_limits<long>::max();
+  if ((read == 2 || (read == 1 && text.ends_with(':'))) && range.begin >= 0 &&
+      range.begin < range.end) {
+    return range;
+  }
+  throw UserError({"--frames", 0, 0}, "'" + text + "' is no range of frames",
+                  "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");
+}
+
+// The film has `from`, `speed` and `fps`; its end is asked for, or as it was.
+long count_frames(const FrameTimes& times, const std::optional<double>& to) {
+  constexpr double kFilmSeconds = 20.0;
+  constexpr double kMostFrames = 1e7;
+  const double span = to ? *to - times.from : kFilmSeconds * times.speed;
+  const double frames = std::max(1.0, std::round(span * times.fps / times.speed));
+  if (frames <= kMostFrames) return static_cast<long>(frames);
+  throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
+                  "choose a larger --speed, or an earlier --to");
 }
 
 // The run is at `start`, 0 or the time of a checkpoint, and the film begins there or at --from.
-FrameTimes frame_times(const RenderOptions& options, double start, double speed) {
-  constexpr double kFilmSeconds = 20.0;
+FilmState new_film(const RenderOptions& options, const View& view, double start) {
   constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
-  const bool one_picture = std::filesystem::path(options.out).extension() == ".png";
-  const double from = options.from.value_or(start);
-  if (from < start) {
+  const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
+  FilmState film;
+  film.size = parse_size(options.size.value_or(preset.size));
+  film.samples = options.supersample.value_or(1);
+  film.shutter = options.shutter.value_or(0.0);
+  film.transparent = options.transparent;
+  film.overlay = view.overlay && !options.no_overlay;
+  film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
+                options.fps.value_or(preset.fps), 1};
+  if (film.times.from < start) {
     throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
                     "give a time after that, or leave --from out");
   }
   const std::optional<double> to = options.to ? options.to : options.common.until;
-  if (to && *to < from) {
-    throw UserError({"--to", 0, 0}, "the film would end before it begins",
-                    "give a time after " + number_text(from) + ", that of --from or --resume");
+  if (to && *to < film.times.from) {
+    throw UserError(
+        {"--to", 0, 0}, "the film would end before it begins",
+        "give a time after " + number_text(film.times.from) + ", that of --from or --resume");
   }
-  if (one_picture) {
-    const double time = options.from ? from : from + kPictureSeconds * speed;
-    return {to.value_or(time), 0.0, 1};
+  if (!options.one_picture()) {
+    film.times.count = count_frames(film.times, to);
+  } else if (!options.from || to) {
+    film.times.from = to.value_or(film.times.from + kPictureSeconds * film.times.speed);
   }
-  const double interval = speed / fps_of(options);
-  const double span = to ? *to - from : kFilmSeconds * speed;
-  constexpr double kMostFrames = 1e7;
-  const double frames = std::max(1.0, std::round(span / interval));
-  if (frames > kMostFrames) {
-    throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
-                    "choose a larger --speed, or an earlier --to");
-  }
-  return {from, interval, static_cast<long>(frames)};
+  return film;
 }
 
 // Films have no transparency.
@@ -120,42 +133,121 @@ void require_pictures(const RenderOptions& options) {
                   "write to a FILE.png or to a folder, or leave --transparent out");
 }
 
-// Draws one frame after the other; fewer than there are times where the run ended early.
-long film(Run& run, const View& view, double exposure, OverlayText text, const FrameTimes& times,
-          Renderer& renderer, const Canvas& canvas, bool transparent, FrameSink& sink,
-          Progress& progress) {
-  canvas.bind();
-  run.scheduled().show(view, exposure);
-  std::optional<Camera> whole;
-  for (long k = 0; k < times.count; ++k) {
-    const double time = times.from + static_cast<double>(k) * times.interval;
-    if (!run.until(time, progress)) return k;
-    const Snapshot snapshot = run.scheduled().snapshot();
-    if (!whole) whole = renderer.fit(snapshot, canvas.size(), view, text);
-    const Camera camera = camera_at(view.camera, snapshot, *whole);
-    if (view.card && times.interval > 0.0) {
-      text.card = card_opacity(*view.card, (time - times.from) / view.speed);
-    }
-    renderer.draw(snapshot, camera, canvas.size(), view, text);
-    sink.add(transparent ? with_own_colours(canvas.read()) : canvas.read(), time);
-    progress.update(time);
+[[noreturn]] void refuse_change(const char* flag, const std::string& before) {
+  throw UserError({flag, 0, 0}, "the film that goes on has " + before,
+                  "leave the flag out, or begin another film by --from");
+}
+
+template <class T, class Text>
+void keep(const std::optional<T>& asked, const T& before, const char* flag, const Text& text) {
+  if (asked && !(*asked == before)) refuse_change(flag, text(before));
+}
+
+// A film goes on as it began, but that it may end at another time.
+FilmState continued_film(const RenderOptions& options, FilmState film) {
+  const FrameTimes& times = film.times;
+  const auto size_text = [](Size size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+  };
+  std::optional<Size> size;
+  std::optional<double> fps = options.fps;
+  if (options.quality) {
+    size = parse_size(preset_of(*options.quality).size);
+    if (!fps) fps = preset_of(*options.quality).fps;
   }
-  return times.count;
+  if (options.size) size = parse_size(*options.size);
+  keep(size, film.size, "--size", size_text);
+  keep(fps, times.fps, "--fps", number_text);
+  keep(options.speed, times.speed, "--speed", number_text);
+  keep(options.supersample, film.samples, "--supersample", [](int n) { return std::to_string(n); });
+  keep(options.shutter, film.shutter, "--shutter", number_text);
+  if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
+  film.overlay = film.overlay && !options.no_overlay;
+  const std::optional<double> to = options.to ? options.to : options.common.until;
+  if (to) film.times.count = count_frames(times, to);
+  if (film.times.count < film.next) {
+    throw UserError({"--to", 0, 0},
+                    "the film is at t = " + number_text(film.times.of(film.next - 1)),
+                    "give a time after that, or leave --to out");
+  }
+  return film;
+}
+
+// The film that a run is to make: that of its checkpoint, unless another beginning is asked for.
+FilmState film_asked_for(const RenderOptions& options, const View& view,
+                         const std::optional<Resumed>& resumed) {
+  if (!resumed) return new_film(options, view, 0.0);
+  const std::optional<FilmState> film = film_of(*resumed);
+  const bool goes_on =
+      film && !options.one_picture() && options.from.value_or(film->times.from) == film->times.from;
+  if (!goes_on) return new_film(options, view, resumed->time());
+  require_same_view(*resumed);
+  return continued_film(options, *film);
+}
+
+FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film) {
+  if (!options.frames) return {0, film.times.count};
+  FrameRange frames = parse_frames(*options.frames);
+  if (frames.begin >= film.times.count) {
+    throw UserError({"--frames", 0, 0},
+                    "the film has " + std::to_string(film.times.count) + " frames",
+                    "begin before, or give a later --to");
+  }
+  frames.end = std::min(frames.end, film.times.count);
+  if (film.next > frames.end) {
+    throw UserError({"--frames", 0, 0},
+                    "the checkpoint is at frame " + std::to_string(film.next) + " already",
+                    "give an earlier checkpoint, or leave --resume out");
+  }
+  return frames;
+}
+
+SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::uint64_t seed,
+                         const FilmState& film, const FrameRange& frames) {
+  SinkOptions sink;
+  sink.size = film.size;
+  sink.fps = film.times.fps;
+  sink.texts = {{"Title", scene.title},
+                {"Software", "clatter " CLATTER_VERSION},
+                {"Seed", std::to_string(seed)},
+                {"Scene", scene_to_toml(scene)}};
+  sink.threads = options.common.threads;
+  sink.overwrite = options.overwrite;
+  sink.begin = frames.begin;
+  if (options.frames) sink.end = frames.end;
+  sink.next = std::max(film.next, frames.begin);
+  sink.goes_on = film.begin == frames.begin && film.next >= frames.begin;
+  return sink;
+}
+
+void require_few_windows(const View& view, double last) {
+  constexpr double kMostWindows = 1e7;
+  if (!view.shows_averages() || last / view.window <= kMostWindows) return;
+  throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
+                  "choose at least " + number_text(last / kMostWindows));
+}
+
+// Whether there is anything in the sink. Where that cannot be written, the run is kept all the
+// same.
+bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progress& progress) {
+  try {
+    const long next = film.draw(frames, sink, progress);
+    if (next <= frames.begin) return false;
+    sink.finish(next == frames.end ? Ending::Whole : Ending::Cut);
+    return true;
+  } catch (const RunError& error) {
+    throw RunError(error.what() + run.rescue());
+  }
 }
 
 int render(const RenderOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
-  View view = scene.view;
-  if (options.speed) view.speed = *options.speed;
-  view.overlay = view.overlay && !options.no_overlay;
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
-  const FrameTimes times = frame_times(options, resumed ? resumed->time() : 0.0, view.speed);
-  const Size size = parse_size(options.size.value_or(preset_of(options.quality).size));
-  constexpr double kMostWindows = 1e7;
-  if (view.shows_averages() && times.last() / view.window > kMostWindows) {
-    throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
-                    "choose at least " + number_text(times.last() / kMostWindows));
-  }
+  const FilmState film = film_asked_for(options, scene.view, resumed);
+  const FrameRange frames = frames_asked_for(options, film);
+  View view = scene.view;
+  view.overlay = film.overlay;
+  require_few_windows(view, film.times.last());
   const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
   require_distinct(outputs);
   require_folder_of(options.out, "--out");
@@ -164,30 +256,16 @@ int render(const RenderOptions& options) {
 
   Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   const auto context = open_context(options.backend);
-  const Canvas canvas(context->gl(), size);
-  Renderer renderer(context->gl(), options.supersample, options.transparent);
-  SinkOptions sink_options;
-  sink_options.size = size;
-  sink_options.fps = fps_of(options);
-  sink_options.texts = {{"Title", scene.title},
-                        {"Software", "clatter " CLATTER_VERSION},
-                        {"Seed", std::to_string(run.seed())},
-                        {"Scene", scene_to_toml(scene)}};
-  sink_options.threads = options.common.threads;
-  sink_options.overwrite = options.overwrite;
-  const auto sink = open_sink(options.out, sink_options);
-  long frames;
+  const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
+  Film filming(run, scene, view, film, context->gl());
+  bool drawn = false;
   {
     Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
-                      times.last());
-    const double exposure = options.shutter * view.speed / fps_of(options);
-    frames = film(run, view, exposure, {scene.title, scene.caption}, times, renderer, canvas,
-                  options.transparent, *sink, progress);
+                      film.times.of(frames.end - 1));
+    drawn = draw(filming, frames, *sink, run, progress);
   }
   run.put_aside();
-  if (frames == 0) return run.end();
-  sink->finish();
-  if (!options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
+  if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
   return run.end();
 }
 
@@ -233,20 +311,26 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->check(positive_number());
   command
       ->add_option("--supersample", options->supersample,
-                   "Draw all but the overlay so many times larger, and average in linear light")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
+                   "Draw all but the overlay so many times larger, and average in linear light "
+                   "(default: 1)")
+      ->check(CLI::Range(1, 4));
   command
       ->add_option("--shutter", options->shutter,
                    "Blur disks by their motion: share of the time between frames for which the "
-                   "shutter is open before each")
+                   "shutter is open before each (default: 0)")
       ->check(number_between(0.0, 1.0));
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--transparent", options->transparent,
                     "Leave the background out, of a PNG picture or of a folder of them");
   command->add_flag("--overwrite", options->overwrite,
-                    "Replace frames that a folder holds already");
+                    "Replace frames that a folder holds already, or a film that was cut");
+  command
+      ->add_option(
+          "--frames", options->frames,
+          "Draw only these frames of the film, numbered from 0: what several machines make "
+          "is one film")
+      ->type_name("FIRST:END");
   command->add_option("--backend", options->backend, "Where OpenGL comes from")
       ->transform(one_of<Backend>({{"auto", Backend::Auto},
                                    {"egl", Backend::Egl},

@@ -55,6 +55,13 @@ void require_same_measure(const Resumed& resumed) {
   }
 }
 
+void require_same_view(const Resumed& resumed) {
+  for (const KeyDifference& key : resumed.differences) {
+    if (!key.key.starts_with("view.") || key.key == "view.speed") continue;
+    refuse(resumed, key, "a film goes on as it began; begin another one by --from");
+  }
+}
+
 std::string changed_laws(const Resumed& resumed, std::uint64_t seed) {
   std::string keys;
   for (const KeyDifference& difference : resumed.differences) {

@@ -30,6 +30,10 @@ std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene);
 /// have begun.
 void require_same_measure(const Resumed& resumed);
 
+/// Throws UserError where the scene's [view] block asks for another film than that which has begun,
+/// but for its speed.
+void require_same_view(const Resumed& resumed);
+
 /// All laws that differ, by their keys, and the seed if it does, separated by commas; empty: none.
 std::string changed_laws(const Resumed& resumed, std::uint64_t seed);
 

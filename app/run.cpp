@@ -126,23 +126,40 @@ bool Run::until(double time, Progress& progress) {
   return !ended_early_;
 }
 
+Checkpoint Run::checkpoint() {
+  return {.program = "clatter " CLATTER_VERSION,
+          .command = command_,
+          .scene = scene_to_toml(scene_),
+          .start_temperature = scene_.disks.start.temperature,
+          .seed = seed_,
+          .saved = simulation().save(),
+          .measurement = measurement_ ? measurement_->save() : "",
+          .film = film_state ? film_state() : ""};
+}
+
+void Run::mark() {
+  marked_ = checkpoint();
+}
+
 // A run does not fail for a checkpoint on the way: the next may succeed.
 void Run::write() {
-  Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
-                        .command = command_,
-                        .scene = scene_to_toml(scene_),
-                        .start_temperature = scene_.disks.start.temperature,
-                        .seed = seed_,
-                        .saved = simulation().save(),
-                        .measurement = {}};
-  if (measurement_) checkpoint.measurement = measurement_->save();
   try {
-    write_checkpoint(file_, checkpoint);
+    if (marked_) {
+      write_checkpoint(file_, *marked_);
+    } else {
+      Checkpoint now = checkpoint();
+      write_checkpoint(file_, now);
+    }
     failure_.clear();
   } catch (const RunError& error) {
     failure_ = error.what();
   }
   last_written_ = Clock::now();
+}
+
+std::string Run::rescue() {
+  write();
+  return failure_.empty() ? "; go on with --resume " + file_.string() : "";
 }
 
 void Run::put_aside() {

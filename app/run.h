@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,12 @@ class Run {
   /// Runs up to a simulation time in slices of about a tenth of a second, between which progress is
   /// shown and interrupts are seen; false where the run was interrupted or stopped first.
   bool until(double time, Progress& progress);
+  /// What checkpoints keep of a film, at the run's time; empty: there is none.
+  std::function<std::string()> film_state;
+  /// From now on checkpoints are of the run as it is now, until the next call.
+  void mark();
+  /// Leaves a checkpoint where what the command writes has failed; what to tell about it.
+  std::string rescue();
   /// Leaves the checkpoint that the run's end calls for; to be called before anything else is asked
   /// of the measurement.
   void put_aside();
@@ -46,6 +53,7 @@ class Run {
  private:
   using Clock = std::chrono::steady_clock;
 
+  Checkpoint checkpoint();
   void write();
   void measure_on(Simulation<2>& next);
   void tell_new_averages() const;
@@ -61,6 +69,7 @@ class Run {
   std::optional<ScheduledRun> run_;
   double measure_end_ = 0.0;
   std::optional<Measurement> measurement_;
+  std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // of the last checkpoint
   bool ended_early_ = false;

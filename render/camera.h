@@ -8,7 +8,16 @@ namespace clatter {
 struct Size {
   int width = 0;
   int height = 0;
+
+  bool operator==(const Size&) const = default;
 };
+
+/// Passes over all members, in order, for checkpoints.
+template <class Archive>
+void visit(Archive& io, Size& size) {
+  auto& [width, height] = size;
+  io(width, height);
+}
 
 /// Space along the edges of a picture, in pixels.
 struct Margins {
@@ -27,6 +36,13 @@ struct Camera {
   /// of `size` allow, in the middle of what they leave.
   static Camera fit(const Vec2& low, const Vec2& high, Size size, const Margins& margins);
 };
+
+/// Passes over all members, in order, for checkpoints.
+template <class Archive>
+void visit(Archive& io, Camera& camera) {
+  auto& [centre, width] = camera;
+  io(centre, width);
+}
 
 /// From the world to the pixels that are drawn: x to the right, y up, from the lower left corner.
 struct Projection {

@@ -66,6 +66,15 @@ bool shows_field(const Snapshot& snapshot, const View& view) {
 
 }  // namespace
 
+RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
+  const auto end = [](double extent) { return extent > 0.0 ? round_up(extent) : 0.0; };
+  RangeEnds ends;
+  if (view.colour_by != ColourBy::None) ends.disks = end(disk_extent(snapshot, view.colour_by));
+  if (shows_field(snapshot, view)) ends.field = end(robust_extent(snapshot.field->values));
+  if (view.arrows && snapshot.arrows) ends.arrows = end(arrow_extent(*snapshot.arrows));
+  return ends;
+}
+
 Renderer::Renderer(const Gl& gl, int samples, bool transparent)
     : gl_(&gl),
       samples_(samples),
@@ -80,37 +89,50 @@ Renderer::Renderer(const Gl& gl, int samples, bool transparent)
       overlay_(gl) {}
 
 Legend Renderer::Followed::legend(const Quantity& shown, const ColourRange& range, ColourMap map,
-                                  double robust_extent, bool lockable) {
+                                  const std::function<double()>& extent, bool lockable) {
   if (range.kind == ColourRange::Given) {
     return {shown, scale_from(range.ends[0], range.ends[1], shown.sign, map), "given"};
   }
-  const double extent = end(shown, robust_extent, range.kind == ColourRange::Locked && lockable);
-  return {shown, scale_to(extent, shown.sign, map), followed.held() ? "locked" : "auto"};
+  const bool locked = range.kind == ColourRange::Locked;
+  const double last = end(shown, extent, locked && lockable);
+  const bool held = fixed > 0.0 ? locked : followed.held();
+  return {shown, scale_to(last, shown.sign, map), held ? "locked" : "auto"};
 }
 
-double Renderer::Followed::end(const Quantity& shown, double robust_extent, bool hold) {
+double Renderer::Followed::end(const Quantity& shown, const std::function<double()>& extent,
+                               bool hold) {
+  if (fixed > 0.0) return fixed;
   if (!(quantity == shown)) *this = {shown, {}};
-  return followed.follow(robust_extent, hold);
+  return followed.follow(extent(), hold);
+}
+
+void Renderer::fix(const RangeEnds& ends) {
+  const auto fixed = [](double end) { return end > 0.0 ? end : 1.0; };
+  disk_range_.fixed = fixed(ends.disks);
+  field_range_.fixed = fixed(ends.field);
+  arrow_range_.fixed = fixed(ends.arrows);
 }
 
 Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double scale) {
   Legends legends;
   if (view.colour_by != ColourBy::None) {
-    legends.disks = disk_range_.legend(quantity_of(view.colour_by), view.range, disk_map(view),
-                                       disk_extent(snapshot, view.colour_by), true);
+    legends.disks = disk_range_.legend(
+        quantity_of(view.colour_by), view.range, disk_map(view),
+        [&] { return disk_extent(snapshot, view.colour_by); }, true);
   }
   if (shows_field(snapshot, view)) {
     const FieldMap& map = *snapshot.field;
-    legends.field =
-        field_range_.legend(quantity_of(map.field), view.field_range, field_map(map.field, view),
-                            robust_extent(map.values), map.whole_window);
+    legends.field = field_range_.legend(
+        quantity_of(map.field), view.field_range, field_map(map.field, view),
+        [&] { return robust_extent(map.values); }, map.whole_window);
     if (legends.disks) legends.field->scale.opacity = kBelowColouredDisks;
   }
   if (view.arrows && snapshot.arrows) {
     const Quantity quantity = quantity_of(snapshot.arrows->quantity);
     const double longest = snapshot.arrows->cell.minCoeff() * scale;
-    legends.arrows = {quantity,
-                      longest / arrow_range_.end(quantity, arrow_extent(*snapshot.arrows))};
+    legends.arrows = {quantity, longest / arrow_range_.end(quantity, [&] {
+                        return arrow_extent(*snapshot.arrows);
+                      })};
   }
   return legends;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "engine/publish/snapshot.h"
@@ -16,14 +17,34 @@
 
 namespace clatter {
 
+/// The ends of automatic colour ranges; 0: there is nothing to choose one by.
+struct RangeEnds {
+  double disks = 0.0;
+  double field = 0.0;
+  double arrows = 0.0;
+};
+
+/// The round ends that fit a snapshot by itself.
+RangeEnds range_ends(const Snapshot& snapshot, const View& view);
+
+/// Passes over all members, in order, for checkpoints.
+template <class Archive>
+void visit(Archive& io, RangeEnds& range) {
+  auto& [disks, field, arrows] = range;
+  io(disks, field, arrows);
+}
+
 /// Draws snapshots into the framebuffer that is bound. Automatic colour ranges follow the snapshots
-/// it is given, so a film has a Renderer of its own.
+/// it is given, until they are fixed; so a film has a Renderer of its own.
 class Renderer {
  public:
   /// Compiles the shaders; throws RunError. `gl` must outlive the renderer. All but the overlay is
   /// drawn `samples` times larger and averaged in linear light. Without a background,
   /// `transparent`, pictures have their opacity as alpha, and colours times it.
   explicit Renderer(const Gl& gl, int samples = 1, bool transparent = false);
+
+  /// From now on automatic colour ranges have these ends.
+  void fix(const RangeEnds& ends);
 
   /// The camera that shows the whole box, clear of what the overlay writes.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text);
@@ -37,11 +58,13 @@ class Renderer {
   struct Followed {
     Quantity quantity;
     SteadyExtent followed;
+    double fixed = 0.0;  ///< the end, once and for all; 0: it follows
 
-    double end(const Quantity& shown, double robust_extent, bool hold = false);
+    /// `extent` tells the robust extent of what is shown, and is asked only where it matters.
+    double end(const Quantity& shown, const std::function<double()>& extent, bool hold = false);
 
     Legend legend(const Quantity& shown, const ColourRange& range, ColourMap map,
-                  double robust_extent, bool lockable);
+                  const std::function<double()>& extent, bool lockable);
   };
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,

@@ -17,6 +17,7 @@ struct Checkpoint {
   std::uint64_t seed = 1;          ///< of the run
   Saved<2> saved;                  ///< the run itself
   std::string measurement;         ///< what Measurement::save() gave; empty: nothing was measured
+  std::string film;                ///< how far a film has come; empty: none was made
 };
 
 /// Writes a checkpoint, so that at any moment, also if the machine stops, there is a whole one: it

@@ -16,13 +16,14 @@ struct Way {
 };
 
 // Calls `visit` with each shift by whole boxes along an axis that brings some of a disk on its way
-// into the box.
+// into the box; a way is no longer than a box.
 template <class Visit>
 void visit_shifts(const Snapshot& snapshot, int axis, const Way& way, Visit visit) {
   if (snapshot.walls[2 * axis]) return visit(0.0);
   const double radius = 0.5 * snapshot.diameter, box = snapshot.box[axis];
   const double first = std::floor(-(way.high()[axis] + radius) / box) + 1.0;
-  const double last = std::ceil((box - way.low()[axis] + radius) / box) - 1.0;
+  const double last =
+      std::min(first + 2.0, std::ceil((box - way.low()[axis] + radius) / box) - 1.0);
   for (double boxes = first; boxes <= last; ++boxes) visit(boxes * box);
 }
 
@@ -33,11 +34,16 @@ class Collector {
 
   std::vector<Chord> chords;
 
-  // A chord lies off its parabola by a dt^2 / 8 at most.
+  // A chord lies off its parabola by a dt^2 / 8 at most, and is no longer than a box. Where a
+  // flight passes thousands of boxes, nothing of it can be told apart.
   void add(const FlightPiece& piece, double from, double to) {
     constexpr double kOff = 1.0 / 16.0;  // pixels
     const double curvature = piece.acceleration.norm() * projection_.scale();
-    const double count = std::floor((to - from) * std::sqrt(curvature / (8.0 * kOff))) + 1.0;
+    constexpr double kMost = 4096.0;
+    const double bends = (to - from) * std::sqrt(curvature / (8.0 * kOff));
+    const Vec2 way = piece.at(to) - piece.at(from);
+    const double boxes = (way.array() / snapshot_.box.array()).abs().maxCoeff();
+    const double count = std::floor(std::min(std::max(bends, boxes), kMost)) + 1.0;
     const double step = (to - from) / count;
     for (double k = 0.0; k < count; ++k) {
       const double start = from + k * step, end = k + 1.0 < count ? start + step : to;

@@ -221,7 +221,7 @@ std::vector<std::string> lines_of(const std::string& text, const ImFont& font, f
   const char *at = text.data(), *end = at + text.size();
   while (at < end) {
     const char* line_end = font.CalcWordWrapPositionA(1.0f, at, end, width);
-    if (line_end == at) ++line_end;  // not even a letter has room
+    if (line_end == at) line_end = end;  // not even a letter has room
     lines.emplace_back(at, line_end);
     at = line_end;
     while (at < end && (*at == ' ' || *at == '\n')) ++at;

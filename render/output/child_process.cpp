@@ -65,17 +65,16 @@ ChildProcess::~ChildProcess() {
 
 bool ChildProcess::wait() {
   input_.close();
-  int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  while (pid_ >= 0 && waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
   pid_ = -1;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
 }
 
 void ChildProcess::kill() {
   if (pid_ < 0) return;
   ::kill(pid_, SIGKILL);
-  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
   pid_ = -1;
 }
@@ -88,6 +87,7 @@ std::string ChildProcess::last_words() const {
   const ssize_t got = pread(errors_.get(), text.data(), length, size - length);
   text.resize(std::max<ssize_t>(got, 0));
   while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.empty() && WIFSIGNALED(status_)) return strsignal(WTERMSIG(status_));
   return text;
 }
 

@@ -27,11 +27,12 @@ class ChildProcess {
   bool wait();
   /// Ends it at once: a write() under way on another thread then fails.
   void kill();
-  /// The end of what it wrote on its standard error.
+  /// The end of what it wrote on its standard error, or which signal ended it.
   std::string last_words() const;
 
  private:
   pid_t pid_ = -1;         ///< -1: has ended
+  int status_ = 0;         ///< of its end, as waitpid() tells it
   FileDescriptor input_;   ///< our end of the pipe
   FileDescriptor errors_;  ///< a file in memory, which never makes it wait
 };

@@ -2,10 +2,11 @@
 
 #include <fcntl.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "engine/error.h"
 
@@ -16,168 +17,170 @@ namespace {
 // Thrown on the writing thread; the caller's thread asks the encoder for the reason.
 struct EncoderStopped {};
 
-struct Format {
-  const char* extension;
-  const char* muxer;
-  std::vector<std::string> encoding;
-  bool index_later = false;  // in a second file, once the film is whole
-};
-
-// The colours are those of BT.709, said and done: left alone, ffmpeg converts by BT.601 and players
-// assume BT.709. Both codecs store colour at half the resolution, so sides are made even.
-const std::string kEvenSides =
-    "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x101418,"
-    "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
-
-std::vector<std::string> video(std::vector<std::string> codec) {
-  std::vector<std::string> all = {"-vf",          kEvenSides, "-colorspace",      "bt709",
-                                  "-color_trc",   "bt709",    "-color_primaries", "bt709",
-                                  "-color_range", "tv"};
-  all.insert(all.end(), codec.begin(), codec.end());
-  return all;
+std::filesystem::path folder_for(const std::filesystem::path& path) {
+  return path.string() + ".part";
 }
 
-// An mp4 is written in fragments of a second of film, which play even where the machine stops
-// halfway. VP9's "realtime" is five times as fast as "good" for a fifth more bytes at the same
-// quality. FFV1 keeps every bit of a picture, with checksums. A GIF has a palette for each frame:
-// one for the whole film would have ffmpeg keep every frame in memory.
-const std::array<Format, 4>& formats() {
-  static const std::array<Format, 4> all = {{
-      {".mp4", "mp4",
-       video({"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-movflags",
-              "+empty_moov+default_base_moof", "-frag_duration", "1000000"}),
-       true},
-      {".webm", "webm",
-       video({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used",
-              "5", "-row-mt", "1", "-tile-columns", "2"})},
-      {".mkv",
-       "matroska",
-       {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1", "-pix_fmt", "bgr0"}},
-      {".gif",
-       "gif",
-       {"-filter_complex",
-        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none"}},
-  }};
-  return all;
+void require_no_pieces(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (std::filesystem::is_empty(folder, ignored) || ignored) return;
+  throw UserError({folder.string()}, "holds what there is of a film that was cut",
+                  "go on with it by --resume, or give --overwrite to film anew");
 }
 
-const Format* find_format(const std::string& extension) {
-  for (const Format& format : formats()) {
-    if (extension == format.extension) return &format;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> arguments_for(const std::string& encoder, const Format& format,
-                                       const SinkOptions& options,
-                                       const std::filesystem::path& part) {
-  char fps[32];
-  std::snprintf(fps, sizeof fps, "%.10g", options.fps);
-  const std::string size =
-      std::to_string(options.size.width) + "x" + std::to_string(options.size.height);
-  std::vector<std::string> all = {encoder, "-v",         "error",    "-nostdin", "-y",
-                                  "-f",    "rawvideo",   "-pix_fmt", "rgba",     "-video_size",
-                                  size,    "-framerate", fps,        "-i",       "pipe:0"};
-  all.insert(all.end(), format.encoding.begin(), format.encoding.end());
-  std::string comment;
-  for (const PngText& text : options.texts) {
-    if (text.keyword == "Title") {
-      all.insert(all.end(), {"-metadata", "title=" + text.text});
-    } else {
-      comment += text.keyword + ": " + text.text + "\n";
-    }
-  }
-  if (!comment.empty()) all.insert(all.end(), {"-metadata", "comment=" + comment});
-  // "file:" keeps a colon in the name from being taken for a protocol.
-  all.insert(all.end(), {"-f", format.muxer, "file:" + part.string()});
-  return all;
-}
-
-// Copies fragments into one film with its index first, so that it can play before it is loaded.
-std::vector<std::string> indexing_arguments(const std::string& encoder,
-                                            const std::filesystem::path& part,
-                                            const std::filesystem::path& indexed) {
-  return {encoder, "-v",   "error",     "-nostdin",   "-y", "-i",  "file:" + part.string(),
-          "-c",    "copy", "-movflags", "+faststart", "-f", "mp4", "file:" + indexed.string()};
-}
-
-std::filesystem::path part_name(const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  part.replace_extension(".part" + path.extension().string());
-  return part;
-}
-
-ChildProcess start_encoder(const std::string& encoder, const SinkOptions& options,
-                           const std::filesystem::path& path, const std::filesystem::path& part) {
-  // Found out now rather than after the first hour of a run.
-  const FileDescriptor file(open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-  if (!file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
-  try {
-    return ChildProcess(arguments_for(encoder, *find_format(path.extension()), options, part));
-  } catch (const RunError& error) {
-    unlink(part.c_str());
-    throw RunError(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
-  }
+void make_folder(const std::filesystem::path& folder, const std::filesystem::path& film) {
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (error) throw RunError("cannot write " + film.string() + ": " + error.message());
 }
 
 }  // namespace
 
 Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::string& encoder)
     : path_(std::move(path)),
-      part_(part_name(path_)),
+      folder_(folder_for(path_)),
+      format_(find_movie_format(path_.extension())),
+      options_(options),
       program_(encoder),
-      encoder_(start_encoder(encoder, options, path_, part_)),
-      queue_(1, 4) {}
+      next_(options.next),
+      queue_(1, 4) {
+  if (options.next == options.begin && !options.goes_on) {
+    if (options.overwrite) std::filesystem::remove_all(folder_);
+    require_no_pieces(folder_);
+  }
+  for (long piece = options.begin; piece < options.next; piece = start_of_piece(piece) + kPiece) {
+    if (std::filesystem::exists(piece_path(piece))) continue;
+    throw UserError(
+        {path_.string()},
+        "the film goes on, but its piece " + piece_path(piece).string() + " is not there",
+        "name the film that was cut, or begin one by --frames " + std::to_string(options.next) +
+            ":");
+  }
+  make_folder(folder_, path_);
+  start_piece();
+}
 
 Movie::~Movie() {
-  // The encoder goes first: a write to it may be what the thread waits in.
-  encoder_.kill();
-  if (!part_.empty()) unlink(part_.c_str());
+  tidy();
 }
 
 bool Movie::knows(const std::string& extension) {
-  return find_format(extension) != nullptr;
+  return find_movie_format(extension) != nullptr;
 }
 
-void Movie::add(Image image, double) {
+std::filesystem::path Movie::piece_path(long first) const {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06ld", first);
+  return folder_ / (name + format_->extension);
+}
+
+// The number of the first picture in the piece that has this one.
+long Movie::start_of_piece(long number) const {
+  return std::max(options_.begin, number / kPiece * kPiece);
+}
+
+void Movie::start_piece() {
+  piece_ = next_;
+  const std::filesystem::path piece = piece_path(piece_);
+  // The encoder of a run that was killed may still be writing into a file of that name.
+  unlink(piece.c_str());
+  // Found out now rather than after the first hour of a run.
+  const FileDescriptor file(open(piece.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+  if (!file) fail(std::strerror(errno));
+  try {
+    encoder_ =
+        std::make_unique<ChildProcess>(encoding_command(program_, *format_, options_, piece));
+  } catch (const RunError& error) {
+    unlink(piece.c_str());
+    fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
+  }
+}
+
+void Movie::add(Image image, std::vector<PngText> notes) {
+  if (!encoder_) start_piece();
   try {
     queue_.add([this, image = std::move(image)] {
-      if (!encoder_.write(image.rgba)) throw EncoderStopped();
+      if (!encoder_->write(image.rgba)) throw EncoderStopped();
     });
   } catch (const EncoderStopped&) {
-    fail();
+    fail(*encoder_);
   }
+  notes_ = std::move(notes);
+  ++next_;
+  if (next_ % kPiece == 0) end_piece();
 }
 
-void Movie::finish() {
+void Movie::end_piece() {
   try {
-    queue_.finish();
+    queue_.drain();
   } catch (const EncoderStopped&) {
-    fail();
+    fail(*encoder_);
   }
-  if (!encoder_.wait()) fail();
-  if (find_format(path_.extension())->index_later) index();
-  if (rename(part_.c_str(), path_.c_str()) != 0) {
-    throw RunError("cannot write " + path_.string() + ": " + std::strerror(errno));
-  }
-  part_.clear();
+  if (!encoder_->wait()) fail(*encoder_);
+  encoder_.reset();
 }
 
-void Movie::index() {
-  const std::filesystem::path indexed = part_name(part_);
-  ChildProcess indexer(indexing_arguments(program_, part_, indexed));
-  if (indexer.wait()) {
-    unlink(part_.c_str());
-    part_ = indexed;
-  } else {
-    // Where there is no room for a copy, the film stays as it is, which plays as well.
-    unlink(indexed.c_str());
+void Movie::finish(Ending ending) {
+  if (encoder_ && next_ > piece_) end_piece();
+  tidy();
+  if (next_ > options_.begin) join();
+  if (ending == Ending::Whole) std::filesystem::remove_all(folder_);
+}
+
+void Movie::join() {
+  const std::filesystem::path list = folder_ / "pieces.txt";
+  std::string pieces = "ffconcat version 1.0\n";
+  for (long piece = options_.begin, after; piece < next_; piece = after) {
+    after = std::min(start_of_piece(piece) + kPiece, next_);
+    char line[128];
+    std::snprintf(line, sizeof line, "file %s\nduration %.9f\n",
+                  piece_path(piece).filename().c_str(),
+                  static_cast<double>(after - piece) / options_.fps);
+    pieces += line;
+  }
+  std::ofstream(list) << pieces;
+
+  std::vector<PngText> texts = notes_;
+  texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
+  const std::filesystem::path joined = folder_ / ("joined" + format_->extension);
+  ChildProcess joiner(joining_command(program_, *format_, texts, list, joined));
+  if (!joiner.wait()) {
+    unlink(joined.c_str());
+    fail(joiner);
+  }
+  if (rename(joined.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+}
+
+// Ends the encoder under way, and removes what holds no picture.
+void Movie::tidy() {
+  if (encoder_) {
+    encoder_->kill();
+    const std::filesystem::path piece = piece_path(piece_);
+    if (!has_pictures(piece)) unlink(piece.c_str());
+  }
+  rmdir(folder_.c_str());
+}
+
+bool Movie::has_pictures(const std::filesystem::path& piece) const {
+  try {
+    return ChildProcess(probing_command(program_, piece)).wait();
+  } catch (const RunError&) {
+    return true;  // for all that is known
   }
 }
 
-void Movie::fail() {
-  encoder_.kill();
-  throw RunError("ffmpeg could not write " + path_.string() + ": " + encoder_.last_words());
+void Movie::fail(ChildProcess& process) {
+  process.kill();
+  fail(process.last_words());
+}
+
+void Movie::fail(const std::string& reason) {
+  tidy();
+  std::string what = "ffmpeg could not write " + path_.string() + ": " + reason;
+  if (std::filesystem::exists(folder_)) {
+    what += "; what was filmed before is in " + folder_.string();
+  }
+  throw RunError(what);
 }
 
 }  // namespace clatter

@@ -1,15 +1,21 @@
 #pragma once
 
+#include <memory>
+
 #include "render/output/child_process.h"
 #include "render/output/frame_sink.h"
+#include "render/output/movie_format.h"
 #include "render/output/work_queue.h"
 
 namespace clatter {
 
-/// A film, encoded by ffmpeg beside the simulation. It gets its name when it is whole.
+/// A film, encoded by ffmpeg beside the simulation: in pieces of so many pictures, each by itself,
+/// in a folder FILE.part, which are then joined without encoding them anew. So a film that was cut
+/// and taken up again is the same to the bit, and what is encoded is safe.
 class Movie final : public FrameSink {
  public:
-  /// The kind of film is that of the extension. Throws RunError where the file cannot be written or
+  /// The kind of film is that of the extension. Throws UserError where the folder lacks pieces of a
+  /// film that goes on, or holds those of another one; RunError where files cannot be written or
   /// `encoder`, a name on the PATH, cannot be started.
   Movie(std::filesystem::path path, const SinkOptions& options,
         const std::string& encoder = "ffmpeg");
@@ -18,18 +24,32 @@ class Movie final : public FrameSink {
   /// Whether there is a kind of film of this extension: ".mp4", ".webm", ".gif", ".mkv".
   static bool knows(const std::string& extension);
 
-  void add(Image image, double time) override;
-  void finish() override;
+  void add(Image image, std::vector<PngText> notes) override;
+  void flush() override {}
+  /// The film gets its name once it is whole; one that is cut keeps its pieces, too.
+  void finish(Ending ending) override;
 
  private:
-  [[noreturn]] void fail();
-  void index();  // into a second file, where there is room
+  std::filesystem::path piece_path(long first) const;
+  long start_of_piece(long number) const;
+  void start_piece();
+  void end_piece();
+  void join();
+  void tidy();
+  bool has_pictures(const std::filesystem::path& piece) const;
+  [[noreturn]] void fail(ChildProcess& process);
+  [[noreturn]] void fail(const std::string& reason);
 
   std::filesystem::path path_;
-  std::filesystem::path part_;  ///< what ffmpeg writes, playable at any time; empty once renamed
-  std::string program_;         ///< that encodes
-  ChildProcess encoder_;
-  WorkQueue queue_;  ///< last, so that its thread ends before the rest
+  std::filesystem::path folder_;  ///< of the pieces
+  const MovieFormat* format_;
+  SinkOptions options_;
+  std::string program_;                    ///< that encodes
+  std::vector<PngText> notes_;             ///< of the last picture
+  long next_;                              ///< number of the next picture
+  long piece_ = 0;                         ///< number of the first picture of the piece under way
+  std::unique_ptr<ChildProcess> encoder_;  ///< of that piece; none: it has not begun
+  WorkQueue queue_;                        ///< last, so that its thread ends before the rest
 };
 
 }  // namespace clatter

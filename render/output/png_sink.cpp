@@ -8,31 +8,45 @@ namespace clatter {
 
 namespace {
 
-std::vector<PngText> with_time(std::vector<PngText> texts, double time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", time);
-  texts.push_back({"Simulation time", text});
+std::vector<PngText> joined(std::vector<PngText> texts, const std::vector<PngText>& notes) {
+  texts.insert(texts.end(), notes.begin(), notes.end());
   return texts;
 }
 
-std::string frame_name(int number) {
+std::string frame_name(long number) {
   char name[32];
-  std::snprintf(name, sizeof name, "frame_%06d.png", number);
+  std::snprintf(name, sizeof name, "frame_%06ld.png", number);
   return name;
 }
 
-bool is_frame(const std::filesystem::directory_entry& entry) {
-  const std::filesystem::path name = entry.path().filename();
-  return name.extension() == ".png" && name.string().starts_with("frame_");
+// The number of a frame, or -1.
+long frame_number(const std::filesystem::directory_entry& entry) {
+  long number = -1;
+  const std::string name = entry.path().filename();
+  return std::sscanf(name.c_str(), "frame_%ld.png", &number) == 1 && name.ends_with(".png") ? number
+                                                                                            : -1;
 }
 
-void make_folder(const std::filesystem::path& folder, bool overwrite) {
+void require_earlier_frames(const std::filesystem::path& folder, const SinkOptions& options) {
+  for (long number = options.begin; number < options.next; ++number) {
+    const std::filesystem::path frame = folder / frame_name(number);
+    if (std::filesystem::exists(frame)) continue;
+    throw UserError({folder.string()}, "the film goes on, but " + frame.string() + " is not there",
+                    "name the folder of the film, or begin one by --frames " +
+                        std::to_string(options.next) + ":");
+  }
+}
+
+void make_folder(const std::filesystem::path& folder, const SinkOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   const std::filesystem::directory_iterator files(folder, error);
   if (error) throw RunError("cannot write to " + folder.string() + ": " + error.message());
-  if (!overwrite && std::any_of(begin(files), end(files), is_frame)) {
-    throw UserError({folder.string()}, "holds frames already",
+  if (options.overwrite || options.goes_on) return;
+  for (const auto& entry : files) {
+    const long number = frame_number(entry);
+    if (number < options.next || number >= options.end) continue;
+    throw UserError({folder.string()}, "holds frames already: " + frame_name(number),
                     "give another folder, or --overwrite to replace them");
   }
 }
@@ -42,25 +56,39 @@ void make_folder(const std::filesystem::path& folder, bool overwrite) {
 PngFile::PngFile(std::filesystem::path path, const SinkOptions& options)
     : path_(std::move(path)), texts_(options.texts) {}
 
-void PngFile::add(Image image, double time) {
-  write_png(path_, image, with_time(texts_, time));
+void PngFile::add(Image image, std::vector<PngText> notes) {
+  write_png(path_, image, joined(texts_, notes));
 }
 
 PngSequence::PngSequence(std::filesystem::path folder, const SinkOptions& options)
     : folder_(std::move(folder)),
       texts_(options.texts),
+      next_(options.next),
       queue_(options.threads, static_cast<std::size_t>(options.threads)) {
-  make_folder(folder_, options.overwrite);
+  require_earlier_frames(folder_, options);
+  make_folder(folder_, options);
 }
 
-void PngSequence::add(Image image, double time) {
-  queue_.add([image = std::move(image), path = folder_ / frame_name(next_),
-              texts = with_time(texts_, time)] { write_png(path, image, texts); });
+void PngSequence::add(Image image, std::vector<PngText> notes) {
+  try {
+    queue_.add([image = std::move(image), path = folder_ / frame_name(next_),
+                texts = joined(texts_, notes)] { write_png(path, image, texts); });
+  } catch (const RunError& error) {
+    fail(error);
+  }
   ++next_;
 }
 
-void PngSequence::finish() {
-  queue_.finish();
+void PngSequence::flush() {
+  try {
+    queue_.drain();
+  } catch (const RunError& error) {
+    fail(error);
+  }
+}
+
+void PngSequence::fail(const RunError& error) const {
+  throw RunError(std::string(error.what()) + "; what was filmed before is in " + folder_.string());
 }
 
 }  // namespace clatter

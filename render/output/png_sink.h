@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/error.h"
 #include "render/output/frame_sink.h"
 #include "render/output/work_queue.h"
 
@@ -11,28 +12,33 @@ class PngFile final : public FrameSink {
   PngFile(std::filesystem::path path, const SinkOptions& options);
 
   /// Writes the picture; another one replaces it.
-  void add(Image image, double time) override;
-  void finish() override {}
+  void add(Image image, std::vector<PngText> notes) override;
+  void flush() override {}
+  void finish(Ending) override {}
 
  private:
   std::filesystem::path path_;
   std::vector<PngText> texts_;
 };
 
-/// A folder of pictures, DIR/frame_000000.png and on, encoded by threads beside the caller's.
+/// A folder of pictures, DIR/frame_000000.png and on, encoded by threads beside the caller's. Those
+/// that are written stay, whatever happens.
 class PngSequence final : public FrameSink {
  public:
-  /// Makes the folder; throws UserError where it holds frames already and may not replace them, and
-  /// RunError where it cannot be made.
+  /// Makes the folder; throws UserError where it holds frames of these numbers already and may not
+  /// replace them, or lacks earlier ones, and RunError where it cannot be made.
   PngSequence(std::filesystem::path folder, const SinkOptions& options);
 
-  void add(Image image, double time) override;
-  void finish() override;
+  void add(Image image, std::vector<PngText> notes) override;
+  void flush() override;
+  void finish(Ending) override { flush(); }
 
  private:
+  [[noreturn]] void fail(const RunError& error) const;
+
   std::filesystem::path folder_;
   std::vector<PngText> texts_;
-  int next_ = 0;     ///< number of the next picture
+  long next_;        ///< number of the next picture
   WorkQueue queue_;  ///< last, so that its threads end before the rest
 };
 

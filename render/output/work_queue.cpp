@@ -25,6 +25,12 @@ void WorkQueue::add(std::function<void()> job) {
   job_or_end_.notify_one();
 }
 
+void WorkQueue::drain() {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [this] { return (jobs_.empty() && under_way_ == 0) || error_; });
+  if (error_) std::rethrow_exception(error_);
+}
+
 void WorkQueue::finish() {
   close_and_join();
   if (error_) std::rethrow_exception(error_);
@@ -54,6 +60,7 @@ void WorkQueue::work() {
     if (jobs_.empty() || error_) return;
     const std::function<void()> job = std::move(jobs_.front());
     jobs_.pop_front();
+    ++under_way_;
     room_.notify_one();
     lock.unlock();
     try {
@@ -65,6 +72,8 @@ void WorkQueue::work() {
       room_.notify_all();
       job_or_end_.notify_all();
     }
+    --under_way_;
+    idle_.notify_all();
   }
 }
 

@@ -23,6 +23,8 @@ class WorkQueue {
 
   /// Adds a job, once there is room; throws what a job threw.
   void add(std::function<void()> job);
+  /// Waits until all jobs are done; throws what a job threw.
+  void drain();
   /// Ends when all jobs are done, for good; throws what a job threw.
   void finish();
 
@@ -34,7 +36,9 @@ class WorkQueue {
   std::mutex mutex_;
   std::condition_variable job_or_end_;  ///< the threads wait for it
   std::condition_variable room_;        ///< add() waits for it
+  std::condition_variable idle_;        ///< drain() waits for it
   std::deque<std::function<void()>> jobs_;
+  int under_way_ = 0;  ///< jobs that have begun and not ended
   std::exception_ptr error_;
   bool closed_ = false;
   std::vector<std::thread> threads_;

@@ -193,6 +193,27 @@ TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
   CHECK(colours()[3] == middle);
 }
 
+TEST_CASE("Ranges that are fixed follow no more, but for those that are given") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_of(Field::Temperature);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
+  const RangeEnds ends = range_ends(snapshot, view);
+  CHECK(ends.field == 1.0);
+  CHECK(ends.disks == 0.0);
+  CHECK(ends.arrows == 0.0);
+  Renderer renderer(context->gl());
+  renderer.fix(ends);
+  const Colour top = colour_map(Palette::Viridis).back(), middle = colour_map(Palette::Viridis)[8];
+  CHECK(field_colour(renderer, context->gl(), view, 100.0, true) == top);
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
+  view.field_range = {ColourRange::Locked};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
+  view.field_range = {ColourRange::Given, {0.0, 0.5}};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == top);
+}
+
 TEST_CASE("A locked range is found anew for another field") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
@@ -308,6 +329,29 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
       CHECK(difference(one, many) > 10);
       for (std::size_t i = 3; i < many.rgba.size(); i += 4) REQUIRE(many.rgba[i] == 255);
     }
+  }
+}
+
+TEST_CASE("Blur, trails and marks look the same with several samples a pixel") {
+  const auto context = open_context(Backend::Osmesa);
+  const Size size{1280, 720};
+  View view;
+  Snapshot snapshot = driven_box();
+  for (std::uint32_t i = 0; i < snapshot.positions.size(); ++i) {
+    const Vec2 &r = snapshot.positions[i], &v = snapshot.velocities[i];
+    snapshot.angles.push_back(0.1 * i);
+    snapshot.flights.push_back({i, -1.0, 0.0, r - v, v, {0.0, 0.0}});
+  }
+  for (const bool blurred : {false, true}) {
+    CAPTURE(blurred);
+    snapshot.exposure = blurred ? 0.8 : 0.0;
+    view.trails = blurred ? std::nullopt : std::optional(1.0);
+    Renderer normal(context->gl()), finer(context->gl(), 4);
+    const Camera camera = normal.fit(snapshot, size, view, kText);
+    const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
+    const Image many = draw(finer, context->gl(), snapshot, camera, size, view);
+    CHECK(similarity(one, many) >= 0.98);
+    CHECK(difference(one, many) > 10);
   }
 }
 

@@ -23,9 +23,9 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 std::string archived(Checkpoint& checkpoint) {
-  auto& [program, command, scene, start_temperature, seed, saved, measurement] = checkpoint;
+  auto& [program, command, scene, start_temperature, seed, saved, measurement, film] = checkpoint;
   ArchiveWriter writer;
-  writer(program, command, scene, start_temperature, seed, saved, measurement);
+  writer(program, command, scene, start_temperature, seed, saved, measurement, film);
   return writer.written();
 }
 
@@ -45,7 +45,8 @@ Checkpoint example() {
   saved.kicks_since_origin = 13;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
-  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6)};
+  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6),
+          "film"};
 }
 
 // What reading the file says; empty where it is read.

@@ -13,7 +13,7 @@ namespace clatter {
 namespace {
 
 SinkOptions options() {
-  return {{101, 75}, 25.0, {{"Title", "Gas ρ"}, {"Scene", "a \"comment\""}}, false, 2};
+  return {{101, 75}, 25.0, {{"Title", "Gas ρ"}, {"Scene", "a \"comment\""}}};
 }
 
 Image frame(int number) {
@@ -38,9 +38,21 @@ std::string probe(const std::filesystem::path& path) {
   return output;
 }
 
+// Counted by decoding.
+long frames_of(const std::filesystem::path& path) {
+  const std::string facts = probe(path);
+  const auto at = facts.find("nb_read_frames=");
+  return at == std::string::npos ? -1 : std::stol(facts.substr(at + 15));
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 void write_film(Movie& movie, int frames) {
-  for (int i = 0; i < frames; ++i) movie.add(frame(i), 0.04 * i);
-  movie.finish();
+  for (int i = 0; i < frames; ++i) movie.add(frame(i), {});
+  movie.finish(Ending::Whole);
 }
 
 std::filesystem::path make_encoder(const std::filesystem::path& path, const std::string& script) {
@@ -96,8 +108,8 @@ TEST_CASE("An mkv has every bit of the pictures") {
                                          static_cast<unsigned char>(value / 3), 255});
   }
   Movie movie(folder / "film.mkv", small);
-  movie.add(image, 0.0);
-  movie.finish();
+  movie.add(image, {});
+  movie.finish(Ending::Whole);
   const std::string command = "ffmpeg -v error -i '" + (folder / "film.mkv").string() +
                               "' -f rawvideo -pix_fmt rgba - 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
@@ -111,23 +123,80 @@ TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
   const TemporaryFolder folder;
   Movie movie(folder / "film.mp4", options());
   write_film(movie, 5);
-  std::ifstream file(folder / "film.mp4", std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = bytes_of(folder / "film.mp4");
   CHECK(bytes.find("moov") < bytes.find("mdat"));
   CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
 }
 
-TEST_CASE("Where an mp4 cannot be copied, it stays in fragments and plays") {
+TEST_CASE("Where pieces cannot be joined, they stay, and the error names them") {
   const TemporaryFolder folder, programs;
   const auto encoder = make_encoder(
-      programs / "encoder", "case \"$*\" in *'-c copy'*) exit 1 ;; esac; exec ffmpeg \"$@\"");
+      programs / "encoder",
+      "case \"$*\" in *'-f concat'*) echo 'no room' >&2; exit 1 ;; esac; exec ffmpeg \"$@\"");
   {
     Movie movie(folder / "film.mp4", options(), encoder);
-    write_film(movie, 20);
+    const std::string named =
+        "no room; what was filmed before is in " + (folder / "film.mp4.part").string();
+    CHECK_THROWS_WITH_AS(write_film(movie, FrameSink::kPiece + 20),
+                         doctest::Contains(named.c_str()), RunError);
   }
-  CHECK(probe(folder / "film.mp4").find("nb_read_frames=20\n") != std::string::npos);
-  std::filesystem::remove(folder / "film.mp4");
-  CHECK(folder.empty());
+  CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
+  CHECK(frames_of(folder / "film.mp4.part/000000.mp4") == FrameSink::kPiece);
+  CHECK(frames_of(folder / "film.mp4.part/000060.mp4") == 20);
+}
+
+TEST_CASE("A film that was cut and taken up again is that film to the byte") {
+  const TemporaryFolder folder;
+  constexpr long kFrames = 2 * FrameSink::kPiece + 7, kCut = FrameSink::kPiece + 30;
+  for (const std::string extension : {".mp4", ".webm", ".gif", ".mkv"}) {
+    CAPTURE(extension);
+    const auto whole = folder / ("whole" + extension), cut = folder / ("cut" + extension);
+    {
+      Movie movie(whole, options());
+      write_film(movie, kFrames);
+    }
+    {
+      Movie movie(cut, options());
+      for (int i = 0; i < kCut; ++i) movie.add(frame(i), {});
+      movie.finish(Ending::Cut);
+    }
+    CHECK(frames_of(cut) == kCut);
+    SinkOptions on = options();
+    on.goes_on = true;
+    on.next = FrameSink::kPiece;
+    {
+      Movie movie(cut, on);
+      for (int i = FrameSink::kPiece; i < kFrames; ++i) movie.add(frame(i), {});
+      movie.finish(Ending::Whole);
+    }
+    CHECK(frames_of(cut) == kFrames);
+    CHECK(bytes_of(cut) == bytes_of(whole));
+    std::filesystem::remove(cut);
+    std::filesystem::remove(whole);
+    CHECK(folder.empty());
+  }
+}
+
+TEST_CASE("What there is of a film that was cut is in nobody's way, and nobody's to overwrite") {
+  const TemporaryFolder folder;
+  {
+    Movie movie(folder / "film.mp4", options());
+    movie.add(frame(0), {});
+    movie.finish(Ending::Cut);
+  }
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", options()), doctest::Contains("--resume"),
+                       UserError);
+  SinkOptions later = options();
+  later.next = 2 * FrameSink::kPiece;
+  later.goes_on = true;
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", later), doctest::Contains("000060.mp4"),
+                       UserError);
+  SinkOptions anew = options();
+  anew.overwrite = true;
+  Movie movie(folder / "film.mp4", anew);
+  write_film(movie, 3);
+  CHECK(frames_of(folder / "film.mp4") == 3);
+  CHECK_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
 }
 
 TEST_CASE("Names that look like options or protocols are names") {
@@ -149,26 +218,44 @@ TEST_CASE("Without an encoder there is an error that says what to install, and n
   CHECK(folder.empty());
 }
 
-TEST_CASE("An encoder that dies is an error with its last words, and no file") {
+TEST_CASE("An encoder that dies is an error with its last words, and no film without a frame") {
   const TemporaryFolder folder, programs;
   // The second reads everything, as one does that finds the disk full at the end.
-  for (const char* script : {"head -c 1000 >/dev/null; echo 'disk is full' >&2; exit 1",
-                             "cat >/dev/null; echo 'disk is full' >&2; exit 1"}) {
+  for (const char* script :
+       {"head -c 1000 >/dev/null; echo 'disk is full' >&2; exit 1",
+        "cat >/dev/null; echo 'disk is full' >&2; exit 1", "cat >/dev/null; kill -9 $$"}) {
+    CAPTURE(script);
     const auto encoder = make_encoder(programs / "encoder", script);
+    const bool killed = std::string(script).find("kill") != std::string::npos;
     {
       Movie movie(folder / "film.mp4", options(), encoder);
-      CHECK_THROWS_WITH_AS(write_film(movie, 100), doctest::Contains("disk is full"), RunError);
+      CHECK_THROWS_WITH_AS(write_film(movie, 100),
+                           doctest::Contains(killed ? ": Killed" : "disk is full"), RunError);
     }
     CHECK(folder.empty());
   }
 }
 
+TEST_CASE("An encoder that dies later leaves the pieces before, and those are named") {
+  const TemporaryFolder folder, programs;
+  const auto encoder = make_encoder(programs / "encoder",
+                                    "case \"$*\" in *000060*) exit 1 ;; esac; exec ffmpeg \"$@\"");
+  {
+    Movie movie(folder / "film.webm", options(), encoder);
+    const std::string named = "filmed before is in " + (folder / "film.webm.part").string();
+    CHECK_THROWS_WITH_AS(write_film(movie, 100), doctest::Contains(named.c_str()), RunError);
+  }
+  CHECK(frames_of(folder / "film.webm.part/000000.webm") == FrameSink::kPiece);
+  CHECK_FALSE(std::filesystem::exists(folder / "film.webm.part/000060.webm"));
+}
+
 TEST_CASE("A film that is given up leaves nothing, even while the encoder hangs") {
   const TemporaryFolder folder, programs;
-  const auto encoder = make_encoder(programs / "encoder", "exec sleep 1000");
+  const auto encoder = make_encoder(programs / "encoder",
+                                    "case \"$*\" in *rawvideo*) exec sleep 1000 ;; esac; exit 1");
   {
     Movie movie(folder / "film.mp4", options(), encoder);
-    for (int i = 0; i < 5; ++i) movie.add(frame(i), 0.0);
+    for (int i = 0; i < 5; ++i) movie.add(frame(i), {});
   }
   CHECK(folder.empty());
 }

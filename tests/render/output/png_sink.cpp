@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-const SinkOptions kOptions{{64, 48}, 30.0, {{"Title", "title"}, {"Seed", "1"}}, false, 2};
+const SinkOptions kOptions{{64, 48}, 30.0, {{"Title", "title"}, {"Seed", "1"}}};
 
 Image frame() {
   return {kOptions.size, std::vector<unsigned char>(64 * 48 * 4, 100)};
@@ -17,8 +17,8 @@ Image frame() {
 
 void write_frames(const std::filesystem::path& path, const SinkOptions& options, int count) {
   const auto sink = open_sink(path, options);
-  for (int i = 0; i < count; ++i) sink->add(frame(), 0.1 * i);
-  sink->finish();
+  for (int i = 0; i < count; ++i) sink->add(frame(), {});
+  sink->finish(Ending::Whole);
 }
 
 }  // namespace
@@ -41,6 +41,33 @@ TEST_CASE("A sequence replaces frames only where it may") {
   CHECK_NOTHROW(write_frames(folder / "sequence", overwrite, 2));
 }
 
+TEST_CASE("A part of a sequence has its own numbers, and needs only those to be free") {
+  const TemporaryFolder folder;
+  SinkOptions part = kOptions;
+  part.begin = part.next = 10;
+  part.end = 12;
+  write_frames(folder / "sequence", part, 2);
+  CHECK(std::filesystem::exists(folder / "sequence/frame_000011.png"));
+  CHECK_THROWS_AS(open_sink(folder / "sequence", part), UserError);
+  part.begin = part.next = 12;
+  part.end = 14;
+  CHECK_NOTHROW(write_frames(folder / "sequence", part, 2));
+}
+
+TEST_CASE("A sequence that goes on needs its earlier frames and replaces its later ones") {
+  const TemporaryFolder folder;
+  write_frames(folder / "sequence", kOptions, 3);
+  SinkOptions on = kOptions;
+  on.next = 2;
+  CHECK_THROWS_AS(open_sink(folder / "sequence", on), UserError);
+  on.goes_on = true;
+  CHECK_NOTHROW(write_frames(folder / "sequence", on, 2));
+  CHECK(std::filesystem::exists(folder / "sequence/frame_000003.png"));
+  on.next = 6;
+  CHECK_THROWS_WITH_AS(open_sink(folder / "sequence", on), doctest::Contains("frame_000004.png"),
+                       UserError);
+}
+
 TEST_CASE("A sequence cannot be where a file is") {
   const TemporaryFolder folder;
   write_frames(folder / "one.png", kOptions, 1);
@@ -52,8 +79,8 @@ TEST_CASE("A folder that vanishes fails the sequence") {
   const auto sink = open_sink(folder / "sequence", kOptions);
   std::filesystem::remove(folder / "sequence");
   auto add_many = [&] {
-    for (int i = 0; i < 100; ++i) sink->add(frame(), 0.0);
-    sink->finish();
+    for (int i = 0; i < 100; ++i) sink->add(frame(), {});
+    sink->finish(Ending::Whole);
   };
   CHECK_THROWS_AS(add_many(), RunError);
 }

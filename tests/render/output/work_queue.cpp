@@ -38,6 +38,21 @@ TEST_CASE("add waits while the queue is full") {
   CHECK(added == 10);
 }
 
+TEST_CASE("drain waits for the jobs that have begun, too") {
+  WorkQueue queue(2, 4);
+  std::atomic<int> done = 0;
+  for (int round = 1; round <= 20; ++round) {
+    for (int i = 0; i < 5; ++i) {
+      queue.add([&] {
+        std::this_thread::sleep_for(std::chrono::microseconds(300));
+        ++done;
+      });
+    }
+    queue.drain();
+    CHECK(done == 5 * round);
+  }
+}
+
 TEST_CASE("What a job throws reaches add and finish") {
   WorkQueue queue(2, 2);
   auto add_many = [&] {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/output/frame_sink.h"
+
+namespace clatter {
+
+/// A kind of film, as ffmpeg makes it.
+struct MovieFormat {
+  std::string extension;              ///< of its files: ".mp4"
+  std::string muxer;                  ///< ffmpeg's name of the container
+  std::vector<std::string> encoding;  ///< ffmpeg's arguments for the pictures
+};
+
+/// The kind of film that an extension stands for; nullptr: none.
+const MovieFormat* find_movie_format(const std::string& extension);
+
+/// The command that encodes raw RGBA pictures from its standard input into a file that plays as far
+/// as it is written.
+std::vector<std::string> encoding_command(const std::string& encoder, const MovieFormat& format,
+                                          const SinkOptions& options,
+                                          const std::filesystem::path& file);
+
+/// The command that copies the films that a list for ffmpeg's "concat" names into one, with these
+/// texts, and its index first where there is one, so that it can play before it is loaded.
+std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
+                                         const std::vector<PngText>& texts,
+                                         const std::filesystem::path& list,
+                                         const std::filesystem::path& file);
+
+/// The command that succeeds where a film has at least one picture.
+std::vector<std::string> probing_command(const std::string& encoder,
+                                         const std::filesystem::path& file);
+
+}  // namespace clatter

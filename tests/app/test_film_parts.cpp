@@ -1,0 +1,149 @@
+// Films that are cut and taken up again, and films made in parts, as a person makes them.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+namespace {
+
+// 150 frames of a gas, blurred and with trails, under a heatmap with automatic ranges, one of whose
+// walls swings wider later, so that a camera would show more; this one goes to a disk.
+const std::string kFilm =
+    "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --shutter 0.7 --to 15 ";
+
+void write_scene(const Shell& shell) {
+  shell.write("scene.toml",
+              "title = \"Parts\"\nbox.size = [20, 15]\n"
+              "disks = { count = 100, restitution = 0.9 }\n"
+              "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
+              "walls.right = { kind = \"static\" }\n"
+              "view = { field = \"temperature\", window = 2.0, arrows = \"velocity\", trails = 0.7,"
+              " camera = [{ time = 5.0 }, { time = 9.0, follow = 3, width = 8.0 }] }\n"
+              "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
+}
+
+// A line that lists the pixels of each frame of a film, or of the pictures of a folder.
+std::string hashes(const Shell& shell, const std::string& input) {
+  return shell
+      .run("ffmpeg -v error " + input +
+           " -pix_fmt rgb24 -f framemd5 - | grep -v '#' | sed 's/.*, //'")
+      .out;
+}
+
+}  // namespace
+
+TEST_CASE("Parts of a film, and one that goes on from another's checkpoint, are the film") {
+  const Shell shell;
+  write_scene(shell);
+  REQUIRE(shell.run(kFilm + "--out whole.mkv").code == 0);
+  const std::string whole = hashes(shell, "-i whole.mkv");
+  CHECK(std::ranges::count(whole, '\n') == 150);
+
+  // The first and the last by themselves, the second with a checkpoint, from which the third goes
+  // on.
+  for (const std::string part :
+       {"--frames 0:37 --out frames", "--frames 37:80 --out frames --checkpoint c",
+        "--frames 90:120 --out frames --resume c", "--frames 80:90 --out frames --resume c",
+        "--frames 120: --out frames"}) {
+    CAPTURE(part);
+    const Outcome outcome = shell.run(kFilm + part);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+  CHECK((hashes(shell, "-framerate 10 -i frames/frame_%06d.png") == whole));
+
+  const Outcome film =
+      shell.run(kFilm + "--frames 60:120 --out part.mp4 && " + kFilm + "--out whole.mp4");
+  CHECK(film.code == 0);
+  const std::string lossy = hashes(shell, "-i whole.mp4"), part = hashes(shell, "-i part.mp4");
+  CHECK(part.size() * 150 == lossy.size() * 60);
+  CHECK((says(lossy, part)));
+}
+
+TEST_CASE("A film goes on with the flags it began with, and refuses others") {
+  const Shell shell;
+  write_scene(shell);
+  REQUIRE(shell.run(kFilm + "--out whole.mp4").code == 0);
+  REQUIRE(shell.run(kFilm + "--frames 0:60 --out film --checkpoint c").code == 0);
+  const std::string on = "clatter render scene.toml --quiet --resume c ";
+  check_refused(shell, on + "--out film --fps 20", {"--fps", "the film that goes on has 10"});
+  check_refused(shell, on + "--out film --size 320x240", {"--size", "160x120"});
+  check_refused(shell, on + "--out film --speed 2", {"--speed"});
+  check_refused(shell, on + "--out film --shutter 0.2", {"--shutter", "has 0.7"});
+  check_refused(shell, on + "--out film --transparent", {"--transparent", "a background"});
+  check_refused(shell, on + "--out film --to 3", {"--to", "5.9"});
+  check_refused(shell, on + "--out film --set view.field=density", {"view.field", "--from"});
+  check_refused(shell, on + "--out film --frames 10:30", {"--frames", "60"});
+  check_refused(shell, on + "--out film --frames 150:160", {"--frames", "150"});
+  check_refused(shell, on + "--out film --frames 7", {"--frames", "FIRST:END"});
+  check_refused(shell, on + "--out other.mp4", {"other.mp4", "000000.mp4", "--frames 60:"});
+  CHECK(shell.run(on + "--out film").code == 0);
+  CHECK(shell.run("ls film | wc -l").out == "150\n");
+  // Another beginning is another film.
+  CHECK(shell.run(on + "--from 7 --to 7.2 --out other.mp4").code == 0);
+}
+
+TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes on") {
+  const Shell shell;
+  write_scene(shell);
+  REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
+  const Outcome killed =
+      shell.run(kFilm +
+                "--out film.mp4 & pid=$!\n"
+                "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n"
+                "kill -9 $(cat /proc/$pid/task/$pid/children); wait $pid");
+  CAPTURE(killed.err);
+  CHECK(killed.code == 1);
+  CHECK(says(killed.err,
+             "Killed; what was filmed before is in film.mp4.part; go on with --resume "
+             "film.checkpoint"));
+  CHECK(hashes(shell, "-i film.mp4.part/000000.mp4").size() == 60 * 33);
+  check_refused(shell, kFilm + "--out film.mp4", {"film.mp4.part", "--resume", "--overwrite"});
+  CHECK(shell.run(kFilm + "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole").code ==
+        0);
+}
+
+TEST_SUITE_BEGIN("slow");
+
+// Instants drawn from the film's usual time, seed 6; some fall before the first frame.
+TEST_CASE("A film that is interrupted or killed at any time goes on to the same bytes") {
+  const Shell shell;
+  write_scene(shell);
+  for (const std::string out : {"film.mp4", "film.mkv", "film"}) {
+    CAPTURE(out);
+    const std::string line = kFilm + "--out " + out + " ";
+    REQUIRE(shell.run(line + "&& mv " + out + " kept").code == 0);
+    std::mt19937 random(6);
+    for (int trial = 0; trial < 20; ++trial) {
+      const double seconds = std::uniform_real_distribution(0.1, 4.0)(random);
+      const bool killed = trial % 4 == 3;
+      CAPTURE(trial);
+      CAPTURE(seconds);
+      const int code =
+          shell
+              .run("timeout --preserve-status -s " + std::string(killed ? "KILL " : "INT ") +
+                   std::to_string(seconds) + " " + line + " --checkpoint c --checkpoint-every 0.2")
+              .code;
+      CHECK((code == 0 || code == 130 || code == 137));
+      if (code != 0) {
+        // A film that is killed at once has no checkpoint yet.
+        const bool kept = std::ranges::count(shell.files(), "c") > 0;
+        const Outcome outcome = shell.run(line + (kept ? "--resume c" : "--overwrite"));
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 0);
+      }
+      CHECK(shell.run("diff -r " + out + " kept").code == 0);
+      shell.run("rm -rf " + out + " " + out + ".part c c.previous");
+    }
+    shell.run("rm -rf kept");
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace clatter
