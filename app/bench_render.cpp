@@ -20,6 +20,7 @@
 #include "render/context/context.h"
 #include "render/output/child_process.h"
 #include "render/output/movie.h"
+#include "render/output/work_queue.h"
 #include "render/renderer.h"
 
 namespace clatter {
@@ -97,7 +98,10 @@ double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> 
   std::vector<std::string> command = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-f", "rawvideo"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   ChildProcess process(command);
-  for (const Image& image : images) process.write(image.rgba);
+  // On a thread that may write to an ffmpeg that is gone.
+  WorkQueue queue(1, 1);
+  for (const Image& image : images) queue.add([&] { process.write(image.rgba); });
+  queue.finish();
   if (!process.wait()) throw RunError("ffmpeg failed: " + process.last_words());
   return children_milliseconds() - before;
 }

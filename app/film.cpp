@@ -74,13 +74,13 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
     // Also of frames that are not drawn: averages are the same to the last bit only where they are
     // looked at as often.
     const Snapshot snapshot = run_.scheduled().snapshot();
-    canvas_.bind();
     if (!state_.camera) state_.camera = renderer_.fit(snapshot, canvas_.size(), view_, text_);
     if (frame < first) continue;
     if (view_.card && state_.times.count > 1) {
       text_.card = card_opacity(*view_.card, static_cast<double>(frame) / state_.times.fps);
     }
     const Camera camera = camera_at(view_.camera, snapshot, *state_.camera);
+    canvas_.bind();
     renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
     const Image picture = canvas_.read();
     sink.add(state_.transparent ? with_own_colours(picture) : picture, notes());

@@ -13,8 +13,9 @@ namespace clatter {
 /// A program that runs beside ours and reads what we write.
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, found on the PATH, without any shell. It has a process group of its
-  /// own, so that an interrupt at the terminal leaves it time to end well. Throws RunError.
+  /// Starts `arguments[0]`, found on the PATH, without any shell. It has a process group of its own
+  /// and blocks SIGINT and SIGTERM, so that an interrupt, at the terminal or by a batch system,
+  /// leaves it time to end well. Throws RunError.
   explicit ChildProcess(const std::vector<std::string>& arguments);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

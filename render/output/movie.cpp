@@ -53,8 +53,9 @@ Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::
     throw UserError(
         {path_.string()},
         "the film goes on, but its piece " + piece_path(piece).string() + " is not there",
-        "name the film that was cut, or begin one by --frames " + std::to_string(options.next) +
-            ":");
+        (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
+            ("name the film that was cut, or begin one by --frames " +
+             std::to_string(options.next) + ":"));
   }
   make_folder(folder_, path_);
   start_piece();
@@ -138,7 +139,7 @@ void Movie::join() {
                   static_cast<double>(after - piece) / options_.fps);
     pieces += line;
   }
-  std::ofstream(list) << pieces;
+  if (!(std::ofstream(list) << pieces << std::flush)) fail("cannot write " + list.string());
 
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());

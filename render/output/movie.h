@@ -25,6 +25,7 @@ class Movie final : public FrameSink {
   static bool knows(const std::string& extension);
 
   void add(Image image, std::vector<PngText> notes) override;
+  /// Has nothing to do: add() waits for the encoder of a piece with its last picture.
   void flush() override {}
   /// The film gets its name once it is whole; one that is cut keeps its pieces, too.
   void finish(Ending ending) override;
