@@ -7,6 +7,7 @@
 #include "app/interrupt.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/measure/moving_sum.h"
+#include "render/camera_path.h"
 
 namespace clatter {
 
@@ -18,8 +19,9 @@ static void visit(Archive& io, FrameTimes& times) {
 
 template <class Archive>
 static void visit(Archive& io, FilmState& state) {
-  auto& [times, size, samples, overlay, next, begin, ranges, camera, averages] = state;
-  io(times, size, samples, overlay, next, begin, ranges, camera, averages);
+  auto& [times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown] =
+      state;
+  io(times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown);
 }
 
 std::string to_bytes(FilmState state) {
@@ -45,8 +47,8 @@ Film::Film(Run& run, const Scene& scene, const View& view, FilmState state, cons
       text_{scene.title, scene.caption},
       state_(std::move(state)),
       canvas_(gl, state_.size),
-      renderer_(gl, state_.samples) {
-  run_.scheduled().show(view_, state_.averages);
+      renderer_(gl, state_.samples, state_.transparent) {
+  run_.scheduled().show(view_, state_.shown, state_.exposure());
   run_.film_state = [this] { return state_now(); };
   if (state_.ranges) renderer_.fix(*state_.ranges);
 }
@@ -55,7 +57,7 @@ Film::Film(Run& run, const Scene& scene, const View& view, FilmState state, cons
 std::string Film::state_now() const {
   if (state_.times.count == 1) return "";
   FilmState state = state_;
-  state.averages = run_.scheduled().save_shown();
+  state.shown = run_.scheduled().save_shown();
   return to_bytes(std::move(state));
 }
 
@@ -74,9 +76,14 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
     const Snapshot snapshot = run_.scheduled().snapshot();
     if (!state_.camera) state_.camera = renderer_.fit(snapshot, canvas_.size(), view_, text_);
     if (frame < first) continue;
+    if (view_.card && state_.times.count > 1) {
+      text_.card = card_opacity(*view_.card, static_cast<double>(frame) / state_.times.fps);
+    }
+    const Camera camera = camera_at(view_.camera, snapshot, *state_.camera);
     canvas_.bind();
-    renderer_.draw(snapshot, *state_.camera, canvas_.size(), view_, text_);
-    sink.add(canvas_.read(), notes());
+    renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
+    const Image picture = canvas_.read();
+    sink.add(state_.transparent ? with_own_colours(picture) : picture, notes());
     progress.update(snapshot.time);
   }
   state_.begin.reset();
@@ -98,7 +105,7 @@ RangeEnds Film::look_ahead() const {
   constexpr std::uint64_t kSteps = 1'000'000;  // between looks for an interrupt
   const ScheduledRun& run = run_.scheduled();
   ScheduledRun ahead(scene_, run.seed(), run.simulation().save());
-  ahead.show(view_, run.save_shown());
+  ahead.show(view_, run.save_shown(), state_.exposure());
   const double start = run.simulation().time();
   const double window = std::min(view_.window, state_.times.last() - start);
   RangeEnds ends;

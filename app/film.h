@@ -33,12 +33,17 @@ struct FilmState {
   FrameTimes times;
   Size size;                        ///< of the pictures
   int samples = 1;                  ///< drawn along each axis for a pixel
+  double shutter = 0.0;             ///< share of the time between frames that each of them shows
+  bool transparent = false;         ///< without a background
   bool overlay = true;              ///< whether anything is written on them
   long next = 0;                    ///< number of the frame that comes next
   std::optional<long> begin;        ///< of the part that is being drawn; absent: none is
   std::optional<RangeEnds> ranges;  ///< absent: not chosen yet
-  std::optional<Camera> camera;     ///< absent: not chosen yet
-  std::string averages;             ///< of the heatmap, see ScheduledRun::save_shown()
+  std::optional<Camera> camera;     ///< that shows the whole box; absent: not chosen yet
+  std::string shown;                ///< of the time before, see ScheduledRun::save_shown()
+
+  /// The time up to a frame that it shows.
+  double exposure() const { return shutter * times.speed / times.fps; }
 };
 
 /// A film's state as checkpoints keep it.

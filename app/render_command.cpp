@@ -51,7 +51,9 @@ struct RenderOptions {
   std::optional<double> speed;
   std::optional<std::string> frames;  // absent: all
   std::optional<int> supersample;     // absent: 1
+  std::optional<double> shutter;      // absent: 0
   bool no_overlay = false;
+  bool transparent = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
 
@@ -100,6 +102,8 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   FilmState film;
   film.size = parse_size(options.size.value_or(preset.size));
   film.samples = options.supersample.value_or(1);
+  film.shutter = options.shutter.value_or(0.0);
+  film.transparent = options.transparent;
   film.overlay = view.overlay && !options.no_overlay;
   film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
                 options.fps.value_or(preset.fps), 1};
@@ -119,6 +123,14 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
     film.times.from = to.value_or(film.times.from + kPictureSeconds * film.times.speed);
   }
   return film;
+}
+
+// Films have no transparency.
+void require_pictures(const RenderOptions& options) {
+  const auto extension = std::filesystem::path(options.out).extension();
+  if (!options.transparent || extension.empty() || extension == ".png") return;
+  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be without a background",
+                  "write to a FILE.png or to a folder, or leave --transparent out");
 }
 
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
@@ -148,6 +160,8 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   keep(fps, times.fps, "--fps", number_text);
   keep(options.speed, times.speed, "--speed", number_text);
   keep(options.supersample, film.samples, "--supersample", [](int n) { return std::to_string(n); });
+  keep(options.shutter, film.shutter, "--shutter", number_text);
+  if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
   film.overlay = film.overlay && !options.no_overlay;
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to) film.times.count = count_frames(times, to);
@@ -237,6 +251,7 @@ int render(const RenderOptions& options) {
   const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
   require_distinct(outputs);
   require_folder_of(options.out, "--out");
+  require_pictures(options);
   catch_interrupts();
 
   Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
@@ -299,8 +314,15 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "Draw all but the overlay so many times larger, and average in linear light "
                    "(default: 1)")
       ->check(CLI::Range(1, 4));
+  command
+      ->add_option("--shutter", options->shutter,
+                   "Blur disks by their motion: share of the time between frames for which the "
+                   "shutter is open before each (default: 0)")
+      ->check(number_between(0.0, 1.0));
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
+  command->add_flag("--transparent", options->transparent,
+                    "Leave the background out, of a PNG picture or of a folder of them");
   command->add_flag("--overwrite", options->overwrite,
                     "Replace frames that a folder holds already, or a film that was cut");
   command

@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-Canvas::Canvas(const Gl& gl, Size size)
+Canvas::Canvas(const Gl& gl, Size size, GLint format)
     : gl_(&gl),
       size_(size),
       colour_(generate<Texture>(gl, gl.GenTextures)),
@@ -20,8 +20,8 @@ Canvas::Canvas(const Gl& gl, Size size)
                    std::to_string(largest) + " a side");
   }
   gl.BindTexture(GL_TEXTURE_2D, colour_.id());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, size.width, size.height, 0, GL_RGBA,
-                GL_UNSIGNED_BYTE, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, format, size.width, size.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   bind();
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);

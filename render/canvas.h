@@ -5,11 +5,11 @@
 
 namespace clatter {
 
-/// An off-screen picture that OpenGL draws into: RGBA, 8 bits each, colours in sRGB.
+/// An off-screen picture that OpenGL draws into: RGBA, by default 8 bits each, colours in sRGB.
 class Canvas {
  public:
   /// Throws RunError where the picture is larger than this OpenGL allows.
-  Canvas(const Gl& gl, Size size);
+  Canvas(const Gl& gl, Size size, GLint format = GL_SRGB8_ALPHA8);
 
   /// The extent asked for.
   Size size() const { return size_; }

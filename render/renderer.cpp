@@ -75,13 +75,15 @@ RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
   return ends;
 }
 
-Renderer::Renderer(const Gl& gl, int samples)
+Renderer::Renderer(const Gl& gl, int samples, bool transparent)
     : gl_(&gl),
       samples_(samples),
+      transparent_(transparent),
       average_(gl),
       field_(gl),
       grid_(gl),
       walls_(gl),
+      trails_(gl),
       disks_(gl),
       arrows_(gl),
       overlay_(gl) {}
@@ -173,9 +175,9 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
                           const Legends& legends, const ThemeColours& theme) {
   const Size drawn = projection.drawn();
   gl_->Viewport(0, 0, drawn.width, drawn.height);
-  const Colour background = theme.background;
+  const Colour background = transparent_ ? Colour{0, 0, 0, 0} : theme.background;
   gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
-                  1.0f);
+                  background.alpha / 255.0f);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
   if (legends.field) {
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
@@ -183,8 +185,10 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   }
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, theme);
-  disks_.draw(snapshot, projection,
-              {view.colour_by, legends.disks ? legends.disks->scale : ColourScale{}, theme.disk});
+  const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
+                            theme.disk, transparent_ ? Blending::Encoded : Blending::Light};
+  if (view.trails) trails_.draw(snapshot, projection, colours, *view.trails);
+  disks_.draw(snapshot, projection, colours);
   if (legends.arrows) {
     arrows_.draw(*snapshot.arrows, projection, projection.samples * legends.arrows->pixels,
                  theme.text, theme.background);
@@ -202,7 +206,7 @@ void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& project
   fine_->bind();
   draw_world(snapshot, finer, view, legends, theme);
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
-  average_.draw(*fine_, samples_);
+  average_.draw(*fine_, samples_, transparent_);
 }
 
 }  // namespace clatter

@@ -12,6 +12,7 @@
 #include "render/layers/field_layer.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
+#include "render/layers/trail_layer.h"
 #include "render/layers/wall_layer.h"
 
 namespace clatter {
@@ -38,8 +39,9 @@ void visit(Archive& io, RangeEnds& range) {
 class Renderer {
  public:
   /// Compiles the shaders; throws RunError. `gl` must outlive the renderer. All but the overlay is
-  /// drawn `samples` times larger and averaged in linear light.
-  explicit Renderer(const Gl& gl, int samples = 1);
+  /// drawn `samples` times larger and averaged in linear light. Without a background,
+  /// `transparent`, pictures have their opacity as alpha, and colours times it.
+  explicit Renderer(const Gl& gl, int samples = 1, bool transparent = false);
 
   /// From now on automatic colour ranges have these ends.
   void fix(const RangeEnds& ends);
@@ -72,11 +74,13 @@ class Renderer {
 
   const Gl* gl_;
   int samples_;
+  bool transparent_;
   std::optional<Canvas> fine_;  ///< what has several samples a pixel; absent: not drawn yet
   AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;
   WallLayer walls_;
+  TrailLayer trails_;
   DiskLayer disks_;
   ArrowLayer arrows_;
   Overlay overlay_;

@@ -3,6 +3,7 @@
 
 uniform sampler2D u_picture;  // sRGB: what is fetched is linear
 uniform int u_samples;        // along each axis of a pixel
+uniform bool u_transparent;   // whether its colours, as stored, are times their opacity
 
 out vec4 o_colour;
 
@@ -10,12 +11,24 @@ vec3 srgb(vec3 c) {
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
+vec3 light_of(vec3 c) {
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
+}
+
+// The light of a sample times its opacity, and the opacity.
+vec4 sample_at(ivec2 place) {
+  vec4 c = texelFetch(u_picture, place, 0);
+  if (u_transparent && c.a > 0.0) c.rgb = c.a * light_of(srgb(c.rgb) / c.a);
+  return c;
+}
+
 void main() {
   ivec2 corner = ivec2(gl_FragCoord.xy) * u_samples;
   vec4 sum = vec4(0.0);
   for (int y = 0; y < u_samples; ++y) {
-    for (int x = 0; x < u_samples; ++x) sum += texelFetch(u_picture, corner + ivec2(x, y), 0);
+    for (int x = 0; x < u_samples; ++x) sum += sample_at(corner + ivec2(x, y));
   }
   vec4 mean = sum / float(u_samples * u_samples);
   o_colour = vec4(srgb(mean.rgb), mean.a);
+  if (u_transparent && mean.a > 0.0) o_colour.rgb = mean.a * srgb(mean.rgb / mean.a);
 }

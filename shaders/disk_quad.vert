@@ -3,6 +3,7 @@
 
 layout(location = 0) in vec2 a_centre;  // pixels
 layout(location = 1) in vec4 a_colour;  // linear light
+layout(location = 2) in float a_angle;  // by which it has turned
 
 uniform vec2 u_origin;  // lower left corner and extent of the viewport, pixels
 uniform vec2 u_extent;
@@ -10,10 +11,12 @@ uniform float u_reach;  // from the centre to the outermost pixel touched
 
 flat out vec2 v_centre;
 flat out vec4 v_colour;
+flat out vec2 v_axis;  // of the disk's mark, from its centre
 
 void main() {
   v_centre = a_centre;
   v_colour = a_colour;
+  v_axis = vec2(cos(a_angle), sin(a_angle));
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   vec2 position = a_centre + u_reach * corner;
   gl_Position = vec4(2.0 * (position - u_origin) / u_extent - 1.0, 0.0, 1.0);

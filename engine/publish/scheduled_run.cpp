@@ -50,33 +50,46 @@ void ScheduledRun::change(const std::vector<Override>& laws) {
 }
 
 void ScheduledRun::change_laws(Schedule changed) {
-  auto next =
-      std::make_unique<Simulation<2>>(model_of(changed.scene(), seed_), simulation_->save());
-  if (on_change) on_change(*next);
-  if (field_) field_ = std::make_unique<LiveField>(*next, view_, std::move(*field_));
-  simulation_ = std::move(next);
+  go_on_as(std::make_unique<Simulation<2>>(model_of(changed.scene(), seed_), simulation_->save()));
   schedule_ = std::move(changed);
 }
 
-void ScheduledRun::show(const View& view) {
-  view_ = view;
-  field_.reset();
-  if (view.shows_averages()) field_ = std::make_unique<LiveField>(*simulation_, view);
+// All that watches is handed over to another simulation with the disks where they are.
+void ScheduledRun::go_on_as(std::unique_ptr<Simulation<2>> next) {
+  if (on_change) on_change(*next);
+  if (shown_) shown_ = std::make_unique<ViewObservers>(*next, view_, exposure_, shown_.get());
+  simulation_ = std::move(next);
 }
 
-void ScheduledRun::show(const View& view, const std::string& saved) {
-  if (saved.empty()) return show(view);
+// Observers stay with their simulation, so that those of another view need another one.
+void ScheduledRun::show(const View& view, double exposure) {
   view_ = view;
-  field_ = std::make_unique<LiveField>(*simulation_, view, ArchiveReader(saved, "averages"));
+  exposure_ = exposure;
+  if (shown_) {
+    go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+  } else {
+    shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure);
+  }
+}
+
+void ScheduledRun::show(const View& view, const std::string& saved, double exposure) {
+  if (saved.empty()) return show(view, exposure);
+  if (std::exchange(shown_, nullptr)) {
+    go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+  }
+  view_ = view;
+  exposure_ = exposure;
+  shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure,
+                                           ArchiveReader(saved, "what is shown"));
 }
 
 std::string ScheduledRun::save_shown() const {
-  return field_ ? field_->save() : "";
+  return shown_ ? shown_->save() : "";
 }
 
 Snapshot ScheduledRun::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
-  if (field_) field_->publish(snapshot);
+  if (shown_) shown_->publish(snapshot);
   return snapshot;
 }
 

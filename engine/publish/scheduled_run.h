@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/measure/live_field.h"
 #include "engine/publish/snapshot.h"
+#include "engine/publish/view_observers.h"
 #include "engine/scene/schedule.h"
 
 namespace clatter {
@@ -45,12 +45,13 @@ class ScheduledRun {
   /// UserError or PhysicalStop where they cannot; nothing has then happened.
   void change(const std::vector<Override>& laws);
 
-  /// From now on snapshots have the averages that the view shows, if any.
-  void show(const View& view);
-  /// Likewise, with averages that go on from what save_shown() gave at this time of a run with the
-  /// same scene and view; empty: anew.
-  void show(const View& view, const std::string& saved);
-  /// The averages as they are now; empty: the view shows none.
+  /// From now on snapshots have all that the view shows, in pictures of a time `exposure` >= 0
+  /// each: averages, flights, the angles by which disks have turned.
+  void show(const View& view, double exposure = 0.0);
+  /// Likewise, going on from what save_shown() gave at this time of a run with the same scene, view
+  /// and exposure; empty: anew.
+  void show(const View& view, const std::string& saved, double exposure = 0.0);
+  /// What snapshots have of the time before, as it is now; empty: nothing.
   std::string save_shown() const;
   /// The gas at the simulation's time.
   Snapshot snapshot();
@@ -60,12 +61,14 @@ class ScheduledRun {
 
  private:
   void change_laws(Schedule changed);
+  void go_on_as(std::unique_ptr<Simulation<2>> next);
 
   Schedule schedule_;
   std::uint64_t seed_;
   std::unique_ptr<Simulation<2>> simulation_;
   View view_;
-  std::unique_ptr<LiveField> field_;
+  double exposure_ = 0.0;
+  std::unique_ptr<ViewObservers> shown_;  // absent: nothing asked for
 };
 
 }  // namespace clatter

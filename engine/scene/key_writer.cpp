@@ -57,11 +57,15 @@ std::string value_text(const Rgb& colour) {
   return quoted(text);
 }
 
+std::string TomlWriter::path() const {
+  std::string path;
+  for (const std::string& part : path_) path += (path.empty() ? "" : ".") + part;
+  return path;
+}
+
 void TomlWriter::write(std::string_view key, const std::string& value) {
   if (header_due_) {
-    std::string header;
-    for (const std::string& part : path_) header += (header.empty() ? "" : ".") + part;
-    text_ += "\n[" + header + "]\n";
+    text_ += "\n[" + path() + "]\n";
     header_due_ = false;
   }
   text_ += std::string(key) + " = " + value + '\n';
@@ -82,7 +86,7 @@ void TomlWriter::open_list(std::string_view key, bool) {
 }
 
 void TomlWriter::open_item() {
-  text_ += "\n[[" + path_.back() + "]]\n";
+  text_ += "\n[[" + path() + "]]\n";
 }
 
 void TomlWriter::close_list() {

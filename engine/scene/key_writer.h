@@ -115,6 +115,7 @@ class TomlWriter final : public KeyWriter {
   void open_item() override;
   void close_item() override {}
   void close_list() override;
+  std::string path() const;
 
   std::string text_;
   std::vector<std::string> path_;  // of the table being written

@@ -194,6 +194,14 @@ struct ColourRange {
   bool operator==(const ColourRange&) const = default;
 };
 
+/// What the camera is aimed at from a time on; between two of these it goes from one to the other.
+struct CameraKey {
+  double time = 0.0;            ///< simulation time, >= 0
+  std::optional<Vec2> centre;   ///< world point in the middle; absent: that of the whole picture
+  std::optional<int> follow;    ///< number of the disk in the middle, in place of a centre
+  std::optional<double> width;  ///< world units across, > 0; absent: as the whole picture has
+};
+
 /// What is drawn.
 struct View {
   ColourBy colour_by = ColourBy::Speed;
@@ -208,8 +216,11 @@ struct View {
   std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
   Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
   std::optional<Rgb> background;         ///< absent: that of the theme
-  bool grid = false;    ///< lines over the box, as far apart as the scale bar is long
-  bool overlay = true;  ///< time, title, colour bar, scale bar
+  bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;            ///< time, title, colour bar, scale bar
+  std::optional<double> trails;   ///< time that disks' paths reach back, > 0; absent: none
+  std::optional<double> card;     ///< seconds of film that begin with the title, > 0; absent: none
+  std::vector<CameraKey> camera;  ///< in order of time; empty: the whole box, always
 
   /// Whether it shows what has to be averaged over time.
   bool shows_averages() const { return field || arrows; }

@@ -100,6 +100,18 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
   }
 }
 
+/// Throws where the camera's times do not follow each other.
+static void check_camera(const Scene& scene, const toml::table& root, const std::string& file) {
+  const std::vector<CameraKey>& keys = scene.view.camera;
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    if (keys[k].time > keys[k - 1].time) continue;
+    throw UserError(place_of(root, "view.camera", file),
+                    "the camera's time " + number_text(keys[k].time) + " comes after " +
+                        number_text(keys[k - 1].time),
+                    "give each time once, in order");
+  }
+}
+
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
   check_pairs(scene, root, file);
   check_speeds(scene, root, file);
@@ -107,6 +119,16 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_colour(scene, root, file);
   check_fields(scene, root, file);
   check_kernel(scene, root, file);
+  check_camera(scene, root, file);
+}
+
+void check_followed(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (const CameraKey& key : scene.view.camera) {
+    if (!key.follow || *key.follow < scene.disks.count) continue;
+    throw UserError(place_of(root, "view.camera", file),
+                    "there is no disk " + std::to_string(*key.follow) + " to follow",
+                    "disks are numbered from 0 to " + std::to_string(scene.disks.count - 1));
+  }
 }
 
 /// The number of disks that a scene's two keys ask for; nothing where there is neither.

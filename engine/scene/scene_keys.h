@@ -94,6 +94,9 @@ inline constexpr Presence kNotOfBox = {Presence::Forbidden,
                                        "has no meaning for the box kernel: cells have their size",
                                        "remove it, or set measure.kernel = \"gaussian\""};
 
+inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
+                                              "remove one of the two"};
+
 /// What an enumerator is called in scene files.
 template <class E>
 struct Named {
@@ -300,7 +303,16 @@ void visit_measure(Visitor& io, Measure& measure) {
   io.value("width", measure.width, above(0.0), box ? kNotOfBox : kRequired);
 }
 
-/// The keys of [view].
+/// The keys of one of [[view.camera]].
+template <class Visitor>
+void visit_camera(Visitor& io, CameraKey& key) {
+  io.value("time", key.time, at_least(0.0));
+  io.value("follow", key.follow, at_least(0.0));
+  io.value("centre", key.centre, Limits{}, key.follow ? kNotBesideFollow : kOptional);
+  io.value("width", key.width, above(0.0));
+}
+
+/// The keys of [view]; the list comes last, because in a file it stands below the other keys.
 template <class Visitor>
 void visit_view(Visitor& io, View& view) {
   io.choice("colour_by", view.colour_by, kColourings);
@@ -316,6 +328,9 @@ void visit_view(Visitor& io, View& view) {
   io.value("background", view.background, Limits{});
   io.value("grid", view.grid);
   io.value("overlay", view.overlay);
+  io.value("trails", view.trails, above(0.0));
+  io.value("card", view.card, above(0.0));
+  io.list("camera", view.camera, [](auto& io, CameraKey& key) { visit_camera(io, key); });
 }
 
 template <class Visitor>

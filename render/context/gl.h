@@ -12,7 +12,7 @@ namespace clatter {
 // clang-format off
 #define CLATTER_GL_FUNCTIONS(X)                                                                   \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindTexture)                \
-  X(BindVertexArray) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)                        \
+  X(BindVertexArray) X(BlendEquation) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)                        \
   X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)              \
   X(CreateShader) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)         \
   X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) X(DrawArraysInstanced)         \

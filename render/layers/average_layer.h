@@ -10,8 +10,9 @@ class AverageLayer {
  public:
   explicit AverageLayer(const Gl& gl);
 
-  /// Replaces the picture that is bound by `fine`, which has `samples` along each axis of a pixel.
-  void draw(const Canvas& fine, int samples) const;
+  /// Replaces the picture that is bound by `fine`, which has `samples` along each axis of a pixel,
+  /// and of a `transparent` picture colours that are times their opacity.
+  void draw(const Canvas& fine, int samples, bool transparent = false) const;
 
  private:
   const Gl* gl_;

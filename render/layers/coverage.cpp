@@ -47,10 +47,10 @@ Coverage::Stencil Coverage::stencil(double x, double y) const {
   return areas;
 }
 
-void Coverage::add(const Vec2& centre, Colour colour) {
+void Coverage::add(const Vec2& centre, Colour colour, float share) {
   const Vec2 corner = centre.array() - radius_ + kMargin;
   bands_[static_cast<std::size_t>(corner.y()) / kBandHeight].push_back(
-      {static_cast<float>(corner.x()), static_cast<float>(corner.y()), colour});
+      {static_cast<float>(corner.x()), static_cast<float>(corner.y()), colour, share});
 }
 
 void Coverage::sum() {
@@ -64,8 +64,9 @@ void Coverage::add_to_pixels(const Disk& disk) {
   const int phase_x = static_cast<int>((disk.x - x) * kPhases);
   const int phase_y = static_cast<int>((disk.y - y) * kPhases);
   const Stencil& areas = stencils_[phase_y * kPhases + phase_x];
-  const Eigen::Array4f light(linear_light(disk.colour.red), linear_light(disk.colour.green),
-                             linear_light(disk.colour.blue), 1.0f);
+  const Eigen::Array4f light =
+      disk.share * Eigen::Array4f(linear_light(disk.colour.red), linear_light(disk.colour.green),
+                                  linear_light(disk.colour.blue), 1.0f);
   Eigen::Array4f* row = &pixels_[static_cast<std::size_t>(y) * extent().width + x];
   for (int j = 0; j < side_; ++j, row += extent().width) {
     for (int i = 0; i < side_; ++i) row[i] += areas[j * kSide + i] * light;

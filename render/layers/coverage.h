@@ -20,9 +20,9 @@ class Coverage {
 
   /// Starts an empty picture of `size`, for disks of `radius` > 0, in pixels.
   void restart(Size size, double radius);
-  /// Adds a disk, whose centre is in pixels from the picture's lower left corner and at most
-  /// kMargin - 2 pixels outside.
-  void add(const Vec2& centre, Colour colour);
+  /// Adds a share of a disk, whose centre is in pixels from the picture's lower left corner and at
+  /// most kMargin - 2 pixels outside.
+  void add(const Vec2& centre, Colour colour, float share = 1.0f);
   /// Sums up what the disks added since restart() give to each pixel.
   void sum();
 
@@ -40,6 +40,7 @@ class Coverage {
   struct Disk {
     float x, y;  // lower left corner of the square about it, pixels of extent()
     Colour colour;
+    float share;
   };
 
   Stencil stencil(double x, double y) const;

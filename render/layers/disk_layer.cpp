@@ -1,9 +1,11 @@
 #include "render/layers/disk_layer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "render/layers/chords.h"
 #include "render/layers/wall_layer.h"
 
 namespace clatter {
@@ -25,11 +27,10 @@ double largest_point_of(const Gl& gl) {
   return range[1];
 }
 
-// Calls `visit` with centre, in pixels, and colour of each disk in sight, and of its images across
+// Calls `visit` with centre, in pixels, and number of each disk in sight, and of its images across
 // a periodic border.
 template <class Visit>
-void visit_disks(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
-                 Visit visit) {
+void visit_disks(const Snapshot& snapshot, const Projection& projection, Visit visit) {
   const double reach = reach_pixels(snapshot, projection);
   const double radius = 0.5 * snapshot.diameter;
   const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
@@ -44,59 +45,40 @@ void visit_disks(const Snapshot& snapshot, const Projection& projection, const D
 
   for (std::size_t i = 0; i < snapshot.positions.size(); ++i) {
     const Vec2& place = snapshot.positions[i];
-    const Colour colour = colours.of(snapshot, i);
     shifts(0, place.x(), [&](double dx) {
       shifts(1, place.y(), [&](double dy) {
         const Vec2 centre = projection.pixels(place + Vec2(dx, dy));
         if ((centre.array() <= -reach).any() || (centre.array() >= high.array()).any()) return;
-        visit(centre, colour);
+        visit(centre, i);
       });
     });
   }
 }
 
-std::uint16_t of_65535(float share) {
-  return static_cast<std::uint16_t>(std::lround(65535.0f * share));
-}
-
 }  // namespace
-
-double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i) {
-  switch (colour_by) {
-    case ColourBy::None:
-      return 0.0;
-    case ColourBy::Speed:
-      return snapshot.velocities[i].norm();
-    case ColourBy::VelocityX:
-      return snapshot.velocities[i].x();
-    case ColourBy::VelocityY:
-      return snapshot.velocities[i].y();
-    case ColourBy::Spin:
-      return snapshot.spins.empty() ? 0.0 : snapshot.spins[i];
-  }
-  return 0.0;
-}
-
-Colour DiskColours::of(const Snapshot& snapshot, std::size_t i) const {
-  return colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i));
-}
 
 DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
     : gl_(&gl),
       largest_point_(largest_point.value_or(largest_point_of(gl))),
       point_(gl, "disk_point.vert", "disk.frag"),
       square_(gl, "disk_quad.vert", "disk.frag"),
-      coverage_layer_(gl),
+      swept_(gl),
+      light_(gl),
+      areas_(generate<Texture>(gl, gl.GenTextures)),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
       points_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       squares_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
+  gl.BindTexture(GL_TEXTURE_2D, areas_.id());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   for (const auto& [array, divisor] : {std::pair(points_.id(), 0), std::pair(squares_.id(), 1)}) {
     gl.BindVertexArray(array);
     gl.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(Disk), nullptr);
     gl.VertexAttribPointer(1, 4, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(Disk),
                            reinterpret_cast<const void*>(offsetof(Disk, light)));
-    for (GLuint attribute : {0, 1}) {
+    gl.VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, sizeof(Disk),
+                           reinterpret_cast<const void*>(offsetof(Disk, angle)));
+    for (GLuint attribute : {0, 1, 2}) {
       gl.EnableVertexAttribArray(attribute);
       gl.VertexAttribDivisor(attribute, divisor);
     }
@@ -105,54 +87,84 @@ DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
 
 void DiskLayer::draw(const Snapshot& snapshot, const Projection& projection,
                      const DiskColours& colours) {
-  // Edges and small disks let what lies below through as light, whatever their size.
-  gl_->Enable(GL_FRAMEBUFFER_SRGB);
   if (radius_pixels(snapshot, projection) < Coverage::kLargestRadius) {
     draw_coverage(snapshot, projection, colours);
+  } else if (snapshot.exposure > 0.0) {
+    swept_.draw(snapshot, projection, colours);
   } else {
     draw_shapes(snapshot, projection, colours);
   }
-  gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
 void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projection,
                               const DiskColours& colours) {
   coverage_.restart(projection.drawn(), radius_pixels(snapshot, projection));
-  visit_disks(snapshot, projection, colours,
-              [&](const Vec2& centre, Colour colour) { coverage_.add(centre, colour); });
+  if (snapshot.exposure > 0.0) {
+    cover_paths(snapshot, projection, colours);
+  } else {
+    visit_disks(snapshot, projection, [&](const Vec2& centre, std::size_t i) {
+      coverage_.add(centre, colours.of(snapshot, i));
+    });
+  }
   coverage_.sum();
-  const Faces faces = faces_of(snapshot);
-  coverage_layer_.draw(coverage_, projection.pixels(faces.low), projection.pixels(faces.high));
+  const Size extent = coverage_.extent();
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindTexture(GL_TEXTURE_2D, areas_.id());
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, extent.width, extent.height, 0, GL_RGBA, GL_FLOAT,
+                  coverage_.pixels().data());
+  light_.draw(areas_.id(), Coverage::kMargin, projection, faces_of(snapshot), colours.blending);
+}
+
+// Coverage tells places apart by far less than a step.
+void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projection,
+                            const DiskColours& colours) {
+  constexpr double kStep = 0.25;  // pixels
+  constexpr double kMostSteps = 1e6;
+  const double reach = reach_pixels(snapshot, projection);
+  const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
+  for (const Chord& chord : chords(snapshot, projection, snapshot.exposure)) {
+    const Colour colour = colours.of(snapshot, chord.disk);
+    const Vec2 way = chord.end - chord.start;
+    const int steps = static_cast<int>(std::min(way.norm() / kStep, kMostSteps)) + 1;
+    const double share = (chord.to - chord.from) / snapshot.exposure / steps;
+    for (int k = 0; k < steps; ++k) {
+      const Vec2 centre = chord.start + (k + 0.5) / steps * way;
+      if ((centre.array() <= -reach).any() || (centre.array() >= high.array()).any()) continue;
+      coverage_.add(centre, colour, static_cast<float>(share));
+    }
+  }
 }
 
 void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projection,
                             const DiskColours& colours) {
+  const bool marked = !snapshot.angles.empty();
   disks_.clear();
-  visit_disks(snapshot, projection, colours, [&](const Vec2& centre, Colour colour) {
-    disks_.push_back({static_cast<float>(centre.x()),
-                      static_cast<float>(centre.y()),
-                      {of_65535(linear_light(colour.red)), of_65535(linear_light(colour.green)),
-                       of_65535(linear_light(colour.blue)), of_65535(colour.alpha / 255.0f)}});
+  visit_disks(snapshot, projection, [&](const Vec2& centre, std::size_t i) {
+    disks_.push_back({static_cast<float>(centre.x()), static_cast<float>(centre.y()),
+                      marked ? static_cast<float>(snapshot.angles[i]) : 0.0f,
+                      light_of(colours.of(snapshot, i))});
   });
+  if (colours.blending == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, disks_.size() * sizeof(Disk), disks_.data(), GL_STREAM_DRAW);
 
   const GLsizei count = static_cast<GLsizei>(disks_.size());
   if (2.0 * reach_pixels(snapshot, projection) <= largest_point_) {
-    set_uniforms(point_, snapshot, projection);
+    set_uniforms(point_, snapshot, projection, colours.blending);
     gl_->Enable(GL_PROGRAM_POINT_SIZE);
     gl_->BindVertexArray(points_.id());
     gl_->DrawArrays(GL_POINTS, 0, count);
   } else {
-    set_uniforms(square_, snapshot, projection);
+    set_uniforms(square_, snapshot, projection, colours.blending);
     gl_->BindVertexArray(squares_.id());
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
   }
+  gl_->Disable(GL_FRAMEBUFFER_SRGB);
   gl_->Viewport(0, 0, projection.drawn().width, projection.drawn().height);
 }
 
 void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
-                             const Projection& projection) const {
+                             const Projection& projection, Blending blending) const {
   const int margin = static_cast<int>(reach_pixels(snapshot, projection)) + 1;
   const int width = projection.drawn().width + 2 * margin;
   const int height = projection.drawn().height + 2 * margin;
@@ -167,6 +179,8 @@ void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   gl_->Uniform1f(program.uniform("u_reach"), reach_pixels(snapshot, projection));
   gl_->Uniform1f(program.uniform("u_radius"), radius_pixels(snapshot, projection));
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
+  gl_->Uniform1i(program.uniform("u_encoded"), blending == Blending::Encoded);
+  gl_->Uniform1i(program.uniform("u_marked"), !snapshot.angles.empty());
   gl_->Uniform2f(program.uniform("u_box_low"), low.x(), low.y());
   gl_->Uniform2f(program.uniform("u_box_high"), high.x(), high.y());
 }

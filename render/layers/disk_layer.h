@@ -1,33 +1,21 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
-#include "render/layers/coverage_layer.h"
-#include "render/palette.h"
+#include "render/layers/coverage.h"
+#include "render/layers/disk_colours.h"
+#include "render/layers/swept_layer.h"
 #include "render/program.h"
 
 namespace clatter {
 
-/// The value of disk `i` that its colour shows; 0 where it shows nothing.
-double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i);
-
-/// Which colours disks have.
-struct DiskColours {
-  ColourBy colour_by = ColourBy::None;
-  ColourScale scale;  ///< from the value that it shows
-  Colour plain;       ///< where it shows nothing
-
-  /// That of disk `i`.
-  Colour of(const Snapshot& snapshot, std::size_t i) const;
-};
-
 /// Draws the disks: points, squares where a disk is larger than the largest point, and where disks
-/// are too small to have a shape the light of all of them together.
+/// are too small to have a shape the light of all of them together. Those whose angle is known have
+/// a mark that turns with them; those that the picture shows over a time are blurred by their
+/// motion, and have none.
 class DiskLayer {
  public:
   /// `largest_point` in pixels; absent: what the driver says.
@@ -39,22 +27,27 @@ class DiskLayer {
 
  private:
   struct Disk {
-    float x, y;                          ///< centre, pixels
-    std::array<std::uint16_t, 4> light;  ///< linear colour and opacity, of 65535
+    float x, y;   ///< centre, pixels
+    float angle;  ///< by which it has turned
+    Light light;
   };
 
   void draw_coverage(const Snapshot& snapshot, const Projection& projection,
                      const DiskColours& colours);
+  void cover_paths(const Snapshot& snapshot, const Projection& projection,
+                   const DiskColours& colours);
   void draw_shapes(const Snapshot& snapshot, const Projection& projection,
                    const DiskColours& colours);
-  void set_uniforms(const Program& program, const Snapshot& snapshot,
-                    const Projection& projection) const;
+  void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
+                    Blending blending) const;
 
   const Gl* gl_;
   double largest_point_;
   Program point_;
   Program square_;
-  CoverageLayer coverage_layer_;
+  SweptLayer swept_;
+  LightLayer light_;
+  Texture areas_;
   Buffer buffer_;
   VertexArray points_;       ///< the buffer, a disk a vertex
   VertexArray squares_;      ///< the buffer, a disk an instance

@@ -16,7 +16,7 @@ constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2009, 0x2027, 0
 
 }  // namespace
 
-Fonts add_fonts(ImFontAtlas& atlas, float unit) {
+Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
   const std::string_view file = embedded_fonts().front().bytes;
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
@@ -25,11 +25,20 @@ Fonts add_fonts(ImFontAtlas& atlas, float unit) {
     atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()), size,
                                &config, kGlyphs);
   }
+  // Large letters are too many to have them all. The ranges must live until the atlas is built.
+  ImFontGlyphRangesBuilder letters;
+  letters.AddText(title.c_str());
+  letters.AddText(" ");
+  ImVector<ImWchar> ranges;
+  letters.BuildRanges(&ranges);
+  atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()),
+                             std::round(3.0f * unit), &config, ranges.Data);
+  atlas.Build();
   return loaded_fonts(atlas);
 }
 
 Fonts loaded_fonts(const ImFontAtlas& atlas) {
-  return {atlas.Fonts[0], atlas.Fonts[1], atlas.Fonts[2]};
+  return {atlas.Fonts[3], atlas.Fonts[0], atlas.Fonts[1], atlas.Fonts[2]};
 }
 
 ImVec2 text_extent(const ImFont& font, const std::string& text, float wrap) {

@@ -10,6 +10,7 @@ namespace clatter {
 
 /// One typeface in the sizes that the overlay uses, in pixels.
 struct Fonts {
+  const ImFont* card = nullptr;  ///< of the letters of one title only
   const ImFont* title = nullptr;
   const ImFont* text = nullptr;
   const ImFont* small = nullptr;
@@ -18,8 +19,9 @@ struct Fonts {
   float unit() const { return text->FontSize; }
 };
 
-/// The embedded typeface at text size `unit`, put into an empty atlas.
-Fonts add_fonts(ImFontAtlas& atlas, float unit);
+/// The embedded typeface at text size `unit`, put into an empty atlas; for cards the letters of
+/// `title`.
+Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title = "");
 
 /// The fonts that add_fonts put into `atlas`.
 Fonts loaded_fonts(const ImFontAtlas& atlas);

@@ -188,16 +188,70 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
   }
 }
 
+ImU32 with_opacity(Colour colour, double opacity) {
+  colour.alpha = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
+  return packed(colour);
+}
+
+// A line of text in the middle of the picture, with its upper edge at `y`.
+void draw_centred(ImDrawList& list, const ImFont& font, float y, ImU32 colour,
+                  const std::string& line, const Page& page) {
+  const float x = std::round(0.5f * (page.size.width - text_extent(font, line).x));
+  list.AddText(&font, font.FontSize, ImVec2(x, y), colour, line.c_str());
+}
+
+// The text's words in lines of at most `width` pixels.
+std::vector<std::string> lines_of(const std::string& text, const ImFont& font, float width) {
+  std::vector<std::string> lines;
+  const char *at = text.data(), *end = at + text.size();
+  while (at < end) {
+    const char* line_end = font.CalcWordWrapPositionA(1.0f, at, end, width);
+    if (line_end == at) line_end = end;  // not even a letter has room
+    lines.emplace_back(at, line_end);
+    at = line_end;
+    while (at < end && (*at == ' ' || *at == '\n')) ++at;
+  }
+  return lines;
+}
+
+// Title and caption in the middle of a picture that they cover.
+void draw_card(ImDrawList& list, const OverlayText& text, const Page& page) {
+  const float unit = page.fonts.unit(), width = 0.8f * page.size.width;
+  const auto titles = lines_of(text.title, *page.fonts.card, width);
+  const auto captions = lines_of(text.caption, *page.fonts.title, width);
+  const float title_line = 1.2f * page.fonts.card->FontSize;
+  const float caption_line = 1.3f * page.fonts.title->FontSize;
+  const float height = titles.size() * title_line + unit + captions.size() * caption_line;
+  float y = std::round(0.5f * (page.size.height - height));
+  list.AddRectFilled(ImVec2(0.0f, 0.0f), ImVec2(page.size.width, page.size.height),
+                     with_opacity(page.theme.background, 0.92 * text.card));
+  for (const std::string& line : titles) {
+    draw_centred(list, *page.fonts.card, y, with_opacity(page.theme.text, text.card), line, page);
+    y += std::round(title_line);
+  }
+  y += std::round(unit);
+  for (const std::string& line : captions) {
+    draw_centred(list, *page.fonts.title, y, with_opacity(page.theme.faint_text, text.card), line,
+                 page);
+    y += std::round(caption_line);
+  }
+}
+
 }  // namespace
+
+double card_opacity(double length, double time) {
+  return std::clamp(3.0 * (1.0 - time / length), 0.0, 1.0);
+}
 
 Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
 
-Fonts Overlay::fonts_for(Size size) {
+Fonts Overlay::fonts_for(Size size, const std::string& title) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  if (unit_for(size) == loaded_size_) return loaded_fonts(atlas);
+  if (unit_for(size) == loaded_size_ && title == loaded_title_) return loaded_fonts(atlas);
   atlas.Clear();
   loaded_size_ = unit_for(size);
-  const Fonts fonts = add_fonts(atlas, loaded_size_);
+  loaded_title_ = title;
+  const Fonts fonts = add_fonts(atlas, loaded_size_, title);
   gui_.upload(atlas);
   return fonts;
 }
@@ -205,14 +259,14 @@ Fonts Overlay::fonts_for(Size size) {
 Margins Overlay::margins(const Snapshot& snapshot, Size size, const Legends& legends,
                          const OverlayText& text) {
   const CurrentContext current(context_.get());
-  return arrange(snapshot, fonts_for(size), kDarkTheme, size, legends, text).margins;
+  return arrange(snapshot, fonts_for(size, text.title), kDarkTheme, size, legends, text).margins;
 }
 
 void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
                    const OverlayText& text, const ThemeColours& theme) {
   const CurrentContext current(context_.get());
   const Size size = projection.size;
-  const Page page = arrange(snapshot, fonts_for(size), theme, size, legends, text);
+  const Page page = arrange(snapshot, fonts_for(size, text.title), theme, size, legends, text);
   ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
@@ -226,6 +280,7 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
       draw_column(list, snapshot, projection, page);
       break;
   }
+  if (text.card > 0.0) draw_card(list, text, page);
   ImGui::Render();
   gui_.draw(*ImGui::GetDrawData());
 }

@@ -15,7 +15,12 @@ namespace clatter {
 struct OverlayText {
   std::string title;
   std::string caption;
+  double card = 0.0;  ///< opacity of a card with the two over the whole picture, 0..1
 };
+
+/// The opacity of a card that stands for the first `length` seconds of a film, `time` seconds after
+/// its beginning: 1, and fading out in the last third.
+double card_opacity(double length, double time);
 
 /// Writes on the picture: title, time, temperature, collisions, colour bars and a scale bar, in the
 /// margins that it asks for.
@@ -32,12 +37,13 @@ class Overlay {
             const OverlayText& text, const ThemeColours& theme);
 
  private:
-  /// Loads the fonts for a picture of `size`; the context must be current.
-  Fonts fonts_for(Size size);
+  /// Loads the fonts for a picture of `size`, and for a title; the context must be current.
+  Fonts fonts_for(Size size, const std::string& title);
 
   GuiLayer gui_;
   GuiContext context_;
   float loaded_size_ = 0.0f;  ///< of the text of the loaded fonts, pixels; 0: none yet
+  std::string loaded_title_;  ///< whose letters are loaded for cards
 };
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 #include <libdeflate.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -70,6 +71,16 @@ void write_bytes(const std::filesystem::path& path, std::span<const unsigned cha
 }
 
 }  // namespace
+
+Image with_own_colours(Image image) {
+  for (auto pixel = image.rgba.begin(); pixel != image.rgba.end(); pixel += 4) {
+    const int alpha = pixel[3];
+    for (int k = 0; alpha > 0 && k < 3; ++k) {
+      pixel[k] = static_cast<unsigned char>(std::min(255, (255 * pixel[k] + alpha / 2) / alpha));
+    }
+  }
+  return image;
+}
 
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts) {
   int size = 0;

@@ -17,6 +17,9 @@ struct Image {
   std::vector<unsigned char> rgba;  ///< [height][width][4], top row first
 };
 
+/// A picture whose colours are times their opacity, with colours as PNG files have them: not.
+Image with_own_colours(Image image);
+
 /// A note inside a PNG file, as an iTXt chunk.
 struct PngText {
   std::string keyword;  ///< 1..79 Latin-1 characters, e.g. "Title"

@@ -11,10 +11,10 @@ namespace clatter {
 
 namespace {
 
-// 150 frames of a gas under a heatmap with automatic ranges, one of whose walls swings wider later,
-// so that a camera would show more.
+// 150 frames of a gas, blurred and with trails, under a heatmap with automatic ranges, one of whose
+// walls swings wider later, so that a camera would show more; this one goes to a disk.
 const std::string kFilm =
-    "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --to 15 ";
+    "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --shutter 0.7 --to 15 ";
 
 void write_scene(const Shell& shell) {
   shell.write("scene.toml",
@@ -22,7 +22,8 @@ void write_scene(const Shell& shell) {
               "disks = { count = 100, restitution = 0.9 }\n"
               "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
               "walls.right = { kind = \"static\" }\n"
-              "view = { field = \"temperature\", window = 2.0, arrows = \"velocity\" }\n"
+              "view = { field = \"temperature\", window = 2.0, arrows = \"velocity\", trails = 0.7,"
+              " camera = [{ time = 5.0 }, { time = 9.0, follow = 3, width = 8.0 }] }\n"
               "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }
 
@@ -73,6 +74,8 @@ TEST_CASE("A film goes on with the flags it began with, and refuses others") {
   check_refused(shell, on + "--out film --fps 20", {"--fps", "the film that goes on has 10"});
   check_refused(shell, on + "--out film --size 320x240", {"--size", "160x120"});
   check_refused(shell, on + "--out film --speed 2", {"--speed"});
+  check_refused(shell, on + "--out film --shutter 0.2", {"--shutter", "has 0.7"});
+  check_refused(shell, on + "--out film --transparent", {"--transparent", "a background"});
   check_refused(shell, on + "--out film --to 3", {"--to", "5.9"});
   check_refused(shell, on + "--out film --set view.field=density", {"view.field", "--from"});
   check_refused(shell, on + "--out film --frames 10:30", {"--frames", "60"});

@@ -107,6 +107,51 @@ TEST_CASE("A picture of several samples a pixel has the size asked for, and othe
   CHECK(outcome.err.find("--supersample") != std::string::npos);
 }
 
+TEST_CASE("Shutter, trails and camera change pictures, but not the run") {
+  const Shell shell;
+  const auto drawn = [&](const std::string& flags) {
+    const Outcome outcome = shell.run(kRender + "--no-overlay --to 2 --out a.png " + flags);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    return shell.run("ffmpeg -v error -i a.png -f md5 -").out;
+  };
+  const std::string plain = drawn("");
+  CHECK(drawn("--shutter 0") == plain);
+  CHECK(drawn("--shutter 1") != plain);
+  CHECK(drawn("--set view.trails=1") != plain);
+  CHECK(drawn("--set view.camera='[{ follow = 3, width = 8 }]'") != plain);
+  CHECK(drawn("--set view.camera='[{ time = 5 }]'") == plain);
+  CHECK(shell.run(kRender + "--shutter 1.5 --out b.png").code == 2);
+}
+
+TEST_CASE("A film begins with its title where a card is asked for") {
+  const Shell shell;
+  CHECK(shell.run(kRender + "--to 1 --speed 1 --fps 4 --set view.card=0.5 --out card").code == 0);
+  CHECK(shell.run(kRender + "--to 1 --speed 1 --fps 4 --out plain").code == 0);
+  const auto hash = [&](const std::string& file) {
+    return shell.run("ffmpeg -v error -i " + file + " -f md5 -").out;
+  };
+  CHECK(hash("card/frame_000000.png") != hash("plain/frame_000000.png"));
+  CHECK(hash("card/frame_000001.png") != hash("plain/frame_000001.png"));
+  for (const char* frame : {"frame_000002", "frame_000003"}) {
+    CHECK(hash("card/" + std::string(frame) + ".png") ==
+          hash("plain/" + std::string(frame) + ".png"));
+  }
+}
+
+TEST_CASE("A picture without a background is no film") {
+  const Shell shell;
+  CHECK(shell.run(kRender + "--to 1 --transparent --out a.png").code == 0);
+  // Some of it is seen through, some not.
+  const std::string alpha =
+      "ffmpeg -v error -i a.png -vf alphaextract -f rawvideo - | od -An -v -tu1 -w1 | sort -nu | ";
+  CHECK(shell.run(alpha + "head -1").out.find(" 0\n") != std::string::npos);
+  CHECK(shell.run(alpha + "tail -1").out.find("255\n") != std::string::npos);
+  const Outcome film = shell.run(kRender + "--to 1 --transparent --out a.mp4");
+  CHECK(film.code == 2);
+  CHECK(film.err.find("--transparent") != std::string::npos);
+}
+
 TEST_CASE("A picture from a time is the picture at that time") {
   const Shell shell;
   shell.run(kRender + "--from 3 --out from.png && " + kRender + "--to 3 --out to.png");

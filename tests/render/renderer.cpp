@@ -332,6 +332,153 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
   }
 }
 
+TEST_CASE("Blur, trails and marks look the same with several samples a pixel") {
+  const auto context = open_context(Backend::Osmesa);
+  const Size size{1280, 720};
+  View view;
+  Snapshot snapshot = driven_box();
+  for (std::uint32_t i = 0; i < snapshot.positions.size(); ++i) {
+    const Vec2 &r = snapshot.positions[i], &v = snapshot.velocities[i];
+    snapshot.angles.push_back(0.1 * i);
+    snapshot.flights.push_back({i, -1.0, 0.0, r - v, v, {0.0, 0.0}});
+  }
+  for (const bool blurred : {false, true}) {
+    CAPTURE(blurred);
+    snapshot.exposure = blurred ? 0.8 : 0.0;
+    view.trails = blurred ? std::nullopt : std::optional(1.0);
+    Renderer normal(context->gl()), finer(context->gl(), 4);
+    const Camera camera = normal.fit(snapshot, size, view, kText);
+    const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
+    const Image many = draw(finer, context->gl(), snapshot, camera, size, view);
+    CHECK(similarity(one, many) >= 0.98);
+    CHECK(difference(one, many) > 10);
+  }
+}
+
+namespace {
+
+// A picture with its own colours laid over a background by its opacity, as programs do it.
+Colour over(Colour picture, Colour background) {
+  const auto channel = [&](int c, int b) {
+    return static_cast<std::uint8_t>((c * picture.alpha + b * (255 - picture.alpha) + 127) / 255);
+  };
+  return {channel(picture.red, background.red), channel(picture.green, background.green),
+          channel(picture.blue, background.blue)};
+}
+
+}  // namespace
+
+TEST_CASE("A picture without a background has its own colours, and opacity where something is") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = {{5.0, 5.0}};
+  snapshot.velocities = {{0.0, 0.0}};
+  View view;
+  view.colour_by = ColourBy::None;
+  view.overlay = false;
+  const Camera camera{{5.0, 5.0}, 12.0};
+  for (const int samples : {1, 2}) {
+    Renderer renderer(context->gl(), samples, true);
+    const Image image =
+        with_own_colours(draw(renderer, context->gl(), snapshot, camera, {300, 300}, view));
+    CHECK(pixel(image, 70, 70).alpha == 0);
+    CHECK(pixel(image, 150, 150) == kDarkTheme.disk);
+    // A disk's rim does not change its colour where it ends: no fringe of any background.
+    double area = 0.0;
+    for (int y = 100; y < 200; ++y) {
+      for (int x = 100; x < 200; ++x) {
+        const Colour seen = pixel(image, x, y);
+        area += seen.alpha / 255.0;
+        if (seen.alpha > 32 && seen.alpha < 224) CHECK(seen.red < kDarkTheme.disk.red - 60);
+      }
+    }
+    CHECK(area == doctest::Approx(M_PI * 12.5 * 12.5).epsilon(0.003));
+    // Laid over the background it is the picture with it, but for how edges are blended.
+    Renderer opaque(context->gl(), samples);
+    const Image whole = draw(opaque, context->gl(), snapshot, camera, {300, 300}, view);
+    int off = 0;
+    for (int y = 0; y < 300; ++y) {
+      for (int x = 0; x < 300; ++x) {
+        off = std::max(
+            off, difference(over(pixel(image, x, y), kDarkTheme.background), pixel(whole, x, y)));
+      }
+    }
+    CHECK(off < 30);
+  }
+}
+
+TEST_CASE("Small disks, and trails, have their own colours without a background, too") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = {{5.3, 5.0}};
+  snapshot.velocities = {{4.0, 0.0}};
+  snapshot.flights = {{0, -1.0, 0.0, {1.3, 5.0}, {4.0, 0.0}, {0.0, 0.0}}};
+  View view;
+  view.colour_by = ColourBy::None;
+  view.overlay = false;
+  // The colours seen left of `end`, but for faint ones, which are stored in few levels.
+  const auto check = [&](Size size, int end, int samples) {
+    CAPTURE(samples);
+    Renderer renderer(context->gl(), samples, true);
+    const Camera camera{{5.0, 5.0}, 9.0};
+    const Image image =
+        with_own_colours(draw(renderer, context->gl(), snapshot, camera, size, view));
+    int seen = 0;
+    for (int y = size.height / 4; y < 3 * size.height / 4; ++y) {
+      for (int x = 0; x < end; ++x) {
+        Colour colour = pixel(image, x, y);
+        if (colour.alpha < 48) continue;
+        colour.alpha = 255;
+        CHECK(difference(colour, kDarkTheme.disk) <= 8);
+        ++seen;
+      }
+    }
+    CHECK(seen > 3);
+  };
+  check({18, 18}, 18, 1);  // a radius of one pixel
+  snapshot.exposure = 0.5;
+  check({18, 18}, 18, 1);
+  snapshot.exposure = 0.0;
+  view.trails = 1.0;
+  for (const int samples : {1, 2}) check({180, 180}, 80, samples);
+}
+
+TEST_CASE("A card covers the picture with its title, and fades out") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Snapshot snapshot = driven_box();
+  for (const Size size : {Size{1280, 720}, {360, 640}}) {
+    const Camera camera = renderer.fit(snapshot, size, View{}, kText);
+    const auto letters = [&](double card) {
+      const Canvas canvas(context->gl(), size);
+      canvas.bind();
+      OverlayText text = kText;
+      text.card = card;
+      renderer.draw(snapshot, camera, size, View{}, text);
+      const Image image = canvas.read();
+      int count = 0, beyond = 0;
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          const bool letter = difference(pixel(image, x, y), kDarkTheme.text) < 30;
+          const bool middle = std::abs(2 * y - size.height) < size.height / 2;
+          (middle ? count : beyond) += letter;
+        }
+      }
+      return std::pair(count, beyond);
+    };
+    CHECK(letters(1.0).first > letters(0.0).first + 200);
+    CHECK(letters(1.0).second < letters(0.0).second);
+  }
+  CHECK(card_opacity(3.0, 0.0) == 1.0);
+  CHECK(card_opacity(3.0, 2.5) == doctest::Approx(0.5));
+  CHECK(card_opacity(3.0, 3.0) == 0.0);
+  CHECK(card_opacity(3.0, 9.0) == 0.0);
+}
+
 TEST_CASE("An empty box is drawn too") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());

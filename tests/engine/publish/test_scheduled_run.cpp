@@ -87,6 +87,33 @@ TEST_CASE("ScheduledRun: the live field goes on across changes") {
   }
 }
 
+TEST_CASE(
+    "ScheduledRun: pictures show flights and angles where they are asked for, and disks turn on") {
+  const Scene scene = load_scene("rough_driven");
+  ScheduledRun plain(scene, 16), shown(scene, 16);
+  plain.run_until(1.0);
+  shown.show(scene.view);
+  shown.run_until(0.5);
+  CHECK(plain.snapshot().angles.empty());
+  CHECK(shown.snapshot().angles.size() == shown.simulation().disks().size());
+  CHECK(shown.snapshot().flights.empty());
+  // Whatever is shown from now on: nothing of the former view may be told of events any more.
+  View view = scene.view;
+  for (int k = 1; k <= 20; ++k) {
+    view.field = k % 2 == 0 ? std::optional(Field::Density) : std::nullopt;
+    shown.show(view, 0.01);
+    shown.run_until(0.5 + 0.025 * k);
+  }
+  CHECK(shown.snapshot().exposure == doctest::Approx(0.01));
+  CHECK(shown.snapshot().flights.size() >= shown.simulation().disks().size());
+  CHECK(shown.simulation().state_hash() == plain.simulation().state_hash());
+  ScheduledRun steady(scene, 16);
+  steady.show(scene.view);
+  steady.run_until(1.0);
+  const std::vector<double> a = shown.snapshot().angles, b = steady.snapshot().angles;
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == b[i]);
+}
+
 TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
   ScheduledRun run(vibrated(), 15);
   run.run_until(3.0);
@@ -131,4 +158,32 @@ TEST_CASE("ScheduledRun: averages that go on from a checkpoint are to the bit th
       }
     }
   }
+}
+
+TEST_CASE("ScheduledRun: flights and angles go on from a checkpoint as those of one run") {
+  Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
+  scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
+  ScheduledRun whole(scene, 15);
+  whole.show(scene.view, 0.1);
+  whole.run_until(2.0);
+  const std::string shown = whole.save_shown();
+  ScheduledRun resumed(scene, 15, whole.simulation().save());
+  resumed.show(scene.view, shown, 0.1);
+  for (const double time : {2.0, 2.4, 5.0}) {
+    whole.run_until(time);
+    resumed.run_until(time);
+    const Snapshot wanted = whole.snapshot(), found = resumed.snapshot();
+    CHECK(found.exposure == wanted.exposure);
+    CHECK(found.angles == wanted.angles);
+    REQUIRE(found.flights.size() == wanted.flights.size());
+    for (std::size_t i = 0; i < found.flights.size(); ++i) {
+      CHECK(found.flights[i].disk == wanted.flights[i].disk);
+      CHECK(found.flights[i].from == wanted.flights[i].from);
+      CHECK(found.flights[i].position == wanted.flights[i].position);
+    }
+  }
+  View other = scene.view;
+  other.trails.reset();
+  ScheduledRun unlike(scene, 15, whole.simulation().save());
+  CHECK_THROWS_AS(unlike.show(other, shown), UserError);
 }

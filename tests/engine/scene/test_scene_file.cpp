@@ -103,6 +103,15 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.background == b.view.background);
   CHECK(a.view.grid == b.view.grid);
   CHECK(a.view.overlay == b.view.overlay);
+  CHECK(a.view.trails == b.view.trails);
+  CHECK(a.view.card == b.view.card);
+  REQUIRE(a.view.camera.size() == b.view.camera.size());
+  for (std::size_t k = 0; k < a.view.camera.size(); ++k) {
+    CHECK(a.view.camera[k].time == b.view.camera[k].time);
+    CHECK(a.view.camera[k].centre == b.view.camera[k].centre);
+    CHECK(a.view.camera[k].follow == b.view.camera[k].follow);
+    CHECK(a.view.camera[k].width == b.view.camera[k].width);
+  }
 }
 
 /// A scene in which every key differs from its default.
@@ -154,7 +163,11 @@ Scene unusual_scene() {
                 .theme = Theme::Projector,
                 .background = Rgb{0, 10, 255},
                 .grid = true,
-                .overlay = false};
+                .overlay = false,
+                .trails = 0.75,
+                .card = 1e-3,
+                .camera = {{.time = 0.5, .centre = {}, .follow = 1, .width = 0.1},
+                           {.time = 1e9, .centre = Vec2(-1.0, 1e-7), .follow = {}, .width = {}}}};
   return scene;
 }
 
@@ -202,6 +215,8 @@ TEST_CASE("every key arrives at its place") {
     field = "velocity_y"
     range = [0, 3]
     field_range = "locked"
+    trails = 0.5
+    camera = [{ follow = 2 }, { time = 2, centre = [1, 2.5], width = 4 }]
   )",
                                   "s.toml");
   CHECK(scene.title == "T");
@@ -227,6 +242,13 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.bulk_drive->kick_speed == 0.12);
   CHECK(scene.bulk_drive->kick_spin == 0.1);
   CHECK(scene.contact_time == 1e-6);
+  CHECK(scene.view.trails == 0.5);
+  REQUIRE(scene.view.camera.size() == 2);
+  CHECK(scene.view.camera[0].follow == 2);
+  CHECK(!scene.view.camera[0].width);
+  CHECK(scene.view.camera[1].time == 2.0);
+  CHECK(scene.view.camera[1].centre == Vec2(1.0, 2.5));
+  CHECK(scene.view.camera[1].width == 4.0);
   const std::vector<Field> fields = {Field::VelocityX, Field::VelocityY, Field::Density};
   CHECK(scene.measure.fields == fields);
   CHECK(scene.measure.cells == std::array{4, 5});

@@ -100,6 +100,26 @@ TEST_CASE("Points and squares give the same picture") {
   }
 }
 
+TEST_CASE("Disks whose angles are known have a mark that turns with them") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = one_disk({100.0, 60.0}, 40.0);
+  const Image unmarked = draw(context->gl(), snapshot, kAlwaysPoints);
+  for (const double angle : {0.0, 0.5 * M_PI, 2.0, -3.0}) {
+    snapshot.angles = {angle};
+    for (double largest_point : {kAlwaysPoints, kAlwaysSquares}) {
+      const Image image = draw(context->gl(), snapshot, largest_point);
+      for (const double radius : {4.0, 10.0, 14.0}) {
+        const Vec2 place = Vec2(100.0, 60.0) + radius * Vec2(std::cos(angle), -std::sin(angle));
+        const int x = static_cast<int>(place.x()), y = static_cast<int>(place.y());
+        CHECK(difference(pixel(image, x, y), kDarkTheme.disk) > 60);
+        CHECK(pixel(image, 200 - x - 1, 120 - y - 1) == kDarkTheme.disk);
+      }
+    }
+  }
+  snapshot.angles.clear();
+  CHECK(difference(draw(context->gl(), snapshot, kAlwaysPoints), unmarked) == 0);
+}
+
 TEST_CASE("Disks beyond the largest point of the driver are drawn as well") {
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});

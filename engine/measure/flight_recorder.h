@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/dynamics/observer.h"
+#include "engine/dynamics/simulation.h"
+#include "engine/publish/snapshot.h"
+
+namespace clatter {
+
+/// Keeps the disks' flights of the last while, for pictures that show more than an instant.
+class FlightRecorder : public Observer<2> {
+ public:
+  /// Watches a simulation from now on; its flights of a time `span` > 0 are kept.
+  FlightRecorder(Simulation<2>& simulation, double span);
+  /// Goes on with what that of the simulation before has kept: this one has its disks at its time,
+  /// maybe under other laws.
+  FlightRecorder(Simulation<2>& simulation, double span, FlightRecorder&& before);
+
+  void on_collision(const PairCollision<2>& collision) override;
+  void on_wall(const WallCollision<2>& collision) override;
+  void on_kick(const Kick<2>& kick) override;
+  void on_base_moved(double shift) override;
+
+  /// For how long it has watched, at most its span.
+  double reach() const;
+  /// The flights of the last reach(): first those that have ended, then each disk's own.
+  std::vector<FlightPiece> pieces() const;
+
+  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  template <class Archive>
+  void visit(Archive& io) {
+    io(since_, ended_);
+  }
+
+ private:
+  struct Ended {
+    std::uint32_t disk = 0;
+    Flight<2> flight;
+    double end = 0.0;  // on the moving base
+    Vec2 gravity = Vec2::Zero();
+
+    template <class Archive>
+    void visit(Archive& io) {
+      io(disk, flight, end, gravity);
+    }
+  };
+
+  void end_flight(const DiskChange<2>& change, double time);
+  void forget();
+  void add_piece(std::vector<FlightPiece>& pieces, const Ended& flight) const;
+
+  const Simulation<2>& simulation_;
+  double span_;
+  double since_;  // on the moving base
+  std::vector<Ended> ended_;
+  std::size_t forget_at_ = 0;  // how many flights there are when those too old are left out
+};
+
+}  // namespace clatter

@@ -1,0 +1,79 @@
+#include "engine/publish/view_observers.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace clatter {
+
+static bool same_averages(const View& a, const View& b) {
+  return a.field == b.field && a.arrows == b.arrows && a.window == b.window;
+}
+
+ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
+                             ViewObservers* before)
+    : view_(view), exposure_(exposure) {
+  if (view.shows_averages()) watch_field(simulation, before);
+  if (exposure > 0.0 || view.trails) watch_flights(simulation, before);
+  if (simulation.model().spins) watch_spins(simulation, before);
+}
+
+ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
+                             ArchiveReader saved)
+    : view_(view), exposure_(exposure) {
+  if (view.shows_averages()) {
+    std::string averages;
+    saved(averages);
+    field_.emplace(simulation, view, ArchiveReader(averages, "averages"));
+  }
+  if (exposure > 0.0 || view.trails) watch_flights(simulation, nullptr);
+  if (simulation.model().spins) watch_spins(simulation, nullptr);
+  if (flights_) saved(*flights_);
+  if (angles_) saved(*angles_);
+  saved.finish();
+}
+
+std::string ViewObservers::save() {
+  ArchiveWriter writer;
+  if (field_) {
+    std::string averages = field_->save();
+    writer(averages);
+  }
+  if (flights_) writer(*flights_);
+  if (angles_) writer(*angles_);
+  return writer.written();
+}
+
+void ViewObservers::watch_field(Simulation<2>& simulation, ViewObservers* before) {
+  if (before && before->field_ && same_averages(before->view_, view_)) {
+    field_.emplace(simulation, view_, std::move(*before->field_));
+  } else {
+    field_.emplace(simulation, view_);
+  }
+}
+
+void ViewObservers::watch_flights(Simulation<2>& simulation, ViewObservers* before) {
+  const double span = std::max(exposure_, view_.trails.value_or(0.0));
+  if (before && before->flights_) {
+    flights_.emplace(simulation, span, std::move(*before->flights_));
+  } else {
+    flights_.emplace(simulation, span);
+  }
+}
+
+void ViewObservers::watch_spins(Simulation<2>& simulation, ViewObservers* before) {
+  if (before && before->angles_) {
+    angles_.emplace(simulation, std::move(*before->angles_));
+  } else {
+    angles_.emplace(simulation);
+  }
+}
+
+void ViewObservers::publish(Snapshot& snapshot) {
+  if (field_) field_->publish(snapshot);
+  if (angles_) snapshot.angles = angles_->angles();
+  if (!flights_) return;
+  snapshot.exposure = std::min(exposure_, flights_->reach());
+  snapshot.flights = flights_->pieces();
+}
+
+}  // namespace clatter

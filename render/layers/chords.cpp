@@ -1,0 +1,90 @@
+#include "render/layers/chords.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+
+namespace {
+
+// A chord in the world.
+struct Way {
+  Vec2 start, end;
+
+  Vec2 low() const { return start.cwiseMin(end); }
+  Vec2 high() const { return start.cwiseMax(end); }
+};
+
+// Calls `visit` with each shift by whole boxes along an axis that brings some of a disk on its way
+// into the box; a way is no longer than a box.
+template <class Visit>
+void visit_shifts(const Snapshot& snapshot, int axis, const Way& way, Visit visit) {
+  if (snapshot.walls[2 * axis]) return visit(0.0);
+  const double radius = 0.5 * snapshot.diameter, box = snapshot.box[axis];
+  const double first = std::floor(-(way.high()[axis] + radius) / box) + 1.0;
+  const double last =
+      std::min(first + 2.0, std::ceil((box - way.low()[axis] + radius) / box) - 1.0);
+  for (double boxes = first; boxes <= last; ++boxes) visit(boxes * box);
+}
+
+class Collector {
+ public:
+  Collector(const Snapshot& snapshot, const Projection& projection)
+      : snapshot_(snapshot), projection_(projection) {}
+
+  std::vector<Chord> chords;
+
+  // A chord lies off its parabola by a dt^2 / 8 at most, and is no longer than a box. Where a
+  // flight passes thousands of boxes, nothing of it can be told apart.
+  void add(const FlightPiece& piece, double from, double to) {
+    constexpr double kOff = 1.0 / 16.0;  // pixels
+    const double curvature = piece.acceleration.norm() * projection_.scale();
+    constexpr double kMost = 4096.0;
+    const double bends = (to - from) * std::sqrt(curvature / (8.0 * kOff));
+    const Vec2 way = piece.at(to) - piece.at(from);
+    const double boxes = (way.array() / snapshot_.box.array()).abs().maxCoeff();
+    const double count = std::floor(std::min(std::max(bends, boxes), kMost)) + 1.0;
+    const double step = (to - from) / count;
+    for (double k = 0.0; k < count; ++k) {
+      const double start = from + k * step, end = k + 1.0 < count ? start + step : to;
+      add(piece.disk, {piece.at(start), piece.at(end)}, start, end);
+    }
+  }
+
+ private:
+  void add(std::uint32_t disk, const Way& way, double from, double to) {
+    visit_shifts(snapshot_, 0, way, [&](double dx) {
+      visit_shifts(snapshot_, 1, way, [&](double dy) {
+        const Vec2 shift(dx, dy);
+        const Chord chord{disk, projection_.pixels(way.start + shift),
+                          projection_.pixels(way.end + shift), from, to};
+        if (in_sight(chord)) chords.push_back(chord);
+      });
+    });
+  }
+
+  // A disk's soft edge reaches half a pixel beyond its radius.
+  bool in_sight(const Chord& chord) const {
+    const double reach = 0.5 * snapshot_.diameter * projection_.scale() + 0.5;
+    const Size size = projection_.drawn();
+    const Vec2 low = chord.start.cwiseMin(chord.end), high = chord.start.cwiseMax(chord.end);
+    return (high.array() > -reach).all() && low.x() < size.width + reach &&
+           low.y() < size.height + reach;
+  }
+
+  const Snapshot& snapshot_;
+  const Projection& projection_;
+};
+
+}  // namespace
+
+std::vector<Chord> chords(const Snapshot& snapshot, const Projection& projection, double time) {
+  Collector collector(snapshot, projection);
+  for (const FlightPiece& piece : snapshot.flights) {
+    const double from = std::max(piece.from, -time);
+    if (from < piece.to) collector.add(piece, from, piece.to);
+  }
+  return std::move(collector.chords);
+}
+
+}  // namespace clatter

@@ -1,0 +1,35 @@
+#include "render/layers/disk_colours.h"
+
+#include <cmath>
+
+namespace clatter {
+
+Light light_of(Colour colour) {
+  const auto of_65535 = [](float share) {
+    return static_cast<std::uint16_t>(std::lround(65535.0f * share));
+  };
+  return {of_65535(linear_light(colour.red)), of_65535(linear_light(colour.green)),
+          of_65535(linear_light(colour.blue)), of_65535(colour.alpha / 255.0f)};
+}
+
+double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i) {
+  switch (colour_by) {
+    case ColourBy::None:
+      return 0.0;
+    case ColourBy::Speed:
+      return snapshot.velocities[i].norm();
+    case ColourBy::VelocityX:
+      return snapshot.velocities[i].x();
+    case ColourBy::VelocityY:
+      return snapshot.velocities[i].y();
+    case ColourBy::Spin:
+      return snapshot.spins.empty() ? 0.0 : snapshot.spins[i];
+  }
+  return 0.0;
+}
+
+Colour DiskColours::of(const Snapshot& snapshot, std::size_t i) const {
+  return colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i));
+}
+
+}  // namespace clatter

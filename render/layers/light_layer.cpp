@@ -1,0 +1,54 @@
+#include "render/layers/light_layer.h"
+
+namespace clatter {
+
+LightLayer::LightLayer(const Gl& gl)
+    : gl_(&gl),
+      program_(gl, "field.vert", "light.frag"),
+      vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {}
+
+void LightLayer::begin(Size size, GLenum equation) {
+  gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target_);
+  if (!collected_ || collected_->size().width != size.width ||
+      collected_->size().height != size.height) {
+    collected_.emplace(*gl_, size, GL_RGBA16F);
+  }
+  collected_->bind();
+  gl_->Viewport(0, 0, size.width, size.height);
+  gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  gl_->BlendEquation(equation);
+  gl_->BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+}
+
+void LightLayer::end(const Projection& projection, const Faces& faces, Blending blending) {
+  gl_->BlendEquation(GL_FUNC_ADD);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target_));
+  draw(collected_->texture(), 0, projection, faces, blending);
+}
+
+void LightLayer::draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
+                      Blending blending) const {
+  const Size size = projection.drawn();
+  const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
+  gl_->Viewport(0, 0, size.width, size.height);
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindTexture(GL_TEXTURE_2D, light);
+  program_.use();
+  gl_->Uniform2f(program_.uniform("u_size"), size.width, size.height);
+  gl_->Uniform2f(program_.uniform("u_low"), 0.0f, 0.0f);
+  gl_->Uniform2f(program_.uniform("u_high"), size.width, size.height);
+  gl_->Uniform2f(program_.uniform("u_box_low"), low.x(), low.y());
+  gl_->Uniform2f(program_.uniform("u_box_high"), high.x(), high.y());
+  gl_->Uniform1i(program_.uniform("u_light"), 0);
+  gl_->Uniform1i(program_.uniform("u_margin"), margin);
+  gl_->Uniform1i(program_.uniform("u_encoded"), blending == Blending::Encoded);
+  gl_->BindVertexArray(vertices_.id());
+  gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (blending == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+  gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+}  // namespace clatter

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/publish/snapshot.h"
+#include "render/camera.h"
+#include "render/layers/disk_colours.h"
+#include "render/program.h"
+
+namespace clatter {
+
+/// Draws disks as a shutter sees them that is open for the snapshot's exposure: each pixel has the
+/// light of every disk for the share of time in which it covers the pixel, which is exact for
+/// straight flights. Disks never overlap, so that their shares add up.
+class SweptLayer {
+ public:
+  explicit SweptLayer(const Gl& gl);
+
+  /// Draws the disks along the snapshot's flights over what is bound, which must be of sRGB. A disk
+  /// has the colour of the snapshot's time.
+  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours);
+
+ private:
+  struct Swept {
+    float x, y;              ///< centre at the start, pixels
+    float along_x, along_y;  ///< direction of motion
+    float length;            ///< of its way, pixels
+    float share;             ///< of the exposure
+    Light light;
+  };
+
+  const Gl* gl_;
+  Program program_;
+  LightLayer light_;
+  Buffer buffer_;
+  VertexArray vertices_;
+  std::vector<Swept> swept_;  ///< kept to save its memory
+};
+
+}  // namespace clatter

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/publish/snapshot.h"
+#include "render/camera.h"
+#include "render/layers/disk_colours.h"
+#include "render/program.h"
+
+namespace clatter {
+
+/// Draws the way that disks have come as lines in their colours, which fade out.
+class TrailLayer {
+ public:
+  explicit TrailLayer(const Gl& gl);
+
+  /// Draws the snapshot's flights of the last `time` > 0 over what is bound, which must be of sRGB.
+  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
+            double time);
+
+ private:
+  struct Line {
+    float x0, y0, x1, y1;      ///< ends, pixels
+    float opacity0, opacity1;  ///< there
+    Light light;
+  };
+
+  const Gl* gl_;
+  Program program_;
+  LightLayer light_;
+  Buffer buffer_;
+  VertexArray vertices_;
+  std::vector<Line> lines_;  ///< kept to save its memory
+};
+
+}  // namespace clatter

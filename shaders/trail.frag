@@ -1,0 +1,21 @@
+#version 330 core
+// A straight part of a trail, with round ends and a soft edge.
+
+in vec2 v_place;           // along and across, from the start, pixels
+flat in float v_length;    // pixels
+flat in vec2 v_opacity;    // at the start and at the end
+flat in vec4 v_colour;     // linear light
+
+uniform float u_half;  // half the trail's width, pixels
+
+out vec4 o_light;
+
+// The share of a pixel that lies inside an edge, at a distance (positive: inside) in pixels.
+float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
+
+void main() {
+  float along = clamp(v_place.x, 0.0, v_length);
+  float opacity = mix(v_opacity.x, v_opacity.y, along / max(v_length, 1e-6));
+  float alpha = opacity * v_colour.a * coverage(u_half - length(v_place - vec2(along, 0.0)));
+  o_light = vec4(alpha * v_colour.rgb, alpha);
+}

@@ -1,0 +1,28 @@
+#version 330 core
+// A straight part of a trail, as an instance of a rectangle around it.
+
+layout(location = 0) in vec2 a_start;    // pixels
+layout(location = 1) in vec2 a_end;
+layout(location = 2) in vec2 a_opacity;  // at the start and at the end
+layout(location = 3) in vec4 a_colour;   // linear light
+
+uniform vec2 u_size;   // of the picture, pixels
+uniform float u_half;  // half the trail's width, pixels
+
+out vec2 v_place;  // along and across, from the start, pixels
+flat out float v_length;
+flat out vec2 v_opacity;
+flat out vec4 v_colour;
+
+void main() {
+  vec2 way = a_end - a_start;
+  v_length = length(way);
+  v_opacity = a_opacity;
+  v_colour = a_colour;
+  vec2 along = v_length > 0.0 ? way / v_length : vec2(1.0, 0.0);
+  float reach = u_half + 0.5;
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  v_place = mix(vec2(-reach), vec2(v_length + reach, reach), corner);
+  vec2 position = a_start + v_place.x * along + v_place.y * vec2(-along.y, along.x);
+  gl_Position = vec4(2.0 * position / u_size - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,184 @@
+#include <doctest/doctest.h>
+#include <stb_image.h>
+
+#include <array>
+#include <cstdlib>
+#include <string>
+
+#include "engine/error.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+#include "render/renderer.h"
+#include "tests/render/picture.h"
+
+// Pictures of five scenes, kept in assets/golden. Where a change of the looks is meant,
+//   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*OSMesa*'
+// draws them anew; look at each before it is kept.
+
+namespace clatter {
+
+namespace {
+
+struct Golden {
+  const char* name;
+  const char* scene;
+  double time;
+};
+
+constexpr std::array kGolden = {Golden{"driven", R"(
+        box.size = [16.0, 12.0]
+        disks = { count = 70, restitution = 0.9 }
+        walls.left = { kind = "driven", drive_speed = 1.0 }
+        walls.right = { kind = "thermal", temperature = 1.0 }
+        view = { field = "density", range = [0.0, 3.0], field_range = [0.0, 1.0], overlay = false })",
+                                       20.0},
+                                Golden{"rough", R"(
+        box.size = [12.0, 9.0]
+        disks = { count = 40, restitution = 0.9, friction = 0.5, start.spin_temperature = 1.0 }
+        [view]
+        colour_by = "spin"
+        range = [-4.0, 4.0]
+        theme = "light"
+        grid = true
+        overlay = false)",
+                                       2.0},
+                                Golden{"shaken", R"(
+        box.size = [16.0, 12.0]
+        disks = { count = 60, restitution = 0.9 }
+        gravity.acceleration = [0.0, -1.0]
+        walls.left = { kind = "static" }
+        walls.right = { kind = "sawtooth", stroke = 0.5, frequency = 0.4 }
+        walls.bottom = { kind = "sinusoidal", stroke = 1.0, frequency = 0.8 }
+        walls.top = { kind = "static" }
+        view = { colour_by = "velocity_y", range = [-4.0, 4.0], overlay = false })",
+                                       3.1},
+                                Golden{"small", R"(
+        box.size = [200.0, 150.0]
+        disks.count = 1200
+        view = { palette = "inferno", range = [0.0, 4.0], overlay = false })",
+                                       1.0},
+                                Golden{"labelled", R"(
+        title = "Heat flux"
+        caption = "From the hot wall to the cold one."
+        box.size = [16.0, 12.0]
+        disks.count = 70
+        walls.left = { kind = "thermal", temperature = 2.0 }
+        walls.right = { kind = "thermal", temperature = 0.5 }
+        [view]
+        colour_by = "none"
+        field = "temperature"
+        field_palette = "cividis"
+        field_range = [0.0, 3.0]
+        arrows = "velocity"
+        theme = "projector")",
+                                       6.0}};
+
+constexpr Size kSize{320, 240};
+
+Image drawn(const Golden& golden, const Gl& gl) {
+  const Scene scene = parse_scene(golden.scene, golden.name);
+  ScheduledRun run(scene, 1);
+  run.show(scene.view);
+  run.run_until(golden.time);
+  const Snapshot snapshot = run.snapshot();
+  const OverlayText text{scene.title, scene.caption};
+  Renderer renderer(gl);
+  const Canvas canvas(gl, kSize);
+  canvas.bind();
+  renderer.draw(snapshot, renderer.fit(snapshot, kSize, scene.view, text), kSize, scene.view, text);
+  return canvas.read();
+}
+
+std::filesystem::path file_of(const Golden& golden) {
+  return std::filesystem::path(CLATTER_GOLDEN) / (std::string(golden.name) + ".png");
+}
+
+Image read_png(const std::filesystem::path& path) {
+  Image image;
+  int channels = 0;
+  unsigned char* pixels =
+      stbi_load(path.c_str(), &image.size.width, &image.size.height, &channels, 4);
+  REQUIRE_MESSAGE(pixels, "no picture " << path);
+  image.rgba.assign(pixels, pixels + 4 * image.size.width * image.size.height);
+  stbi_image_free(pixels);
+  return image;
+}
+
+// Whether the pixels about one have not all the same colour.
+bool on_edge(const Image& image, int x, int y) {
+  constexpr int kFlat = 4;
+  for (int v = std::max(0, y - 1); v <= std::min(y + 1, image.size.height - 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(x + 1, image.size.width - 1); ++u) {
+      if (difference(pixel(image, x, y), pixel(image, u, v)) > kFlat) return true;
+    }
+  }
+  return false;
+}
+
+// How many pixels differ by more than a driver's rounding: where a picture has no edge a level or
+// two, and on an edge what a thirtieth of a pixel makes of the strongest one.
+int wrong_pixels(const Image& golden, const Image& image) {
+  constexpr int kOffEdges = 2, kOnEdges = 8;
+  int wrong = 0;
+  for (int y = 0; y < golden.size.height; ++y) {
+    for (int x = 0; x < golden.size.width; ++x) {
+      const int allowed = on_edge(golden, x, y) ? kOnEdges : kOffEdges;
+      wrong += difference(pixel(golden, x, y), pixel(image, x, y)) > allowed;
+    }
+  }
+  return wrong;
+}
+
+void compare(const Gl& gl) {
+  for (const Golden& golden : kGolden) {
+    CAPTURE(std::string(golden.name));
+    const Image image = drawn(golden, gl);
+    if (std::getenv("CLATTER_WRITE_GOLDEN")) write_png(file_of(golden), image);
+    const Image kept = read_png(file_of(golden));
+    REQUIRE(kept.rgba.size() == image.rgba.size());
+    const int wrong = wrong_pixels(kept, image);
+    CHECK(wrong == 0);
+    if (wrong == 0) continue;
+    const auto seen =
+        std::filesystem::temp_directory_path() / (std::string("golden_") + golden.name + ".png");
+    write_png(seen, image);
+    MESSAGE("what was drawn: " << seen);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Golden pictures: OSMesa draws them") {
+  compare(open_context(Backend::Osmesa)->gl());
+}
+
+// CTest reports the case as skipped where it says so.
+TEST_CASE("Golden pictures: EGL draws them") {
+  std::unique_ptr<GlContext> context;
+  try {
+    context = open_context(Backend::Egl);
+  } catch (const RunError& error) {
+    MESSAGE("[skipped] no EGL here: " << error.what());
+    return;
+  }
+  compare(context->gl());
+}
+
+TEST_CASE("Golden pictures: a disk a quarter of a pixel off is seen") {
+  const auto context = open_context(Backend::Osmesa);
+  const Golden& golden = kGolden.front();
+  const Scene scene = parse_scene(golden.scene, golden.name);
+  ScheduledRun run(scene, 1);
+  run.show(scene.view);
+  run.run_until(golden.time);
+  Snapshot snapshot = run.snapshot();
+  Renderer renderer(context->gl());
+  const Camera camera = renderer.fit(snapshot, kSize, scene.view, {});
+  snapshot.positions[7].x() += 0.25 * camera.width / kSize.width;
+  const Canvas canvas(context->gl(), kSize);
+  canvas.bind();
+  renderer.draw(snapshot, camera, kSize, scene.view, {});
+  CHECK(wrong_pixels(read_png(file_of(golden)), canvas.read()) > 0);
+}
+
+}  // namespace clatter
