@@ -34,15 +34,15 @@ bool ScheduledRun::run_until(double time, std::uint64_t collisions, std::uint64_
 
 void ScheduledRun::settle() {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
-  run_until(simulation_->time() * (1.0 + kRoundings));
+  try {
+    run_until(simulation_->time() * (1.0 + kRoundings));
+  } catch (const PhysicalStop&) {
+    // Who only halts has no use for it, and other laws may let time go on.
+  }
 }
 
 void ScheduledRun::change(const std::vector<Override>& laws) {
-  try {
-    settle();
-  } catch (const PhysicalStop&) {
-    // Other laws are what lets time go on where it stands still.
-  }
+  settle();
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
   changed.advance();

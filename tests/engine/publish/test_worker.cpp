@@ -155,6 +155,9 @@ TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
   CHECK(stopped.run == 2);
   CHECK_FALSE(stopped.plays);
   CHECK(stopped.message.find("contact_time") != std::string::npos);
+  // To halt there is nothing to tell again.
+  worker.send(command::Play{false});
+  CHECK(wait_for_handled(worker, 4).messages == 2);
   // It goes on once a contact time lets it.
   worker.send(command::SetLaws{{{"collapse.contact_time", "1e-5"}}});
   worker.send(command::Play{true});
