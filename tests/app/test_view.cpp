@@ -18,6 +18,27 @@ bool halted(const json& status) {
   return !status["plays"] && status.contains("hash");
 }
 
+// The hash that a run without a window has at the time of a status.
+json hash_of_run(const Hands& hands, const std::string& scene, const json& status) {
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
+                status["time"].get<double>());
+  const Outcome outcome = hands.shell().run(line);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return json::parse(outcome.out)["state_hash"];
+}
+
+// Saves the scene of a gas that halts: a run of it comes to the same bits.
+void check_saved_scene(const Hands& hands) {
+  const std::size_t told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.wait_for("saved", told)["file"];
+  const json now = hands.wait_for("status", 0, halted);
+  CHECK(hash_of_run(hands, scene, now) == now["hash"]);
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("window");
@@ -44,12 +65,7 @@ TEST_CASE("Window: a gas plays, halts, steps to a frame and to a collision, play
   CHECK(hit["collisions"].get<int>() == frame["collisions"].get<int>() + 1);
 
   // The same run without a window has the same hash.
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "clatter measure vibrated --quiet --set measure.burn_in=0 --until %.17g",
-                hit["time"].get<double>());
-  const json result = json::parse(hands.shell().run(line).out);
-  CHECK(result["state_hash"] == hit["hash"]);
+  CHECK(hash_of_run(hands, "vibrated", hit) == hit["hash"]);
 
   told = hands.told();
   hands.key("space");
@@ -104,16 +120,7 @@ TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays
   CHECK(hands.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3) ==
         std::vector<int>{0x10, 0x14, 0x18});
 
-  hands.key("ctrl+s");
-  const std::string scene = hands.wait_for("saved", told)["file"];
-  const json now = hands.wait_for("status", 0, halted);
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
-                now["time"].get<double>());
-  const Outcome outcome = hands.shell().run(line);
-  CAPTURE(outcome.err);
-  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+  check_saved_scene(hands);
 }
 
 TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be saved") {
@@ -128,17 +135,7 @@ TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be save
   CHECK(again["disks"] < 150);
   hands.drag("disks.restitution", 0.88, 0.8);
   hands.key("space");
-  told = hands.told();
-  hands.key("ctrl+s");
-  const std::string scene = hands.wait_for("saved", told)["file"];
-  const json now = hands.wait_for("status", 0, halted);
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
-                now["time"].get<double>());
-  const Outcome outcome = hands.shell().run(line);
-  CAPTURE(outcome.err);
-  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+  check_saved_scene(hands);
 }
 
 TEST_CASE("Window: quits at once") {
