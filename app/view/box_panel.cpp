@@ -78,7 +78,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
     case WallKind::Sinusoidal:
       slider("stroke",
              {.name = "Stroke",
-              .unit = "d",
+              .unit = "a",
               .help = "Its whole travel, in disk diameters",
               .high = 4.0},
              wall.stroke, usual.stroke);
@@ -159,7 +159,7 @@ void box_panel(Session& session, Controls& controls) {
     controls.component({.key = "box.size",
                         .name = axis == 0 ? "Width" : "Height",
                         .symbol = axis == 0 ? "Lx" : "Ly",
-                        .unit = "d",
+                        .unit = "a",
                         .help = "Of the box, in disk diameters; disks that no longer fit go",
                         .low = 4.0,
                         .high = longest,
