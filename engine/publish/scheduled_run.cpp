@@ -58,9 +58,16 @@ void ScheduledRun::change_laws(Schedule changed) {
   schedule_ = std::move(changed);
 }
 
+void ScheduledRun::renew() {
+  auto next = std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save());
+  if (on_change) on_change(*next);
+  if (field_) field_ = std::make_unique<LiveField>(*next, view_, std::move(*field_));
+  simulation_ = std::move(next);
+}
+
 void ScheduledRun::show(const View& view) {
+  if (std::exchange(field_, nullptr)) renew();
   view_ = view;
-  field_.reset();
   if (view.shows_averages()) field_ = std::make_unique<LiveField>(*simulation_, view);
 }
 

@@ -41,12 +41,15 @@ class ScheduledRun {
   /// simulation().time() now has come through the same events. Where time stands still it stays
   /// there, and tells nothing: run_until throws.
   void settle();
-  /// Laws that hold from the simulation's time on, where it settles first, and are among the scene's
-  /// changes. Throws UserError or PhysicalStop where they cannot; the old ones then hold.
+  /// Laws that hold from the simulation's time on, where it settles first, and are among the
+  /// scene's changes. Throws UserError or PhysicalStop where they cannot; the old ones then hold.
   void change(const std::vector<Override>& laws);
 
   /// From now on snapshots have the averages that the view shows, if any.
   void show(const View& view);
+  /// Goes on, to the bit, with another simulation, which only those watch whom on_change hands
+  /// over: a simulation forgets no observer.
+  void renew();
   /// The gas at the simulation's time.
   Snapshot snapshot();
 
