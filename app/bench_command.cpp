@@ -6,6 +6,7 @@
 
 #include "app/bench_fields.h"
 #include "app/bench_render.h"
+#include "app/bench_window.h"
 #include "app/commands.h"
 #include "app/flag_checks.h"
 #include "app/resources.h"
@@ -96,13 +97,14 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("name", options->name,
                    "Which table: engine, how fast collisions are; fields, what they cost; render, "
-                   "what a frame costs")
-      ->check(CLI::IsMember({"engine", "fields", "render"}))
+                   "what a frame costs; window, what a picture of it costs beside the drawing")
+      ->check(CLI::IsMember({"engine", "fields", "render", "window"}))
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the table to a file, too")->type_name("FILE");
   command
-      ->add_option("--count", options->count,
-                   "One cell of the engine's table, one number of disks of that of render")
+      ->add_option(
+          "--count", options->count,
+          "One cell of the engine's table, one number of disks of those of render and window")
       ->check(CLI::Range(2, 100'000'000));
   command
       ->add_option("--area-fraction", options->area_fraction, "One cell of the engine's table: phi")
@@ -118,6 +120,8 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       exit_code = bench_fields(options->duration, options->json);
     } else if (options->name == "render") {
       exit_code = bench_render(options->json, options->count);
+    } else if (options->name == "window") {
+      exit_code = bench_window(options->json, options->count);
     } else {
       exit_code = bench_engine(*options);
     }

@@ -222,12 +222,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--overwrite", options->overwrite,
                     "Replace frames that a folder holds already");
-  command->add_option("--backend", options->backend, "Where OpenGL comes from")
-      ->transform(one_of<Backend>({{"auto", Backend::Auto},
-                                   {"egl", Backend::Egl},
-                                   {"osmesa", Backend::Osmesa},
-                                   {"glfw", Backend::Glfw}}))
-      ->type_name("auto|glfw|egl|osmesa");
+  add_backend_flag(*command, options->backend);
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }
 

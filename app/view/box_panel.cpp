@@ -105,12 +105,15 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
   std::vector<std::string> words = {"periodic"};
   for (const auto& [name, kind] : kWallKinds) words.emplace_back(name);
   const auto& wall = scene.walls[side];
+  const auto& opened = session.opened().walls[side];
   int chosen = wall ? static_cast<int>(wall->kind) + 1 : 0;
+  const int usual = opened ? static_cast<int>(opened->kind) + 1 : 0;
   if (controls.choice(path.c_str(), kSideTitles[side],
                       "What stands at this side; periodic goes with the side opposite", words,
-                      chosen)) {
+                      chosen, usual)) {
     if (wall && chosen > 0) {
-      const Wall other = wall_of(static_cast<WallKind>(chosen - 1), *wall);
+      const Wall other =
+          opened && chosen == usual ? *opened : wall_of(static_cast<WallKind>(chosen - 1), *wall);
       controls.set({{path, inline_table(*wall)}}, {{path, inline_table(other)}});
       return;
     }
@@ -124,7 +127,7 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
   }
   if (!wall) return;
   ImGui::Indent();
-  wall_numbers(*wall, session.opened().walls[side], path, controls);
+  wall_numbers(*wall, opened, path, controls);
   ImGui::Unindent();
 }
 
