@@ -61,6 +61,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
       slider("drive_speed",
              {.name = "Drive speed",
               .symbol = "v_dr",
+              .unit = "a/t",
               .help = "Gain in normal velocity at every "
                       "bounce: the saw-tooth limit, Eqs. (2.17), (3.1)",
               .high = 5.0},
@@ -70,6 +71,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
       slider("temperature",
              {.name = "Temperature",
               .symbol = "T_w",
+              .unit = "m a²/t²",
               .help = "Of the disks that it emits",
               .high = 10.0},
              wall.temperature, usual.temperature);
@@ -83,7 +85,11 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
               .high = 4.0},
              wall.stroke, usual.stroke);
       slider("frequency",
-             {.name = "Frequency", .symbol = "f", .help = "Periods per time unit", .high = 10.0},
+             {.name = "Frequency",
+              .symbol = "f",
+              .unit = "1/t",
+              .help = "Periods per time unit",
+              .high = 10.0},
              wall.frequency, usual.frequency);
       break;
     case WallKind::Static:
@@ -147,6 +153,7 @@ void bulk_drive(Session& session, Controls& controls) {
       {.key = "bulk_drive.kick_speed",
        .name = "Kicks",
        .symbol = "s",
+       .unit = "a/t",
        .help = "Homogeneous driving: standard deviation of a kick per component, Sec. 3.2"},
       drive->kick_speed, usual.kick_speed);
 }
@@ -179,6 +186,7 @@ void box_panel(Session& session, Controls& controls) {
     controls.component({.key = "gravity.acceleration",
                         .name = axis == 0 ? "Gravity along x" : "Gravity along y",
                         .symbol = axis == 0 ? "g_x" : "g_y",
+                        .unit = "a/t²",
                         .help = "Acceleration of every disk",
                         .low = -2.0,
                         .high = 2.0},

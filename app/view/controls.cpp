@@ -60,12 +60,16 @@ static void headline(const Slider& slider, double value) {
     ImGui::SameLine();
     ImGui::TextDisabled("%s", slider.symbol);
   }
-  char text[64];
-  const int length = std::snprintf(text, sizeof text, slider.format, value);
-  std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), "%s%s",
-                *slider.unit ? " " : "", slider.unit);
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize() -
-                  ImGui::CalcTextSize(text).x);
+  ImGui::SameLine();
+  const float left = ImGui::GetCursorPosX();
+  const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
+  char number[64];
+  std::snprintf(number, sizeof number, slider.format, value);
+  // The unit stands here where there is room for it, and in the tooltip.
+  const std::string with_unit = number + (*slider.unit ? std::string(" ") + slider.unit : "");
+  const bool fits = ImGui::CalcTextSize(with_unit.c_str()).x < right - left;
+  const char* text = fits ? with_unit.c_str() : number;
+  ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
   ImGui::TextUnformatted(text);
 }
 

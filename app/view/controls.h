@@ -11,7 +11,7 @@ struct Slider {
   const char* key = "";     ///< of the scene file
   const char* name = "";    ///< as the panel writes it
   const char* symbol = "";  ///< as the thesis writes it
-  const char* unit = "";    ///< behind the value
+  const char* unit = "";    ///< behind the value; empty: a bare number
   const char* help = "";    ///< what it means, with the number of its equation
   double low = 0.0;
   double high = 1.0;

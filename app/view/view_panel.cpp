@@ -164,6 +164,7 @@ void view_panel(Session& session, Controls& controls) {
   if (view.shows_averages()) {
     changed |= controls.number({.key = "view.window",
                                 .name = "Averaged over",
+                                .unit = "t",
                                 .help = "How far back in time heatmap and arrows reach",
                                 .low = 0.1,
                                 .high = 100.0,
