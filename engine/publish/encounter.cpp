@@ -23,8 +23,9 @@ std::optional<Encounter> next_encounter(const Simulation<2>& simulation, std::ui
   const EventCounts& counts = ahead.counts();
   const std::uint64_t last_step = counts.steps() + most;
   try {
-    while (!watch.last() && counts.steps() < last_step) {
-      ahead.run_until(kNever, counts.collisions() + 1, last_step);
+    // It arrives at the end of time where nothing is to happen any more.
+    while (!watch.last() && counts.steps() < last_step &&
+           !ahead.run_until(kNever, counts.collisions() + 1, last_step)) {
     }
   } catch (const PhysicalStop&) {
     // Time stands still before: there is no next one.

@@ -207,6 +207,14 @@ TEST_CASE("Worker: of a picked disk it tells the next collision, and the last on
   CHECK(after.next_encounter->time > time);
 }
 
+TEST_CASE("Worker: of a picked disk at rest there is no next collision") {
+  Worker worker(60.0);
+  worker.send(
+      command::Open{load_scene("equilibrium", {{"disks.start.temperature", "0.0"}}), 27, false});
+  worker.send(command::Pick{7});
+  CHECK_FALSE(wait_for_handled(worker, 2).next_encounter);
+}
+
 TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
