@@ -7,6 +7,7 @@
 
 #include "app/progress.h"
 #include "engine/scene/scene_file.h"
+#include "render/context/context.h"
 
 namespace CLI {
 class App;
@@ -63,6 +64,9 @@ void add_scene_flags(CLI::App& command, CommonOptions& options);
 
 /// Adds all flags of CommonOptions to a command; `options` outlives it.
 void add_common_flags(CLI::App& command, CommonOptions& options);
+
+/// Adds --backend to a command that draws; `backend` outlives it.
+void add_backend_flag(CLI::App& command, Backend& backend);
 
 /// Adds the flags of CheckpointOptions to a command; `options` outlives it.
 void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options);

@@ -54,6 +54,15 @@ void add_common_flags(CLI::App& command, CommonOptions& options) {
       ->type_name("auto|json|none");
 }
 
+void add_backend_flag(CLI::App& command, Backend& backend) {
+  command.add_option("--backend", backend, "Where OpenGL comes from")
+      ->transform(one_of<Backend>({{"auto", Backend::Auto},
+                                   {"egl", Backend::Egl},
+                                   {"osmesa", Backend::Osmesa},
+                                   {"glfw", Backend::Glfw}}))
+      ->type_name("auto|glfw|egl|osmesa");
+}
+
 void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
   command
       .add_option("--resume", options.resume,

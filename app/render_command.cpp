@@ -331,12 +331,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
           "Draw only these frames of the film, numbered from 0: what several machines make "
           "is one film")
       ->type_name("FIRST:END");
-  command->add_option("--backend", options->backend, "Where OpenGL comes from")
-      ->transform(one_of<Backend>({{"auto", Backend::Auto},
-                                   {"egl", Backend::Egl},
-                                   {"osmesa", Backend::Osmesa},
-                                   {"glfw", Backend::Glfw}}))
-      ->type_name("auto|glfw|egl|osmesa");
+  add_backend_flag(*command, options->backend);
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }
 

@@ -13,13 +13,19 @@ namespace {
 struct ViewOptions {
   CommonOptions common;
   std::string size = "1280x800";
+  Backend backend = Backend::Auto;
   std::string script_log;
 };
 
 int view(const ViewOptions& options) {
+  if (options.backend == Backend::Egl || options.backend == Backend::Osmesa) {
+    throw UserError({"--backend", 0, 0}, "there OpenGL draws off screen, without a window",
+                    "write glfw, or let `clatter render` film the scene");
+  }
   WindowOptions window;
   window.scene = load(options.common);
   window.seed = options.common.seed.value_or(1);
+  window.until = options.common.until;
   window.script_log = options.script_log;
   if (std::sscanf(options.size.c_str(), "%dx%d", &window.width, &window.height) != 2 ||
       window.width < 320 || window.height < 240) {
@@ -39,6 +45,11 @@ void add_view_command(CLI::App& program, int& exit_code) {
   add_scene_flags(*command, options->common);
   command->get_option("scene")->required(false)->capture_default_str();
   command->add_option("--size", options->size, "Extent of the window")->capture_default_str();
+  command
+      ->add_option("--until", options->common.until,
+                   "Simulation time at which the gas halts, until it is played on")
+      ->check(positive_number());
+  add_backend_flag(*command, options->backend);
   command
       ->add_option("--script-log", options->script_log,
                    "Tell what the window does, a JSON object per line")

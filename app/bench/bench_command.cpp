@@ -5,6 +5,7 @@
 #include "app/bench/features.h"
 #include "app/bench/fields.h"
 #include "app/bench/render.h"
+#include "app/bench/window.h"
 #include "app/commands.h"
 #include "app/flag_checks.h"
 
@@ -52,14 +53,17 @@ void add_bench_command(CLI::App& program, int& exit_code) {
           "Which table: engine, how fast collisions are; growth, how that falls with the number "
           "of disks and their density; features, what each thing that a scene "
           "adds takes of that; fields, what they cost; render, "
-          "what a frame costs; accuracy, what each dial costs and how far off it is")
-      ->check(CLI::IsMember({"engine", "growth", "features", "fields", "render", "accuracy"}))
+          "what a frame costs; window, what a picture of it costs beside the drawing; accuracy, "
+          "what each dial costs and how far off it is")
+      ->check(
+          CLI::IsMember({"engine", "growth", "features", "fields", "render", "window", "accuracy"}))
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the table to a file, too")->type_name("FILE");
   command
       ->add_option(
           "--count", options->count,
-          "One cell of the engine's table, the number of disks of those of features and render, "
+          "One cell of the engine's table, the number of disks of those of features, render and "
+          "window, "
           "the largest of growth")
       ->check(CLI::Range(2, 100'000'000));
   command
@@ -85,6 +89,8 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       exit_code = bench_features(options->json, options->count);
     } else if (options->name == "render") {
       exit_code = bench_render(options->json, options->count);
+    } else if (options->name == "window") {
+      exit_code = bench_window(options->json, options->count);
     } else {
       exit_code = bench_engine(options->json, options->count, options->area_fraction);
     }

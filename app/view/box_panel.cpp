@@ -61,6 +61,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
       slider("drive_speed",
              {.name = "Drive speed",
               .symbol = "v_dr",
+              .unit = "a/t",
               .help = "Gain in normal velocity at every "
                       "bounce: the saw-tooth limit, Eqs. (2.17), (3.1)",
               .high = 5.0},
@@ -70,6 +71,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
       slider("temperature",
              {.name = "Temperature",
               .symbol = "T_w",
+              .unit = "m a²/t²",
               .help = "Of the disks that it emits",
               .high = 10.0},
              wall.temperature, usual.temperature);
@@ -78,12 +80,16 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
     case WallKind::Sinusoidal:
       slider("stroke",
              {.name = "Stroke",
-              .unit = "d",
+              .unit = "a",
               .help = "Its whole travel, in disk diameters",
               .high = 4.0},
              wall.stroke, usual.stroke);
       slider("frequency",
-             {.name = "Frequency", .symbol = "f", .help = "Periods per time unit", .high = 10.0},
+             {.name = "Frequency",
+              .symbol = "f",
+              .unit = "1/t",
+              .help = "Periods per time unit",
+              .high = 10.0},
              wall.frequency, usual.frequency);
       break;
     case WallKind::Static:
@@ -105,12 +111,15 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
   std::vector<std::string> words = {"periodic"};
   for (const auto& [name, kind] : kWallKinds) words.emplace_back(name);
   const auto& wall = scene.walls[side];
+  const auto& opened = session.opened().walls[side];
   int chosen = wall ? static_cast<int>(wall->kind) + 1 : 0;
+  const int usual = opened ? static_cast<int>(opened->kind) + 1 : 0;
   if (controls.choice(path.c_str(), kSideTitles[side],
                       "What stands at this side; periodic goes with the side opposite", words,
-                      chosen)) {
+                      chosen, usual)) {
     if (wall && chosen > 0) {
-      const Wall other = wall_of(static_cast<WallKind>(chosen - 1), *wall);
+      const Wall other =
+          opened && chosen == usual ? *opened : wall_of(static_cast<WallKind>(chosen - 1), *wall);
       controls.set({{path, inline_table(*wall)}}, {{path, inline_table(other)}});
       return;
     }
@@ -124,7 +133,7 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
   }
   if (!wall) return;
   ImGui::Indent();
-  wall_numbers(*wall, session.opened().walls[side], path, controls);
+  wall_numbers(*wall, opened, path, controls);
   ImGui::Unindent();
 }
 
@@ -144,6 +153,7 @@ void bulk_drive(Session& session, Controls& controls) {
       {.key = "bulk_drive.kick_speed",
        .name = "Kicks",
        .symbol = "s",
+       .unit = "a/t",
        .help = "Homogeneous driving: standard deviation of a kick per component, Sec. 3.2"},
       drive->kick_speed, usual.kick_speed);
 }
@@ -159,7 +169,7 @@ void box_panel(Session& session, Controls& controls) {
     controls.component({.key = "box.size",
                         .name = axis == 0 ? "Width" : "Height",
                         .symbol = axis == 0 ? "Lx" : "Ly",
-                        .unit = "d",
+                        .unit = "a",
                         .help = "Of the box, in disk diameters; disks that no longer fit go",
                         .low = 4.0,
                         .high = longest,
@@ -176,6 +186,7 @@ void box_panel(Session& session, Controls& controls) {
     controls.component({.key = "gravity.acceleration",
                         .name = axis == 0 ? "Gravity along x" : "Gravity along y",
                         .symbol = axis == 0 ? "g_x" : "g_y",
+                        .unit = "a/t²",
                         .help = "Acceleration of every disk",
                         .low = -2.0,
                         .high = 2.0},

@@ -60,12 +60,16 @@ static void headline(const Slider& slider, double value) {
     ImGui::SameLine();
     ImGui::TextDisabled("%s", slider.symbol);
   }
-  char text[64];
-  const int length = std::snprintf(text, sizeof text, slider.format, value);
-  std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), "%s%s",
-                *slider.unit ? " " : "", slider.unit);
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize() -
-                  ImGui::CalcTextSize(text).x);
+  ImGui::SameLine();
+  const float left = ImGui::GetCursorPosX();
+  const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
+  char number[64];
+  std::snprintf(number, sizeof number, slider.format, value);
+  // The unit stands here where there is room for it, and in the tooltip.
+  const std::string with_unit = number + (*slider.unit ? std::string(" ") + slider.unit : "");
+  const bool fits = ImGui::CalcTextSize(with_unit.c_str()).x < right - left;
+  const char* text = fits ? with_unit.c_str() : number;
+  ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
   ImGui::TextUnformatted(text);
 }
 
@@ -172,11 +176,12 @@ bool Controls::number(const Slider& slider, double& value, double usual) {
 }
 
 bool Controls::choice(const char* key, const char* name, const char* help,
-                      const std::vector<std::string>& words, int& chosen) {
+                      const std::vector<std::string>& words, int& chosen, int usual) {
   ImGui::PushID(key);
   ImGui::TextUnformatted(name);
+  bool changed = chosen != usual && reset_button();
+  if (changed) chosen = usual;
   ImGui::SetNextItemWidth(-FLT_MIN);
-  bool changed = false;
   const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str());
   log_place(key);
   if (!open && *help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
@@ -190,6 +195,20 @@ bool Controls::choice(const char* key, const char* name, const char* help,
     ImGui::EndCombo();
   }
   ImGui::PopID();
+  return changed;
+}
+
+bool Controls::ends(const char* key, const char* help, std::array<double, 2>& ends) {
+  std::array<double, 2> typed = ends;
+  ImGui::PushID(key);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputScalarN("##ends", ImGuiDataType_Double, typed.data(), 2, nullptr, nullptr, "%.4g",
+                      ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool changed = typed != ends && typed[0] < typed[1];
+  log_place(key);
+  if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  ImGui::PopID();
+  if (changed) ends = typed;
   return changed;
 }
 

@@ -11,7 +11,7 @@ struct Slider {
   const char* key = "";     ///< of the scene file
   const char* name = "";    ///< as the panel writes it
   const char* symbol = "";  ///< as the thesis writes it
-  const char* unit = "";    ///< behind the value
+  const char* unit = "";    ///< behind the value; empty: a bare number
   const char* help = "";    ///< what it means, with the number of its equation
   double low = 0.0;
   double high = 1.0;
@@ -34,9 +34,12 @@ class Controls {
                  bool at_once = true);
   /// A slider for something of the window's own; whether it has changed.
   bool number(const Slider& slider, double& value, double usual);
-  /// A list of words under a key of the window's own or of a law; whether another was chosen.
+  /// A list of words under a key of the window's own or of a law, with an arrow back to the `usual`
+  /// one; whether another was chosen.
   bool choice(const char* key, const char* name, const char* help,
-              const std::vector<std::string>& words, int& chosen);
+              const std::vector<std::string>& words, int& chosen, int usual);
+  /// Two numbers to type, the second greater than the first; whether others were.
+  bool ends(const char* key, const char* help, std::array<double, 2>& ends);
   /// A box to tick; whether it was.
   bool toggle(const char* key, const char* name, const char* help, bool& on);
   /// A button as wide as its label, or so many pixels; whether it was pressed.

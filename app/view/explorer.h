@@ -4,38 +4,35 @@
 #include <string>
 
 #include "app/view/controls.h"
+#include "app/view/film_job.h"
 #include "app/view/gallery.h"
 #include "app/view/history.h"
 #include "app/view/keys.h"
 #include "app/view/notes.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
+#include "app/view/shown.h"
 #include "app/view/stage.h"
-#include "render/context/glfw_context.h"
+#include "app/view/wall_grip.h"
 #include "render/layers/gui_layer.h"
+
+struct GLFWwindow;
 
 namespace clatter {
 
 /// What the window shows and does: the stage, the panels around it, the keys.
 class Explorer {
  public:
-  Explorer(const GlfwContext& context, Keys& keys, Worker& worker, ScriptLog& log);
+  Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker, ScriptLog& log);
 
-  /// Starts a scene.
-  void open(const Scene& scene, std::uint64_t seed);
+  /// Starts a scene, which halts at a time where one is given.
+  void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
   /// Takes what the person has done and draws the window's next picture.
   void draw();
+  /// Whether a film is being made, and the next picture does not wait for a person.
+  bool films() const { return film_.has_value(); }
 
  private:
-  struct Shown {
-    bool panels = true;
-    bool plots = false;
-    bool gallery = false;
-    bool help = false;
-    bool lecture = false;
-    bool hint = true;
-  };
-
   void begin();
   void use_keys();
   void use_function_key(const KeyPress& press);
@@ -43,28 +40,39 @@ class Explorer {
   void use_control_key(const KeyPress& press);
   void use_signs();
   void close_something();
+  void lecture(bool on);
   void panels();
+  void side_panels();
   void left_panel(float top, float width);
   void plots_drawer(float top, float width);
   void stage();
+  void use_stage();
   void open_gallery_scene(const std::string& name);
   void open_file(const std::string& file);
   void toggle_full_screen();
   void fix_range();
   void screenshot();
   std::string save_scene();
+  std::vector<std::string> film_arguments(const std::string& scene) const;
   void copy_command();
+  void film();
+  void watch_film();
 
-  const GlfwContext& context_;
+  GLFWwindow* window_;
+  const Gl* gl_;
   Keys& keys_;
   ScriptLog& log_;
   Session session_;
   Controls controls_;
   Stage stage_;
+  WallGrip wall_grip_;
   Gallery gallery_;
   History history_;
+  int profiled_ = 0;  // of kProfileNames
+  std::optional<FilmJob> film_;
   GuiLayer gui_;
   Shown shown_;
+  Theme theme_before_ = Theme::Dark;  // the lecture
   std::uint64_t drawn_views_ = 0;     // of Session::views()
   bool told_gallery_ = false;         // whether the script log knows that it is open
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none

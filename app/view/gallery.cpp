@@ -16,8 +16,8 @@ namespace clatter {
 Gallery::Gallery(const Gl& gl) : thumbnails_(gl, [] { glfwPostEmptyEvent(); }) {
   for (const EmbeddedFile& file : embedded_scenes()) {
     const Scene scene = load_gallery_scene(file);
-    entries_.push_back(
-        {std::string(file.name.substr(0, file.name.rfind('.'))), scene.title, scene.caption});
+    entries_.push_back({std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,
+                        scene.caption, scene.goal, scene.try_this});
   }
   std::ranges::sort(entries_, {}, &Entry::title);
 }
@@ -27,13 +27,22 @@ static std::string lower(std::string text) {
   return text;
 }
 
-// Its picture, its title, and what to watch.
+// Its picture, its title, what to watch, to learn and to try.
 bool Gallery::draw_card(const Entry& entry, Controls& controls) {
-  const float unit = ImGui::GetFontSize();
-  const float height = 5.6f * unit, edge = 0.4f * unit;
-  const float width = (height - 2.0f * edge) * Thumbnails::kSize.width / Thumbnails::kSize.height;
+  const float unit = ImGui::GetFontSize(), edge = 0.4f * unit;
+  const float tall = 5.4f * unit;
+  const float wide = tall * Thumbnails::kSize.width / Thumbnails::kSize.height;
   const ImVec2 at = ImGui::GetCursorPos();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float left = at.x + wide + 3.0f * edge;
+  const std::string try_this = "Try this: " + entry.try_this;
+  float height = ImGui::GetTextLineHeightWithSpacing() + 2.0f * edge;
+  for (const std::string* text : {&entry.caption, &entry.goal, &try_this}) {
+    height +=
+        ImGui::CalcTextSize(text->c_str(), nullptr, false, ImGui::GetContentRegionMax().x - left).y;
+    height += ImGui::GetStyle().ItemSpacing.y;
+  }
+  height = std::max(height, tall + 2.0f * edge);
   ImGui::PushID(entry.name.c_str());
   const bool clicked = controls.card(("gallery." + entry.name).c_str(), height);
   ImGui::PopID();
@@ -42,15 +51,17 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
     ImGui::GetWindowDrawList()->AddImageRounded(
         reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)),
         ImVec2(corner.x + edge, corner.y + edge),
-        ImVec2(corner.x + edge + width, corner.y + height - edge), ImVec2(0, 0), ImVec2(1, 1),
+        ImVec2(corner.x + edge + wide, corner.y + edge + tall), ImVec2(0, 0), ImVec2(1, 1),
         IM_COL32_WHITE, 0.3f * unit);
   }
-  ImGui::SetCursorPos(ImVec2(at.x + width + 3.0f * edge, at.y + 1.2f * edge));
+  ImGui::SetCursorPos(ImVec2(left, at.y + edge));
   ImGui::BeginGroup();
   ImGui::TextUnformatted(entry.title.c_str());
   ImGui::PushTextWrapPos(0.0f);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextUnformatted(entry.caption.c_str());
+  for (const std::string* text : {&entry.caption, &entry.goal, &try_this}) {
+    ImGui::TextUnformatted(text->c_str());
+  }
   ImGui::PopStyleColor();
   ImGui::PopTextWrapPos();
   ImGui::EndGroup();
@@ -61,7 +72,7 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
 std::optional<std::string> Gallery::draw(Controls& controls, float width, float height) {
   std::optional<std::string> chosen;
   const float unit = ImGui::GetFontSize();
-  const ImVec2 size(std::min(46.0f * unit, 0.9f * width), std::min(40.0f * unit, 0.86f * height));
+  const ImVec2 size(std::min(58.0f * unit, 0.9f * width), std::min(46.0f * unit, 0.9f * height));
   ImGui::SetNextWindowPos(ImVec2(0.5f * width, 0.5f * height), 0, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
@@ -81,10 +92,9 @@ std::optional<std::string> Gallery::draw(Controls& controls, float width, float 
   ImGui::BeginChild("scenes");
   const std::string wanted = lower(search_.data());
   for (const Entry& entry : entries_) {
-    if (lower(entry.name + ' ' + entry.title + ' ' + entry.caption).find(wanted) ==
-        std::string::npos) {
-      continue;
-    }
+    const std::string texts = entry.name + ' ' + entry.title + ' ' + entry.caption + ' ' +
+                              entry.goal + ' ' + entry.try_this;
+    if (lower(texts).find(wanted) == std::string::npos) continue;
     if (entered && !chosen) chosen = entry.name;
     if (draw_card(entry, controls)) chosen = entry.name;
   }

@@ -22,7 +22,7 @@ class Gallery {
 
  private:
   struct Entry {
-    std::string name, title, caption;
+    std::string name, title, caption, goal, try_this;
   };
 
   bool draw_card(const Entry& entry, Controls& controls);

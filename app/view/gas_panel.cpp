@@ -57,6 +57,7 @@ static void contact_time(Session& session, Controls& controls) {
     controls.law({.key = "collapse.contact_time",
                   .name = "Its length",
                   .symbol = "t_c",
+                  .unit = "t",
                   .help = "Of the TC model",
                   .low = 1e-9,
                   .high = 0.1,

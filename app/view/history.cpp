@@ -1,5 +1,6 @@
 #include "app/view/history.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clatter {
@@ -53,6 +54,8 @@ void History::add(const Frame& frame) {
   sample.bulk_in = (frame.tally.bulk_in - last_.bulk_in) / span;
   sample.gravity_in = (frame.tally.gravity_in - last_.gravity_in) / span;
   sample.dissipated = (frame.tally.dissipated - last_.dissipated) / span;
+  sample.ledger_residual = std::fabs(frame.ledger_residual);
+  sample.deepest_overlap = frame.deepest_overlap;
   samples_.push_back(sample);
   last_ = frame.tally;
   // The first few dozen pictures show single collisions: a sample needs some.
@@ -68,7 +71,9 @@ void History::thin_out() {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     thinned.push_back({0.5 * (a.time + b.time), 0.5 * (a.temperature + b.temperature),
                        0.5 * (a.walls_in + b.walls_in), 0.5 * (a.bulk_in + b.bulk_in),
-                       0.5 * (a.gravity_in + b.gravity_in), 0.5 * (a.dissipated + b.dissipated)});
+                       0.5 * (a.gravity_in + b.gravity_in), 0.5 * (a.dissipated + b.dissipated),
+                       std::max(a.ledger_residual, b.ledger_residual),
+                       std::max(a.deepest_overlap, b.deepest_overlap)});
   }
   samples_ = std::move(thinned);
   spacing_ *= 2.0;

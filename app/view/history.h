@@ -15,6 +15,8 @@ struct Sample {
   double bulk_in = 0.0;
   double gravity_in = 0.0;
   double dissipated = 0.0;
+  double ledger_residual = 0.0;  ///< see Totals, its size
+  double deepest_overlap = 0.0;  ///< see RunChecks
 };
 
 /// How often velocities fall into classes of equal width, over a while that reaches back some

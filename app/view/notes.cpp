@@ -48,6 +48,15 @@ bool told(const Session& session, const Area& area) {
   return true;
 }
 
+static void tell_encounter(const char* which, const Encounter& encounter) {
+  if (encounter.partner) {
+    ImGui::TextDisabled("%s t = %.4f, disk %u", which, encounter.time, *encounter.partner);
+  } else {
+    ImGui::TextDisabled("%s t = %.4f, %s wall", which, encounter.time,
+                        kSideNames[static_cast<std::size_t>(encounter.side)]);
+  }
+}
+
 void disk_note(const Frame& frame, std::size_t disk, bool follows, ImVec2 place, const Area& area) {
   const Snapshot& gas = frame.snapshot;
   if (disk >= gas.positions.size()) return;
@@ -65,12 +74,14 @@ void disk_note(const Frame& frame, std::size_t disk, bool follows, ImVec2 place,
   ImGui::TextDisabled("velocity %.3f, %.3f", v.x(), v.y());
   ImGui::TextDisabled("speed %.3f", v.norm());
   if (!gas.spins.empty()) ImGui::TextDisabled("spin %.3f", gas.spins[disk]);
+  if (frame.last_encounter) tell_encounter("last hit", *frame.last_encounter);
+  if (frame.next_encounter) tell_encounter("next hit", *frame.next_encounter);
   ImGui::TextDisabled(follows ? "followed; Esc lets go" : "double-click to follow");
   end_note();
 }
 
 void help_window(float width, float height) {
-  static constexpr std::array<std::pair<const char*, const char*>, 22> kKeys = {{
+  static constexpr std::array<std::pair<const char*, const char*>, 24> kKeys = {{
       {"Space", "play or pause"},
       {".", "next frame"},
       {"Shift + .", "next collision, with the pair marked"},
@@ -83,15 +94,17 @@ void help_window(float width, float height) {
       {"Ctrl + S", "save the scene with its changes"},
       {"F2", "screenshot"},
       {"P", "plots"},
+      {"T", "what there is to learn and to try"},
       {"M", "fix the colours' range, or let it follow"},
       {"Tab", "hide the panels"},
-      {"L", "lecture: large type, no panels"},
+      {"L", "lecture: for a projector, large type, no panels"},
       {"F11", "full screen"},
       {"Esc", "close what is open"},
       {"Scroll", "zoom about the cursor"},
       {"Right or middle drag", "move the view"},
       {"F", "fit the box into the view"},
       {"Click a disk", "its state; double-click follows it"},
+      {"Drag a wall", "the right or the upper one: another box"},
       {"Drop a file", "opens a scene, or a picture's scene"},
   }};
   const float unit = ImGui::GetFontSize();

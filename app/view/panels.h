@@ -13,9 +13,11 @@ void gas_panel(Session& session, Controls& controls);
 void box_panel(Session& session, Controls& controls);
 /// What is drawn.
 void view_panel(Session& session, Controls& controls);
+/// A round end for a range of the disks' colours: twice the thermal speed.
+double disk_colour_end(const Snapshot& snapshot);
 /// What a person asked the record panel for.
-enum class Recording { None, Screenshot, SaveScene, CopyCommand };
-/// Pictures and files of what is on screen.
-Recording record_panel(Controls& controls);
+enum class Recording { None, Screenshot, SaveScene, CopyCommand, Film, StopFilm };
+/// Pictures and files of what is on screen; how much of a film is done, where one is made.
+Recording record_panel(Controls& controls, std::optional<double> filmed);
 
 }  // namespace clatter

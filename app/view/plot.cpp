@@ -109,6 +109,21 @@ void draw_axes(ImDrawList& list, const PlotFrame& frame, const Plot& plot) {
         plot.x_label);
 }
 
+// One standard error to either side.
+void draw_band(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
+  const ImU32 ink = (packed(curve.colour) & ~IM_COL32_A_MASK) | (0x48u << IM_COL32_A_SHIFT);
+  const auto edge = [&](std::size_t i, double side) {
+    return frame.at(curve.points[i] + Vec2(0.0, side * curve.errors[i]));
+  };
+  const auto shows = [&](std::size_t i) {
+    return std::isfinite(curve.points[i].y()) && std::isfinite(curve.errors[i]);
+  };
+  for (std::size_t i = 1; i < curve.errors.size(); ++i) {
+    if (!shows(i - 1) || !shows(i)) continue;
+    list.AddQuadFilled(edge(i - 1, -1.0), edge(i, -1.0), edge(i, 1.0), edge(i - 1, 1.0), ink);
+  }
+}
+
 void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
   const ImU32 ink = packed(curve.colour);
   const float width = 0.1f * ImGui::GetFontSize();
@@ -180,6 +195,8 @@ void legend(const Plot& plot) {
 void draw_plot(const Plot& plot, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted(plot.title.c_str());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", plot.y_label.c_str());
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit);
   ImGui::PushID(plot.title.c_str());
   if (ImGui::SmallButton("CSV")) ImGui::SetClipboardText(csv_of(plot).c_str());
@@ -206,7 +223,10 @@ void draw_plot(const Plot& plot, float height) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_axes(list, frame, plot);
   list.PushClipRect(frame.low, ImVec2(frame.high.x, frame.high.y + 1.0f), true);
-  for (const Curve& curve : plot.curves) draw_curve(list, frame, curve);
+  for (const Curve& curve : plot.curves) {
+    if (!curve.errors.empty()) draw_band(list, frame, curve);
+    draw_curve(list, frame, curve);
+  }
   list.PopClipRect();
   ImGui::Dummy(ImVec2(width, height));
 }
@@ -214,9 +234,11 @@ void draw_plot(const Plot& plot, float height) {
 std::string csv_of(const Plot& plot) {
   std::string text;
   for (const Curve& curve : plot.curves) {
-    text += plot.x_label + ',' + (curve.name.empty() ? plot.title : curve.name) + '\n';
-    for (const Vec2& point : curve.points) {
-      text += number_text(point.x()) + ',' + number_text(point.y()) + '\n';
+    text += plot.x_label + ',' + (curve.name.empty() ? plot.title : curve.name);
+    text += curve.errors.empty() ? "\n" : ",standard error\n";
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      text += number_text(curve.points[i].x()) + ',' + number_text(curve.points[i].y());
+      text += curve.errors.empty() ? "\n" : ',' + number_text(curve.errors[i]) + '\n';
     }
     text += '\n';
   }

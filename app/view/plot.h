@@ -15,8 +15,9 @@ struct Curve {
   std::string name;  ///< in the legend; empty: not told
   Colour colour;
   std::vector<Vec2> points;
-  bool dashed = false;    ///< theory's lines are
-  bool as_point = false;  ///< the last point, large, instead of a line
+  bool dashed = false;              ///< theory's lines are
+  bool as_point = false;            ///< the last point, large, instead of a line
+  std::vector<double> errors = {};  ///< [points] standard errors, drawn as a band; empty: none
 };
 
 /// Curves over a common axis.
@@ -26,6 +27,7 @@ struct Plot {
   bool log_x = false;
   bool log_y = false;
   std::vector<Curve> curves;
+  std::string y_label = "";  ///< what it is and its unit
 };
 
 /// Draws a plot of this height over the width of the ImGui window, with its axes and legend.

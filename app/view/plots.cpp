@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/physics/theory.h"
-#include "engine/scene/scene_keys.h"
+#include "render/quantity.h"
 
 namespace clatter {
 
@@ -14,8 +14,8 @@ namespace {
 
 // Told apart by the colour-blind too (Okabe and Ito 2008).
 constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
-                 kGreen = {0x2c, 0xb5, 0x8f}, kRed = {0xe8, 0x75, 0x3f}, kPale = {0xc8, 0xd0, 0xd8},
-                 kYellow = {0xf0, 0xe4, 0x42};
+                 kGreen = {0x00, 0x9e, 0x73}, kRed = {0xd5, 0x5e, 0x00},
+                 kPurple = {0xcc, 0x79, 0xa7};
 
 // The gas of theory, where the scene is one: smooth disks between two like driven walls.
 std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
@@ -49,56 +49,56 @@ Curve level(const char* name, Colour colour, const std::vector<Sample>& samples,
   return curve;
 }
 
-Plot temperature_plot(const std::vector<Sample>& samples, const Scene& scene) {
-  Plot plot{"Temperature", "time t", false, false, {}};
+Plot temperature_plot(const std::vector<Sample>& samples, const Scene& scene, Colour plain) {
+  Plot plot{"Temperature", "time t", false, false, {}, "m a²/t²"};
   plot.curves = {
       over_time("T_x", kOrange, samples, [](const Sample& s) { return s.temperature.x(); }),
       over_time("T_y", kBlue, samples, [](const Sample& s) { return s.temperature.y(); }),
-      over_time("T", kPale, samples, [](const Sample& s) { return 0.5 * s.temperature.sum(); })};
+      over_time("T", plain, samples, [](const Sample& s) { return 0.5 * s.temperature.sum(); })};
   if (const auto gas = vibrated_gas(scene)) {
     plot.curves.push_back(level("simple", kRed, samples, gas->temperature_simple()));
     plot.curves.push_back(level("refined", kGreen, samples, gas->temperature_refined()));
-    plot.curves.push_back(level("corrected", kYellow, samples, gas->temperature_corrected()));
+    plot.curves.push_back(level("corrected", kPurple, samples, gas->temperature_corrected()));
   }
   return plot;
 }
 
-Plot energy_plot(const std::vector<Sample>& samples) {
-  Plot plot{"Energy per time", "time t", false, false, {}};
+Plot energy_plot(const std::vector<Sample>& samples, Colour plain) {
+  Plot plot{"Energy per time", "time t", false, false, {}, "m a²/t³"};
   const auto in = [](const Sample& s) { return s.walls_in + s.bulk_in + s.gravity_in; };
   plot.curves = {
       over_time("in", kOrange, samples, in),
       over_time("dissipated", kBlue, samples, [](const Sample& s) { return s.dissipated; }),
-      over_time("difference", kPale, samples, [&](const Sample& s) { return in(s)-s.dissipated; })};
+      over_time("difference", plain, samples, [&](const Sample& s) { return in(s)-s.dissipated; })};
   return plot;
 }
 
-// The mean over y of the heatmap, along x.
-Plot profile_plot(const Snapshot& snapshot) {
-  const FieldMap& map = *snapshot.field;
-  Plot plot{"Profile of " + std::string(name_of(map.field, kHeatmaps)), "x", false, false, {}};
-  std::ranges::replace(plot.title, '_', ' ');
-  Curve curve{"", kBlue, {}};
-  const auto [columns, rows] = map.cells;
-  for (int column = 0; column < columns; ++column) {
-    double sum = 0.0, count = 0.0;
-    for (int row = 0; row < rows; ++row) {
-      const double value = map.values[static_cast<std::size_t>(row * columns + column)];
-      if (!std::isfinite(value)) continue;
-      sum += value;
-      count += 1.0;
-    }
-    if (count > 0.0) {
-      curve.points.emplace_back((column + 0.5) * snapshot.box.x() / columns, sum / count);
-    }
+// How far the run's books are off: what rounding leaves.
+Plot residual_plot(const std::vector<Sample>& samples) {
+  Plot plot{"Residuals", "time t", false, true, {}, "relative"};
+  plot.curves = {
+      over_time("energy", kOrange, samples, [](const Sample& s) { return s.ledger_residual; }),
+      over_time("overlap", kBlue, samples, [](const Sample& s) { return s.deepest_overlap; })};
+  return plot;
+}
+
+// A field along x, with its standard errors.
+Plot profile_plot(const Profile& profile, std::size_t chosen) {
+  const Field field = profile.fields[chosen];
+  Plot plot{"Profile", "x in a", false, false, {}, quantity_of(field).unit};
+  Curve curve{quantity_of(field).name, kBlue, {}};
+  for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
+    const auto& [mean, error] = profile.values[chosen][i];
+    curve.points.emplace_back(0.5 * (profile.edges[i] + profile.edges[i + 1]), mean);
+    curve.errors.push_back(error);
   }
   plot.curves.push_back(std::move(curve));
   return plot;
 }
 
-Plot velocity_plot(const VelocityHistogram& velocities) {
-  Plot plot{"Velocities", "v / standard deviation", false, true, {}};
-  Curve gaussian{"Gaussian", kPale, {}, true};
+Plot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
+  Plot plot{"Velocities", "v / standard deviation", false, true, {}, "density"};
+  Curve gaussian{"Gaussian", plain, {}, true};
   for (double v = -4.0; v <= 4.0; v += 0.1) {
     gaussian.points.emplace_back(v, std::exp(-0.5 * v * v) / std::sqrt(2.0 * std::numbers::pi));
   }
@@ -119,7 +119,7 @@ double settled_temperature(const std::vector<Sample>& samples) {
 
 // Fig. 3.1: T/(m v_dr^2) over 1/(eps psi), for elastic walls.
 Plot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
-  Plot plot{"Fig. 3.1", "1/(ε ψ)", true, true, {}};
+  Plot plot{"Fig. 3.1", "1/(ε ψ)", true, true, {}, "T/(m v_dr²)"};
   Curve simple{"simple", kRed, {}, true}, refined{"refined", kGreen, {}, true};
   const double here = 1.0 / (gas.epsilon_effective() * gas.psi());
   const double unit = gas.drive_speed * gas.drive_speed;
@@ -132,7 +132,7 @@ Plot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
     simple.points.emplace_back(x, other.temperature_simple() / unit);
     refined.points.emplace_back(x, other.temperature_refined() / unit);
   }
-  Curve now{"this gas", kYellow, {}, false, true};
+  Curve now{"this gas", kPurple, {}, false, true};
   if (!samples.empty()) {
     now.points.emplace_back(here, settled_temperature(samples) / unit);
   }
@@ -142,15 +142,21 @@ Plot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
 
 }  // namespace
 
-std::vector<Plot> plots_of(const History& history, const Frame& frame) {
+std::vector<Plot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
+                           const ThemeColours& theme) {
   const std::vector<Sample>& samples = history.samples();
-  std::vector<Plot> plots = {temperature_plot(samples, *frame.scene), energy_plot(samples)};
-  if (frame.snapshot.field) plots.push_back(profile_plot(frame.snapshot));
-  plots.push_back(velocity_plot(history.velocities()));
+  std::vector<Plot> plots;
+  if (frame.profile && profiled < frame.profile->fields.size()) {
+    plots.push_back(profile_plot(*frame.profile, profiled));
+  }
+  plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
+  plots.push_back(energy_plot(samples, theme.text));
+  plots.push_back(velocity_plot(history.velocities(), theme.text));
   const auto gas = vibrated_gas(*frame.scene);
   if (gas && gas->wall_restitution == 1.0 && gas->restitution < 1.0) {
     plots.push_back(figure_plot(samples, *gas));
   }
+  plots.push_back(residual_plot(samples));
   return plots;
 }
 

@@ -1,10 +1,12 @@
 #include <imgui.h>
 
+#include <cstdio>
+
 #include "app/view/panels.h"
 
 namespace clatter {
 
-Recording record_panel(Controls& controls) {
+Recording record_panel(Controls& controls, std::optional<double> filmed) {
   if (!group("Record")) return Recording::None;
   Recording asked = Recording::None;
   const float width = ImGui::GetContentRegionAvail().x;
@@ -15,6 +17,18 @@ Recording record_panel(Controls& controls) {
   if (controls.button("save", "Save scene",
                       "The scene as it is set, with all changes so far (Ctrl+S)", width)) {
     asked = Recording::SaveScene;
+  }
+  if (filmed) {
+    char label[64];
+    std::snprintf(label, sizeof label, "Stop film, %.0f %%###film", 100.0 * *filmed);
+    if (controls.button("film", label, "What there is of the film by now is kept", width)) {
+      asked = Recording::StopFilm;
+    }
+  } else if (controls.button("film", "Film###film",
+                             "Saves the scene with all changes so far, and films it from time 0 up "
+                             "to now, while the gas goes on",
+                             width)) {
+    asked = Recording::Film;
   }
   if (controls.button("command", "Copy film command",
                       "Saves the scene with all changes so far, and puts the command line that "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
@@ -27,6 +28,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"plays", frame.plays},
                          {"held", frame.held},
                          {"changes", frame.scene->changes.size()},
+                         {"box", {frame.snapshot.box.x(), frame.snapshot.box.y()}},
                          {"disks", frame.snapshot.positions.size()},
                          {"restitution", frame.scene->disks.restitution}};
   if (frame.state_hash) {
@@ -122,6 +124,12 @@ void Session::play(bool on) {
   send(command::Play{on});
 }
 
+void Session::play_until(double time) {
+  plays_ = true;
+  log_.event("play", {{"until", time}, {"command", sent_ + 1}});
+  send(command::Play{true, time});
+}
+
 void Session::step_frame() {
   log_.event("step_frame", {{"command", sent_ + 1}});
   send(command::Step{speed_ / kFramesPerSecond});
@@ -183,6 +191,17 @@ void Session::set_view(const View& view) {
   view_ = view;
   ++views_;
   if (averages_anew) send(command::Show{view});
+}
+
+void Session::pick(std::optional<std::size_t> disk) {
+  if (std::exchange(picked_, disk) == disk) return;
+  command::Pick pick;
+  if (disk) pick.disk = static_cast<std::uint32_t>(*disk);
+  send(pick);
+}
+
+void Session::show_profile(bool on) {
+  if (std::exchange(shows_profile_, on) != on) send(command::ShowProfile{on});
 }
 
 void Session::tell(const std::string& message) {

@@ -43,6 +43,8 @@ class Session {
   void restart_with_new_seed();
   /// Lets the gas go on, or halts it.
   void play(bool on);
+  /// Lets the gas go on up to a simulation time, where it halts.
+  void play_until(double time);
   /// Goes on by the time between two frames at its speed, and halts.
   void step_frame();
   /// Goes on to the next collision of disks, and halts.
@@ -62,6 +64,10 @@ class Session {
 
   /// Draws otherwise from now on; with another field its averages start anew.
   void set_view(const View& view);
+  /// Whether frames have profiles from now on.
+  void show_profile(bool on);
+  /// Frames tell the collisions of this disk from now on.
+  void pick(std::optional<std::size_t> disk);
   /// How often the view has changed.
   std::uint64_t views() const { return views_; }
 
@@ -85,6 +91,8 @@ class Session {
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;
+  bool shows_profile_ = false;
+  std::optional<std::size_t> picked_;
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;
   std::uint64_t handled_ = 0;

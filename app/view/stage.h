@@ -28,6 +28,10 @@ class Stage {
   /// Marks the picked disk and a pair that has just collided.
   void mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const;
 
+  /// The place in the box that is at a place of the window, and the reverse; once it has drawn.
+  Vec2 world(ImVec2 mouse, ImVec2 corner, float scale) const;
+  ImVec2 place(const Vec2& world, ImVec2 corner, float scale) const;  ///< likewise
+
   /// Shows the whole box again.
   void fit();
   /// The disk that was clicked; absent: none.
@@ -38,12 +42,12 @@ class Stage {
   bool follows() const { return follows_; }
   /// Lets go of the picked disk; whether there was one.
   bool let_go();
+  /// Whether it has drawn.
+  bool drawn() const { return canvas_.has_value(); }
   /// Draws the next frame anew.
   void redraw() { stale_ = true; }
 
  private:
-  Vec2 world(ImVec2 mouse, ImVec2 corner, float scale) const;
-  ImVec2 place(const Vec2& world, ImVec2 corner, float scale) const;
   std::optional<std::size_t> disk_at(const Frame& frame, const Vec2& point) const;
 
   const Gl* gl_;

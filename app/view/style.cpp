@@ -1,29 +1,30 @@
 #include "app/view/style.h"
 
-#include <imgui.h>
-
-#include "render/theme.h"
-
 namespace clatter {
 
 Colour accent_colour() {
-  return {0x5a, 0xa9, 0xe6};
+  return {0x3d, 0x8f, 0xd6};
+}
+
+ThemeColours panel_theme(View view) {
+  view.background.reset();
+  return theme_of(view);
 }
 
 static ImVec4 shade(Colour colour, float alpha = 1.0f) {
   return {colour.red / 255.0f, colour.green / 255.0f, colour.blue / 255.0f, alpha};
 }
 
-static void apply_colours(ImVec4* colours) {
-  const Colour panel = mix(kDarkTheme.background, kDarkTheme.text, 0.05);
-  const Colour field = mix(kDarkTheme.background, kDarkTheme.text, 0.11);
-  const Colour hovered = mix(kDarkTheme.background, kDarkTheme.text, 0.17);
-  const Colour line = mix(kDarkTheme.background, kDarkTheme.text, 0.13);
-  colours[ImGuiCol_Text] = shade(kDarkTheme.text);
-  colours[ImGuiCol_TextDisabled] = shade(kDarkTheme.faint_text);
+static void apply_colours(ImVec4* colours, const ThemeColours& theme) {
+  const Colour panel = mix(theme.background, theme.text, 0.05);
+  const Colour field = mix(theme.background, theme.text, 0.11);
+  const Colour hovered = mix(theme.background, theme.text, 0.17);
+  const Colour line = mix(theme.background, theme.text, 0.13);
+  colours[ImGuiCol_Text] = shade(theme.text);
+  colours[ImGuiCol_TextDisabled] = shade(theme.faint_text);
   colours[ImGuiCol_WindowBg] = shade(panel);
   colours[ImGuiCol_ChildBg] = shade(panel, 0.0f);
-  colours[ImGuiCol_PopupBg] = shade(mix(kDarkTheme.background, kDarkTheme.text, 0.08), 0.98f);
+  colours[ImGuiCol_PopupBg] = shade(mix(theme.background, theme.text, 0.08), 0.98f);
   colours[ImGuiCol_Border] = shade(line);
   colours[ImGuiCol_Separator] = shade(line);
   colours[ImGuiCol_FrameBg] = shade(field);
@@ -43,10 +44,10 @@ static void apply_colours(ImVec4* colours) {
   colours[ImGuiCol_ScrollbarGrabHovered] = shade(hovered);
   colours[ImGuiCol_TextSelectedBg] = shade(accent_colour(), 0.4f);
   colours[ImGuiCol_NavHighlight] = shade(accent_colour());
-  colours[ImGuiCol_ModalWindowDimBg] = shade(kDarkTheme.background, 0.6f);
+  colours[ImGuiCol_ModalWindowDimBg] = shade(theme.background, 0.6f);
 }
 
-void apply_style(float text_size) {
+void apply_style(float text_size, const ThemeColours& theme) {
   ImGuiStyle style;
   const float unit = text_size / 14.0f;
   style.WindowPadding = ImVec2(12, 10);
@@ -64,7 +65,7 @@ void apply_style(float text_size) {
   style.WindowBorderSize = 0;
   style.PopupBorderSize = 1;
   style.FrameBorderSize = 0;
-  apply_colours(style.Colors);
+  apply_colours(style.Colors, theme);
   ImGui::GetStyle() = style;
 }
 

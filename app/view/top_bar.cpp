@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/view/style.h"
+#include "render/layers/fonts.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -115,11 +116,11 @@ void figures(const Frame& frame) {
 
 }  // namespace
 
-void top_bar(Session& session, Controls& controls, bool& gallery, bool& plots, bool& help) {
+void top_bar(Session& session, Controls& controls, Shown& shown) {
   const Frame& frame = session.frame();
   const std::string title = session.scene().title.empty() ? "Untitled" : session.scene().title;
   if (controls.button("gallery", ("≡  " + title + "##gallery").c_str(), "The gallery (G)")) {
-    gallery = !gallery;
+    shown.gallery = !shown.gallery;
   }
   ImGui::SameLine();
   const bool plays = frame.plays;
@@ -135,9 +136,13 @@ void top_bar(Session& session, Controls& controls, bool& gallery, bool& plots, b
     session.restart();
   }
   speed_field(session, controls);
-  if (controls.button("plots", "Plots", "Curves of the run (P)")) plots = !plots;
+  if (controls.button("plots", "Plots", "Curves of the run (P)")) shown.plots = !shown.plots;
   ImGui::SameLine();
-  if (controls.button("help", "?", "Keys and mouse (F1)")) help = !help;
+  if (controls.button("lesson", "Try this", "What there is to learn and to try (T)")) {
+    shown.lesson = !shown.lesson;
+  }
+  ImGui::SameLine();
+  if (controls.button("help", "?", "Keys and mouse (F1)")) shown.help = !shown.help;
   figures(frame);
 }
 

@@ -2,11 +2,11 @@
 
 #include "app/view/controls.h"
 #include "app/view/session.h"
+#include "app/view/shown.h"
 
 namespace clatter {
 
-/// The slim bar above all: scene, play and steps, speed, time, health. Whether the gallery, the
-/// plots or the help are asked for is left in the flags.
-void top_bar(Session& session, Controls& controls, bool& gallery, bool& plots, bool& help);
+/// The slim bar above all: scene, play and steps, speed, time, health, and what is to be open.
+void top_bar(Session& session, Controls& controls, Shown& shown);
 
 }  // namespace clatter

@@ -1,9 +1,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/view/panels.h"
 #include "engine/scene/scene_keys.h"
+#include "render/colour_range.h"
 
 namespace clatter {
 
@@ -31,9 +33,11 @@ static int index_of(E value, const std::array<Named<E>, N>& names) {
 // One of an enumeration's values.
 template <class E, std::size_t N>
 static bool choose(Controls& controls, const char* key, const char* name, const char* help,
-                   const std::array<Named<E>, N>& names, E& value) {
+                   const std::array<Named<E>, N>& names, E& value, E usual) {
   int chosen = index_of(value, names);
-  if (!controls.choice(key, name, help, words_of(names), chosen)) return false;
+  if (!controls.choice(key, name, help, words_of(names), chosen, index_of(usual, names))) {
+    return false;
+  }
   value = names[static_cast<std::size_t>(chosen)].value;
   return true;
 }
@@ -41,12 +45,13 @@ static bool choose(Controls& controls, const char* key, const char* name, const 
 // One of an enumeration's values, or none of them, in words.
 template <class E, std::size_t N>
 static bool choose(Controls& controls, const char* key, const char* name, const char* help,
-                   const std::array<Named<E>, N>& names, const char* none,
-                   std::optional<E>& value) {
+                   const std::array<Named<E>, N>& names, const char* none, std::optional<E>& value,
+                   std::optional<E> usual) {
   std::vector<std::string> words = words_of(names);
   words.insert(words.begin(), none);
-  int chosen = value ? index_of(*value, names) + 1 : 0;
-  if (!controls.choice(key, name, help, words, chosen)) return false;
+  const auto place = [&](const std::optional<E>& e) { return e ? index_of(*e, names) + 1 : 0; };
+  int chosen = place(value);
+  if (!controls.choice(key, name, help, words, chosen, place(usual))) return false;
   value.reset();
   if (chosen > 0) value = names[static_cast<std::size_t>(chosen) - 1].value;
   return true;
@@ -54,6 +59,18 @@ static bool choose(Controls& controls, const char* key, const char* name, const 
 
 static bool spins_only(Field field) {
   return field == Field::Spin || field == Field::SpinTemperature;
+}
+
+static bool choose_colour(const Session& session, Controls& controls, View& view) {
+  std::vector<std::string> colours = words_of(kColourings);
+  if (!session.scene().spins()) colours.pop_back();
+  const int most = static_cast<int>(colours.size()) - 1;
+  int chosen = std::min(index_of(view.colour_by, kColourings), most);
+  const int usual = std::min(index_of(session.opened().view.colour_by, kColourings), most);
+  const bool changed = controls.choice("view.colour_by", "Disks coloured by",
+                                       "What a disk's colour shows", colours, chosen, usual);
+  view.colour_by = kColourings[static_cast<std::size_t>(chosen)].value;
+  return changed;
 }
 
 static bool choose_field(const Session& session, Controls& controls, View& view) {
@@ -64,48 +81,100 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
     words.push_back(in_words(name));
     fields.emplace_back(field);
   }
-  const auto found = std::ranges::find(fields, view.field);
-  int chosen = found == fields.end() ? 0 : static_cast<int>(found - fields.begin());
+  const auto place = [&](const std::optional<Field>& field) {
+    const auto found = std::ranges::find(fields, field);
+    return found == fields.end() ? 0 : static_cast<int>(found - fields.begin());
+  };
+  int chosen = place(view.field);
   if (!controls.choice("view.field", "Heatmap", "The field below the disks, chapter 4", words,
-                       chosen)) {
+                       chosen, place(session.opened().view.field))) {
     return false;
   }
   view.field = fields[static_cast<std::size_t>(chosen)];
   return true;
 }
 
+// `end` is the largest of what the colours show; 0: unknown.
+static bool choose_range(Controls& controls, const std::string& key, const char* name,
+                         ColourRange& range, const ColourRange& usual, double end, bool signs) {
+  int chosen = range.kind;
+  bool changed = controls.choice(key.c_str(), name,
+                                 "auto follows what is shown, locked stays as it was first, given "
+                                 "is from the one number to the other",
+                                 {"auto", "locked", "given"}, chosen, usual.kind);
+  if (changed) {
+    const bool given = chosen == ColourRange::Given;
+    if (given && usual.kind != ColourRange::Given && end > 0.0) {
+      range.ends = {signs ? -end : 0.0, end};
+    } else {
+      range.ends = usual.ends;
+    }
+    range.kind = static_cast<ColourRange::Kind>(chosen);
+  }
+  if (range.kind == ColourRange::Given) {
+    changed |=
+        controls.ends((key + ".ends").c_str(),
+                      "From and to, in the unit of the colour bar; Enter sets them", range.ends);
+  }
+  return changed;
+}
+
+// A round number that all values of a map are within.
+static double end_of(const FieldMap& map) {
+  double most = 0.0;
+  for (const double value : map.values) {
+    if (std::isfinite(value)) most = std::max(most, std::fabs(value));
+  }
+  return most > 0.0 ? round_up(most) : 0.0;
+}
+
+static bool choose_heatmap(const Session& session, Controls& controls, View& view) {
+  const View& usual = session.opened().view;
+  bool changed = choose_field(session, controls, view);
+  if (!view.field) return changed;
+  changed |= choose(controls, "view.field_palette", "Palette of the heatmap",
+                    "Of magnitudes; fields with a sign are blue and red about zero", kPalettes,
+                    "as the disks", view.field_palette, usual.field_palette);
+  const auto& map = session.frame().snapshot.field;
+  const bool signs = map && std::ranges::any_of(map->values, [](double v) { return v < 0.0; });
+  changed |= choose_range(controls, "view.field_range", "Range of the heatmap", view.field_range,
+                          usual.field_range, map ? end_of(*map) : 0.0, signs);
+  return changed;
+}
+
+double disk_colour_end(const Snapshot& snapshot) {
+  return round_up(2.0 * std::sqrt(2.0 * snapshot.temperature));
+}
+
 void view_panel(Session& session, Controls& controls) {
   if (!group("View")) return;
   View view = session.view();
-  std::vector<std::string> colours = words_of(kColourings);
-  if (!session.scene().spins()) colours.pop_back();
-  int colour =
-      std::min(index_of(view.colour_by, kColourings), static_cast<int>(colours.size()) - 1);
-  bool changed = controls.choice("view.colour_by", "Disks coloured by",
-                                 "What a disk's colour shows", colours, colour);
-  view.colour_by = kColourings[static_cast<std::size_t>(colour)].value;
-  changed |= choose_field(session, controls, view);
+  const View& usual = session.opened().view;
+  bool changed = choose_colour(session, controls, view);
+  if (view.colour_by != ColourBy::None) {
+    changed |= choose(controls, "view.palette", "Palette", "All are fit for the colour-blind",
+                      kPalettes, view.palette, usual.palette);
+    changed |=
+        choose_range(controls, "view.range", "Range of the disks", view.range, usual.range,
+                     disk_colour_end(session.frame().snapshot), view.colour_by != ColourBy::Speed);
+  }
+  changed |= choose_heatmap(session, controls, view);
   changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction, chapter 4",
-                    kArrows, "none", view.arrows);
+                    kArrows, "none", view.arrows, usual.arrows);
   if (view.shows_averages()) {
     changed |= controls.number({.key = "view.window",
                                 .name = "Averaged over",
+                                .unit = "t",
                                 .help = "How far back in time heatmap and arrows reach",
                                 .low = 0.1,
                                 .high = 100.0,
                                 .logarithmic = true,
                                 .format = "%.2f"},
-                               view.window, session.opened().view.window);
-  }
-  changed |= choose(controls, "view.palette", "Palette", "All are fit for the colour-blind",
-                    kPalettes, view.palette);
-  if (view.field) {
-    changed |= choose(controls, "view.field_palette", "Palette of the heatmap",
-                      "Of magnitudes; fields with a sign are blue and red about zero", kPalettes,
-                      "as the disks", view.field_palette);
+                               view.window, usual.window);
   }
   changed |= choose(controls, "view.theme", "Theme",
-                    "Colours of the picture's background and walls", kThemes, view.theme);
+                    "Colours of the picture's background and walls, and of the panels", kThemes,
+                    view.theme, usual.theme);
   changed |= controls.toggle("view.grid", "Grid", "Lines as far apart as the scale bar is long",
                              view.grid);
   changed |= controls.toggle("view.overlay", "Title, figures and scales",

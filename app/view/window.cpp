@@ -17,16 +17,25 @@ namespace clatter {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using RealClock = std::chrono::steady_clock;
 
-std::unique_ptr<GlfwContext> open_window(const WindowOptions& options) {
-  try {
-    return std::make_unique<GlfwContext>("clatter", Size{options.width, options.height});
-  } catch (const RunError& error) {
-    throw RunError(std::string(error.what()) +
-                   "; without a display, `clatter render SCENE --out film.mp4` films it");
+// OpenGL's word on whether the driver has dropped the context, where it has one (OpenGL 4.5 or
+// ARB_robustness).
+class ContextGuard {
+ public:
+  ContextGuard() {
+    for (const char* name : {"glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB"}) {
+      if (!status_) status_ = reinterpret_cast<GLenum (*)()>(glfwGetProcAddress(name));
+    }
   }
-}
+  /// Throws RunError where the context is lost.
+  void check() const {
+    if (status_ && status_() != GL_NO_ERROR) throw RunError("the window's OpenGL context is lost");
+  }
+
+ private:
+  GLenum (*status_)() = nullptr;
+};
 
 double refresh_rate() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
@@ -53,21 +62,22 @@ class Gui {
 
 // Sleeps until something happens, such as a new frame of the engine; where panels still settle, a
 // picture long. Never makes more pictures than the display shows, also where that does not wait.
-void wait_for_events(bool settles, Clock::time_point began, double rate) {
+void wait_for_events(bool settles, RealClock::time_point began, double rate) {
   if (settles) {
     glfwWaitEventsTimeout(1.0 / rate);
   } else {
     glfwWaitEvents();
   }
   const std::chrono::duration<double> shortest(0.7 / rate);
-  std::this_thread::sleep_until(began + std::chrono::duration_cast<Clock::duration>(shortest));
+  std::this_thread::sleep_until(began + std::chrono::duration_cast<RealClock::duration>(shortest));
 }
 
 }  // namespace
 
-void show_window(const WindowOptions& options) {
-  const auto context = open_window(options);
-  GLFWwindow* window = context->window();
+static void show(const WindowOptions& options) {
+  const GlfwContext context("clatter", Size{options.width, options.height});
+  const ContextGuard guard;
+  GLFWwindow* window = context.window();
   glfwSwapInterval(1);
   ScriptLog log(options.script_log);
   Keys keys(window);
@@ -75,17 +85,18 @@ void show_window(const WindowOptions& options) {
   const double rate = refresh_rate();
   Worker worker(rate, [] { glfwPostEmptyEvent(); });
   {
-    Explorer explorer(*context, keys, worker, log);
-    explorer.open(options.scene, options.seed);
+    Explorer explorer(window, context.gl(), keys, worker, log);
+    explorer.open(options.scene, options.seed, options.until);
     // Panels settle some pictures after an event, not at once.
     constexpr int kSettle = 4;
     for (int left = kSettle; !glfwWindowShouldClose(window); left = left > 0 ? left - 1 : kSettle) {
-      const auto began = Clock::now();
+      const auto began = RealClock::now();
       glfwPollEvents();
       ImGui_ImplGlfw_NewFrame();
       explorer.draw();
       glfwSwapBuffers(window);
-      wait_for_events(left > 0, began, rate);
+      guard.check();
+      wait_for_events(left > 0 || explorer.films(), began, rate);
     }
     log.event("quit", nlohmann::json::object());
   }
@@ -93,6 +104,15 @@ void show_window(const WindowOptions& options) {
   // that is worth waiting for.
   constexpr std::chrono::milliseconds kPatience{150};
   if (!worker.stop_within(kPatience)) std::_Exit(EXIT_SUCCESS);
+}
+
+void show_window(const WindowOptions& options) {
+  try {
+    show(options);
+  } catch (const RunError& error) {
+    throw RunError(std::string(error.what()) +
+                   "; without a window, `clatter render SCENE --out film.mp4` films it");
+  }
 }
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/scene/scene.h"
@@ -12,11 +13,12 @@ struct WindowOptions {
   std::uint64_t seed = 1;
   int width = 1280;
   int height = 800;
-  std::string script_log;  ///< file that is told what happens; empty: none
+  std::optional<double> until;  ///< simulation time at which the gas halts; absent: none
+  std::string script_log;       ///< file that is told what happens; empty: none
 };
 
-/// Shows a scene in a window until it is closed. Throws RunError where there is no display, or none
-/// that can draw it.
+/// Shows a scene in a window until it is closed. Throws RunError, which names `clatter render`,
+/// where there is no display, none that can draw it, or where its OpenGL is lost.
 void show_window(const WindowOptions& options);
 
 }  // namespace clatter

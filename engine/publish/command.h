@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -11,9 +13,10 @@ namespace clatter {
 /// What a person asks of a gas that runs.
 namespace command {
 
-/// Lets simulation time go on, or halts it.
+/// Lets simulation time go on, up to a time where it halts of itself; or halts it now.
 struct Play {
   bool on = true;
+  double until = std::numeric_limits<double>::infinity();  ///< simulation time
 };
 /// Goes on by a time and halts there.
 struct Step {
@@ -33,6 +36,14 @@ struct SetLaws {
 struct Show {
   View view;
 };
+/// Whether frames have profiles from now on.
+struct ShowProfile {
+  bool on = true;
+};
+/// Frames tell the collisions of this disk from now on; absent: of none.
+struct Pick {
+  std::optional<std::uint32_t> disk;
+};
 /// Starts a scene, and plays it or halts there: from its beginning, or from as much of the gas
 /// that there is as fits, see refitted().
 struct Open {
@@ -45,6 +56,7 @@ struct Open {
 }  // namespace command
 
 using Command = std::variant<command::Play, command::Step, command::StepCollision,
-                             command::SetSpeed, command::SetLaws, command::Show, command::Open>;
+                             command::SetSpeed, command::SetLaws, command::Show,
+                             command::ShowProfile, command::Pick, command::Open>;
 
 }  // namespace clatter

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/measure/profile.h"
+#include "engine/publish/encounter.h"
 #include "engine/publish/snapshot.h"
 
 namespace clatter {
@@ -30,7 +32,11 @@ struct Frame {
   Tally tally;
   std::shared_ptr<const Scene> scene;  ///< with the laws in force, and all changes
   std::shared_ptr<const Scene>
-      started;  ///< as the run was started; a start state may be in no file
+      started;                     ///< as the run was started; a start state may be in no file
+  std::optional<Profile> profile;  ///< since it was asked for, or laws or the field shown changed;
+                                   ///< absent: not asked for
+  std::optional<Encounter> last_encounter;  ///< of the picked disk, since it was picked
+  std::optional<Encounter> next_encounter;  ///< likewise, where the run halts
   std::uint64_t seed = 1;
   bool plays = false;
   double speed = 1.0;                       ///< asked for, simulation time per second

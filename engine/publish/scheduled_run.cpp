@@ -34,15 +34,15 @@ bool ScheduledRun::run_until(double time, std::uint64_t collisions, std::uint64_
 
 void ScheduledRun::settle() {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
-  run_until(simulation_->time() * (1.0 + kRoundings));
+  try {
+    run_until(simulation_->time() * (1.0 + kRoundings));
+  } catch (const PhysicalStop&) {
+    // Who only halts has no use for it, and other laws may let time go on.
+  }
 }
 
 void ScheduledRun::change(const std::vector<Override>& laws) {
-  try {
-    settle();
-  } catch (const PhysicalStop&) {
-    // Other laws are what lets time go on where it stands still.
-  }
+  settle();
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
   changed.advance();
@@ -61,12 +61,16 @@ void ScheduledRun::go_on_as(std::unique_ptr<Simulation<2>> next) {
   simulation_ = std::move(next);
 }
 
+void ScheduledRun::renew() {
+  go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+}
+
 // Observers stay with their simulation, so that those of another view need another one.
 void ScheduledRun::show(const View& view, double exposure) {
   view_ = view;
   exposure_ = exposure;
   if (shown_) {
-    go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+    renew();
   } else {
     shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure);
   }
@@ -74,9 +78,7 @@ void ScheduledRun::show(const View& view, double exposure) {
 
 void ScheduledRun::show(const View& view, const std::string& saved, double exposure) {
   if (saved.empty()) return show(view, exposure);
-  if (std::exchange(shown_, nullptr)) {
-    go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
-  }
+  if (std::exchange(shown_, nullptr)) renew();
   view_ = view;
   exposure_ = exposure;
   shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure,

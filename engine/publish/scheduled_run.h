@@ -39,10 +39,11 @@ class ScheduledRun {
   bool run_until(double time, std::uint64_t collisions = Simulation<2>::kNoLimit,
                  std::uint64_t steps = Simulation<2>::kNoLimit);
   /// Goes on by a few roundings of its time: however a run was halted before, one that runs until
-  /// simulation().time() now has come through the same events.
+  /// simulation().time() now has come through the same events. Where time stands still it stays
+  /// there, and tells nothing: run_until throws.
   void settle();
-  /// Laws that hold from the simulation's time on, and are among the scene's changes. Throws
-  /// UserError or PhysicalStop where they cannot; nothing has then happened.
+  /// Laws that hold from the simulation's time on, where it settles first, and are among the
+  /// scene's changes. Throws UserError or PhysicalStop where they cannot; the old ones then hold.
   void change(const std::vector<Override>& laws);
 
   /// From now on snapshots have all that the view shows, in pictures of a time `exposure` >= 0
@@ -53,6 +54,9 @@ class ScheduledRun {
   void show(const View& view, const std::string& saved, double exposure = 0.0);
   /// What snapshots have of the time before, as it is now; empty: nothing.
   std::string save_shown() const;
+  /// Goes on, to the bit, with another simulation, which only those watch whom on_change hands
+  /// over: a simulation forgets no observer.
+  void renew();
   /// The gas at the simulation's time.
   Snapshot snapshot();
 

@@ -1,5 +1,7 @@
 #include "engine/publish/watched_run.h"
 
+#include "engine/measure/moving_sum.h"
+
 namespace clatter {
 
 WatchedRun::WatchedRun(const Scene& scene, std::uint64_t seed)
@@ -17,6 +19,25 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   totals_.emplace(simulation);
   simulation.add_observer(*totals_);
   simulation.add_observer(last_);
+  if (encounters_ && encounters_->last()) encounter_ = encounters_->last();
+  simulation.add_observer(encounters_.emplace(simulation, picked_));
+  profile_.reset();
+  if (shows_profile_) {
+    profile_ = std::make_unique<LiveProfile>(simulation, run_.scene().view.window / kWindowParts);
+  }
+}
+
+void WatchedRun::pick(std::optional<std::uint32_t> disk) {
+  if (disk && *disk >= run_.simulation().disks().size()) disk.reset();
+  picked_ = disk;
+  encounter_.reset();
+  encounters_->watch(disk);
+}
+
+void WatchedRun::show_profile(bool on) {
+  if (on == shows_profile_) return;
+  shows_profile_ = on;
+  run_.renew();
 }
 
 void WatchedRun::close_window() {
@@ -37,11 +58,17 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.tally = tally_;
   frame.scene = scene_;
   frame.started = started_;
+  frame.profile.reset();
+  if (profile_) frame.profile = profile_->profile();
   frame.seed = run_.seed();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
+  frame.last_encounter = encounters_->last() ? encounters_->last() : encounter_;
+  frame.next_encounter.reset();
   frame.state_hash.reset();
-  if (halted) frame.state_hash = run_.simulation().state_hash();
+  if (!halted) return;
+  frame.state_hash = run_.simulation().state_hash();
+  if (picked_) frame.next_encounter = next_encounter(run_.simulation(), *picked_);
 }
 
 }  // namespace clatter

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "engine/measure/live_profile.h"
 #include "engine/measure/totals.h"
 #include "engine/publish/frame.h"
 #include "engine/publish/scheduled_run.h"
@@ -17,6 +18,10 @@ class WatchedRun {
 
   /// The run itself.
   ScheduledRun& run() { return run_; }
+  /// Whether frames have profiles from now on.
+  void show_profile(bool on);
+  /// Frames tell the collisions of this disk from now on; absent, or no disk: of none.
+  void pick(std::optional<std::uint32_t> disk);
   /// Fills in what it knows; a hash where `halted`.
   void tell(Frame& frame, bool halted);
   /// The disks that collided last, if any have.
@@ -36,6 +41,11 @@ class WatchedRun {
   ScheduledRun run_;
   std::optional<Totals<2>> totals_;
   LastCollision last_;
+  std::optional<std::uint32_t> picked_;
+  std::optional<EncounterWatch> encounters_;  // of that disk
+  std::optional<Encounter> encounter_;        // its last before laws changed
+  bool shows_profile_ = false;
+  std::unique_ptr<LiveProfile> profile_;  // where it does
   Tally tally_;
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // as told last

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -83,6 +84,7 @@ class Work {
   void obey(const command::Play& asked) {
     halt();
     plays_ = asked.on;
+    until_ = asked.until;
     if (watched_ && !plays_) gas().settle();
   }
   void obey(const command::Step& asked) {
@@ -100,6 +102,13 @@ class Work {
   void obey(const command::Show& asked) {
     if (watched_) gas().show(asked.view);
   }
+  void obey(const command::ShowProfile& asked) {
+    shows_profile_ = asked.on;
+    if (watched_) watched_->show_profile(asked.on);
+  }
+  void obey(const command::Pick& asked) {
+    if (watched_) watched_->pick(asked.disk);
+  }
   void obey(const command::Open& asked) {
     Scene scene = asked.scene;
     if (asked.keeps_gas && watched_) {
@@ -109,8 +118,10 @@ class Work {
     auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
     halt();
     watched_ = std::move(opened);
+    watched_->show_profile(shows_profile_);
     pace_.set_speed(asked.scene.view.speed);
     plays_ = asked.plays;
+    until_ = std::numeric_limits<double>::infinity();
     ++runs_;
     rate_since_ = {};
   }
@@ -139,9 +150,10 @@ class Work {
 
   void play() {
     const Pace::Goal goal = pace_.next(Clock::now(), time());
-    const bool arrived = advance(goal.time, Simulation<2>::kNoLimit, goal.due);
+    const bool arrived = advance(std::min(goal.time, until_), Simulation<2>::kNoLimit, goal.due);
+    if (arrived && time() >= until_) halt();
     publish();
-    if (arrived) commands_.wait_until(goal.due);
+    if (arrived && plays_) commands_.wait_until(goal.due);
   }
 
   // As fast as it goes, but with a frame now and then.
@@ -208,7 +220,9 @@ class Work {
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
+  bool shows_profile_ = false;
   bool plays_ = false;
+  double until_ = std::numeric_limits<double>::infinity();  // where it halts of itself
   std::optional<double> step_to_;
   std::optional<std::uint64_t> to_collision_;  // number of the collision of disks to halt at
   std::optional<std::array<std::uint32_t, 2>> partners_;

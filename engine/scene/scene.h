@@ -246,7 +246,9 @@ struct Change {
 /// A complete, validated description of a run: what the scene file says, resolved, nothing derived.
 struct Scene {
   std::string title;
-  std::string caption;
+  std::string caption;      ///< what to watch, in a line
+  std::string goal;         ///< what there is to learn
+  std::string try_this;     ///< what to do to it in the window, and what then happens
   Vec2 box = {20.0, 25.0};  ///< Lx, Ly in disk diameters; disks touch walls with their surface
   Disks disks;
   std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic

@@ -348,6 +348,8 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.value("schema", input.schema, between(1, 1));
   io.value("title", scene.title);
   io.value("caption", scene.caption);
+  io.value("goal", scene.goal);
+  io.value("try_this", scene.try_this);
   // A side of one diameter leaves a disk between walls no room to move, and across a periodic
   // side the disk touches its own image.
   io.table("box", [&](auto& io) {

@@ -19,6 +19,7 @@ GlfwContext::GlfwContext(const std::string& title, Size size) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHint(GLFW_VISIBLE, title.empty() ? GLFW_FALSE : GLFW_TRUE);
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);

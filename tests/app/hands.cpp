@@ -33,8 +33,12 @@ Hands::~Hands() {
   shell_.run("kill $(cat xvfb)");
 }
 
+Outcome Hands::run(const std::string& line) const {
+  return shell_.run(display_ + '\n' + line);
+}
+
 void Hands::tool(const std::string& line) const {
-  REQUIRE(shell_.run(display_ + "\nxdotool " + line).code == 0);
+  REQUIRE(run("xdotool " + line).code == 0);
 }
 
 void Hands::key(const std::string& name) const {
@@ -97,8 +101,8 @@ void Hands::drag(const std::string& widget, double from, double to) const {
 std::vector<int> Hands::pixel(int x, int y) const {
   const std::string place = std::to_string(x) + ',' + std::to_string(y);
   const Outcome outcome =
-      shell_.run(display_ + "\nffmpeg -v error -f x11grab -video_size 2x2 -i $DISPLAY+" + place +
-                 " -frames:v 1 -pix_fmt rgb24 -f rawvideo - </dev/null | od -An -tu1 -N3");
+      run("ffmpeg -v error -f x11grab -video_size 2x2 -i $DISPLAY+" + place +
+          " -frames:v 1 -pix_fmt rgb24 -f rawvideo - </dev/null | od -An -tu1 -N3");
   std::istringstream numbers(outcome.out);
   std::vector<int> colour(3);
   for (int& channel : colour) numbers >> channel;

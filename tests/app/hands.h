@@ -18,6 +18,8 @@ class Hands {
   explicit Hands(const std::string& arguments, const std::string& size = "1280x800");
   ~Hands();
 
+  /// Runs a line of the shell on the display.
+  Outcome run(const std::string& line) const;
   /// Runs a line of xdotool.
   void tool(const std::string& line) const;
   /// Presses and lets go of a key, as xdotool calls it.

@@ -18,6 +18,34 @@ bool halted(const json& status) {
   return !status["plays"] && status.contains("hash");
 }
 
+// The hash that a run without a window has at the time of a status.
+json hash_of_run(const Hands& hands, const std::string& scene, const json& status) {
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
+                status["time"].get<double>());
+  const Outcome outcome = hands.shell().run(line);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return json::parse(outcome.out)["state_hash"];
+}
+
+// Saves the scene of a gas that halts: a run of it comes to the same bits.
+void check_saved_scene(const Hands& hands) {
+  const std::size_t told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.wait_for("saved", told)["file"];
+  const json now = hands.wait_for("status", 0, halted);
+  CHECK(hash_of_run(hands, scene, now) == now["hash"]);
+}
+
+// The upper left corner of the stage's picture.
+std::vector<int> corner_colour(const Hands& hands) {
+  const json stage = hands.wait_for(
+      "widget", 0, [](const json& event) { return event["name"] == "stage"; })["place"];
+  return hands.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3);
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("window");
@@ -44,12 +72,7 @@ TEST_CASE("Window: a gas plays, halts, steps to a frame and to a collision, play
   CHECK(hit["collisions"].get<int>() == frame["collisions"].get<int>() + 1);
 
   // The same run without a window has the same hash.
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "clatter measure vibrated --quiet --set measure.burn_in=0 --until %.17g",
-                hit["time"].get<double>());
-  const json result = json::parse(hands.shell().run(line).out);
-  CHECK(result["state_hash"] == hit["hash"]);
+  CHECK(hash_of_run(hands, "vibrated", hit) == hit["hash"]);
 
   told = hands.told();
   hands.key("space");
@@ -99,21 +122,9 @@ TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays
   const std::string file = hands.wait_for("screenshot", told)["file"];
   CHECK(hands.shell().read(file).starts_with("\x89PNG"));
   // Above the left wall there is background, on the wall there is not.
-  const json stage = hands.wait_for(
-      "widget", 0, [](const json& event) { return event["name"] == "stage"; })["place"];
-  CHECK(hands.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3) ==
-        std::vector<int>{0x10, 0x14, 0x18});
+  CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
 
-  hands.key("ctrl+s");
-  const std::string scene = hands.wait_for("saved", told)["file"];
-  const json now = hands.wait_for("status", 0, halted);
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
-                now["time"].get<double>());
-  const Outcome outcome = hands.shell().run(line);
-  CAPTURE(outcome.err);
-  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+  check_saved_scene(hands);
 }
 
 TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be saved") {
@@ -128,17 +139,86 @@ TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be save
   CHECK(again["disks"] < 150);
   hands.drag("disks.restitution", 0.88, 0.8);
   hands.key("space");
+  check_saved_scene(hands);
+}
+
+TEST_CASE("Window: a wall that is dragged makes another box for the same disks") {
+  const Hands hands("");
+  const json before = hands.wait_for("status");
+  const std::size_t told = hands.told();
+  hands.drag("wall.right", 0.5, 8.0);
+  const json wider =
+      hands.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
+  CHECK(wider["disks"] == before["disks"]);
+  CHECK(wider["box"][0].get<double>() > before["box"][0].get<double>() + 1.0);
+  CHECK(wider["box"][1] == before["box"][1]);
+  hands.key("ctrl+z");
+  hands.wait_for("status", told,
+                 [&](const json& status) { return status["box"] == before["box"]; });
+}
+
+TEST_CASE("Window: what there is to try closes, and a lecture is for a projector") {
+  const Hands hands("");
+  const auto height = [&](std::size_t told) {
+    return hands
+        .wait_for("widget", told,
+                  [](const json& event) { return event["name"] == "stage"; })["place"][3]
+        .get<double>();
+  };
+  const double before = height(0);
+  std::size_t told = hands.told();
+  hands.click("close_lesson");
+  CHECK(height(told) > before + 20.0);
   told = hands.told();
-  hands.key("ctrl+s");
-  const std::string scene = hands.wait_for("saved", told)["file"];
-  const json now = hands.wait_for("status", 0, halted);
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
-                now["time"].get<double>());
-  const Outcome outcome = hands.shell().run(line);
-  CAPTURE(outcome.err);
-  CHECK(json::parse(outcome.out)["state_hash"] == now["hash"]);
+  hands.key("l");
+  height(told);
+  CHECK(corner_colour(hands) == std::vector<int>{255, 255, 255});
+  told = hands.told();
+  hands.key("Escape");
+  height(told);
+  CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
+}
+
+TEST_CASE("Window: films what was done to the gas, as the command does that it gives") {
+  const Hands hands("--set view.speed=4", "1280x1500");
+  hands.drag("disks.restitution", 0.88, 0.7);
+  hands.drag("walls.left.drive_speed", 0.2, 0.4);
+  hands.drag("walls.right.restitution", 0.9, 0.8);
+  hands.key("space");
+  // A short film, of few pictures.
+  for (int i = 0; i < 6; ++i) hands.key("plus");
+  check_saved_scene(hands);
+  const std::size_t told = hands.told();
+  hands.click("film");
+  const json film = hands.wait_for("film", told);
+  CHECK(film["code"] == 0);
+  hands.click("command");
+  const std::string line = hands.wait_for("command", told)["line"];
+  REQUIRE(hands.shell().run(line + " --quiet").code == 0);
+  const auto pictures = [&](const std::string& file) {
+    return hands.shell().run("ffmpeg -v error -i " + file + " -f md5 - </dev/null").out;
+  };
+  const std::string mine = pictures(film["file"]);
+  CHECK(mine.starts_with("MD5="));
+  CHECK(mine == pictures(line.substr(line.rfind(' ') + 1)));
+}
+
+TEST_CASE("Window: halts at the time that it is given") {
+  const Hands hands("--until 1.5");
+  const json there = hands.wait_for("status", 0, halted);
+  CHECK(there["time"] == 1.5);
+  CHECK(hash_of_run(hands, "vibrated", there) == there["hash"]);
+}
+
+TEST_CASE("Window: where OpenGL is too old it says what to do instead") {
+  const Hands hands("");
+  const Outcome old = hands.run("MESA_GL_VERSION_OVERRIDE=2.1 clatter view");
+  CHECK(old.code == 1);
+  CHECK(old.err.find("OpenGL 3.3") != std::string::npos);
+  CHECK(old.err.find("clatter render") != std::string::npos);
+  const Outcome off_screen = hands.run("clatter view --backend osmesa");
+  CHECK(off_screen.code == 2);
+  CHECK(off_screen.err.find("clatter render") != std::string::npos);
 }
 
 TEST_CASE("Window: quits at once") {
@@ -158,6 +238,15 @@ TEST_CASE("Window: without a display it says what to do instead") {
 }
 
 TEST_SUITE_END();
+
+TEST_CASE("Window: a picture of 10,000 disks takes its thread less than 8 ms beside the drawing" *
+          doctest::test_suite("slow")) {
+  const Hands hands("--set disks.count=1");
+  const Outcome outcome = hands.run("clatter bench window --json times");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(json::parse(hands.shell().read("times"))["median_milliseconds"] < 8.0);
+}
 
 // It looks at real time, and so needs a machine that has nothing else to do.
 TEST_CASE("Window: a law that a slider sets holds within a frame of the display" *

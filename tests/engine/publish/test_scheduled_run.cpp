@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -112,6 +113,25 @@ TEST_CASE(
   steady.run_until(1.0);
   const std::vector<double> a = shown.snapshot().angles, b = steady.snapshot().angles;
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == b[i]);
+}
+
+TEST_CASE("ScheduledRun: what is shown may change while it runs, and leaves the run as it is") {
+  Scene scene = vibrated();
+  ScheduledRun plain(scene, 16), watched(scene, 16);
+  View view = scene.view;
+  int handed_over = 0;
+  watched.on_change = [&](Simulation<2>&) { ++handed_over; };
+  constexpr std::array<Field, 3> kShown = {Field::Density, Field::StressXx, Field::BalanceEnergy};
+  for (int part = 1; part <= 30; ++part) {
+    view.field = kShown[static_cast<std::size_t>(part) % kShown.size()];
+    watched.show(view);
+    plain.run_until(0.1 * part);
+    watched.run_until(0.1 * part);
+    CHECK(watched.snapshot().field->field == *view.field);
+  }
+  // But for the first, each time there was one to be forgotten.
+  CHECK(handed_over == 29);
+  CHECK(watched.simulation().state_hash() == plain.simulation().state_hash());
 }
 
 TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {

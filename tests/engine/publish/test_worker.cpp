@@ -87,6 +87,22 @@ TEST_CASE("Worker: runs played, stepped and made without it have the same hash a
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
 
+TEST_CASE("Worker: plays up to a time where it halts, and goes on from there when asked") {
+  const Scene scene = scene_at_speed("vibrated", 20.0);
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 24, false});
+  worker.send(command::Play{true, 1.25});
+  const Frame there =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 2 && !frame.plays; });
+  REQUIRE(there.state_hash);
+  CHECK(there.snapshot.time == 1.25);
+  const auto simulation = simulation_of(scene, 24);
+  simulation->run_until(1.25);
+  CHECK(simulation->state_hash() == *there.state_hash);
+  worker.send(command::Play{true});
+  wait_for(worker, [](const Frame& frame) { return frame.snapshot.time > 2.0; });
+}
+
 TEST_CASE("Worker: steps to a frame, and to a collision of the pair that it names") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 1, false});
@@ -141,6 +157,64 @@ TEST_CASE("Worker: of laws set faster than they can change only the last ones co
   CHECK(frame.scene->changes.size() < 200);
 }
 
+TEST_CASE(
+    "Worker: profiles come when asked for, start anew with laws, and leave the run as it is") {
+  const Scene scene = scene_at_speed("vibrated", 50.0);
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 25});
+  CHECK_FALSE(wait_for_handled(worker, 1).profile);
+  worker.send(command::ShowProfile{true});
+  const Frame shown = wait_for(worker, [](const Frame& frame) {
+    return frame.profile && !frame.profile->values.empty() && frame.snapshot.time > 30.0;
+  });
+  const std::vector<Estimate>& density = shown.profile->at(Field::Density);
+  CHECK(density.size() == 20);
+  double disks = 0.0;
+  for (const Estimate& column : density) disks += column.mean * shown.snapshot.box.y();
+  CHECK(disks == doctest::Approx(200.0).epsilon(1e-9));
+  // A band in the middle: there are some hundred disks' errors between it and the walls.
+  CHECK(density[10].mean > density[0].mean + 5.0 * density[10].standard_error);
+  worker.send(command::ShowProfile{false});
+  worker.send(command::Play{false});
+  const Frame halted = wait_for_handled(worker, 4);
+  CHECK_FALSE(halted.profile);
+  const auto simulation = simulation_of(scene, 25);
+  simulation->run_until(halted.snapshot.time);
+  CHECK(simulation->state_hash() == *halted.state_hash);
+}
+
+TEST_CASE("Worker: of a picked disk it tells the next collision, and the last once it has been") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 2.0), 26, false});
+  worker.send(command::Pick{7});
+  const Frame picked = wait_for_handled(worker, 2);
+  CHECK_FALSE(picked.last_encounter);
+  REQUIRE(picked.next_encounter);
+  const double time = picked.next_encounter->time;
+  CHECK(time > 0.0);
+  // Until just before it is still to come, then it has been.
+  worker.send(command::Play{true, time * (1.0 - 1e-9)});
+  const Frame before =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 3 && frame.state_hash; });
+  CHECK_FALSE(before.last_encounter);
+  CHECK(before.next_encounter->time == doctest::Approx(time).epsilon(1e-12));
+  worker.send(command::Play{true, time * (1.0 + 1e-9)});
+  const Frame after =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && frame.state_hash; });
+  REQUIRE(after.last_encounter);
+  CHECK(after.last_encounter->time == doctest::Approx(time).epsilon(1e-12));
+  CHECK(after.last_encounter->partner == picked.next_encounter->partner);
+  CHECK(after.next_encounter->time > time);
+}
+
+TEST_CASE("Worker: of a picked disk at rest there is no next collision") {
+  Worker worker(60.0);
+  worker.send(
+      command::Open{load_scene("equilibrium", {{"disks.start.temperature", "0.0"}}), 27, false});
+  worker.send(command::Pick{7});
+  CHECK_FALSE(wait_for_handled(worker, 2).next_encounter);
+}
+
 TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
@@ -155,6 +229,9 @@ TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
   CHECK(stopped.run == 2);
   CHECK_FALSE(stopped.plays);
   CHECK(stopped.message.find("contact_time") != std::string::npos);
+  // To halt there is nothing to tell again.
+  worker.send(command::Play{false});
+  CHECK(wait_for_handled(worker, 4).messages == 2);
   // It goes on once a contact time lets it.
   worker.send(command::SetLaws{{{"collapse.contact_time", "1e-5"}}});
   worker.send(command::Play{true});

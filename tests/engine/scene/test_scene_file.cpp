@@ -64,6 +64,8 @@ void check_equal(const std::optional<BulkDrive>& a, const std::optional<BulkDriv
 void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.title == b.title);
   CHECK(a.caption == b.caption);
+  CHECK(a.goal == b.goal);
+  CHECK(a.try_this == b.try_this);
   CHECK(a.box == b.box);
   CHECK(a.disks.count == b.disks.count);
   CHECK(a.disks.restitution == b.disks.restitution);
@@ -119,6 +121,8 @@ Scene unusual_scene() {
   Scene scene;
   scene.title = "quotes \" ' \\ and \x7f, tab\t, line\n, é ∞";
   scene.caption = "\x1b[31m #not a comment = {}";
+  scene.goal = "to see";
+  scene.try_this = "to do";
   scene.box = {123456.7, 0.1 + 0.2 + 1.0};
   scene.disks.count = 17;
   scene.disks.restitution = 1.0 / 3.0;
@@ -305,7 +309,7 @@ TEST_CASE("a scene as JSON has the keys of the file") {
                             "s.toml");
   CHECK(
       scene_to_json(scene) ==
-      R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", )"
+      R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", "goal": "", "try_this": "", )"
       R"("box": {"size": [2.5, 20.0]}, )"
       R"("disks": {"count": 3, "restitution": 1.0, )"
       R"("start": {"layout": "random", "temperature": 1.0}}, )"
@@ -409,6 +413,8 @@ TEST_CASE("the gallery's scenes are sound and presented") {
     const Scene scene = load_scene(std::string(file.name));
     CHECK(!scene.title.empty());
     CHECK(!scene.caption.empty());
+    CHECK(!scene.goal.empty());
+    CHECK(!scene.try_this.empty());
     CHECK(scene.disks.count > 0);
     CHECK(!scene.measure.fields.empty());
     check_equal(parse_scene(scene_to_toml(scene), "s.toml"), scene);

@@ -1,0 +1,115 @@
+#include "app/bench/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <time.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/view/explorer.h"
+#include "app/write_file.h"
+#include "render/context/glfw_context.h"
+
+namespace clatter {
+
+namespace {
+
+// A function of that type which does nothing.
+template <class R, class... Arguments>
+auto idle(R (*)(Arguments...)) -> R (*)(Arguments...) {
+  return [](Arguments...) -> R {
+    if constexpr (!std::is_void_v<R>) return R{};
+  };
+}
+
+// An OpenGL that takes everything and draws nothing; it has what programs ask before they go on.
+Gl idle_gl() {
+  Gl gl;
+#define CLATTER_IDLE(name) gl.name = idle(gl.name);
+  CLATTER_GL_FUNCTIONS(CLATTER_IDLE)
+#undef CLATTER_IDLE
+  const auto name_all = [](GLsizei count, GLuint* names) { std::fill_n(names, count, 1u); };
+  gl.GenBuffers = gl.GenFramebuffers = gl.GenTextures = gl.GenVertexArrays = name_all;
+  gl.CreateProgram = [] { return GLuint{1}; };
+  gl.CreateShader = [](GLenum) { return GLuint{1}; };
+  gl.GetShaderiv = gl.GetProgramiv = [](GLuint, GLenum, GLint* value) { *value = GL_TRUE; };
+  gl.CheckFramebufferStatus = [](GLenum) { return GLenum{GL_FRAMEBUFFER_COMPLETE}; };
+  gl.GetIntegerv = [](GLenum, GLint* value) { *value = 16384; };
+  return gl;
+}
+
+double thread_cpu_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// The vibrated box, as much larger as it has more disks, over its temperature.
+Scene bench_scene(int count) {
+  Scene scene = load_scene("vibrated");
+  scene.box *= std::sqrt(static_cast<double>(count) / scene.disks.count);
+  scene.disks.count = count;
+  scene.view.field = Field::Temperature;
+  return scene;
+}
+
+// In seconds, each of a picture that shows a new frame of the engine, sorted.
+std::vector<double> picture_times(const Scene& scene, Size size) {
+  constexpr int kWarmUp = 30, kPictures = 300;
+  const GlfwContext context;
+  const Gl gl = idle_gl();
+  ScriptLog log("");
+  Keys keys(context.window());
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.DisplaySize = ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
+  std::atomic<int> published = 0;
+  std::vector<double> times;
+  {
+    Worker worker(60.0, [&] {
+      ++published;
+      glfwPostEmptyEvent();
+    });
+    Explorer explorer(context.window(), gl, keys, worker, log);
+    explorer.open(scene, 1);
+    for (int picture = 0, seen = 0; picture < kWarmUp + kPictures; ++picture) {
+      while (published == seen) glfwWaitEventsTimeout(0.1);
+      seen = published;
+      const double began = thread_cpu_seconds();
+      explorer.draw();
+      if (picture >= kWarmUp) times.push_back(thread_cpu_seconds() - began);
+    }
+  }
+  ImGui::DestroyContext();
+  std::ranges::sort(times);
+  return times;
+}
+
+}  // namespace
+
+int bench_window(const std::string& json, int count) {
+  if (count == 0) count = 10'000;
+  const Size size{1280, 720};
+  const std::vector<double> times = picture_times(bench_scene(count), size);
+  const double median = 1e3 * times[times.size() / 2];
+  const double most = 1e3 * times[times.size() * 99 / 100];
+  std::fprintf(stderr, "window of %dx%d, temperature field, OpenGL without effect; CPU time\n",
+               size.width, size.height);
+  std::printf("%10s %12s %12s\n%10d %12.2f %12.2f\n", "N", "median ms", "99 % ms", count, median,
+              most);
+  const nlohmann::ordered_json row = {
+      {"count", count}, {"median_milliseconds", median}, {"percentile_99_milliseconds", most}};
+  if (!json.empty()) write_file(json, row.dump(1) + "\n");
+  return kOk;
+}
+
+}  // namespace clatter

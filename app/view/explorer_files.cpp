@@ -1,0 +1,129 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/view/explorer.h"
+#include "app/write_file.h"
+#include "engine/scene/scene_file.h"
+#include "engine/scene/state_file.h"
+
+// The files that the window reads and writes: scenes, pictures, films.
+
+namespace clatter {
+
+// A scene file, or one of our pictures with its scene inside.
+void Explorer::open_file(const std::string& file) {
+  try {
+    const auto inside = png_text(file, "Scene");
+    open(inside ? parse_scene(*inside, file) : load_scene(file), session_.frame().seed);
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
+}
+
+// The first name that is free: "clatter-1.png", "clatter-2.png", ...
+static std::string free_name(const std::string& extension) {
+  for (int number = 1;; ++number) {
+    const std::string name = "clatter-" + std::to_string(number) + extension;
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+// What is on screen as a scene. A start state that is in no file gets one of that name.
+static Scene recorded_beside(const std::string& file, const Session& session) {
+  Scene scene = session.recorded();
+  Start& start = scene.disks.start;
+  if (start.layout == Layout::File && start.file.empty()) {
+    start.file = std::filesystem::path(file).replace_extension(".csv");
+    write_file(start.file, state_to_csv(start.state));
+  }
+  return scene;
+}
+
+void Explorer::screenshot() {
+  if (!session_.frame().scene) return;
+  try {
+    const std::string name = free_name(".png");
+    const Scene scene = recorded_beside(name, session_);
+    const std::vector<PngText> texts = {{"Title", scene.title},
+                                        {"Software", "clatter " CLATTER_VERSION},
+                                        {"Seed", std::to_string(session_.frame().seed)},
+                                        {"Scene", scene_to_toml(scene)}};
+    write_png(name, stage_.picture(), texts);
+    log_.event("screenshot", {{"file", name}});
+    session_.tell("Screenshot: " + name);
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
+}
+
+std::string Explorer::save_scene() {
+  if (!session_.frame().scene) return "";
+  try {
+    const std::string name = free_name(".toml");
+    write_file(name, scene_to_toml(recorded_beside(name, session_)));
+    log_.event("saved", {{"file", name}});
+    session_.tell("Saved: " + name);
+    return name;
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
+  return "";
+}
+
+// Of what is on screen, from time 0 to now.
+std::vector<std::string> Explorer::film_arguments(const std::string& scene) const {
+  const Frame& frame = session_.frame();
+  char until[32];
+  std::snprintf(until, sizeof until, "%.6g", frame.snapshot.time);
+  return {"clatter",
+          "render",
+          scene,
+          "--seed",
+          std::to_string(frame.seed),
+          "--to",
+          until,
+          "--out",
+          std::filesystem::path(scene).replace_extension(".mp4").string()};
+}
+
+void Explorer::copy_command() {
+  const std::string name = save_scene();
+  if (name.empty()) return;
+  std::string command;
+  for (const std::string& word : film_arguments(name)) {
+    command += (command.empty() ? "" : " ") + word;
+  }
+  glfwSetClipboardString(window_, command.c_str());
+  log_.event("command", {{"line", command}});
+  session_.tell("In the clipboard: " + command);
+}
+
+void Explorer::film() {
+  const std::string name = save_scene();
+  if (name.empty()) return;
+  try {
+    std::vector<std::string> arguments = film_arguments(name);
+    const std::string file = arguments.back();
+    arguments.insert(arguments.end(), {"--progress", "json"});
+    film_.emplace(arguments, file);
+    session_.tell("Filming into " + file);
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
+}
+
+void Explorer::watch_film() {
+  if (!film_) return;
+  const auto code = film_->poll();
+  if (!code) return;
+  const bool made = *code == 0 || *code == kInterrupted;
+  log_.event("film", {{"file", film_->file()}, {"code", *code}});
+  session_.tell(made ? "Film: " + film_->file() : film_->message());
+  film_.reset();
+}
+
+}  // namespace clatter

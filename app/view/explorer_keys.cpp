@@ -1,0 +1,129 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <cmath>
+
+#include "app/view/explorer.h"
+#include "app/view/panels.h"
+
+// What keys do in the window.
+
+namespace clatter {
+
+void Explorer::use_keys() {
+  for (const std::string& file : keys_.take_dropped()) open_file(file);
+  for (const KeyPress& press : keys_.take_presses()) {
+    use_function_key(press);
+    if (!ImGui::GetIO().WantTextInput) use_key(press);
+  }
+  if (!ImGui::GetIO().WantTextInput) use_signs();
+}
+
+void Explorer::use_function_key(const KeyPress& press) {
+  switch (press.key) {
+    case GLFW_KEY_ESCAPE:
+      return close_something();
+    case GLFW_KEY_F1:
+      shown_.help = !shown_.help;
+      return;
+    case GLFW_KEY_F2:
+      return screenshot();
+    case GLFW_KEY_F11:
+      return toggle_full_screen();
+    default:
+      return;
+  }
+}
+
+void Explorer::use_key(const KeyPress& press) {
+  if (press.ctrl) return use_control_key(press);
+  switch (press.key) {
+    case GLFW_KEY_TAB:
+      shown_.panels = !shown_.panels;
+      return;
+    case GLFW_KEY_SPACE:
+      return session_.play(!session_.frame().plays);
+    case GLFW_KEY_PERIOD:
+      return press.shift ? session_.step_collision() : session_.step_frame();
+    default:
+      break;
+  }
+  switch (press.letter()) {
+    case 'f':
+      return stage_.fit();
+    case 'g':
+      shown_.gallery = !shown_.gallery;
+      return;
+    case 'h':
+      shown_.help = !shown_.help;
+      return;
+    case 'l':
+      return lecture(!shown_.lecture);
+    case 'm':
+      return fix_range();
+    case 'p':
+      shown_.plots = !shown_.plots;
+      return;
+    case 'r':
+      return press.shift ? session_.restart_with_new_seed() : session_.restart();
+    case 't':
+      shown_.lesson = !shown_.lesson;
+      return;
+    default:
+      return;
+  }
+}
+
+void Explorer::use_control_key(const KeyPress& press) {
+  switch (press.letter()) {
+    case 'z':
+      return press.shift ? session_.redo() : session_.undo();
+    case 'y':
+      return session_.redo();
+    case 's':
+      save_scene();
+      return;
+    case 'q':
+      glfwSetWindowShouldClose(window_, GLFW_TRUE);
+      return;
+    default:
+      return;
+  }
+}
+
+// Signs lie elsewhere on each keyboard.
+void Explorer::use_signs() {
+  for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
+    const double speed = session_.frame().speed;
+    if (sign == '+' || sign == '=') session_.set_speed(speed * std::sqrt(2.0));
+    if (sign == '-') session_.set_speed(speed / std::sqrt(2.0));
+    if (sign == '[') open_gallery_scene(gallery_.neighbour(session_.opened().title, -1));
+    if (sign == ']') open_gallery_scene(gallery_.neighbour(session_.opened().title, +1));
+  }
+}
+
+void Explorer::close_something() {
+  for (bool* open : {&shown_.gallery, &shown_.help, &shown_.plots}) {
+    if (!*open) continue;
+    *open = false;
+    return;
+  }
+  if (shown_.lecture) return lecture(false);
+  stage_.let_go();
+}
+
+// A range of round numbers up to twice the thermal speed, or again one that follows.
+void Explorer::fix_range() {
+  View view = session_.view();
+  if (view.range.kind != ColourRange::Auto) {
+    view.range = {};
+  } else {
+    const double end = disk_colour_end(session_.frame().snapshot);
+    const bool signs = view.colour_by != ColourBy::Speed;
+    if (end > 0.0) view.range = {ColourRange::Given, {signs ? -end : 0.0, end}};
+  }
+  session_.set_view(view);
+}
+
+}  // namespace clatter
