@@ -40,7 +40,7 @@ double advised_contact_time(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and time goes on") {
+TEST_CASE("a wholly inelastic pile with t_c rests on every floor, and time goes on") {
   for (const Wall& kind : {kStatic, kSawtooth, kSinusoidal, kGentle}) {
     CAPTURE(static_cast<int>(kind.kind));
     Wall floor = kind;
@@ -69,7 +69,7 @@ TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and 
   }
 }
 
-TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is reported") {
+TEST_CASE("the cascade of a bouncing ball ends when it must, and is reported") {
   // Dropped from h it lands after t_0 = sqrt(2h/g); the bounces sum to t_0 (1 + alpha)/(1 - alpha).
   for (const double restitution : {0.9, 0.5, 0.0}) {
     CAPTURE(restitution);
@@ -91,7 +91,7 @@ TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is re
   }
 }
 
-TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with it they run on") {
+TEST_CASE("grains on floors without t_c stop cleanly or run on; with it they run on") {
   for (const Wall& kind : {kStatic, kLossy, kSawtooth, kSinusoidal, kGentle, kRoughDriven}) {
     for (const double restitution : {0.0, 0.5}) {
       CAPTURE(static_cast<int>(kind.kind));
@@ -118,7 +118,7 @@ TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with i
   }
 }
 
-TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on") {
+TEST_CASE("rows collapse, the message says who, and its t_c carries on") {
   // In one dimension three free disks collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara & Young
   // 1992), longer rows above.
   struct Row {
@@ -147,7 +147,7 @@ TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on
 
 // The run that goes on stands still from its first collision; its own mean time would be far too
 // short.
-TEST_CASE("extremes: a run that goes on from where time stood still is advised the same t_c") {
+TEST_CASE("a run that goes on from where time stood still is advised the same t_c") {
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
   model.restitution = 0.3;
   Simulation<2> first(model, row(12, 1.5));
@@ -161,7 +161,7 @@ TEST_CASE("extremes: a run that goes on from where time stood still is advised t
   CHECK(advised_contact_time(stop_of(third, 1000.0)) == advised_contact_time(message));
 }
 
-TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisions before") {
+TEST_CASE("the t_c that is advised is 1e-3 of the time between collisions before") {
   // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
   // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
   // some ten collisions per disk before it collapses.
@@ -187,7 +187,7 @@ TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisi
   CHECK(pile_time < 10.0 * expected);
 }
 
-TEST_CASE("extremes: who looks for a standstill changes nothing") {
+TEST_CASE("who looks for a standstill changes nothing") {
   // The reference does not look. Rows with a t_c far below the time of the collapse come close to
   // it; a thermal wall's restitution is not used, but makes a run be looked at.
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
@@ -211,7 +211,7 @@ TEST_CASE("extremes: who looks for a standstill changes nothing") {
   CHECK(a.state_hash() == b.state_hash());
 }
 
-TEST_CASE("extremes: dense, fast and hot gases are no standstill") {
+TEST_CASE("dense, fast and hot gases are no standstill") {
   // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic disks at phi = .68,
   // kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they take,
   // for which inelastic disks make up.
@@ -237,7 +237,7 @@ TEST_CASE("extremes: dense, fast and hot gases are no standstill") {
   }
 }
 
-TEST_CASE("extremes: one disk between walls of restitution 1.05 gains without bound and stops") {
+TEST_CASE("one disk between walls of restitution 1.05 gains without bound and stops") {
   // v grows by 1.05 with each crossing of 9: the times sum to 9/v (1 + 1/1.05 + ...) = 21 * 9/v.
   const Wall gaining{.restitution = 1.05};
   Model<2> model = with_walls(periodic_box(10.0, 9.0), 0, gaining);
