@@ -86,7 +86,9 @@ TEST_CASE("pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" *
 TEST_CASE("windows of 1 x 1 and 16384 x 64 pixels" *
           doctest::description("refused with what a size is, before a window opens")) {
   const Shell shell;
-  check_refused(shell, "clatter view vibrated --size 1x1", {"is no window size", "at least 320x240"});
-  check_refused(shell, "clatter view vibrated --size 16384x64", {"is no window size", "at least 320x240"});
+  check_refused(shell, "clatter view vibrated --size 1x1",
+                {"is no window size", "at least 320x240"});
+  check_refused(shell, "clatter view vibrated --size 16384x64",
+                {"is no window size", "at least 320x240"});
   MESSAGE("refused");
 }

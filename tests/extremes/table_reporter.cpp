@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <ostream>
 #include <string>
