@@ -7,8 +7,7 @@
 
 #include "app/commands.h"
 #include "app/write_file.h"
-#include "engine/dynamics/disk.h"
-#include "engine/dynamics/prediction.h"
+#include "engine/dynamics/memory.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/scene_keys.h"
@@ -16,11 +15,6 @@
 namespace clatter {
 
 namespace {
-
-// Besides the disk and its plan: one line of a cell each, and two entries of the event queue with
-// room to grow.
-constexpr double kBytesPerDisk =
-    sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
 
 // Something that a scene may have the program model.
 struct Part {
@@ -66,17 +60,16 @@ double kick_price(const Scene& scene) {
 }
 
 std::vector<Part> parts_of(const Scene& scene) {
-  const double count = scene.disks.count;
+  const GasMemory memory = gas_memory(scene);
   const bool moving =
       std::ranges::any_of(scene.walls, [](const auto& wall) { return wall && wall->moves(); });
-  return {{"disks", "yes", count * kBytesPerDisk, 1.0},
-          {"spins", yes(scene.spins()), scene.spins() ? count * sizeof(Spin<2>) : 0.0, 1.05},
+  return {{"disks", "yes", memory.disks, 1.0},
+          {"spins", yes(scene.spins()), memory.spins, 1.05},
           {"gravity", yes(scene.gravity.has_value()), 0.0, 1.1},
           {"moving walls", yes(moving), 0.0, 1.0},
           {"bulk drive", yes(scene.bulk_drive.has_value()), 0.0,
            scene.bulk_drive ? kick_price(scene) : std::nan("")},
-          {"t_c", yes(scene.contact_time.has_value()),
-           scene.contact_time ? count * sizeof(double) : 0.0, 1.0},
+          {"t_c", yes(scene.contact_time.has_value()), memory.last_collisions, 1.0},
           fields_of(scene)};
 }
 

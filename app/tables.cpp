@@ -76,6 +76,8 @@ static std::string maps_table(const FieldMaps& maps) {
 
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
   const auto [series, profile, maps] = kTableNames;
+  // Of what this run has not, an earlier one's table would pass for it.
+  for (const char* name : kTableNames) std::filesystem::remove(folder / name);
   write_file(folder / series, series_table(measured));
   if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
   if (measured.maps) write_file(folder / maps, maps_table(*measured.maps));

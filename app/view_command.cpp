@@ -30,7 +30,7 @@ int view(const ViewOptions& options) {
   if (std::sscanf(options.size.c_str(), "%dx%d", &window.width, &window.height) != 2 ||
       window.width < 320 || window.height < 240) {
     throw UserError({"--size", 0, 0}, "'" + options.size + "' is no window size",
-                    "write WIDTHxHEIGHT, for instance 1280x800");
+                    "write WIDTHxHEIGHT, at least 320x240, for instance 1280x800");
   }
   show_window(window);
   return kOk;

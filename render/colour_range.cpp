@@ -7,7 +7,7 @@
 namespace clatter {
 
 double robust_extent(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return 0.0;
   const auto place = values.begin() + std::lround(0.98 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end(),
@@ -49,8 +49,11 @@ std::vector<double> round_ticks(double low, double high, int count) {
   }
   std::vector<double> ticks;
   const double slack = 1e-9 * (high - low);
-  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
-    ticks.push_back(k * step + 0.0);  // + 0: no -0
+  // Counted from the first: of a range of few roundings, tick numbers themselves have no
+  // successors.
+  const double first = std::ceil((low - slack) / step);
+  for (int i = 0; (first + i) * step <= high + slack && i <= 2 * count; ++i) {
+    ticks.push_back((first + i) * step + 0.0);  // + 0: no -0
   }
   return ticks.size() > 1 ? ticks : round_ticks(low, high, count + 1);
 }

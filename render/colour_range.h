@@ -6,7 +6,7 @@
 namespace clatter {
 
 /// The 98th percentile of the magnitudes of `values`, without the few that would drown the rest;
-/// NaNs do not count; 0 where there is none.
+/// what is not finite does not count; 0 where nothing does.
 double robust_extent(std::vector<double> values);
 
 /// The next round number at or above `value` > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten.

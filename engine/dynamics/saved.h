@@ -50,6 +50,7 @@ struct Saved {
   std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
   std::uint64_t until_base_moves = 0;   ///< physical events left
   double mean_collision_time = 0.0;     ///< of a disk, see Watchdog; 0: not known
+  double start_speed = 0.0;             ///< of the fastest disk at the run's start
   double kick_interval = 0.0;           ///< of bulk driving; 0: none
   double kick_origin = 0.0;             ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
@@ -101,10 +102,11 @@ void visit(Archive& io, Flight<D>& flight) {
 template <class Archive, int D>
 void visit(Archive& io, Saved<D>& saved) {
   auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
-         mean_collision_time, kick_interval, kick_origin, kicks_since_origin, counts, checks] =
-      saved;
+         mean_collision_time, start_speed, kick_interval, kick_origin, kicks_since_origin, counts,
+         checks] = saved;
   io(gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
-     mean_collision_time, kick_interval, kick_origin, kicks_since_origin, counts, checks);
+     mean_collision_time, start_speed, kick_interval, kick_origin, kicks_since_origin, counts,
+     checks);
 }
 
 }  // namespace clatter

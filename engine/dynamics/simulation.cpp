@@ -53,6 +53,7 @@ static Saved<D> fresh(const Model<D>& model, const State<D>& state, double start
   saved.until_base_moves = std::max<std::uint64_t>(kLeastEventsPerBase, state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
+    saved.start_speed = std::max(saved.start_speed, state.velocities[i].norm());
   }
   saved.spins = state.spins;
   return saved;
@@ -75,13 +76,14 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
       grid_(model_, disks_.size()),
       prediction_(model_, boundary_, disks_, grid_),
       until_base_moves_(saved.until_base_moves),
+      start_speed_(saved.start_speed),
+      fastest_(fastest_speed<D>(model_, start_speed_)),
       kick_origin_(saved.kick_origin),
       kicks_since_origin_(saved.kicks_since_origin),
       counts_(saved.counts),
       checks_(saved.checks) {
   spins_.resize(model_.spins ? disks_.size() : 0, Spin<D>::Zero());
   last_collisions_.resize(model_.contact_time ? disks_.size() : 0, -kNever);
-  for (const auto& wall : model_.walls) heats_ = heats_ || (wall && wall->restitution > 1.0);
   if (may_stand_still(model_)) {
     watchdog_.emplace(disks_.size(), now_, saved.mean_collision_time);
   }
@@ -170,7 +172,7 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
     process(event);
     const bool stands_still = watchdog_ && counts_.collisions() != before &&
                               watchdog_->sees_standstill(now_, event.disk, event.partner);
-    const bool diverges = heats_ && event.partner >= kWall && is_too_fast(event.disk);
+    const bool diverges = event.partner >= kWall && is_too_fast(event.disk);
     const bool base_moves = until_base_moves_ == 0;
     if (base_moves) move_base();
     if (diverges) stop_at_divergence();
@@ -180,12 +182,10 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
   return Halt::Limit;
 }
 
-// A disk that walls with restitution > 1 have made so fast that products of speeds will soon be no
-// ordinary numbers any more.
+// After an event at a wall, where alone speeds grow without bound.
 template <int D>
 bool Simulation<D>::is_too_fast(std::uint32_t number) const {
-  constexpr double kFastest = 1e60;
-  return disks_[number].flight.v.cwiseAbs().maxCoeff() > kFastest;
+  return fastest_ < kNever && disks_[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
 }
 
 template <int D>
@@ -269,7 +269,7 @@ void Simulation<D>::stop_at_standstill() const {
 
 template <int D>
 void Simulation<D>::stop_at_divergence() const {
-  throw divergence(time(), kinetic_energy() / static_cast<double>(disks_.size()));
+  throw divergence<D>(model_, time(), kinetic_energy() / static_cast<double>(disks_.size()));
 }
 
 template <int D>
@@ -284,6 +284,7 @@ Saved<D> Simulation<D>::save() const {
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
   saved.until_base_moves = until_base_moves_;
   if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
+  saved.start_speed = start_speed_;
   saved.kick_interval = kick_interval<D>(model_);
   saved.kick_origin = kick_origin_;
   saved.kicks_since_origin = kicks_since_origin_;

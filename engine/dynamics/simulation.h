@@ -133,7 +133,8 @@ class Simulation {
   Prediction<D> prediction_;
   EventQueue queue_;
   std::uint64_t until_base_moves_;    // physical events left
-  bool heats_ = false;                // whether a wall has a restitution > 1
+  double start_speed_;                // of the fastest disk at the start
+  double fastest_;                    // beyond it speeds diverge; kNever: they cannot
   std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
   std::int64_t fetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/physics/encounter.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
@@ -19,14 +20,18 @@ static std::string partner_name(std::uint32_t partner) {
   return std::string("the ") + kSideNames[partner - kWall] + " wall";
 }
 
+template <int D>
+static bool gains(const Model<D>& model) {
+  return std::ranges::any_of(model.walls,
+                             [](const auto& wall) { return wall && wall->restitution > 1.0; });
+}
+
 // Walls with restitution > 1 heat without bound: disks have become so fast that in what used to be
 // the time between collisions they would cross the box a thousand times.
 template <int D>
 static bool diverges(const Model<D>& model, const Watchdog& watchdog, double temperature) {
-  const bool heats = std::ranges::any_of(
-      model.walls, [](const auto& wall) { return wall && wall->restitution > 1.0; });
   const double flight = std::sqrt(temperature) * watchdog.mean_collision_time();
-  return heats && flight > 1e3 * model.box.maxCoeff();
+  return gains(model) && flight > 1e3 * model.box.maxCoeff();
 }
 
 // Long against the rounding of times, short against the mean collision time; a run that has a t_c
@@ -37,10 +42,49 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
   return std::max(kShare * watchdog.mean_collision_time(), 10.0 * model.contact_time.value_or(0.0));
 }
 
-PhysicalStop divergence(double time, double temperature) {
-  return PhysicalStop("the temperature diverges at t = " + rounded(time) + ", having reached " +
-                      rounded(temperature) +
-                      "; walls with restitution > 1 give more than the gas loses");
+// Whether no collision can take energy from the gas.
+template <int D>
+static bool is_lossless(const Model<D>& model) {
+  bool lossless = model.restitution == 1.0 && !model.roughness.any();
+  for (const auto& wall : model.walls) {
+    if (!wall) continue;
+    lossless = lossless && wall->kind != WallKind::Thermal && wall->restitution == 1.0 &&
+               !wall->roughness.any();
+  }
+  return lossless;
+}
+
+// The greatest speed that a wall's drive or its motion gives to a disk at rest.
+template <int D>
+static double drive_of(const Model<D>& model) {
+  double drive = 0.0;
+  for (const auto& wall : model.walls) {
+    if (wall) drive = std::max({drive, wall->drive_speed, 2.0 * wall->stroke * wall->frequency});
+  }
+  return drive;
+}
+
+// Where walls multiply speeds, beyond 1e60 products of them would soon be no ordinary numbers any
+// more. Where they only add to them and nothing is lost, speeds grow as exp(t), at the price of as
+// many collisions, and another e-folding takes a million beyond this.
+template <int D>
+double fastest_speed(const Model<D>& model, double start_speed) {
+  constexpr double kFastest = 1e60;
+  constexpr double kMostGrowth = 1e6;
+  if (gains(model)) return kFastest;
+  const double drive = drive_of(model);
+  if (drive > 0.0 && is_lossless(model)) return kMostGrowth * std::max(drive, start_speed);
+  return kNever;
+}
+
+template <int D>
+PhysicalStop divergence(const Model<D>& model, double time, double temperature) {
+  return PhysicalStop(
+      "the temperature diverges at t = " + rounded(time) + ", having reached " +
+      rounded(temperature) + ", a speed of " + rounded(std::sqrt(2.0 * temperature)) +
+      (gains(model) ? "; walls with restitution > 1 give more than the gas loses"
+                    : "; walls give ever more, and nothing loses energy: disks or walls "
+                      "need a restitution below 1"));
 }
 
 // Whether a partner is a wall that emits disks without any speed, which no t_c changes.
@@ -52,7 +96,7 @@ static bool is_cold_wall(const Model<D>& model, std::uint32_t partner) {
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature) {
-  if (diverges<D>(model, watchdog, temperature)) return divergence(time, temperature);
+  if (diverges<D>(model, watchdog, temperature)) return divergence<D>(model, time, temperature);
   const auto [disk, partner] = watchdog.busiest_pair();
   const std::string what = "time stands still at t = " + rounded(time) + ": disk " +
                            std::to_string(disk) + " and " + partner_name(partner) +
@@ -70,6 +114,8 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
                       "collapse.contact_time=" + contact_time);
 }
 
+template double fastest_speed<2>(const Model<2>&, double);
+template PhysicalStop divergence<2>(const Model<2>&, double, double);
 template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double);
 
 }  // namespace clatter

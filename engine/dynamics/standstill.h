@@ -11,7 +11,13 @@ template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature);
 
-/// What stops a run in which walls with restitution > 1 have made the speeds diverge.
-PhysicalStop divergence(double time, double temperature);
+/// The speed beyond which a disk shows that walls heat the gas without bound; kNever where they do
+/// not, or what disks lose may balance it. Of a run that began with disks as fast as `start_speed`.
+template <int D>
+double fastest_speed(const Model<D>& model, double start_speed);
+
+/// What stops a run in which walls have made the speeds diverge.
+template <int D>
+PhysicalStop divergence(const Model<D>& model, double time, double temperature);
 
 }  // namespace clatter

@@ -53,7 +53,8 @@ template <int D>
 struct Imbalances {
   std::vector<Conserved<D>> gaps;  ///< change of what the cell holds - booked
   /// Sum of the sizes of all that was booked at the cell: through its faces, as its sources, and
-  /// the weights.
+  /// the weights; and, under gravity, 1e-9 of what its disks carry at both ends of the window, to
+  /// the rounding of which the change is known.
   std::vector<Conserved<D>> sizes;
 
   /// A cell's gaps over their sizes, of either sign. Where there is no gap, 0; where nothing was
@@ -133,7 +134,7 @@ class Balance : public Observer<D> {
   void pass(const IntVec<D>& cell, int axis, int step, const Conserved<D>& amount);
   void arise(const IntVec<D>& cell, const Conserved<D>& amount);
   void clear();
-  std::vector<Conserved<D>> take_changes(double now);
+  Imbalances<D> take_changes(double now);
   Booked<D> booked_at(std::size_t index) const;
 
   const Simulation<D>& simulation_;

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "engine/error.h"
 
 namespace clatter {
 
@@ -32,6 +36,16 @@ std::vector<double> Residuals::map(Field residual) const {
   values.reserve(cells.size());
   for (const Conserved<2>& cell : cells) values.push_back(cell[equation_of(residual)]);
   return values;
+}
+
+void require_closed(const Residuals& residuals) {
+  constexpr double kMostRounding = 1e-6;
+  const double largest = residuals.largest().maxCoeff();
+  if (largest <= kMostRounding) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", largest);
+  throw RunError(std::string("the balance equations do not close: residuals are as large as ") +
+                 text + "; please report this scene and seed");
 }
 
 }  // namespace clatter

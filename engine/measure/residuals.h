@@ -24,6 +24,9 @@ struct Residuals {
   std::vector<double> map(Field residual) const;
 };
 
+/// Throws RunError where cells gained something else than was booked to them, beyond rounding.
+void require_closed(const Residuals& residuals);
+
 template <class Archive>
 void visit(Archive& io, Residuals& residuals) {
   auto& [cells] = residuals;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/dynamics/memory.h"
 #include "engine/dynamics/start.h"
 #include "engine/error.h"
 #include "engine/publish/publish.h"
@@ -10,6 +11,7 @@
 namespace clatter {
 
 std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed) {
+  require_memory(scene);
   return std::make_unique<Simulation<2>>(model_of(scene, seed), start_state(scene, seed));
 }
 

@@ -13,7 +13,8 @@
 
 namespace clatter {
 
-/// The simulation that a scene and a seed ask for, at time 0.
+/// The simulation that a scene and a seed ask for, at time 0. Throws UserError where the machine
+/// has not enough memory for it.
 std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed);
 
 /// A simulation whose laws change as its scene says, and what is seen of it. At a change the

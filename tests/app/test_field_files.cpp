@@ -292,4 +292,17 @@ TEST_CASE("A scene without fields has no maps, and leaves the rest to HDF5") {
   CHECK(shell.run("ls tables").out == "temperature_series.csv\n");
 }
 
+TEST_CASE("Tables of an earlier run that this one has not are gone") {
+  const Shell shell;
+  const auto tables = [&](const std::string& fields) {
+    const Outcome outcome = shell.run(
+        "clatter measure vibrated --quiet --set measure.burn_in=1 --until 2 --csv tables " +
+        std::string("--out r.json --set measure.fields=") + fields + "; ls tables");
+    REQUIRE(outcome.code == 0);
+    return outcome.out;
+  };
+  CHECK(tables("'[\"density\"]'") == "maps.csv\nprofile.csv\ntemperature_series.csv\n");
+  CHECK(tables("[]") == "temperature_series.csv\n");
+}
+
 }  // namespace clatter

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace clatter {
 
@@ -13,6 +14,20 @@ TEST_CASE("A robust extent ignores outliers, signs and NaNs") {
   CHECK(robust_extent(values) == 1.0);
   CHECK(robust_extent({}) == 0.0);
   CHECK(robust_extent({std::nan("")}) == 0.0);
+}
+
+TEST_CASE("A robust extent is finite, whatever the values") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(robust_extent({infinity, 2.0, -infinity}) == 2.0);
+  CHECK(robust_extent({infinity, -infinity}) == 0.0);
+  SteadyExtent extent;
+  CHECK(extent.follow(robust_extent({infinity})) == 1.0);
+  for (const double value : {5e-324, 1e-300, 1e300}) {
+    CAPTURE(value);
+    const double end = SteadyExtent().follow(robust_extent({value}));
+    CHECK(std::isfinite(end));
+    CHECK(end >= value);
+  }
 }
 
 TEST_CASE("Ranges end at round numbers") {
@@ -54,6 +69,10 @@ TEST_CASE("Ticks are round and say no more digits than they need") {
   // Steps of 5 would leave 0 alone.
   CHECK(round_ticks(-4.0, 4.0, 3) == std::vector<double>{-4, -2, 0, 2, 4});
   CHECK_FALSE(std::signbit(round_ticks(0.0, 3.0, 4).front()));
+  // A range of two roundings.
+  const std::vector<double> close = round_ticks(1e16, 1e16 + 4.0, 5);
+  CHECK(close.size() > 1);
+  CHECK(close.size() <= 12);
   CHECK(tick_text(0.4, 0.2) == "0.4");
   CHECK(tick_text(-2.0, 1.0) == "−2");
   CHECK(tick_text(3e-7, 1e-7) == "3e-07");

@@ -139,3 +139,22 @@ TEST_CASE("standstill: a run goes on between walls that move otherwise") {
   second.run_until(30.0);
   check_sound(second);
 }
+
+// While the wall stands far back, the disk falls behind its place and comes out again. A static
+// wall that stands in that place from then on was never touched.
+TEST_CASE("standstill: what a flight passed before other walls held has not happened") {
+  Model<2> before = with_walls(periodic_box(20.0, 25.0), 0, kStatic);
+  before.walls[kLeft] =
+      Wall{.kind = WallKind::Sinusoidal, .stroke = 2.0, .frequency = 1e-3, .phase = 0.75};
+  before.gravity = {1.0, 0.0};
+  Simulation<2> first(before, State<2>{{{1.5, 3.0}}, {{-1.6, 0.0}}});  // to .22, back at t = 3.2
+  first.run_until(3.0);
+  REQUIRE(first.counts().disk_wall == 0);
+  Model<2> after = before;
+  after.walls[kLeft] = kStatic;
+  Simulation<2> second(after, first.save());
+  second.run_until(4.0);
+  CHECK(second.counts().disk_wall == 0);
+  CHECK(second.state().positions[0].x() == doctest::Approx(1.5 - 1.6 * 4.0 + 8.0));
+  check_sound(second);
+}

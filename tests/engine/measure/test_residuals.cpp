@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/measure/residuals.h"
 #include "engine/scene/scene_keys.h"
@@ -76,6 +77,18 @@ TEST_CASE("Residuals: what is no number is larger than any") {
   residuals.include({{{1.0, 1.0, 0.0, 0.0}}, {{1.0, 1.0, 1.0, 1.0}}});
   CHECK(std::isinf(residuals.largest()[1]));
   CHECK(residuals.largest()[0] == 1.0);
+}
+
+TEST_CASE("Residuals: those beyond rounding are an error, which says how large they are") {
+  Residuals residuals{{{0.0, 1e-15, -9e-7, 0.0}}};
+  CHECK_NOTHROW(require_closed(residuals));
+  residuals.cells.push_back({0.0, 0.0, 0.0, -2.5e-6});
+  CHECK_THROWS_WITH_AS(require_closed(residuals),
+                       "the balance equations do not close: residuals are as large as 2.5e-06; "
+                       "please report this scene and seed",
+                       RunError);
+  residuals.cells.push_back({std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0});
+  CHECK_THROWS_AS(require_closed(residuals), RunError);
 }
 
 TEST_CASE("Measurement: balances close where residuals are asked for, and only there") {

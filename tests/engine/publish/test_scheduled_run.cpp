@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
@@ -132,6 +133,41 @@ TEST_CASE("ScheduledRun: what is shown may change while it runs, and leaves the 
   // But for the first, each time there was one to be forgotten.
   CHECK(handed_over == 29);
   CHECK(watched.simulation().state_hash() == plain.simulation().state_hash());
+}
+
+TEST_CASE("ScheduledRun: arrows and balances go on across changes") {
+  View view = vibrated().view;
+  view.arrows = Arrows::HeatFlux;
+  for (const Field field : {Field::Temperature, Field::BalanceEnergy}) {
+    view.field = field;
+    const auto at_ten = [&](const std::vector<double>& times) {
+      Scene scene = vibrated();
+      for (const double time : times) {
+        scene.changes.push_back({.time = time, .set = {{"disks.restitution", "0.9"}}});
+      }
+      ScheduledRun run(scene, 15);
+      run.show(view);
+      run.run_until(10.0);
+      return run.snapshot();
+    };
+    const Snapshot plain = at_ten({}), changed = at_ten({8.5, 9.25, 9.75});
+    CHECK(changed.field->whole_window);
+    REQUIRE(changed.arrows->arrows.size() == plain.arrows->arrows.size());
+    REQUIRE(plain.arrows->arrows.size() > 10);
+    double longest = 0.0;
+    for (const auto& arrow : plain.arrows->arrows) longest = std::max(longest, arrow.value.norm());
+    for (std::size_t k = 0; k < plain.arrows->arrows.size(); ++k) {
+      const Vec2 off = changed.arrows->arrows[k].value - plain.arrows->arrows[k].value;
+      CHECK(off.norm() < 1e-10 * longest);
+    }
+    // What was booked under each of the laws closes, and as many cells have a residual.
+    for (std::size_t i = 0; i < plain.field->values.size(); ++i) {
+      CHECK(std::isnan(changed.field->values[i]) == std::isnan(plain.field->values[i]));
+      if (field == Field::BalanceEnergy && !std::isnan(plain.field->values[i])) {
+        CHECK(std::fabs(changed.field->values[i]) < 1e-12);
+      }
+    }
+  }
 }
 
 TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {

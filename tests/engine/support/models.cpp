@@ -43,4 +43,14 @@ Model<2> with_contact_time(Model<2> model, double contact_time) {
   return model;
 }
 
+Model<2> everything() {
+  Model<2> model = rough(periodic_box(10.0, 9.0), 0.4, 0.6);
+  model.walls = {kSinusoidal, kSawtooth, kRoughDriven, kThermal};
+  model.restitution = 0.875;
+  model.gravity = {0.25, -0.5};
+  model.bulk_drive = BulkDrive{0.1875, 0.125, 0.0625};
+  model.contact_time = 0.0078125;
+  return model;
+}
+
 }  // namespace clatter::testing

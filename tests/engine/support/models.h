@@ -49,4 +49,7 @@ Model<2> kicked(Model<2> model, double interval, double speed);
 /// The same model with a t_c.
 Model<2> with_contact_time(Model<2> model, double contact_time);
 
+/// All there is: four kinds of walls, rough disks, gravity, kicks, t_c.
+Model<2> everything();
+
 }  // namespace clatter::testing

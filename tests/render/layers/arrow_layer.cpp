@@ -83,4 +83,22 @@ TEST_CASE("A short arrow keeps its form") {
   CHECK(small.high.y() - small.low.y() <= 3.0);
 }
 
+// A flux that is nothing but rounding would be a field of bars; tips that coincide have no
+// direction.
+TEST_CASE("Arrows shorter than half a pixel are not drawn") {
+  const auto context = open_context(Backend::Osmesa);
+  for (const double length : {0.024, 1e-7, 1e-20, 5e-324}) {  // .024: .48 pixels
+    CAPTURE(length);
+    const Image image =
+        draw(context->gl(), {{{10.0, 10.0}, {length, 0.0}}, {{4.0, 5.0}, {0.0, -length}}}, 20.0);
+    CHECK(difference(image, draw(context->gl(), {}, 20.0)) == 0);
+  }
+  const Image shown = draw(context->gl(), {{{10.0, 10.0}, {0.026, 0.0}}}, 20.0);
+  CHECK(difference(shown, draw(context->gl(), {}, 20.0)) > 0);
+  // What is no number has none either.
+  const double nan = std::nan("");
+  const Image none = draw(context->gl(), {{{10.0, 10.0}, {nan, 1.0}}}, 20.0);
+  CHECK(difference(none, draw(context->gl(), {}, 20.0)) == 0);
+}
+
 }  // namespace clatter

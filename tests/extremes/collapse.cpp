@@ -8,6 +8,7 @@
 #include "engine/dynamics/state_hash.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/reference.h"
+#include "tests/extremes/figure.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -40,7 +41,9 @@ double advised_contact_time(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and time goes on") {
+TEST_CASE(
+    "a wholly inelastic pile with t_c on every floor" *
+    doctest::description("time goes on, overlap below 1e-9, on floors that rest it lies still")) {
   for (const Wall& kind : {kStatic, kSawtooth, kSinusoidal, kGentle}) {
     CAPTURE(static_cast<int>(kind.kind));
     Wall floor = kind;
@@ -61,15 +64,16 @@ TEST_CASE("extremes: a wholly inelastic pile with t_c rests on every floor, and 
     double vertical = 0.0;
     for (const Vec2& v : simulation.state().velocities)
       vertical = std::max(vertical, std::fabs(v.y()));
-    MESSAGE("collisions ", simulation.counts().collisions(), ", energy ",
-            simulation.kinetic_energy(), ", fastest up or down ", vertical);
+    MESSAGE(simulation.counts().collisions(), " collisions, fastest up or down ", brief(vertical));
     if (floor.kind == WallKind::Static || floor.frequency == kGentle.frequency) {
       CHECK(vertical < 0.3);
     }
   }
 }
 
-TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is reported") {
+TEST_CASE("the cascade of a bouncing ball" *
+          doctest::description(
+              "a stop within 1e-5 of when it must end, and the t_c advised carries on")) {
   // Dropped from h it lands after t_0 = sqrt(2h/g); the bounces sum to t_0 (1 + alpha)/(1 - alpha).
   for (const double restitution : {0.9, 0.5, 0.0}) {
     CAPTURE(restitution);
@@ -81,7 +85,8 @@ TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is re
     const double end = 4.0 * (1.0 + restitution) / (1.0 - restitution);
     CAPTURE(message);
     CHECK(message.find("disk 0 and the bottom wall collide without end") != std::string::npos);
-    CHECK(simulation.time() == doctest::Approx(end).epsilon(1e-5));
+    MESSAGE("alpha = ", restitution, ": off by ", brief(simulation.time() / end - 1.0));
+    CHECK(std::fabs(simulation.time() / end - 1.0) < 1e-5);
     CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
     // With the t_c that the message advises it hops on.
     model.contact_time = advised_contact_time(message);
@@ -91,7 +96,9 @@ TEST_CASE("extremes: the cascade of a bouncing ball ends when it must, and is re
   }
 }
 
-TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with it they run on") {
+TEST_CASE("grains on floors" *
+          doctest::description("without t_c they stop cleanly or run on, with the one advised they "
+                               "run on; overlap below 1e-9")) {
   for (const Wall& kind : {kStatic, kLossy, kSawtooth, kSinusoidal, kGentle, kRoughDriven}) {
     for (const double restitution : {0.0, 0.5}) {
       CAPTURE(static_cast<int>(kind.kind));
@@ -110,7 +117,6 @@ TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with i
       if (stop.empty()) continue;
       CHECK(stop.find("inelastic collapse") != std::string::npos);
       model.contact_time = advised_contact_time(stop);
-      MESSAGE(stop);
       Simulation<2> on(model, start);
       CHECK(stop_of(on, simulation.time() + 1000.0 * *model.contact_time) == "");
       CHECK(on.deepest_overlap() < 1e-9);
@@ -118,7 +124,9 @@ TEST_CASE("extremes: grains on floors without t_c stop cleanly or run on; with i
   }
 }
 
-TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on") {
+TEST_CASE("rows of disks that collapse" *
+          doctest::description(
+              "a clean stop that says who, and the t_c advised carries on; overlap below 1e-11")) {
   // In one dimension three free disks collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara & Young
   // 1992), longer rows above.
   struct Row {
@@ -132,7 +140,6 @@ TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on
     const State<2> start = row(r.count, 1.5);
     Simulation<2> simulation(model, start);
     const std::string message = stop_of(simulation, 1000.0);
-    MESSAGE(message);
     CHECK(message.find("inelastic collapse") != std::string::npos);
     CHECK(message.find(" and disk ") != std::string::npos);
     CHECK(simulation.deepest_overlap() < 1e-11);
@@ -147,7 +154,8 @@ TEST_CASE("extremes: rows collapse, the message says who, and its t_c carries on
 
 // The run that goes on stands still from its first collision; its own mean time would be far too
 // short.
-TEST_CASE("extremes: a run that goes on from where time stood still is advised the same t_c") {
+TEST_CASE("a run that goes on from where time stood still" *
+          doctest::description("it stops again, advised the same t_c")) {
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
   model.restitution = 0.3;
   Simulation<2> first(model, row(12, 1.5));
@@ -161,7 +169,9 @@ TEST_CASE("extremes: a run that goes on from where time stood still is advised t
   CHECK(advised_contact_time(stop_of(third, 1000.0)) == advised_contact_time(message));
 }
 
-TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisions before") {
+TEST_CASE(
+    "the t_c that is advised" *
+    doctest::description("1e-3 of the time between collisions before, within a factor of ten")) {
   // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
   // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
   // some ten collisions per disk before it collapses.
@@ -169,7 +179,7 @@ TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisi
   ball.gravity = {0.0, -0.5};
   Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
   const double ball_time = 1e3 * advised_contact_time(stop_of(bouncing, 1e6));
-  MESSAGE("mean time of the ball ", ball_time);
+  MESSAGE("a ball's time before is ", brief(ball_time));
   CHECK(ball_time > 0.4);  // 76 time units, the first flights 7
   CHECK(ball_time < 8.0);
   Model<2> pile = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.5});
@@ -182,12 +192,13 @@ TEST_CASE("extremes: the t_c that is advised is 1e-3 of the time between collisi
   const double expected =
       first.time() * 12.0 /
       static_cast<double>(2 * first.counts().disk_disk + first.counts().disk_wall);
-  MESSAGE("mean time of the pile ", pile_time, ", of its first collisions ", expected);
+  MESSAGE("a pile's ", brief(pile_time), ", of its first collisions ", brief(expected));
   CHECK(pile_time > 0.1 * expected);
   CHECK(pile_time < 10.0 * expected);
 }
 
-TEST_CASE("extremes: who looks for a standstill changes nothing") {
+TEST_CASE("a standstill is looked for" *
+          doctest::description("the run is the same, bit for bit, as by brute force without")) {
   // The reference does not look. Rows with a t_c far below the time of the collapse come close to
   // it; a thermal wall's restitution is not used, but makes a run be looked at.
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
@@ -209,9 +220,13 @@ TEST_CASE("extremes: who looks for a standstill changes nothing") {
   a.run_until(kNever, 200000);
   b.run_until(kNever, 200000);
   CHECK(a.state_hash() == b.state_hash());
+  MESSAGE("the same bits after ", simulation.counts().collisions(), " collisions of a row, ",
+          a.counts().collisions(), " of a gas");
 }
 
-TEST_CASE("extremes: dense, fast and hot gases are no standstill") {
+TEST_CASE(
+    "dense, fast and hot gases" *
+    doctest::description("they are no standstill: 2e5 collisions each, overlap below 1e-11")) {
   // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic disks at phi = .68,
   // kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they take,
   // for which inelastic disks make up.
@@ -232,19 +247,9 @@ TEST_CASE("extremes: dense, fast and hot gases are no standstill") {
     CHECK_NOTHROW(simulation.run_until(kNever, 200000));
     CHECK(simulation.counts().collisions() == 200000);
     CHECK(finite_and_inside(model, simulation.state()));
-    CHECK(brute_force_overlap(model, simulation.state()) < 1e-11);
+    const double overlap = brute_force_overlap(model, simulation.state());
+    MESSAGE("overlap ", brief(overlap));
+    CHECK(overlap < 1e-11);
     count = 30;
   }
-}
-
-TEST_CASE("extremes: one disk between walls of restitution 1.05 gains without bound and stops") {
-  // v grows by 1.05 with each crossing of 9: the times sum to 9/v (1 + 1/1.05 + ...) = 21 * 9/v.
-  const Wall gaining{.restitution = 1.05};
-  Model<2> model = with_walls(periodic_box(10.0, 9.0), 0, gaining);
-  Simulation<2> simulation(model, State<2>{{{0.5, 3.0}}, {{2.0, 0.25}}});
-  const std::string message = stop_of(simulation, 1e6);
-  CHECK(message.find("the temperature diverges") != std::string::npos);
-  CHECK(simulation.time() == doctest::Approx(21.0 * 9.0 / 2.0).epsilon(1e-5));
-  CHECK(finite_and_inside(model, simulation.state()));
-  CHECK(simulation.state().velocities[0].y() == 0.25);
 }

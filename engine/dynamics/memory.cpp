@@ -1,0 +1,42 @@
+#include "engine/dynamics/memory.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <string>
+
+#include "engine/dynamics/cell_grid.h"
+#include "engine/dynamics/disk.h"
+#include "engine/dynamics/event.h"
+#include "engine/dynamics/prediction.h"
+#include "engine/error.h"
+#include "engine/physics/spin.h"
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+// Besides the disk and its plan: one line of a cell each, and two entries of the event queue with
+// room to grow.
+static constexpr double kBytesPerDisk =
+    sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
+
+GasMemory gas_memory(const Scene& scene) {
+  const double count = scene.disks.count;
+  return {count * kBytesPerDisk, scene.spins() ? count * sizeof(Spin<2>) : 0.0,
+          scene.contact_time ? count * sizeof(double) : 0.0};
+}
+
+void require_memory(const Scene& scene) {
+  const double there =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double needed = gas_memory(scene).total();
+  if (needed <= there) return;
+  const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
+  throw UserError(
+      {"disks.count", 0, 0},
+      std::to_string(scene.disks.count) + " disks take about " + gigabytes(needed) +
+          " GB, and this machine has " + gigabytes(there),
+      "choose at most " + std::to_string(static_cast<int>(scene.disks.count * there / needed)));
+}
+
+}  // namespace clatter

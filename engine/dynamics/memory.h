@@ -1,0 +1,22 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+/// Bytes that the simulation of a scene takes: those of its disks, of their spins, and of their
+/// last collisions, which t_c needs.
+struct GasMemory {
+  double disks = 0.0;
+  double spins = 0.0;
+  double last_collisions = 0.0;
+
+  double total() const { return disks + spins + last_collisions; }
+};
+
+GasMemory gas_memory(const Scene& scene);
+
+/// Throws UserError where that is more than the machine has.
+void require_memory(const Scene& scene);
+
+}  // namespace clatter

@@ -1,0 +1,94 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/app/shell.h"
+#include "tests/extremes/figure.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+using nlohmann::json;
+
+// What is very large, long, high or small either runs, or is refused with the reason.
+
+TEST_CASE("10^7 disks" * doctest::test_suite("slow") *
+          doctest::description("they run; overlap below 1e-9")) {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "clatter measure equilibrium --quiet --set disks.count=10000000 --set box.size=[6000,6000] "
+      "--set disks.start.layout='\"lattice\"' --set measure.fields=[] --set measure.burn_in=0 "
+      "--until 0.01");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json result = json::parse(outcome.out);
+  const double overlap = result.at("checks").at("deepest_overlap");
+  MESSAGE(result.at("events").at("disk_disk").get<int>(), " collisions, ",
+          brief(1e-9 * result.at("performance").at("peak_memory_bytes").get<double>()),
+          " GB, deepest overlap ", brief(overlap));
+  CHECK(overlap < 1e-9);
+}
+
+TEST_CASE("2 * 10^9 disks" *
+          doctest::description("refused with the memory that they take, before it is allocated, or "
+                               "as too many for the box")) {
+  const Shell shell;
+  const std::string measure = "clatter measure equilibrium --quiet --set disks.count=2000000000 ";
+  check_refused(shell, measure + "--set box.size=[100000,100000]",
+                {"2000000000 disks take about 480 GB, and this machine has ", "choose at most "});
+  check_refused(shell, measure + "--set box.size=[1000,1000]",
+                {"do not fit into the box", "at most"});
+  MESSAGE("refused");
+}
+
+TEST_CASE(
+    "boxes of 10^6 x 2 and 2 x 10^6" *
+    doctest::description("they run and are drawn; overlap below 1e-9, of which the rounding of "
+                         "places is 1e-10")) {
+  const Shell shell;
+  for (const std::string size : {"[1e6,2]", "[2,1e6]"}) {
+    CAPTURE(size);
+    const std::string scene = "equilibrium --quiet --set box.size=" + size;
+    const Outcome outcome = shell.run(
+        "clatter measure " + scene +
+        " --set disks.count=100000 --set measure.burn_in=0 --until 1 --set measure.cells=[20,20]");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json result = json::parse(outcome.out);
+    const double overlap = result.at("checks").at("deepest_overlap");
+    MESSAGE(result.at("events").at("disk_disk").get<int>(), " collisions, deepest overlap ",
+            brief(overlap));
+    CHECK(overlap < 1e-9);
+    CHECK(shell
+              .run("clatter render " + scene +
+                   " --set disks.count=1000 --to 1 --out a.png --overwrite")
+              .code == 0);
+  }
+}
+
+TEST_CASE("pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" *
+          doctest::description("drawn, or refused with the sizes that there are")) {
+  const Shell shell;
+  for (const std::string size : {"1x1", "0x0", "-5x7", "16385x64", "99999999999x64"}) {
+    check_refused(shell, "clatter render vibrated --to 1 --out a.png --size=" + size,
+                  {"each from 16 to 16384"});
+  }
+  for (const std::string size : {"16x16", "16384x64", "64x16384"}) {
+    CAPTURE(size);
+    const Outcome outcome =
+        shell.run("clatter render vibrated --quiet --to 1 --overwrite --out a.png --size=" + size);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+  MESSAGE("1 x 1 refused, the others drawn");
+}
+
+TEST_CASE("windows of 1 x 1 and 16384 x 64 pixels" *
+          doctest::description("refused with what a size is, before a window opens")) {
+  const Shell shell;
+  check_refused(shell, "clatter view vibrated --size 1x1",
+                {"is no window size", "at least 320x240"});
+  check_refused(shell, "clatter view vibrated --size 16384x64",
+                {"is no window size", "at least 320x240"});
+  MESSAGE("refused");
+}

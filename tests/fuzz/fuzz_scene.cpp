@@ -1,0 +1,49 @@
+// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn.
+
+#include <cstdint>
+#include <string>
+
+#include "engine/error.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+#include "render/canvas.h"
+#include "render/context/context.h"
+#include "render/renderer.h"
+
+using namespace clatter;
+
+namespace {
+
+// More are no other, only slower.
+constexpr int kMostDisks = 1000;
+constexpr std::uint64_t kCollisions = 1000, kSteps = 20000;
+
+void draw(const Scene& scene, const Snapshot& snapshot) {
+  static const auto context = open_context(Backend::Osmesa);
+  static const Canvas canvas(context->gl(), {64, 48});
+  static Renderer renderer(context->gl());
+  canvas.bind();
+  const OverlayText text{scene.title, scene.caption};
+  const Camera camera = renderer.fit(snapshot, {64, 48}, scene.view, text);
+  renderer.draw(snapshot, camera, {64, 48}, scene.view, text);
+}
+
+void run(const std::string& text) {
+  const Scene scene = parse_scene(text, "fuzz.toml", {});
+  if (scene.disks.count > kMostDisks) return;
+  ScheduledRun run(scene, 1);
+  run.show(scene.view);
+  run.run_until(scene.measure.burn_in + scene.measure.duration, kCollisions, kSteps);
+  draw(run.scene(), run.snapshot());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    run({reinterpret_cast<const char*>(data), size});
+  } catch (const UserError&) {
+  } catch (const PhysicalStop&) {
+  }
+  return 0;
+}
