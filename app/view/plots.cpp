@@ -88,9 +88,9 @@ Plot profile_plot(const Profile& profile, std::size_t chosen) {
   Plot plot{"Profile", "x in a", false, false, {}, quantity_of(field).unit};
   Curve curve{quantity_of(field).name, kBlue, {}};
   for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
-    const auto& [mean, error] = profile.values[chosen][i];
-    curve.points.emplace_back(0.5 * (profile.edges[i] + profile.edges[i + 1]), mean);
-    curve.errors.push_back(error);
+    const Estimate& value = profile.values[chosen][i];
+    curve.points.emplace_back(0.5 * (profile.edges[i] + profile.edges[i + 1]), value.mean);
+    curve.errors.push_back(value.standard_error);
   }
   plot.curves.push_back(std::move(curve));
   return plot;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 #include "engine/publish/snapshot.h"
@@ -32,30 +31,6 @@ inline int difference(const Image& a, const Image& b) {
     largest = std::max(largest, std::abs(a.rgba[i] - b.rgba[i]));
   }
   return largest;
-}
-
-/// IEEE Trans. Image Process. 13, 600 (2004), of the green channel, over squares of 8 pixels.
-inline double structural_similarity(const Image& a, const Image& b) {
-  constexpr int kSide = 8;
-  const double c1 = std::pow(0.01 * 255.0, 2), c2 = std::pow(0.03 * 255.0, 2);
-  double sum = 0.0;
-  int squares = 0;
-  for (int top = 0; top + kSide <= a.size.height; top += kSide / 2) {
-    for (int left = 0; left + kSide <= a.size.width; left += kSide / 2) {
-      double sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
-      for (int y = top; y < top + kSide; ++y) {
-        for (int x = left; x < left + kSide; ++x) {
-          const double va = pixel(a, x, y).green, vb = pixel(b, x, y).green;
-          sa += va, sb += vb, saa += va * va, sbb += vb * vb, sab += va * vb;
-        }
-      }
-      const double n = kSide * kSide, ma = sa / n, mb = sb / n;
-      const double va = saa / n - ma * ma, vb = sbb / n - mb * mb, cov = sab / n - ma * mb;
-      sum += (2.0 * ma * mb + c1) * (2.0 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
-      ++squares;
-    }
-  }
-  return sum / squares;
 }
 
 /// A canvas cleared to the background, with the blending of Renderer.
