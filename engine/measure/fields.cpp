@@ -12,9 +12,12 @@ constexpr int kX = 0, kY = 1;
 template <class S>
 using Cell = CellAverages<2, S>;
 
+// Disks at a wall whose centres come to a cell's border to the bit seem to visit the cell for as
+// long as rounding has it: V would be a ratio of roundings.
 template <class S>
 bool visited(const Cell<S>& cell) {
-  return value_of(cell.density) > 0.0;
+  constexpr double kRounding = 1e-12;  // disks per a^2
+  return value_of(cell.density) > kRounding;
 }
 
 // V = p/(m rho). Where no disk ever was nothing flows.

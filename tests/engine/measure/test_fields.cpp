@@ -126,6 +126,11 @@ TEST_CASE("field_value: where no disk ever was only densities and collisional pa
   CHECK(field_value(Field::HeatFluxY, wall_layer) == doctest::Approx(-1.2));
   CHECK(std::isnan(field_value(Field::StressXxKinetic, wall_layer)));
   CHECK(std::isnan(field_value(Field::HeatFluxYKinetic, wall_layer)));
+  // Also where rounding lets centres into it.
+  CellAverages<2, double> entered = wall_layer;
+  entered.density = 1e-16;
+  entered.momentum[1] = 2e-16;
+  CHECK(field_value(Field::HeatFluxY, entered) == doctest::Approx(-1.2));
 }
 
 TEST_CASE("Dual: derivatives of all fields as finite differences have them") {
