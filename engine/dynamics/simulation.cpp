@@ -43,7 +43,7 @@ static double kick_interval(const Model<D>& model) {
 }
 
 template <int D>
-static Saved<D> fresh(const Model<D>& model, const State<D>& state, double start_time) {
+static Saved<D> fresh(const Model<D>& model, State<D> state, double start_time) {
   Saved<D> saved;
   saved.gravity = model.gravity;
   saved.wall_motions = wall_motions<D>(model);
@@ -51,20 +51,22 @@ static Saved<D> fresh(const Model<D>& model, const State<D>& state, double start
   saved.kick_interval = kick_interval<D>(model);
   saved.kick_origin = start_time;
   saved.until_base_moves = std::max<std::uint64_t>(kLeastEventsPerBase, state.positions.size());
+  saved.flights.reserve(state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
     saved.start_speed = std::max(saved.start_speed, state.velocities[i].norm());
   }
-  saved.spins = state.spins;
+  saved.spins = std::move(state.spins);
+  state = {};  // what is taken over leaves room for what is made of it
   return saved;
 }
 
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, const State<D>& state, double start_time)
-    : Simulation(model, fresh<D>(model, state, start_time)) {}
+Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time)
+    : Simulation(model, fresh<D>(model, std::move(state), start_time)) {}
 
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
+Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
     : model_(model),
       clock_(saved.base),
       boundary_(model_, clock_),
@@ -105,6 +107,7 @@ Simulation<D>::Simulation(const Model<D>& model, const Saved<D>& saved)
     plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
     grid_.insert(static_cast<std::uint32_t>(i), plans_[i].cell);
   }
+  saved.flights = {};
   // What a run bore at contacts, it bears when it goes on.
   const double borne = kStartRounding + checks_.deepest_overlap;
   if (const double overlap = deepest_overlap(); overlap > borne) {
@@ -279,6 +282,7 @@ Saved<D> Simulation<D>::save() const {
   saved.wall_motions = wall_motions<D>(model_);
   saved.base = clock_.base();
   saved.now = now_;
+  saved.flights.reserve(disks_.size());
   for (const Disk<D>& disk : disks_) saved.flights.push_back(disk.flight);
   saved.spins.assign(spins_.begin(), spins_.end());
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());

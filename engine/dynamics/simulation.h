@@ -28,11 +28,11 @@ class Simulation {
  public:
   /// Starts at simulation time `start_time`. Throws PhysicalStop where disks of the state overlap
   /// each other or a wall.
-  Simulation(const Model<D>& model, const State<D>& state, double start_time = 0.0);
+  Simulation(const Model<D>& model, State<D> state, double start_time = 0.0);
   /// Goes on from where a run was saved, under the model's laws: bit for bit as that run would
   /// have, if they are the same; kicks at another interval are counted from now. Throws
   /// PhysicalStop where a wall now lies within a disk.
-  Simulation(const Model<D>& model, const Saved<D>& saved);
+  Simulation(const Model<D>& model, Saved<D> saved);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
