@@ -232,9 +232,19 @@ bool Controls::card(const char* key, float height) {
   return clicked;
 }
 
+void Controls::show(const View& view, bool changed) {
+  if (changed) {
+    if (!shown_before_) shown_before_ = session_.view();
+    session_.set_view(view);
+  }
+  if (!shown_before_ || ImGui::IsAnyItemActive()) return;
+  session_.remember({.views = {{*shown_before_, session_.view()}}});
+  shown_before_.reset();
+}
+
 void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after) {
   session_.set(after);
-  session_.remember({before, after});
+  session_.remember({.before = before, .after = after});
 }
 
 void Controls::log_place(const char* key) {

@@ -48,6 +48,8 @@ class Controls {
   /// A wide area to click on, of so many pixels' height, for what is drawn over it.
   bool card(const char* key, float height);
 
+  /// Draws otherwise where that has `changed`, to be taken back in one once nothing is dragged.
+  void show(const View& view, bool changed);
   /// Sets keys, to be taken back in one.
   void set(const std::vector<Override>& before, const std::vector<Override>& after);
 
@@ -64,9 +66,10 @@ class Controls {
 
   Session& session_;
   ScriptLog& log_;
-  double before_ = 0.0;  // value when the drag under way began
-  double held_ = 0.0;    // of a slider that waits to be let go
-  std::string holding_;  // its name
+  double before_ = 0.0;               // value when the drag under way began
+  double held_ = 0.0;                 // of a slider that waits to be let go
+  std::string holding_;               // its name
+  std::optional<View> shown_before_;  // before the drag under way changed the view
 };
 
 /// A heading of a group in a panel; whether it is open.

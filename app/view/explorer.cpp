@@ -156,10 +156,11 @@ void Explorer::plots_drawer(float top, float width) {
   ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
   ImGui::Begin("plots", nullptr, kFixedPanel);
   const ThemeColours theme = panel_theme(session_.view());
-  controls_.choice("plots.profile", "Profile along x",
-                   "Averages since the plots were opened, or laws or the heatmap changed, with a "
-                   "band of one standard error, chapter 4",
-                   kProfileNames, profiled_, 0);
+  controls_.choice(
+      "plots.profile", "Profile along x",
+      "Averages since the plots were opened, or laws, averages or trails changed, with a "
+      "band of one standard error, chapter 4",
+      kProfileNames, profiled_, 0);
   const auto profiled = static_cast<std::size_t>(profiled_);
   for (const Plot& plot : plots_of(history_, session_.frame(), profiled, theme)) {
     draw_plot(plot, std::round(0.62f * width));

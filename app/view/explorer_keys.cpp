@@ -123,7 +123,7 @@ void Explorer::fix_range() {
     const bool signs = view.colour_by != ColourBy::Speed;
     if (end > 0.0) view.range = {ColourRange::Given, {signs ? -end : 0.0, end}};
   }
-  session_.set_view(view);
+  controls_.show(view, true);
 }
 
 }  // namespace clatter

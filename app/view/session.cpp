@@ -30,6 +30,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"changes", frame.scene->changes.size()},
                          {"box", {frame.snapshot.box.x(), frame.snapshot.box.y()}},
                          {"disks", frame.snapshot.positions.size()},
+                         {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->disks.restitution}};
   if (frame.state_hash) {
     char hash[17];
@@ -169,10 +170,18 @@ void Session::remember(Edit edit) {
   undone_.clear();
 }
 
+void Session::apply(const Edit& edit, bool again) {
+  if (edit.views) {
+    set_view((*edit.views)[again ? 1 : 0]);
+  } else {
+    set(again ? edit.after : edit.before);
+  }
+}
+
 void Session::undo() {
   if (done_.empty()) return;
   log_.event("undo", nlohmann::json::object());
-  set(done_.back().before);
+  apply(done_.back(), false);
   undone_.push_back(std::move(done_.back()));
   done_.pop_back();
 }
@@ -180,17 +189,17 @@ void Session::undo() {
 void Session::redo() {
   if (undone_.empty()) return;
   log_.event("redo", nlohmann::json::object());
-  set(undone_.back().after);
+  apply(undone_.back(), true);
   done_.push_back(std::move(undone_.back()));
   undone_.pop_back();
 }
 
 void Session::set_view(const View& view) {
-  const bool averages_anew =
-      view.field != view_.field || view.arrows != view_.arrows || view.window != view_.window;
+  const bool observes_anew = view.field != view_.field || view.arrows != view_.arrows ||
+                             view.window != view_.window || view.trails != view_.trails;
   view_ = view;
   ++views_;
-  if (averages_anew) send(command::Show{view});
+  if (observes_anew) send(command::Show{view});
 }
 
 void Session::pick(std::optional<std::size_t> disk) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@ namespace clatter {
 
 /// What a person changed at once, and can take back at once.
 struct Edit {
-  std::vector<Override> before;
-  std::vector<Override> after;
+  std::vector<Override> before = {};
+  std::vector<Override> after = {};
+  std::optional<std::array<View, 2>> views = {};  ///< before and after; absent: no other view
 };
 
 /// The gas that a person watches, and what they have done to it. It asks the engine, and never
@@ -62,7 +64,8 @@ class Session {
   /// Sets again what was taken back last.
   void redo();
 
-  /// Draws otherwise from now on; with another field its averages start anew.
+  /// Draws otherwise from now on; with another field its averages start anew, with trails the
+  /// engine begins to keep the disks' flights.
   void set_view(const View& view);
   /// Whether frames have profiles from now on.
   void show_profile(bool on);
@@ -82,6 +85,7 @@ class Session {
   using Clock = std::chrono::steady_clock;
 
   void send(Command command);
+  void apply(const Edit& edit, bool again);
   void refit();
 
   Worker& worker_;

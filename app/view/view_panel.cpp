@@ -142,6 +142,22 @@ static bool choose_heatmap(const Session& session, Controls& controls, View& vie
   return changed;
 }
 
+static bool choose_trails(Controls& controls, std::optional<double>& trails,
+                          const std::optional<double>& usual) {
+  double time = trails.value_or(0.0);
+  const bool changed = controls.number({.key = "view.trails",
+                                        .name = "Trails",
+                                        .unit = "t",
+                                        .help = "How far back in time disks' paths are drawn; 0: "
+                                                "none",
+                                        .high = 5.0,
+                                        .format = "%.2f"},
+                                       time, usual.value_or(0.0));
+  trails.reset();
+  if (time > 0.0) trails = time;
+  return changed;
+}
+
 double disk_colour_end(const Snapshot& snapshot) {
   return round_up(2.0 * std::sqrt(2.0 * snapshot.temperature));
 }
@@ -172,6 +188,7 @@ void view_panel(Session& session, Controls& controls) {
                                 .format = "%.2f"},
                                view.window, usual.window);
   }
+  changed |= choose_trails(controls, view.trails, usual.trails);
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,
                     view.theme, usual.theme);
@@ -179,7 +196,7 @@ void view_panel(Session& session, Controls& controls) {
                              view.grid);
   changed |= controls.toggle("view.overlay", "Title, figures and scales",
                              "What films write on the picture", view.overlay);
-  if (changed) session.set_view(view);
+  controls.show(view, changed);
   ImGui::Spacing();
 }
 

@@ -33,7 +33,7 @@ struct Frame {
   std::shared_ptr<const Scene> scene;  ///< with the laws in force, and all changes
   std::shared_ptr<const Scene>
       started;                     ///< as the run was started; a start state may be in no file
-  std::optional<Profile> profile;  ///< since it was asked for, or laws or the field shown changed;
+  std::optional<Profile> profile;  ///< since it was asked for, or laws, averages or trails changed;
                                    ///< absent: not asked for
   std::optional<Encounter> last_encounter;  ///< of the picked disk, since it was picked
   std::optional<Encounter> next_encounter;  ///< likewise, where the run halts

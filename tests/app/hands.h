@@ -41,6 +41,8 @@ class Hands {
   std::size_t told() const { return events().size(); }
   /// The colour of a pixel of the screen: red, green, blue.
   std::vector<int> pixel(int x, int y) const;
+  /// The mean over a widget's pixels of how bright they are, 0..255.
+  double brightness(const std::string& widget) const;
   /// The program's exit code, once it has ended; -1 where it has not within some seconds.
   int exit_code() const;
   const Shell& shell() const { return shell_; }

@@ -179,6 +179,32 @@ TEST_CASE("Window: what there is to try closes, and a lecture is for a projector
   CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
 }
 
+TEST_CASE("Window: trails come with their slider, go with undo, and are in the saved scene") {
+  const Hands hands("", "1280x1500");
+  const json before = hands.wait_for("status");
+  CHECK(before["flights"] == 0);
+  std::size_t told = hands.told();
+  hands.drag("view.trails", 0.02, 0.4);
+  const json with =
+      hands.wait_for("status", told, [](const json& status) { return status["flights"] > 0; });
+  // Nothing but the picture is another.
+  CHECK(with["run"] == before["run"]);
+  CHECK(with["changes"] == 0);
+  hands.key("space");
+  hands.wait_for("status", told, halted);
+  const double bright = hands.brightness("stage");
+  // A drag is one step to take back.
+  told = hands.told();
+  hands.key("ctrl+z");
+  hands.wait_for("status", told, [](const json& status) { return status["flights"] == 0; });
+  CHECK(hands.brightness("stage") < 0.99 * bright);
+  hands.key("ctrl+y");
+  told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  CHECK(scene.find("trails = ") != std::string::npos);
+}
+
 TEST_CASE("Window: films what was done to the gas, as the command does that it gives") {
   const Hands hands("--set view.speed=4", "1280x1500");
   hands.drag("disks.restitution", 0.88, 0.7);
