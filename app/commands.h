@@ -26,9 +26,9 @@ enum ExitCode {
 
 /// Flags that every command with a scene takes.
 struct CommonOptions {
-  std::string scene;                  ///< path or gallery name
+  std::string scene;                  ///< path of a scene or picture, or gallery name
   std::vector<std::string> settings;  ///< "key=value" of each --set
-  std::optional<std::uint64_t> seed;  ///< absent: that of the checkpoint resumed from, or 1
+  std::optional<std::uint64_t> seed;  ///< absent: the checkpoint's, or 1
   std::optional<double> until;        ///< simulation time at which the run ends
   int threads = 2;                    ///< of picture encoders
   bool quiet = false;                 ///< nothing on stderr but errors

@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/flag_checks.h"
+#include "app/picture_scene.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 
@@ -20,11 +21,14 @@ Scene load(const CommonOptions& options, StartFile start_file) {
     }
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
-  return load_scene(options.scene, overrides, start_file);
+  return load_any_scene(options.scene, overrides, start_file);
 }
 
 void add_scene_flags(CLI::App& command, CommonOptions& options) {
-  command.add_option("scene", options.scene, "Scene file, or the name of a gallery scene")
+  command
+      .add_option("scene", options.scene,
+                  "Scene file, name of a gallery scene, or picture (.png) by this program, for its "
+                  "scene and seed")
       ->required()
       ->type_name("SCENE");
   command
@@ -35,8 +39,11 @@ void add_scene_flags(CLI::App& command, CommonOptions& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--seed", options.seed,
-                  "Seed of all random numbers (default: 1, or the checkpoint's)")
+                  "Seed of all random numbers (default: 1, or that of the picture or checkpoint)")
       ->check(seed_number());
+  command.parse_complete_callback([&options] {
+    if (!options.seed) options.seed = seed_of_picture(options.scene);
+  });
 }
 
 void add_common_flags(CLI::App& command, CommonOptions& options) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/picture_scene.h"
 #include "app/view/explorer.h"
 #include "app/write_file.h"
 #include "engine/scene/scene_file.h"
@@ -17,8 +18,7 @@ namespace clatter {
 // A scene file, or one of our pictures with its scene inside.
 void Explorer::open_file(const std::string& file) {
   try {
-    const auto inside = png_text(file, "Scene");
-    open(inside ? parse_scene(*inside, file) : load_scene(file), session_.frame().seed);
+    open(load_any_scene(file), seed_of_picture(file).value_or(session_.frame().seed));
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }

@@ -152,8 +152,8 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& file,
-                  const std::vector<Override>& overrides) {
-  return parse(text, file, overrides, Origin::Folder, StartFile::Read);
+                  const std::vector<Override>& overrides, StartFile start_file) {
+  return parse(text, file, overrides, Origin::Folder, start_file);
 }
 
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {

@@ -24,7 +24,8 @@ Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>&
 /// Like load_scene, from text; `file` is the name that errors carry, beside which the files lie
 /// that the scene names.
 Scene parse_scene(std::string_view text, const std::string& file,
-                  const std::vector<Override>& overrides = {});
+                  const std::vector<Override>& overrides = {},
+                  StartFile start_file = StartFile::Read);
 
 /// The scene with keys set anew, and the same start state. Throws UserError where that makes no
 /// scene.

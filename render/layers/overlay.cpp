@@ -168,16 +168,21 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
   const double right = std::min(high.x(), projection.size.width - page.margins.right);
   const float x = static_cast<float>(std::round(right + wall_thickness(projection.size) + unit));
 
-  const std::vector<Legend> bars = legends.bars();
-  const auto count = static_cast<float>(bars.size());
-  const float gap = 1.5f * unit;
+  const float gap = 1.5f * unit, least = 6.0f * unit;
   const float arrows = legends.arrows ? arrow_legend_height(page.fonts) + gap : 0.0f;
+  const auto lowest = static_cast<float>(height - page.margins.bottom);
+  const auto page_room = lowest - static_cast<float>(page.margins.top) + gap - arrows;
+  std::vector<Legend> bars = legends.bars();
+  // A small picture has no room for all: the disks' stays.
+  while (bars.size() > 1 && bars.size() * (least + gap) > page_room) bars.pop_back();
+  const auto count = static_cast<float>(bars.size());
   const float room = (static_cast<float>(bottom - top) + gap - arrows) / count - gap;
-  const float each = std::clamp(room, 6.0f * unit, 18.0f * unit);
-  // Where the box is too low for them they stand about its middle.
-  const double spare = bottom - top - (count * (each + gap) - gap + arrows);
-  auto y =
-      static_cast<float>(std::round(std::max(page.margins.top, top + 0.5 * std::min(0.0, spare))));
+  const float each = std::clamp(room, least, 18.0f * unit);
+  // Where the box is too low for them they stand about its middle, as far as the page lets them.
+  const float all = count * (each + gap) - gap + arrows;
+  const double middle = top + 0.5 * std::min(0.0, bottom - top - all);
+  auto y = static_cast<float>(
+      std::round(std::max<double>(page.margins.top, std::min<double>(middle, lowest - all))));
   for (const Legend& legend : bars) {
     draw_legend(list, legend, page.fonts, page.theme, ImVec2(x, y), each);
     y = std::round(y + each + gap);

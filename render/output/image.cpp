@@ -112,9 +112,11 @@ void write_png(const std::filesystem::path& path, const Image& image,
 
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {
   std::ifstream file(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
-  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return std::nullopt;
   constexpr std::size_t kSignature = 8, kAround = 12;  // length, type and checksum of a chunk
+  std::string bytes(kSignature, '\0');
+  // Files without an end are no pictures.
+  if (!file.read(bytes.data(), kSignature) || bytes != "\x89PNG\r\n\x1a\n") return std::nullopt;
+  bytes.append(std::istreambuf_iterator<char>(file), {});
   const std::string wanted = "iTXt" + std::string(keyword) + std::string(5, '\0');
   for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
     std::size_t length = 0;

@@ -28,6 +28,18 @@ void require_no_pieces(const std::filesystem::path& folder) {
                   "go on with it by --resume, or give --overwrite to film anew");
 }
 
+// By this name a program beside ours opens this very file, while we live. An encoder that is late
+// to open its file, of a run that was killed meanwhile, thus cannot write into that of the run that
+// goes on.
+std::filesystem::path name_while_open(const FileDescriptor& file) {
+  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file.get());
+}
+
+FileDescriptor open_new(const std::filesystem::path& path) {
+  unlink(path.c_str());
+  return FileDescriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+}
+
 void make_folder(const std::filesystem::path& folder, const std::filesystem::path& film) {
   std::error_code error;
   std::filesystem::create_directory(folder, error);
@@ -83,14 +95,12 @@ long Movie::start_of_piece(long number) const {
 void Movie::start_piece() {
   piece_ = next_;
   const std::filesystem::path piece = piece_path(piece_);
-  // The encoder of a run that was killed may still be writing into a file of that name.
-  unlink(piece.c_str());
   // Found out now rather than after the first hour of a run.
-  const FileDescriptor file(open(piece.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-  if (!file) fail(std::strerror(errno));
+  file_ = open_new(piece);
+  if (!file_) fail(std::strerror(errno));
   try {
-    encoder_ =
-        std::make_unique<ChildProcess>(encoding_command(program_, *format_, options_, piece));
+    encoder_ = std::make_unique<ChildProcess>(
+        encoding_command(program_, *format_, options_, name_while_open(file_)));
   } catch (const RunError& error) {
     unlink(piece.c_str());
     fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
@@ -144,7 +154,9 @@ void Movie::join() {
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
   const std::filesystem::path joined = folder_ / ("joined" + format_->extension);
-  ChildProcess joiner(joining_command(program_, *format_, texts, list, joined));
+  const FileDescriptor file = open_new(joined);
+  if (!file) fail(std::strerror(errno));
+  ChildProcess joiner(joining_command(program_, *format_, texts, list, name_while_open(file)));
   if (!joiner.wait()) {
     unlink(joined.c_str());
     fail(joiner);

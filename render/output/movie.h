@@ -49,6 +49,7 @@ class Movie final : public FrameSink {
   std::vector<PngText> notes_;             ///< of the last picture
   long next_;                              ///< number of the next picture
   long piece_ = 0;                         ///< number of the first picture of the piece under way
+  FileDescriptor file_;                    ///< of that piece, or the one before
   std::unique_ptr<ChildProcess> encoder_;  ///< of that piece; none: it has not begun
   WorkQueue queue_;                        ///< last, so that its thread ends before the rest
 };

@@ -108,6 +108,29 @@ TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes
         0);
 }
 
+// The first run's encoder opens its file only when the second has filmed the same frames.
+TEST_CASE("An encoder that outlives a killed run does not touch the film made after it") {
+  const Shell shell;
+  write_scene(shell);
+  shell.run("mkdir late");
+  shell.write("late/ffmpeg",
+              "#!/bin/sh\n[ -e go ] || touch begun\nuntil [ -e go ]; do sleep 0.02; done\n"
+              "PATH=${PATH#*:} ffmpeg \"$@\"; touch ended\n");
+  shell.run("chmod +x late/ffmpeg");
+  shell.run("PATH=$PWD/late:$PATH " + kFilm +
+            "--out film.mp4 & pid=$!\n"
+            "while [ ! -e begun ] && kill -0 $pid; do sleep 0.02; done; kill -9 $pid");
+  const Outcome film =
+      shell.run(kFilm +
+                "--out film.mp4 --overwrite & pid=$!\n"
+                "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n"
+                "kill -STOP $pid; touch go; until [ -e ended ]; do sleep 0.02; done\n"
+                "kill -CONT $pid; wait $pid");
+  CAPTURE(film.err);
+  CHECK(film.code == 0);
+  CHECK(hashes(shell, "-i film.mp4").size() == 150 * 33);
+}
+
 TEST_CASE("A batch system that ends the encoder, too, leaves a film that plays and goes on") {
   const Shell shell;
   write_scene(shell);

@@ -123,6 +123,23 @@ TEST_CASE("A picture has room for a wall that swings out of the box") {
   }
 }
 
+TEST_CASE("Colour bars for which a small picture has no room stay out of the row of figures") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{320, 240};
+  constexpr int kRow = 28;  // height of figures and scale, with their distance from the edge
+  Snapshot snapshot = driven_box();
+  View view = view_with_field();
+  const Camera camera = renderer.fit(snapshot, size, view, kText);
+  const Image two = draw(renderer, context->gl(), snapshot, camera, size, view);
+  view.field.reset();
+  snapshot.field.reset();
+  const Image one = draw(renderer, context->gl(), snapshot, camera, size, view);
+  const auto row = one.rgba.end() - 4L * size.width * kRow;
+  CHECK(std::equal(row, one.rgba.end(), two.rgba.end() - 4L * size.width * kRow));
+  CHECK(std::any_of(row, one.rgba.end(), [&](unsigned char c) { return c > 128 && c < 255; }));
+}
+
 TEST_CASE("Spins are coloured by their sense") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());

@@ -238,8 +238,11 @@ TEST_CASE("An encoder that dies is an error with its last words, and no film wit
 
 TEST_CASE("An encoder that dies later leaves the pieces before, and those are named") {
   const TemporaryFolder folder, programs;
-  const auto encoder = make_encoder(programs / "encoder",
-                                    "case \"$*\" in *000060*) exit 1 ;; esac; exec ffmpeg \"$@\"");
+  const auto encoder =
+      make_encoder(programs / "encoder",
+                   "for last; do :; done\n"
+                   "case $(readlink \"${last#file:}\") in *000060*) exit 1 ;; esac\n"
+                   "exec ffmpeg \"$@\"");
   {
     Movie movie(folder / "film.webm", options(), encoder);
     const std::string named = "filmed before is in " + (folder / "film.webm.part").string();
