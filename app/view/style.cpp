@@ -24,7 +24,7 @@ static void apply_colours(ImVec4* colours, const ThemeColours& theme) {
   colours[ImGuiCol_TextDisabled] = shade(theme.faint_text);
   colours[ImGuiCol_WindowBg] = shade(panel);
   colours[ImGuiCol_ChildBg] = shade(panel, 0.0f);
-  colours[ImGuiCol_PopupBg] = shade(mix(theme.background, theme.text, 0.08), 0.98f);
+  colours[ImGuiCol_PopupBg] = shade(mix(theme.background, theme.text, 0.08));
   colours[ImGuiCol_Border] = shade(line);
   colours[ImGuiCol_Separator] = shade(line);
   colours[ImGuiCol_FrameBg] = shade(field);
