@@ -125,7 +125,7 @@ template <class S>
 S field_value(Field field, const CellAverages<2, S>& cell) {
   switch (field) {
     case Field::Density:
-      return cell.density;
+      return visited(cell) ? cell.density : S(0.0);
     case Field::VelocityX:
       return of_visitors(cell, velocity(cell, kX));
     case Field::VelocityY:

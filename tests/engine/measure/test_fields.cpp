@@ -130,6 +130,7 @@ TEST_CASE("field_value: where no disk ever was only densities and collisional pa
   CellAverages<2, double> entered = wall_layer;
   entered.density = 1e-16;
   entered.momentum[1] = 2e-16;
+  CHECK(field_value(Field::Density, entered) == 0.0);
   CHECK(field_value(Field::HeatFluxY, entered) == doctest::Approx(-1.2));
 }
 
