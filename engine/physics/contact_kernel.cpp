@@ -53,9 +53,12 @@ struct Earliest {
   }
 };
 
+[[gnu::always_inline]] inline Lanes lesser(const Lanes& a, const Lanes& b) {
+  return a < b ? a : b;
+}
+
 // The least of four numbers, in every lane.
 [[gnu::always_inline]] inline Lanes least(const Lanes& lanes) {
-  const auto lesser = [](const Lanes& a, const Lanes& b) { return a < b ? a : b; };
   const Lanes pairs = lesser(lanes, __builtin_shufflevector(lanes, lanes, 2, 3, 0, 1));
   return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
 }
