@@ -4,7 +4,7 @@
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
-#include "render/layers/disk_colours.h"
+#include "render/layers/strokes.h"
 #include "render/program.h"
 
 namespace clatter {
@@ -21,20 +21,11 @@ class SweptLayer {
   void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours);
 
  private:
-  struct Swept {
-    float x, y;              ///< centre at the start, pixels
-    float along_x, along_y;  ///< direction of motion
-    float length;            ///< of its way, pixels
-    float share;             ///< of the exposure
-    Light light;
-  };
-
   const Gl* gl_;
   Program program_;
   LightLayer light_;
-  Buffer buffer_;
-  VertexArray vertices_;
-  std::vector<Swept> swept_;  ///< kept to save its memory
+  Strokes strokes_;
+  std::vector<Stroke> drawn_;  ///< kept to save its memory
 };
 
 }  // namespace clatter

@@ -4,7 +4,7 @@
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
-#include "render/layers/disk_colours.h"
+#include "render/layers/strokes.h"
 #include "render/program.h"
 
 namespace clatter {
@@ -19,18 +19,11 @@ class TrailLayer {
             double time);
 
  private:
-  struct Line {
-    float x0, y0, x1, y1;      ///< ends, pixels
-    float opacity0, opacity1;  ///< there
-    Light light;
-  };
-
   const Gl* gl_;
   Program program_;
   LightLayer light_;
-  Buffer buffer_;
-  VertexArray vertices_;
-  std::vector<Line> lines_;  ///< kept to save its memory
+  Strokes strokes_;
+  std::vector<Stroke> drawn_;  ///< kept to save its memory
 };
 
 }  // namespace clatter
