@@ -8,6 +8,7 @@
 #include "render/context/context.h"
 #include "render/output/similarity.h"
 #include "render/palette.h"
+#include "render/renderer.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -33,17 +34,20 @@ inline int difference(const Image& a, const Image& b) {
   return largest;
 }
 
-/// A canvas cleared to the background, with the blending of Renderer.
-inline Canvas blank_canvas(const Gl& gl, Size size) {
+/// A canvas cleared to a background, with the blending of Renderer.
+inline Canvas blank_canvas(const Gl& gl, Size size, Colour background = kDarkTheme.background) {
   Canvas canvas(gl, size);
   gl.Viewport(0, 0, size.width, size.height);
-  gl.ClearColor(kDarkTheme.background.red / 255.0f, kDarkTheme.background.green / 255.0f,
-                kDarkTheme.background.blue / 255.0f, 1.0f);
+  gl.ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
+                background.alpha / 255.0f);
   gl.Clear(GL_COLOR_BUFFER_BIT);
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   return canvas;
 }
+
+/// Nothing, as a background.
+inline constexpr Colour kClear{0, 0, 0, 0};
 
 /// A 20 x 25 box driven from left and right and periodic in y, with a lattice of moving disks and a
 /// density field.
@@ -62,6 +66,26 @@ inline Snapshot driven_box() {
   for (int i = 0; i < 20; ++i) density.values.push_back(0.05 * i);
   snapshot.field = density;
   return snapshot;
+}
+
+/// What overlays of pictures say.
+inline const OverlayText kText{"Vibrated box",
+                               "Watch the cold dense band form between the hot walls."};
+
+/// What a renderer draws.
+inline Image draw(Renderer& renderer, const Gl& gl, const Snapshot& snapshot, const Camera& camera,
+                  Size size, const View& view) {
+  const Canvas canvas(gl, size);
+  canvas.bind();
+  renderer.draw(snapshot, camera, size, view, kText);
+  return canvas.read();
+}
+
+/// Shows the density.
+inline View view_with_field() {
+  View view;
+  view.field = Field::Density;
+  return view;
 }
 
 }  // namespace clatter

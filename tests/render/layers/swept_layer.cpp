@@ -36,13 +36,7 @@ Snapshot on_path(double diameter, std::vector<FlightPiece> pieces) {
 }
 
 Image drawn(const Gl& gl, DiskLayer& layer, const Snapshot& snapshot) {
-  const Canvas canvas(gl, kSize);
-  canvas.bind();
-  gl.Viewport(0, 0, kSize.width, kSize.height);
-  gl.ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  gl.Clear(GL_COLOR_BUFFER_BIT);
-  gl.Enable(GL_BLEND);
-  gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const Canvas canvas = blank_canvas(gl, kSize, kClear);
   layer.draw(snapshot, kProjection, {ColourBy::None, {}, kDarkTheme.disk});
   return canvas.read();
 }

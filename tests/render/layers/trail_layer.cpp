@@ -15,13 +15,7 @@ constexpr Size kSize{200, 120};
 const Projection kProjection{{{100.0, 60.0}, 200.0}, kSize};
 
 Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
-  const Canvas canvas(gl, kSize);
-  canvas.bind();
-  gl.Viewport(0, 0, kSize.width, kSize.height);
-  gl.ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  gl.Clear(GL_COLOR_BUFFER_BIT);
-  gl.Enable(GL_BLEND);
-  gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const Canvas canvas = blank_canvas(gl, kSize, kClear);
   TrailLayer(gl).draw(snapshot, kProjection, {ColourBy::None, {}, kDarkTheme.disk}, time);
   return canvas.read();
 }
