@@ -12,6 +12,17 @@ using nlohmann::json;
 
 // What is very large, long, high or small either runs, or is refused with the reason.
 
+namespace {
+
+json measured(const Shell& shell, const std::string& scene_and_flags) {
+  const Outcome outcome = shell.run("clatter measure " + scene_and_flags);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return json::parse(outcome.out);
+}
+
+}  // namespace
+
 TEST_CASE("10^7 disks" * doctest::test_suite("slow") *
           doctest::description("they run; overlap below 1e-9")) {
   const Shell shell;
@@ -49,12 +60,10 @@ TEST_CASE(
   for (const std::string size : {"[1e6,2]", "[2,1e6]"}) {
     CAPTURE(size);
     const std::string scene = "equilibrium --quiet --set box.size=" + size;
-    const Outcome outcome = shell.run(
-        "clatter measure " + scene +
-        " --set disks.count=100000 --set measure.burn_in=0 --until 1 --set measure.cells=[20,20]");
-    CAPTURE(outcome.err);
-    REQUIRE(outcome.code == 0);
-    const json result = json::parse(outcome.out);
+    const json result =
+        measured(shell, scene +
+                            " --set disks.count=100000 --set measure.burn_in=0 --until 1 "
+                            "--set measure.cells=[20,20]");
     const double overlap = result.at("checks").at("deepest_overlap");
     MESSAGE(result.at("events").at("disk_disk").get<int>(), " collisions, deepest overlap ",
             brief(overlap));
