@@ -104,7 +104,7 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
 }
 
 // While velocities are 1, each collision rounds four of their components by some 3e-17; at the end
-// they are 5e-16, and what those roundings added up to remains as a drift of the centre.
+// they are 3e-16, and what those roundings added up to remains as a drift of the centre.
 TEST_CASE(
     "Haff's cooling down to T = 1e-30" *
     doctest::description("T = T_0/(1 + k t)^2, so T t^2 = T_0/k^2 below T = 1e-10 within 5 "
