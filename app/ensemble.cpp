@@ -10,6 +10,7 @@
 
 #include "app/interrupt.h"
 #include "app/result_json.h"
+#include "app/run.h"
 #include "engine/publish/scheduled_run.h"
 
 namespace clatter {
@@ -73,7 +74,9 @@ class Replicas {
       if (interrupted()) return;
       tell(index, simulation->time());
     }
+    require_no_overlap(simulation->checks());
     const Measured measured = measurement.result();
+    if (measured.residuals) require_closed(*measured.residuals);
     Json result = result_json(scene_, seed, *simulation, measured, {});
     result.erase("performance");
     const std::scoped_lock lock(mutex_);

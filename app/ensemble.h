@@ -19,7 +19,7 @@ struct Ensemble {
 /// replicas with the standard errors that these scatter by, by the names that results have, and
 /// under "results" what `clatter measure --seed` would write for each, without performance. After
 /// an interrupt it has the replicas that were done. Throws PhysicalStop, once all others are done,
-/// where one has stopped.
+/// where one has stopped; that or RunError, too, where one is not sound.
 nlohmann::ordered_json measure_ensemble(const Scene& scene, const Ensemble& ensemble,
                                         Progress& progress);
 
