@@ -1,7 +1,6 @@
 #include "app/ensemble.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -101,16 +100,6 @@ class Replicas {
   std::exception_ptr failure_;
 };
 
-// The mean over replicas, which are independent.
-Json ensemble_estimate(const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value / count;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {{"mean", mean},
-          {"standard_error", count > 1.0 ? std::sqrt(squares / (count * (count - 1.0))) : 0.0}};
-}
-
 }  // namespace
 
 Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
@@ -127,7 +116,9 @@ Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& pr
   for (std::size_t k = 0; !done.empty() && k < done.front()->estimates.size(); ++k) {
     std::vector<double> values;
     for (const Replica* replica : done) values.push_back(replica->estimates[k].second.mean);
-    json[estimate_pointer(done.front()->estimates[k].first)] = ensemble_estimate(values);
+    const Estimate over_replicas = independent_estimate(values);
+    json[estimate_pointer(done.front()->estimates[k].first)] = {
+        {"mean", over_replicas.mean}, {"standard_error", over_replicas.standard_error}};
   }
   return json;
 }
