@@ -379,6 +379,28 @@ TEST_CASE("Replicas measured at once have the numbers of those measured one by o
   check_refused(shell, line + "--replicas 2 --checkpoint c", {"--replicas", "--checkpoint"});
 }
 
+// At alpha = 0.9975 disks lose what walls give to a gas as dense everywhere, but not what they give
+// to one that is denser at the walls.
+TEST_CASE("A gas that its walls heat without bound has no temperature in theory") {
+  const Shell shell;
+  const auto theory = [&](const std::string& settings) {
+    const std::string line =
+        "clatter measure vibrated --quiet --set measure.burn_in=0 --until 1 "
+        "--set walls.left.restitution=1.05 --set walls.right.restitution=1.05 ";
+    return json::parse(shell.run(line + settings).out).at("theory");
+  };
+  const json heated = theory("--set disks.restitution=1");
+  CHECK(heated.at("epsilon_effective") < 0.0);
+  CHECK_FALSE(heated.contains("temperature_simple"));
+  const json layered = theory("--set disks.restitution=0.9975");
+  CHECK(layered.at("epsilon_effective") > 0.0);
+  CHECK(layered.contains("temperature_refined"));
+  CHECK_FALSE(layered.contains("temperature_corrected"));
+  // No gravity is none that acts.
+  CHECK(theory("--set gravity.acceleration=[0,0]").contains("psi"));
+  CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
+}
+
 TEST_CASE("Of a gas that cools it is said that it is not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
