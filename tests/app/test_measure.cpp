@@ -401,6 +401,20 @@ TEST_CASE("A gas that its walls heat without bound has no temperature in theory"
   CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
 }
 
+// Seed 7 gets through, seed 8 collapses. Were all that follow run, too, it would take hours.
+TEST_CASE("Of replicas that stop the first seed is named, and the rest is left out") {
+  const Shell shell;
+  for (const std::string replicas : {"2", "100000"}) {
+    const Outcome outcome = shell.run(
+        "clatter measure collapse --quiet --set collapse={} --set disks.count=100 "
+        "--set box.size=[15,15] --set measure.burn_in=0 --seed 7 --out all.json --replicas " +
+        replicas);
+    CHECK(outcome.code == 3);
+    CHECK(says(outcome.err, "seed 8: time stands still"));
+    CHECK(shell.read("all.json").empty());
+  }
+}
+
 TEST_CASE("Of a gas that cools it is said that it is not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
