@@ -162,7 +162,7 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   keep(options.supersample, film.samples, "--supersample", [](int n) { return std::to_string(n); });
   keep(options.shutter, film.shutter, "--shutter", number_text);
   if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
-  film.overlay = film.overlay && !options.no_overlay;
+  if (options.no_overlay && film.overlay) refuse_change("--no-overlay", "an overlay");
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to) film.times.count = count_frames(times, to);
   if (film.times.count < film.next) {
