@@ -75,7 +75,7 @@ void wait_for_events(bool settles, RealClock::time_point began, double rate) {
 }  // namespace
 
 static void show(const WindowOptions& options) {
-  const GlfwContext context("clatter", Size{options.width, options.height});
+  const GlfwContext context("clatter", options.size);
   const ContextGuard guard;
   GLFWwindow* window = context.window();
   glfwSwapInterval(1);
