@@ -38,7 +38,6 @@ void Explorer::open(const Scene& scene, std::uint64_t seed, std::optional<double
   session_.open(scene, seed, !until);
   if (until) session_.play_until(*until);
   if (shown_.lecture) lecture(true);
-  glfwSetWindowTitle(window_, (scene.title + " – clatter").c_str());
 }
 
 // Takes the window's scale and loads fonts for it.
@@ -64,6 +63,10 @@ void Explorer::draw() {
   if (session_.update()) {
     stage_.redraw();
     history_.add(session_.frame());
+  }
+  if (title_ != session_.opened().title) {
+    title_ = session_.opened().title;
+    glfwSetWindowTitle(window_, (title_ + " – clatter").c_str());
   }
   watch_film();
   use_keys();

@@ -94,6 +94,27 @@ TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") 
   hands.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
 }
 
+// Grains at rest on a floor that hardly moves: with a long stroke it would lie in them.
+TEST_CASE("Window: what the engine refuses stays neither in the panels nor in what they start") {
+  const Hands hands(
+      "shaker --set walls.bottom.stroke=0.1 --set view.speed=20 --set collapse.contact_time=1e-3 "
+      "--until 30.25",
+      "1280x1500");
+  hands.wait_for("status", 0, halted);
+  std::size_t told = hands.told();
+  hands.drag("walls.bottom.stroke", 0.1, 0.95);
+  const json message = hands.wait_for("message", told);
+  CHECK(says(message["text"], "overlap"));
+  hands.key("r");
+  hands.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
+  told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  const std::size_t stroke = scene.find("stroke = ");
+  REQUIRE(stroke != std::string::npos);
+  CHECK(std::stod(scene.substr(stroke + 9)) < 1.0);
+}
+
 TEST_CASE("Window: a scene of the gallery, found by its name") {
   const Hands hands("");
   std::size_t told = hands.told();
