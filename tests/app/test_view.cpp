@@ -139,8 +139,11 @@ TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays
   hands.drag("walls.left.drive_speed", 0.3, 0.8);
   hands.key("space");
   std::size_t told = hands.told();
+  // Those that a scene of that name would write, too.
+  hands.shell().run("touch clatter-1.csv clatter-2.mp4");
   hands.key("F2");
   const std::string file = hands.wait_for("screenshot", told)["file"];
+  CHECK(file == "clatter-3.png");
   CHECK(hands.shell().read(file).starts_with("\x89PNG"));
   // Above the left wall there is background, on the wall there is not.
   CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
