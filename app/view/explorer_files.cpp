@@ -50,7 +50,7 @@ static Scene recorded_beside(const std::string& file, const Session& session) {
 }
 
 void Explorer::screenshot() {
-  if (!session_.frame().scene) return;
+  if (!stage_.drawn()) return;
   try {
     const std::string name = free_name(".png");
     const Scene scene = recorded_beside(name, session_);
