@@ -178,7 +178,8 @@ void Explorer::stage() {
   if (shown_.gallery != told_gallery_ && shown_.gallery) log_.event("gallery", {{"open", true}});
   told_gallery_ = shown_.gallery;
   if (shown_.gallery) {
-    if (const auto name = gallery_.draw(controls_, whole.x, whole.y)) open_gallery_scene(*name);
+    const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y);
+    if (chosen) open_gallery_scene(*chosen);
   }
   if (shown_.help) help_window(whole.x, whole.y);
   if (!frame.scene) return;
@@ -228,9 +229,9 @@ void Explorer::lecture(bool on) {
   shown_.lecture = on;
 }
 
-void Explorer::open_gallery_scene(const std::string& name) {
+void Explorer::open_gallery_scene(const EmbeddedFile& scene) {
   shown_.gallery = false;
-  open(load_scene(name), session_.frame().seed);
+  open(load_gallery_scene(scene), session_.frame().seed);
 }
 
 void Explorer::toggle_full_screen() {

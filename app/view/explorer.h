@@ -47,7 +47,7 @@ class Explorer {
   void plots_drawer(float top, float width);
   void stage();
   void use_stage();
-  void open_gallery_scene(const std::string& name);
+  void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void toggle_full_screen();
   void fix_range();
