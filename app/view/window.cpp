@@ -98,6 +98,8 @@ static void show(const WindowOptions& options) {
       guard.check();
       wait_for_events(left > 0 || explorer.films(), began, rate);
     }
+    // What is under way, a film say, comes to its end, for which nobody has to look on.
+    glfwHideWindow(window);
     log.event("quit", nlohmann::json::object());
   }
   // An engine that cannot end at once, say while it looks for room for a million disks, has nothing

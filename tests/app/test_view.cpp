@@ -273,6 +273,19 @@ TEST_CASE("Window: where OpenGL is too old it says what to do instead") {
   CHECK(off_screen.err.find("clatter render") != std::string::npos);
 }
 
+TEST_CASE("Window: closes at once while it films, and what there is of the film plays") {
+  const Hands hands("--set view.speed=0.5 --set disks.count=20", "1280x1500");
+  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 4.0; });
+  hands.click("film");
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  hands.key("ctrl+q");
+  hands.wait_for("quit");
+  // It is found by its name while it is on the screen.
+  CHECK(hands.run("xdotool search --onlyvisible --name 'Vibrated box'").code != 0);
+  CHECK(hands.exit_code() == 0);
+  CHECK(hands.shell().run("ffmpeg -v error -i clatter-1.mp4 -f null - </dev/null").code == 0);
+}
+
 TEST_CASE("Window: quits at once") {
   const Hands hands("collapse");
   hands.key("ctrl+q");
