@@ -47,7 +47,7 @@ class Explorer {
   void plots_drawer(float top, float width);
   void stage();
   void use_stage();
-  void open_gallery_scene(const std::string& name);
+  void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void toggle_full_screen();
   void fix_range();
@@ -73,6 +73,7 @@ class Explorer {
   GuiLayer gui_;
   Shown shown_;
   Theme theme_before_ = Theme::Dark;  // the lecture
+  std::string title_;                 // of the window; empty: the program's
   std::uint64_t drawn_views_ = 0;     // of Session::views()
   bool told_gallery_ = false;         // whether the script log knows that it is open
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none

@@ -91,6 +91,7 @@ TEST_CASE("A film goes on with the flags it began with, and refuses others") {
   check_refused(shell, on + "--out film --speed 2", {"--speed"});
   check_refused(shell, on + "--out film --shutter 0.2", {"--shutter", "has 0.7"});
   check_refused(shell, on + "--out film --transparent", {"--transparent", "a background"});
+  check_refused(shell, on + "--out film --no-overlay", {"--no-overlay", "an overlay"});
   check_refused(shell, on + "--out film --to 3", {"--to", "5.9"});
   check_refused(shell, on + "--out film --set view.field=density", {"view.field", "--from"});
   check_refused(shell, on + "--out film --frames 10:30", {"--frames", "60"});
