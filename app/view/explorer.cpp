@@ -162,7 +162,7 @@ void Explorer::plots_drawer(float top, float width) {
       "band of one standard error, chapter 4",
       kProfileNames, profiled_, 0);
   const auto profiled = static_cast<std::size_t>(profiled_);
-  for (const Plot& plot : plots_of(history_, session_.frame(), profiled, theme)) {
+  for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled, theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();
   }

@@ -79,7 +79,7 @@ struct PlotFrame {
   }
 };
 
-void draw_axes(ImDrawList& list, const PlotFrame& frame, const Plot& plot) {
+void draw_axes(ImDrawList& list, const PlotFrame& frame, const LivePlot& plot) {
   const ImFont& font = *ImGui::GetFont();
   const float size = 0.8f * ImGui::GetFontSize();
   const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border);
@@ -160,7 +160,7 @@ void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
   }
 }
 
-void legend(const Plot& plot) {
+void legend(const LivePlot& plot) {
   const float unit = ImGui::GetFontSize();
   float x = 0.0f;
   for (const Curve& curve : plot.curves) {
@@ -192,7 +192,7 @@ void legend(const Plot& plot) {
 
 }  // namespace
 
-void draw_plot(const Plot& plot, float height) {
+void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted(plot.title.c_str());
   ImGui::SameLine();
@@ -231,7 +231,7 @@ void draw_plot(const Plot& plot, float height) {
   ImGui::Dummy(ImVec2(width, height));
 }
 
-std::string csv_of(const Plot& plot) {
+std::string csv_of(const LivePlot& plot) {
   std::string text;
   for (const Curve& curve : plot.curves) {
     text += plot.x_label + ',' + (curve.name.empty() ? plot.title : curve.name);

@@ -20,8 +20,8 @@ struct Curve {
   std::vector<double> errors = {};  ///< [points] standard errors, drawn as a band; empty: none
 };
 
-/// Curves over a common axis.
-struct Plot {
+/// Curves over a common axis, of a run that goes on.
+struct LivePlot {
   std::string title;
   std::string x_label;
   bool log_x = false;
@@ -31,9 +31,9 @@ struct Plot {
 };
 
 /// Draws a plot of this height over the width of the ImGui window, with its axes and legend.
-void draw_plot(const Plot& plot, float height);
+void draw_plot(const LivePlot& plot, float height);
 
 /// The numbers of a plot, a table per curve.
-std::string csv_of(const Plot& plot);
+std::string csv_of(const LivePlot& plot);
 
 }  // namespace clatter

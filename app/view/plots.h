@@ -16,7 +16,7 @@ inline const std::vector<std::string> kProfileNames = {"density", "temperature",
 /// over time, the velocities' distribution, between driven walls its place on Fig. 3.1, and what
 /// its books leave open. What is neither one direction nor theory has the colour of the theme's
 /// text.
-std::vector<Plot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
-                           const ThemeColours& theme);
+std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
+                               const ThemeColours& theme);
 
 }  // namespace clatter
