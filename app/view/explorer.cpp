@@ -67,7 +67,7 @@ void Explorer::draw() {
   }
   watch_film();
   use_keys();
-  session_.show_profile(shown_.plots);
+  session_.show_profile(shown_.plots ? profiled_by(profiled()) : Profiled::Nothing);
   panels();
   stage();
   ImGui::Render();
@@ -158,11 +158,12 @@ void Explorer::plots_drawer(float top, float width) {
   const ThemeColours theme = panel_theme(session_.view());
   controls_.choice(
       "plots.profile", "Profile along x",
-      "Averages since the plots were opened, or laws, averages or trails changed, with a "
-      "band of one standard error, chapter 4",
+      "Since the plots were opened, or laws, averages or trails changed: averages, with a band of "
+      "one standard error, chapter 4, or by how much the equations of balance, (4.1) to (4.3), did "
+      "not close in the worst window, over all that was booked; the engine then has about twice "
+      "the work",
       kProfileNames, profiled_, 0);
-  const auto profiled = static_cast<std::size_t>(profiled_);
-  for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled, theme)) {
+  for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();
   }

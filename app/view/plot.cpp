@@ -19,9 +19,14 @@ struct Scale {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   bool logarithmic = false;
+  double floor = 0.0;  // of a logarithmic axis
 
-  bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0.0); }
-  double place(double value) const { return logarithmic ? std::log10(value) : value; }
+  bool shows(double value) const {
+    return std::isfinite(value) && (!logarithmic || std::max(value, floor) > 0.0);
+  }
+  double place(double value) const {
+    return logarithmic ? std::log10(std::max(value, floor)) : value;
+  }
   void include(double value) {
     if (!shows(value)) return;
     low = std::min(low, place(value));
@@ -207,6 +212,7 @@ void draw_plot(const LivePlot& plot, float height) {
   PlotFrame frame;
   frame.x.logarithmic = plot.log_x;
   frame.y.logarithmic = plot.log_y;
+  frame.y.floor = plot.floor;
   for (const Curve& curve : plot.curves) {
     for (const Vec2& point : curve.points) {
       if (!frame.x.shows(point.x()) || !frame.y.shows(point.y())) continue;

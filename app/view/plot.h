@@ -28,6 +28,7 @@ struct LivePlot {
   bool log_y = false;
   std::vector<Curve> curves;
   std::string y_label = "";  ///< what it is and its unit
+  double floor = 0.0;  ///< of a logarithmic axis y: what is less, as 0, stands there; 0: nowhere
 };
 
 /// Draws a plot of this height over the width of the ImGui window, with its axes and legend.

@@ -1,6 +1,7 @@
 #include "app/view/plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -96,6 +97,24 @@ LivePlot profile_plot(const Profile& profile, std::size_t chosen) {
   return plot;
 }
 
+// What the balance equations leave open along x: in magnitude, for the sign of rounding is chance.
+LivePlot balance_plot(const ResidualProfile& profile) {
+  constexpr double kBelowRounding = 1e-18;
+  LivePlot plot{"Balance", "x in a", false, true, {}, "residual, relative", kBelowRounding};
+  constexpr std::array<const char*, 4> kNames = {"mass", "momentum x", "momentum y", "energy"};
+  constexpr std::array<Colour, 4> kColours = {kGreen, kOrange, kBlue, kRed};
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    Curve curve{kNames[k], kColours[k], {}};
+    const std::vector<double> values = profile.residuals.map(kResiduals[k]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double x = (static_cast<double>(i) + 0.5) * profile.width;
+      curve.points.emplace_back(x, std::fabs(values[i]));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
 LivePlot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
   LivePlot plot{"Velocities", "v / standard deviation", false, true, {}, "density"};
   Curve gaussian{"Gaussian", plain, {}, true};
@@ -142,6 +161,10 @@ LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas)
 
 }  // namespace
 
+Profiled profiled_by(std::size_t name) {
+  return name + 1 < kProfileNames.size() ? Profiled::Fields : Profiled::Balances;
+}
+
 std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
                                const ThemeColours& theme) {
   const std::vector<Sample>& samples = history.samples();
@@ -149,6 +172,7 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   if (frame.profile && profiled < frame.profile->fields.size()) {
     plots.push_back(profile_plot(*frame.profile, profiled));
   }
+  if (frame.residuals) plots.push_back(balance_plot(*frame.residuals));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
   plots.push_back(energy_plot(samples, theme.text));
   plots.push_back(velocity_plot(history.velocities(), theme.text));

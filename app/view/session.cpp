@@ -38,6 +38,7 @@ static nlohmann::json status(const Frame& frame) {
     told["hash"] = hash;
   }
   if (frame.partners) told["partners"] = *frame.partners;
+  if (frame.residuals) told["residuals"] = frame.residuals->residuals.largest();
   return told;
 }
 
@@ -209,8 +210,8 @@ void Session::pick(std::optional<std::size_t> disk) {
   send(pick);
 }
 
-void Session::show_profile(bool on) {
-  if (std::exchange(shows_profile_, on) != on) send(command::ShowProfile{on});
+void Session::show_profile(Profiled what) {
+  if (std::exchange(profiled_, what) != what) send(command::ShowProfile{what});
 }
 
 void Session::tell(const std::string& message) {

@@ -67,8 +67,8 @@ class Session {
   /// Draws otherwise from now on; with another field its averages start anew, with trails the
   /// engine begins to keep the disks' flights.
   void set_view(const View& view);
-  /// Whether frames have profiles from now on.
-  void show_profile(bool on);
+  /// What frames have profiles of from now on.
+  void show_profile(Profiled what);
   /// Frames tell the collisions of this disk from now on.
   void pick(std::optional<std::size_t> disk);
   /// How often the view has changed.
@@ -95,7 +95,7 @@ class Session {
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;
-  bool shows_profile_ = false;
+  Profiled profiled_ = Profiled::Nothing;
   std::optional<std::size_t> picked_;
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;

@@ -22,9 +22,10 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   if (encounters_ && encounters_->last()) encounter_ = encounters_->last();
   simulation.add_observer(encounters_.emplace(simulation, picked_));
   profile_.reset();
-  if (shows_profile_) {
-    profile_ = std::make_unique<LiveProfile>(simulation, run_.scene().view.window / kWindowParts);
-  }
+  residuals_.reset();
+  const double window = run_.scene().view.window / kWindowParts;
+  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window);
+  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window);
 }
 
 void WatchedRun::pick(std::optional<std::uint32_t> disk) {
@@ -34,9 +35,9 @@ void WatchedRun::pick(std::optional<std::uint32_t> disk) {
   encounters_->watch(disk);
 }
 
-void WatchedRun::show_profile(bool on) {
-  if (on == shows_profile_) return;
-  shows_profile_ = on;
+void WatchedRun::show_profile(Profiled what) {
+  if (what == profiled_) return;
+  profiled_ = what;
   run_.renew();
 }
 
@@ -60,6 +61,8 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.started = started_;
   frame.profile.reset();
   if (profile_) frame.profile = profile_->profile();
+  frame.residuals.reset();
+  if (residuals_) frame.residuals = residuals_->profile();
   frame.seed = run_.seed();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;

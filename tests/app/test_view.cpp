@@ -157,6 +157,23 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
                  [&](const json& status) { return status["box"] == before["box"]; });
 }
 
+TEST_CASE("Window: what the balance equations leave open is plotted only where it is asked for") {
+  const Hands hands("--set view.speed=10");
+  const auto told_residuals = [](const json& status) { return status.contains("residuals"); };
+  hands.key("p");
+  hands.click("plots.profile");
+  std::size_t told = hands.told();
+  hands.click("plots.profile.balance residuals");
+  const json with = hands.wait_for("status", told, [&](const json& status) {
+    return told_residuals(status) && status["residuals"][3] > 0.0;
+  });
+  for (const json& residual : with["residuals"]) CHECK(residual < 1e-9);
+  CHECK(with["run"] == 1);
+  hands.key("p");
+  told = hands.told();
+  hands.wait_for("status", told, [&](const json& status) { return !told_residuals(status); });
+}
+
 TEST_CASE("Window: what there is to try closes, and a lecture is for a projector") {
   const Hands hands("");
   const auto height = [&](std::size_t told) {
