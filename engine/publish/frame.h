@@ -38,7 +38,7 @@ struct Frame {
                                    ///< absent: not asked for
   std::optional<ResidualProfile> residuals;  ///< likewise
   std::optional<Encounter> last_encounter;   ///< of the picked disk, since it was picked
-  std::optional<Encounter> next_encounter;   ///< likewise, where the run halts
+  std::optional<Encounter> next_encounter;   ///< likewise, as far as it has been looked for
   std::uint64_t seed = 1;
   bool plays = false;
   double speed = 1.0;                       ///< asked for, simulation time per second

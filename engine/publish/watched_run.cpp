@@ -1,5 +1,7 @@
 #include "engine/publish/watched_run.h"
 
+#include <utility>
+
 #include "engine/measure/moving_sum.h"
 
 namespace clatter {
@@ -21,6 +23,7 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   simulation.add_observer(last_);
   if (encounters_ && encounters_->last()) encounter_ = encounters_->last();
   simulation.add_observer(encounters_.emplace(simulation, picked_));
+  scout_.reset();
   profile_.reset();
   residuals_.reset();
   const double window = run_.scene().view.window / kWindowParts;
@@ -33,6 +36,7 @@ void WatchedRun::pick(std::optional<std::uint32_t> disk) {
   picked_ = disk;
   encounter_.reset();
   encounters_->watch(disk);
+  scout_.reset();
 }
 
 void WatchedRun::show_profile(Profiled what) {
@@ -52,6 +56,20 @@ void WatchedRun::close_window() {
   tally_.collisions += static_cast<std::uint64_t>(window.collisions);
 }
 
+// While the run goes on the scout takes about as many steps as it does; where it halts there is
+// time for more, for most disks collide while all the others do so a few times.
+std::optional<Encounter> WatchedRun::next_encounter(bool halted) {
+  constexpr std::uint64_t kHeadStart = 5000;
+  const Simulation<2>& simulation = run_.simulation();
+  const std::uint64_t steps = simulation.counts().steps();
+  const std::uint64_t since = steps - std::exchange(steps_told_, steps);
+  if (!picked_) return std::nullopt;
+  if (!scout_) scout_.emplace(simulation, *picked_);
+  const std::uint64_t most =
+      halted ? 100 * (simulation.disks().size() + 100) : 2 * since + kHeadStart;
+  return scout_->next_after(simulation.time(), most);
+}
+
 void WatchedRun::tell(Frame& frame, bool halted) {
   close_window();
   if (!scene_) scene_ = std::make_shared<const Scene>(run_.scene());
@@ -67,11 +85,9 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
   frame.last_encounter = encounters_->last() ? encounters_->last() : encounter_;
-  frame.next_encounter.reset();
+  frame.next_encounter = next_encounter(halted);
   frame.state_hash.reset();
-  if (!halted) return;
-  frame.state_hash = run_.simulation().state_hash();
-  if (picked_) frame.next_encounter = next_encounter(run_.simulation(), *picked_);
+  if (halted) frame.state_hash = run_.simulation().state_hash();
 }
 
 }  // namespace clatter

@@ -38,6 +38,7 @@ class WatchedRun {
 
   void observe(Simulation<2>& simulation);
   void close_window();
+  std::optional<Encounter> next_encounter(bool halted);
 
   ScheduledRun run_;
   std::optional<Totals<2>> totals_;
@@ -45,6 +46,8 @@ class WatchedRun {
   std::optional<std::uint32_t> picked_;
   std::optional<EncounterWatch> encounters_;  // of that disk
   std::optional<Encounter> encounter_;        // its last before laws changed
+  std::optional<Scout> scout_;                // of that disk, once frames have told of it
+  std::uint64_t steps_told_ = 0;              // of the run, by the last frame
   Profiled profiled_ = Profiled::Nothing;
   std::optional<LiveProfile> profile_;  // of that
   std::optional<LiveResiduals> residuals_;

@@ -230,6 +230,38 @@ TEST_CASE("Worker: of a picked disk it tells the next collision, and the last on
   CHECK(after.next_encounter->time > time);
 }
 
+TEST_CASE("Worker: while the gas plays, too, the next collision of a picked disk comes true") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 2.0), 30});
+  worker.send(command::Pick{11});
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    // It is under the laws in force.
+    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(1.0 - 0.1 * i)}}});
+    const Frame ahead = wait_for(worker, [&](const Frame& frame) {
+      return frame.handled == 2 + i && frame.next_encounter &&
+             frame.next_encounter->time > frame.snapshot.time;
+    });
+    CHECK(ahead.plays);
+    const Encounter expected = *ahead.next_encounter;
+    // The first frame after it; the disk may have met another since.
+    const Frame after =
+        wait_for(worker, [&](const Frame& frame) { return frame.snapshot.time >= expected.time; });
+    REQUIRE(after.last_encounter);
+    CHECK(after.last_encounter->time >= expected.time * (1.0 - 1e-12));
+    if (after.last_encounter->time > expected.time * (1.0 + 1e-12)) continue;
+    CHECK(after.last_encounter->partner == expected.partner);
+    CHECK(after.last_encounter->side == expected.side);
+  }
+  // To look ahead leaves the run as it is.
+  worker.send(command::Play{false});
+  const Frame halted = wait_for_handled(worker, 8);
+  Scene scene = *halted.started;
+  scene.changes = halted.scene->changes;
+  ScheduledRun alone(scene, 30);
+  alone.run_until(halted.snapshot.time);
+  CHECK(alone.simulation().state_hash() == *halted.state_hash);
+}
+
 TEST_CASE("Worker: of a picked disk at rest there is no next collision") {
   Worker worker(60.0);
   worker.send(
