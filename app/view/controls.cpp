@@ -256,9 +256,10 @@ void Controls::show(const View& view, bool changed) {
   shown_before_.reset();
 }
 
-void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after) {
-  session_.set(after);
-  session_.remember({.before = before, .after = after});
+void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after,
+                   const Vec2& shift) {
+  session_.set(after, shift);
+  session_.remember({.before = before, .after = after, .shift = shift});
 }
 
 void Controls::log_place(const char* key) {

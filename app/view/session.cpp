@@ -106,13 +106,13 @@ void Session::restart() {
   send(command::Open{scene, seed_, plays_});
 }
 
-void Session::refit() {
+void Session::refit(const Vec2& shift) {
   Scene scene = scene_;
   scene.changes.clear();
   scene.view = view_;
   scene.view.speed = speed_;
   log_.event("refit", {{"command", sent_ + 1}});
-  send(command::Open{scene, seed_, plays_, true});
+  send(command::Open{scene, seed_, plays_, true, shift});
 }
 
 void Session::restart_with_new_seed() {
@@ -148,7 +148,7 @@ void Session::set_speed(double speed) {
   send(command::SetSpeed{speed_});
 }
 
-void Session::set(const std::vector<Override>& settings) {
+void Session::set(const std::vector<Override>& settings, const Vec2& shift) {
   try {
     scene_ = with_settings(scene_, settings);
   } catch (const UserError& error) {
@@ -162,7 +162,7 @@ void Session::set(const std::vector<Override>& settings) {
   if (std::ranges::all_of(settings, live)) {
     send(command::SetLaws{settings});
   } else {
-    refit();
+    refit(shift);
   }
 }
 
@@ -175,7 +175,7 @@ void Session::apply(const Edit& edit, bool again) {
   if (edit.views) {
     set_view((*edit.views)[again ? 1 : 0]);
   } else {
-    set(again ? edit.after : edit.before);
+    set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
   }
 }
 

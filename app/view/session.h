@@ -14,6 +14,7 @@ namespace clatter {
 struct Edit {
   std::vector<Override> before = {};
   std::vector<Override> after = {};
+  Vec2 shift = {0.0, 0.0};  ///< of the disks in the box that `after` makes; back by `before`
   std::optional<std::array<View, 2>> views = {};  ///< before and after; absent: no other view
 };
 
@@ -54,9 +55,9 @@ class Session {
   /// Simulation time per second.
   void set_speed(double speed);
 
-  /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas. What
-  /// cannot be is told.
-  void set(const std::vector<Override>& settings);
+  /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas once
+  /// its disks are moved by `shift`. What cannot be is told.
+  void set(const std::vector<Override>& settings, const Vec2& shift = Vec2::Zero());
   /// Keeps what has been set, to be taken back; forgets what was taken back before.
   void remember(Edit edit);
   /// Takes back what was remembered last.
@@ -86,7 +87,7 @@ class Session {
 
   void send(Command command);
   void apply(const Edit& edit, bool again);
-  void refit();
+  void refit(const Vec2& shift);
 
   Worker& worker_;
   ScriptLog& log_;

@@ -54,6 +54,7 @@ struct Open {
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
+  Vec2 shift = {0.0, 0.0};  ///< of the disks that are kept
 };
 
 }  // namespace command

@@ -112,7 +112,9 @@ class Work {
   void obey(const command::Open& asked) {
     Scene scene = asked.scene;
     if (asked.keeps_gas && watched_) {
-      State<2> state = refitted(gas().simulation().state(), scene, asked.seed);
+      State<2> state = gas().simulation().state();
+      for (Vec2& position : state.positions) position += asked.shift;
+      state = refitted(state, scene, asked.seed);
       scene.disks.start = {.layout = Layout::File, .file = "", .state = std::move(state)};
     }
     auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
