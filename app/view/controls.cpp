@@ -19,12 +19,24 @@ bool group(const char* name) {
   return open;
 }
 
+static constexpr float kTipWidth = 22.0f;  // in sizes of text
+
+// What the widget above means, while the mouse is on it.
+static void tell_help(const char* help) {
+  if (!*help || !ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
+  ImGui::TextUnformatted(help);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 static void explain(const Slider& slider, double usual) {
   if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
   char text[64];
   std::snprintf(text, sizeof text, slider.format, usual);
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
+  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
   if (*slider.help) ImGui::TextDisabled("%s", slider.help);
   ImGui::TextDisabled("Here: %s%s%s. Double-click to type.", text, *slider.unit ? " " : "",
@@ -184,13 +196,15 @@ bool Controls::choice(const char* key, const char* name, const char* help,
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str());
   log_place(key);
-  if (!open && *help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  if (!open) tell_help(help);
   if (open) {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
-      if (ImGui::Selectable(words[static_cast<std::size_t>(i)].c_str(), i == chosen)) {
+      const std::string& word = words[static_cast<std::size_t>(i)];
+      if (ImGui::Selectable(word.c_str(), i == chosen)) {
         changed = i != chosen;
         chosen = i;
       }
+      log_place((std::string(key) + '.' + word).c_str());
     }
     ImGui::EndCombo();
   }
@@ -206,7 +220,7 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
                       ImGuiInputTextFlags_EnterReturnsTrue);
   const bool changed = typed != ends && typed[0] < typed[1];
   log_place(key);
-  if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  tell_help(help);
   ImGui::PopID();
   if (changed) ends = typed;
   return changed;
@@ -215,14 +229,14 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
 bool Controls::toggle(const char* key, const char* name, const char* help, bool& on) {
   const bool changed = ImGui::Checkbox(name, &on);
   log_place(key);
-  if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  tell_help(help);
   return changed;
 }
 
 bool Controls::button(const char* key, const char* label, const char* help, float width) {
   const bool clicked = ImGui::Button(label, ImVec2(width, 0.0f));
   log_place(key);
-  if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  tell_help(help);
   return clicked;
 }
 
@@ -242,9 +256,10 @@ void Controls::show(const View& view, bool changed) {
   shown_before_.reset();
 }
 
-void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after) {
-  session_.set(after);
-  session_.remember({.before = before, .after = after});
+void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after,
+                   const Vec2& shift) {
+  session_.set(after, shift);
+  session_.remember({.before = before, .after = after, .shift = shift});
 }
 
 void Controls::log_place(const char* key) {

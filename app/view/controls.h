@@ -50,8 +50,9 @@ class Controls {
 
   /// Draws otherwise where that has `changed`, to be taken back in one once nothing is dragged.
   void show(const View& view, bool changed);
-  /// Sets keys, to be taken back in one.
-  void set(const std::vector<Override>& before, const std::vector<Override>& after);
+  /// Sets keys, to be taken back in one; where that makes another box, its disks move by `shift`.
+  void set(const std::vector<Override>& before, const std::vector<Override>& after,
+           const Vec2& shift = Vec2::Zero());
 
  private:
   struct Moved {

@@ -70,7 +70,7 @@ void Explorer::draw() {
   }
   watch_film();
   use_keys();
-  session_.show_profile(shown_.plots);
+  session_.show_profile(shown_.plots ? profiled_by(profiled()) : Profiled::Nothing);
   panels();
   stage();
   ImGui::Render();
@@ -161,11 +161,12 @@ void Explorer::plots_drawer(float top, float width) {
   const ThemeColours theme = panel_theme(session_.view());
   controls_.choice(
       "plots.profile", "Profile along x",
-      "Averages since the plots were opened, or laws, averages or trails changed, with a "
-      "band of one standard error, chapter 4",
+      "Since the plots were opened, or laws, averages or trails changed: averages, with a band of "
+      "one standard error, chapter 4, or by how much the equations of balance, (4.1) to (4.3), did "
+      "not close in the worst window, over all that was booked; the engine then has about twice "
+      "the work",
       kProfileNames, profiled_, 0);
-  const auto profiled = static_cast<std::size_t>(profiled_);
-  for (const Plot& plot : plots_of(history_, session_.frame(), profiled, theme)) {
+  for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();
   }
@@ -185,7 +186,7 @@ void Explorer::stage() {
   if (!frame.scene) return;
   use_stage();
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.MouseWheel != 0.0f || ImGui::IsAnyItemActive() || shown_.gallery) shown_.hint = false;
+  if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || shown_.gallery) shown_.hint = false;
   if (!told(session_, area_) && shown_.hint && !shown_.help && !shown_.lecture) hint(area_);
   log_.widget("stage", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
@@ -200,14 +201,16 @@ void Explorer::use_stage() {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect(area_.low, area_.high);
   if (stage_.drawn()) {
-    const auto box = wall_grip_.use(stage_, frame, area_.low, scale_, over);
+    const auto resized = wall_grip_.use(stage_, frame, area_.low, scale_, over);
     wall_grip_.mark(list, stage_, frame, area_.low, scale_);
-    const ImVec2 low = stage_.place(Vec2(0.0, 0.0), area_.low, scale_);
-    const ImVec2 high = stage_.place(frame.snapshot.box, area_.low, scale_);
-    log_.widget("wall.right", high.x, high.y, 10.0f, low.y - high.y);
-    if (box) {
+    for (const Side side : {kLeft, kRight, kBottom, kTop}) {
+      const auto& [low, high] = WallGrip::handle(stage_, frame, area_.low, scale_, side);
+      log_.widget(std::string("wall.") + kSideNames[side], low.x, low.y, high.x - low.x,
+                  high.y - low.y);
+    }
+    if (resized) {
       controls_.set({{"box.size", value_text(session_.scene().box)}},
-                    {{"box.size", value_text(*box)}});
+                    {{"box.size", value_text(resized->box)}}, resized->shift);
     }
   }
   if (over && !wall_grip_.active()) stage_.use_mouse(frame, area_.low, scale_);

@@ -45,6 +45,7 @@ class Explorer {
   void side_panels();
   void left_panel(float top, float width);
   void plots_drawer(float top, float width);
+  std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
   void stage();
   void use_stage();
   void open_gallery_scene(const EmbeddedFile& scene);

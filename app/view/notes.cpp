@@ -104,7 +104,7 @@ void help_window(float width, float height) {
       {"Right or middle drag", "move the view"},
       {"F", "fit the box into the view"},
       {"Click a disk", "its state; double-click follows it"},
-      {"Drag a wall", "the right or the upper one: another box"},
+      {"Drag a wall", "another box for the gas"},
       {"Drop a file", "opens a scene, or a picture's scene"},
   }};
   const float unit = ImGui::GetFontSize();

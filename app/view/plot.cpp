@@ -19,9 +19,14 @@ struct Scale {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   bool logarithmic = false;
+  double floor = 0.0;  // of a logarithmic axis
 
-  bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0.0); }
-  double place(double value) const { return logarithmic ? std::log10(value) : value; }
+  bool shows(double value) const {
+    return std::isfinite(value) && (!logarithmic || std::max(value, floor) > 0.0);
+  }
+  double place(double value) const {
+    return logarithmic ? std::log10(std::max(value, floor)) : value;
+  }
   void include(double value) {
     if (!shows(value)) return;
     low = std::min(low, place(value));
@@ -79,7 +84,7 @@ struct PlotFrame {
   }
 };
 
-void draw_axes(ImDrawList& list, const PlotFrame& frame, const Plot& plot) {
+void draw_axes(ImDrawList& list, const PlotFrame& frame, const LivePlot& plot) {
   const ImFont& font = *ImGui::GetFont();
   const float size = 0.8f * ImGui::GetFontSize();
   const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border);
@@ -160,7 +165,7 @@ void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
   }
 }
 
-void legend(const Plot& plot) {
+void legend(const LivePlot& plot) {
   const float unit = ImGui::GetFontSize();
   float x = 0.0f;
   for (const Curve& curve : plot.curves) {
@@ -192,7 +197,7 @@ void legend(const Plot& plot) {
 
 }  // namespace
 
-void draw_plot(const Plot& plot, float height) {
+void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted(plot.title.c_str());
   ImGui::SameLine();
@@ -207,6 +212,7 @@ void draw_plot(const Plot& plot, float height) {
   PlotFrame frame;
   frame.x.logarithmic = plot.log_x;
   frame.y.logarithmic = plot.log_y;
+  frame.y.floor = plot.floor;
   for (const Curve& curve : plot.curves) {
     for (const Vec2& point : curve.points) {
       if (!frame.x.shows(point.x()) || !frame.y.shows(point.y())) continue;
@@ -231,7 +237,7 @@ void draw_plot(const Plot& plot, float height) {
   ImGui::Dummy(ImVec2(width, height));
 }
 
-std::string csv_of(const Plot& plot) {
+std::string csv_of(const LivePlot& plot) {
   std::string text;
   for (const Curve& curve : plot.curves) {
     text += plot.x_label + ',' + (curve.name.empty() ? plot.title : curve.name);

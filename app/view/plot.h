@@ -20,20 +20,21 @@ struct Curve {
   std::vector<double> errors = {};  ///< [points] standard errors, drawn as a band; empty: none
 };
 
-/// Curves over a common axis.
-struct Plot {
+/// Curves over a common axis, of a run that goes on.
+struct LivePlot {
   std::string title;
   std::string x_label;
   bool log_x = false;
   bool log_y = false;
   std::vector<Curve> curves;
   std::string y_label = "";  ///< what it is and its unit
+  double floor = 0.0;  ///< of a logarithmic axis y: what is less, as 0, stands there; 0: nowhere
 };
 
 /// Draws a plot of this height over the width of the ImGui window, with its axes and legend.
-void draw_plot(const Plot& plot, float height);
+void draw_plot(const LivePlot& plot, float height);
 
 /// The numbers of a plot, a table per curve.
-std::string csv_of(const Plot& plot);
+std::string csv_of(const LivePlot& plot);
 
 }  // namespace clatter

@@ -1,6 +1,7 @@
 #include "app/view/plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -31,8 +32,8 @@ Curve level(const char* name, Colour colour, const std::vector<Sample>& samples,
   return curve;
 }
 
-Plot temperature_plot(const std::vector<Sample>& samples, const Scene& scene, Colour plain) {
-  Plot plot{"Temperature", "time t", false, false, {}, "m a²/t²"};
+LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene, Colour plain) {
+  LivePlot plot{"Temperature", "time t", false, false, {}, "m a²/t²"};
   plot.curves = {
       over_time("T_x", kOrange, samples, [](const Sample& s) { return s.temperature.x(); }),
       over_time("T_y", kBlue, samples, [](const Sample& s) { return s.temperature.y(); }),
@@ -45,8 +46,8 @@ Plot temperature_plot(const std::vector<Sample>& samples, const Scene& scene, Co
   return plot;
 }
 
-Plot energy_plot(const std::vector<Sample>& samples, Colour plain) {
-  Plot plot{"Energy per time", "time t", false, false, {}, "m a²/t³"};
+LivePlot energy_plot(const std::vector<Sample>& samples, Colour plain) {
+  LivePlot plot{"Energy per time", "time t", false, false, {}, "m a²/t³"};
   const auto in = [](const Sample& s) { return s.walls_in + s.bulk_in + s.gravity_in; };
   plot.curves = {
       over_time("in", kOrange, samples, in),
@@ -56,8 +57,8 @@ Plot energy_plot(const std::vector<Sample>& samples, Colour plain) {
 }
 
 // How far the run's books are off: what rounding leaves.
-Plot residual_plot(const std::vector<Sample>& samples) {
-  Plot plot{"Residuals", "time t", false, true, {}, "relative"};
+LivePlot residual_plot(const std::vector<Sample>& samples) {
+  LivePlot plot{"Residuals", "time t", false, true, {}, "relative"};
   plot.curves = {
       over_time("energy", kOrange, samples, [](const Sample& s) { return s.ledger_residual; }),
       over_time("overlap", kBlue, samples, [](const Sample& s) { return s.deepest_overlap; })};
@@ -65,9 +66,9 @@ Plot residual_plot(const std::vector<Sample>& samples) {
 }
 
 // A field along x, with its standard errors.
-Plot profile_plot(const Profile& profile, std::size_t chosen) {
+LivePlot profile_plot(const Profile& profile, std::size_t chosen) {
   const Field field = profile.fields[chosen];
-  Plot plot{"Profile", "x in a", false, false, {}, quantity_of(field).unit};
+  LivePlot plot{"Profile", "x in a", false, false, {}, quantity_of(field).unit};
   Curve curve{quantity_of(field).name, kBlue, {}};
   for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
     const Estimate& value = profile.values[chosen][i];
@@ -78,8 +79,26 @@ Plot profile_plot(const Profile& profile, std::size_t chosen) {
   return plot;
 }
 
-Plot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
-  Plot plot{"Velocities", "v / standard deviation", false, true, {}, "density"};
+// What the balance equations leave open along x: in magnitude, for the sign of rounding is chance.
+LivePlot balance_plot(const ResidualProfile& profile) {
+  constexpr double kBelowRounding = 1e-18;
+  LivePlot plot{"Balance", "x in a", false, true, {}, "residual, relative", kBelowRounding};
+  constexpr std::array<const char*, 4> kNames = {"mass", "momentum x", "momentum y", "energy"};
+  constexpr std::array<Colour, 4> kColours = {kGreen, kOrange, kBlue, kRed};
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    Curve curve{kNames[k], kColours[k], {}};
+    const std::vector<double> values = profile.residuals.map(kResiduals[k]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double x = (static_cast<double>(i) + 0.5) * profile.width;
+      curve.points.emplace_back(x, std::fabs(values[i]));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+LivePlot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
+  LivePlot plot{"Velocities", "v / standard deviation", false, true, {}, "density"};
   Curve gaussian{"Gaussian", plain, {}, true};
   for (double v = -4.0; v <= 4.0; v += 0.1) {
     gaussian.points.emplace_back(v, std::exp(-0.5 * v * v) / std::sqrt(2.0 * std::numbers::pi));
@@ -100,8 +119,8 @@ double settled_temperature(const std::vector<Sample>& samples) {
 }
 
 // Fig. 3.1: T/(m v_dr^2) over 1/(eps psi), for elastic walls.
-Plot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
-  Plot plot{"Fig. 3.1", "1/(ε ψ)", true, true, {}, "T/(m v_dr²)"};
+LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
+  LivePlot plot{"Fig. 3.1", "1/(ε ψ)", true, true, {}, "T/(m v_dr²)"};
   Curve simple{"simple", kRed, {}, true}, refined{"refined", kGreen, {}, true};
   const double here = 1.0 / (gas.epsilon_effective() * gas.psi());
   const double unit = gas.drive_speed * gas.drive_speed;
@@ -124,13 +143,18 @@ Plot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
 
 }  // namespace
 
-std::vector<Plot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
-                           const ThemeColours& theme) {
+Profiled profiled_by(std::size_t name) {
+  return name + 1 < kProfileNames.size() ? Profiled::Fields : Profiled::Balances;
+}
+
+std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
+                               const ThemeColours& theme) {
   const std::vector<Sample>& samples = history.samples();
-  std::vector<Plot> plots;
+  std::vector<LivePlot> plots;
   if (frame.profile && profiled < frame.profile->fields.size()) {
     plots.push_back(profile_plot(*frame.profile, profiled));
   }
+  if (frame.residuals) plots.push_back(balance_plot(*frame.residuals));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
   plots.push_back(energy_plot(samples, theme.text));
   plots.push_back(velocity_plot(history.velocities(), theme.text));

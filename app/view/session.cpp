@@ -38,6 +38,7 @@ static nlohmann::json status(const Frame& frame) {
     told["hash"] = hash;
   }
   if (frame.partners) told["partners"] = *frame.partners;
+  if (frame.residuals) told["residuals"] = frame.residuals->residuals.largest();
   return told;
 }
 
@@ -118,13 +119,13 @@ void Session::restart() {
   send(command::Open{scene, seed_, plays_});
 }
 
-void Session::refit() {
+void Session::refit(const Vec2& shift) {
   Scene scene = scene_;
   scene.changes.clear();
   scene.view = view_;
   scene.view.speed = speed_;
   log_.event("refit", {{"command", sent_ + 1}});
-  send(command::Open{scene, seed_, plays_, true});
+  send(command::Open{scene, seed_, plays_, true, shift});
 }
 
 void Session::restart_with_new_seed() {
@@ -160,7 +161,7 @@ void Session::set_speed(double speed) {
   send(command::SetSpeed{speed_});
 }
 
-void Session::set(const std::vector<Override>& settings) {
+void Session::set(const std::vector<Override>& settings, const Vec2& shift) {
   try {
     scene_ = with_settings(scene_, settings);
     wishes_ = true;
@@ -175,7 +176,7 @@ void Session::set(const std::vector<Override>& settings) {
   if (std::ranges::all_of(settings, live)) {
     send(command::SetLaws{settings});
   } else {
-    refit();
+    refit(shift);
   }
 }
 
@@ -188,7 +189,7 @@ void Session::apply(const Edit& edit, bool again) {
   if (edit.views) {
     set_view((*edit.views)[again ? 1 : 0]);
   } else {
-    set(again ? edit.after : edit.before);
+    set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
   }
 }
 
@@ -223,8 +224,8 @@ void Session::pick(std::optional<std::size_t> disk) {
   send(pick);
 }
 
-void Session::show_profile(bool on) {
-  if (std::exchange(shows_profile_, on) != on) send(command::ShowProfile{on});
+void Session::show_profile(Profiled what) {
+  if (std::exchange(profiled_, what) != what) send(command::ShowProfile{what});
 }
 
 void Session::tell(const std::string& message) {

@@ -14,6 +14,7 @@ namespace clatter {
 struct Edit {
   std::vector<Override> before = {};
   std::vector<Override> after = {};
+  Vec2 shift = {0.0, 0.0};  ///< of the disks in the box that `after` makes; back by `before`
   std::optional<std::array<View, 2>> views = {};  ///< before and after; absent: no other view
 };
 
@@ -54,9 +55,9 @@ class Session {
   /// Simulation time per second.
   void set_speed(double speed);
 
-  /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas. What
-  /// cannot be is told.
-  void set(const std::vector<Override>& settings);
+  /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas once
+  /// its disks are moved by `shift`. What cannot be is told.
+  void set(const std::vector<Override>& settings, const Vec2& shift = Vec2::Zero());
   /// Keeps what has been set, to be taken back; forgets what was taken back before.
   void remember(Edit edit);
   /// Takes back what was remembered last.
@@ -67,8 +68,8 @@ class Session {
   /// Draws otherwise from now on; with another field its averages start anew, with trails the
   /// engine begins to keep the disks' flights.
   void set_view(const View& view);
-  /// Whether frames have profiles from now on.
-  void show_profile(bool on);
+  /// What frames have profiles of from now on.
+  void show_profile(Profiled what);
   /// Frames tell the collisions of this disk from now on.
   void pick(std::optional<std::size_t> disk);
   /// How often the view has changed.
@@ -94,7 +95,7 @@ class Session {
   void answered(const Frame& now);
   void send(Command command);
   void apply(const Edit& edit, bool again);
-  void refit();
+  void refit(const Vec2& shift);
 
   Worker& worker_;
   ScriptLog& log_;
@@ -103,7 +104,7 @@ class Session {
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;
-  bool shows_profile_ = false;
+  Profiled profiled_ = Profiled::Nothing;
   std::optional<std::size_t> picked_;
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;

@@ -2,62 +2,93 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
 
 namespace clatter {
 
-// Where a wall can be taken: it has a side opposite, and the mouse is near it, in units of text.
-static std::optional<int> wall_at(const Stage& stage, const Frame& frame, ImVec2 corner,
-                                  float scale) {
-  const Vec2& box = frame.snapshot.box;
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
+static int axis_of(Side side) {
+  return side / 2;
+}
+
+static bool is_low(Side side) {
+  return side % 2 == 0;
+}
+
+Area WallGrip::handle(const Stage& stage, const Frame& frame, ImVec2 corner, float scale,
+                      Side side) {
   const ImVec2 low = stage.place(Vec2(0.0, 0.0), corner, scale);
-  const ImVec2 high = stage.place(box, corner, scale);
-  const float reach = 0.6f * ImGui::GetFontSize();
-  const bool beside = mouse.y > high.y - reach && mouse.y < low.y + reach;
-  const bool above = mouse.x > low.x - reach && mouse.x < high.x + reach;
-  const auto& walls = frame.snapshot.walls;
-  // Just outside it, where there are no disks to be picked.
-  if (walls[kRight] && beside && mouse.x > high.x && mouse.x < high.x + 2.0f * reach) return 0;
-  if (walls[kTop] && above && mouse.y < high.y && mouse.y > high.y - 2.0f * reach) return 1;
+  const ImVec2 high = stage.place(frame.snapshot.box, corner, scale);
+  const float depth = 1.2f * ImGui::GetFontSize();
+  Area area{ImVec2(low.x, high.y), ImVec2(high.x, low.y)};
+  switch (side) {
+    case kLeft:
+      area.high.x = std::exchange(area.low.x, low.x - depth);
+      break;
+    case kRight:
+      area.low.x = std::exchange(area.high.x, high.x + depth);
+      break;
+    case kBottom:
+      area.low.y = std::exchange(area.high.y, low.y + depth);
+      break;
+    case kTop:
+      area.high.y = std::exchange(area.low.y, high.y - depth);
+      break;
+  }
+  return area;
+}
+
+static std::optional<Side> wall_at(const Stage& stage, const Frame& frame, ImVec2 corner,
+                                   float scale) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  for (const Side side : {kLeft, kRight, kBottom, kTop}) {
+    if (!frame.snapshot.walls[side]) continue;
+    const auto& [low, high] = WallGrip::handle(stage, frame, corner, scale, side);
+    if (mouse.x > low.x && mouse.x < high.x && mouse.y > low.y && mouse.y < high.y) return side;
+  }
   return std::nullopt;
 }
 
-std::optional<Vec2> WallGrip::use(const Stage& stage, const Frame& frame, ImVec2 corner,
-                                  float scale, bool over) {
+std::optional<WallGrip::Resized> WallGrip::use(const Stage& stage, const Frame& frame,
+                                               ImVec2 corner, float scale, bool over) {
   constexpr double kShortest = 4.0;
+  const Vec2& box = frame.snapshot.box;
   if (!held_) {
-    axis_ = over ? wall_at(stage, frame, corner, scale) : std::nullopt;
-    if (axis_) length_ = frame.snapshot.box[*axis_];
-    held_ = axis_ && ImGui::IsMouseClicked(0);
+    side_ = over ? wall_at(stage, frame, corner, scale) : std::nullopt;
+    if (side_) length_ = box[axis_of(*side_)];
+    held_ = side_ && ImGui::IsMouseClicked(0);
   }
-  if (!axis_) return std::nullopt;
-  ImGui::SetMouseCursor(*axis_ == 0 ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  if (!side_) return std::nullopt;
+  const int axis = axis_of(*side_);
+  ImGui::SetMouseCursor(axis == 0 ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
   if (!held_) return std::nullopt;
-  const Vec2 mouse = stage.world(ImGui::GetIO().MousePos, corner, scale);
-  length_ = std::max(kShortest, 0.1 * std::round(10.0 * mouse[*axis_]));
+  const double mouse = stage.world(ImGui::GetIO().MousePos, corner, scale)[axis];
+  const double length = is_low(*side_) ? box[axis] - mouse : mouse;
+  length_ = std::max(kShortest, 0.1 * std::round(10.0 * length));
   if (!ImGui::IsMouseReleased(0)) return std::nullopt;
   held_ = false;
-  Vec2 box = frame.snapshot.box;
-  if (box[*axis_] == length_) return std::nullopt;
-  box[*axis_] = length_;
-  return box;
+  if (box[axis] == length_) return std::nullopt;
+  Resized resized{box, Vec2::Zero()};
+  resized.box[axis] = length_;
+  if (is_low(*side_)) resized.shift[axis] = length_ - box[axis];
+  return resized;
 }
 
 void WallGrip::mark(ImDrawList& list, const Stage& stage, const Frame& frame, ImVec2 corner,
                     float scale) const {
-  if (!axis_) return;
+  if (!side_) return;
+  const int axis = axis_of(*side_);
   Vec2 from(0.0, 0.0), to = frame.snapshot.box;
-  from[*axis_] = to[*axis_] = length_;
+  from[axis] = to[axis] = is_low(*side_) ? to[axis] - length_ : length_;
   const ImVec2 a = stage.place(from, corner, scale), b = stage.place(to, corner, scale);
   list.AddLine(a, b, packed(accent_colour()), 0.2f * ImGui::GetFontSize());
   if (!held_) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.1f a", length_);
   const float unit = ImGui::GetFontSize();
-  list.AddText(ImVec2(b.x - (*axis_ == 0 ? 4.0f * unit : 5.0f * unit), b.y - 1.5f * unit),
+  list.AddText(ImVec2(b.x - (axis == 0 ? 4.0f * unit : 5.0f * unit), b.y - 1.5f * unit),
                ImGui::GetColorU32(ImGuiCol_Text), text);
 }
 

@@ -1,26 +1,35 @@
 #pragma once
 
+#include "app/view/notes.h"
 #include "app/view/stage.h"
 
 namespace clatter {
 
-/// The right and the upper wall, to be taken with the mouse and put elsewhere. The box keeps its
-/// lower left corner, so that disks keep their places.
+/// The walls of the box, to be taken with the mouse and put elsewhere.
 class WallGrip {
  public:
-  /// A box of another size, once the wall is let go.
-  std::optional<Vec2> use(const Stage& stage, const Frame& frame, ImVec2 corner, float scale,
-                          bool over);
+  /// Another box for the gas.
+  struct Resized {
+    Vec2 box;
+    Vec2 shift;  ///< of the disks in it, which stay where they are on the stage
+  };
+
+  /// The box that there is to be, once a wall is let go elsewhere.
+  std::optional<Resized> use(const Stage& stage, const Frame& frame, ImVec2 corner, float scale,
+                             bool over);
   /// Whether a wall is under the mouse, or is held.
-  bool active() const { return axis_.has_value(); }
+  bool active() const { return side_.has_value(); }
   /// Marks it, and where it would stand.
   void mark(ImDrawList& list, const Stage& stage, const Frame& frame, ImVec2 corner,
             float scale) const;
 
+  /// Where the wall of a side can be taken: just outside it, where there are no disks to be picked.
+  static Area handle(const Stage& stage, const Frame& frame, ImVec2 corner, float scale, Side side);
+
  private:
-  std::optional<int> axis_;  // of the wall that is near, or held
+  std::optional<Side> side_;  // of the wall that is near, or held
   bool held_ = false;
-  double length_ = 0.0;  // of the box along it
+  double length_ = 0.0;  // of the box across it
 };
 
 }  // namespace clatter

@@ -25,4 +25,13 @@ Profile LiveProfile::profile() const {
   return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), kFields, Axis::X);
 }
 
+LiveResiduals::LiveResiduals(Simulation<2>& simulation, double window)
+    : observer_(simulation, columns_in(simulation.model())) {
+  profile_.width = simulation.model().box.x() / observer_.cells().x();
+  simulation.add_observer(observer_);
+  simulation.every(simulation.time() + window, window, [this](double) {
+    profile_.residuals.include(observer_.close_window().imbalances);
+  });
+}
+
 }  // namespace clatter

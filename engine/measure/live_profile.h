@@ -3,8 +3,10 @@
 #include <array>
 
 #include "engine/dynamics/simulation.h"
+#include "engine/measure/balance.h"
 #include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
+#include "engine/measure/residuals.h"
 
 namespace clatter {
 
@@ -27,6 +29,29 @@ class LiveProfile {
 
   CellIntegrals<2> observer_;
   PartSums sums_;
+};
+
+/// How the balance equations close in columns along x.
+struct ResidualProfile {
+  double width = 0.0;   ///< of a column
+  Residuals residuals;  ///< [columns]; empty: no window is whole yet
+};
+
+/// Closes the balance equations of a run that goes on in the columns of its LiveProfile, from when
+/// it is made.
+class LiveResiduals {
+ public:
+  /// Watches the simulation in windows of that length of time.
+  LiveResiduals(Simulation<2>& simulation, double window);
+  LiveResiduals(const LiveResiduals&) = delete;
+  LiveResiduals& operator=(const LiveResiduals&) = delete;
+
+  /// The residuals of the windows that are whole.
+  const ResidualProfile& profile() const { return profile_; }
+
+ private:
+  Balance<2> observer_;
+  ResidualProfile profile_;
 };
 
 }  // namespace clatter

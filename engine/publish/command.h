@@ -10,6 +10,9 @@
 
 namespace clatter {
 
+/// What a frame may have a profile of, along x.
+enum class Profiled { Nothing, Fields, Balances };
+
 /// What a person asks of a gas that runs.
 namespace command {
 
@@ -36,9 +39,9 @@ struct SetLaws {
 struct Show {
   View view;
 };
-/// Whether frames have profiles from now on.
+/// What frames have profiles of from now on.
 struct ShowProfile {
-  bool on = true;
+  Profiled what = Profiled::Fields;
 };
 /// Frames tell the collisions of this disk from now on; absent: of none.
 struct Pick {
@@ -51,6 +54,7 @@ struct Open {
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
+  Vec2 shift = {0.0, 0.0};  ///< of the disks that are kept
 };
 
 }  // namespace command

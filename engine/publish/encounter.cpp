@@ -14,23 +14,26 @@ void EncounterWatch::on_wall(const WallCollision<2>& collision) {
   if (collision.disk.disk == disk_) last_ = {simulation_.time(), std::nullopt, collision.side};
 }
 
-std::optional<Encounter> next_encounter(const Simulation<2>& simulation, std::uint32_t disk) {
-  // Most disks collide while all the others do so a few times.
-  const std::uint64_t most = 100 * (simulation.disks().size() + 100);
-  Simulation<2> ahead(simulation.model(), simulation.save());
-  EncounterWatch watch(ahead, disk);
-  ahead.add_observer(watch);
-  const EventCounts& counts = ahead.counts();
-  const std::uint64_t last_step = counts.steps() + most;
+Scout::Scout(const Simulation<2>& simulation, std::uint32_t disk)
+    : ahead_(simulation.model(), simulation.save()), disk_(disk), watch_(ahead_, disk) {
+  ahead_.add_observer(watch_);
+}
+
+const std::optional<Encounter>& Scout::next_after(double time, std::uint64_t most_steps) {
+  const EventCounts& counts = ahead_.counts();
+  const std::uint64_t last_step = counts.steps() + most_steps;
+  const auto passed = [&] { return watch_.last() && watch_.last()->time <= time; };
+  if (passed()) watch_.watch(disk_);
   try {
-    // It arrives at the end of time where nothing is to happen any more.
-    while (!watch.last() && counts.steps() < last_step &&
-           !ahead.run_until(kNever, counts.collisions() + 1, last_step)) {
+    while (!ended_ && !watch_.last() && counts.steps() < last_step) {
+      // It arrives at the end of time where nothing is to happen any more.
+      ended_ = ahead_.run_until(kNever, counts.collisions() + 1, last_step);
+      if (passed()) watch_.watch(disk_);
     }
   } catch (const PhysicalStop&) {
-    // Time stands still before: there is no next one.
+    ended_ = true;
   }
-  return watch.last();
+  return watch_.last();
 }
 
 }  // namespace clatter

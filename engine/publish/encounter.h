@@ -40,8 +40,24 @@ class EncounterWatch : public Observer<2> {
   std::optional<Encounter> last_;
 };
 
-/// The next collision of a disk under the laws in force, found by a copy of the run that goes
-/// ahead; absent where it is too many events ahead to be looked for.
-std::optional<Encounter> next_encounter(const Simulation<2>& simulation, std::uint32_t disk);
+/// A copy of a run that goes ahead of it, under the laws in force, to see what a disk meets next.
+/// Where both go on it has as much work as the run itself.
+class Scout {
+ public:
+  /// Sets out from where the simulation is.
+  Scout(const Simulation<2>& simulation, std::uint32_t disk);
+  Scout(const Scout&) = delete;
+  Scout& operator=(const Scout&) = delete;
+
+  /// The disk's first collision after a time, no earlier than the last that was asked for; absent
+  /// where it is not within so many steps more, or where there is none.
+  const std::optional<Encounter>& next_after(double time, std::uint64_t most_steps);
+
+ private:
+  Simulation<2> ahead_;
+  std::uint32_t disk_;
+  EncounterWatch watch_;
+  bool ended_ = false;  // time stands still before another
+};
 
 }  // namespace clatter

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/measure/live_profile.h"
 #include "engine/measure/profile.h"
 #include "engine/publish/encounter.h"
 #include "engine/publish/snapshot.h"
@@ -35,8 +36,9 @@ struct Frame {
       started;                     ///< as the run was started; a start state may be in no file
   std::optional<Profile> profile;  ///< since it was asked for, or laws, averages or trails changed;
                                    ///< absent: not asked for
-  std::optional<Encounter> last_encounter;  ///< of the picked disk, since it was picked
-  std::optional<Encounter> next_encounter;  ///< likewise, where the run halts
+  std::optional<ResidualProfile> residuals;  ///< likewise
+  std::optional<Encounter> last_encounter;   ///< of the picked disk, since it was picked
+  std::optional<Encounter> next_encounter;   ///< likewise, as far as it has been looked for
   std::uint64_t seed = 1;
   bool plays = false;
   double speed = 1.0;                       ///< asked for, simulation time per second

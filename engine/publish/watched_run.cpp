@@ -1,5 +1,7 @@
 #include "engine/publish/watched_run.h"
 
+#include <utility>
+
 #include "engine/measure/moving_sum.h"
 
 namespace clatter {
@@ -21,10 +23,12 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   simulation.add_observer(last_);
   if (encounters_ && encounters_->last()) encounter_ = encounters_->last();
   simulation.add_observer(encounters_.emplace(simulation, picked_));
+  scout_.reset();
   profile_.reset();
-  if (shows_profile_) {
-    profile_ = std::make_unique<LiveProfile>(simulation, run_.scene().view.window / kWindowParts);
-  }
+  residuals_.reset();
+  const double window = run_.scene().view.window / kWindowParts;
+  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window);
+  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window);
 }
 
 void WatchedRun::pick(std::optional<std::uint32_t> disk) {
@@ -32,11 +36,12 @@ void WatchedRun::pick(std::optional<std::uint32_t> disk) {
   picked_ = disk;
   encounter_.reset();
   encounters_->watch(disk);
+  scout_.reset();
 }
 
-void WatchedRun::show_profile(bool on) {
-  if (on == shows_profile_) return;
-  shows_profile_ = on;
+void WatchedRun::show_profile(Profiled what) {
+  if (what == profiled_) return;
+  profiled_ = what;
   run_.renew();
 }
 
@@ -51,6 +56,20 @@ void WatchedRun::close_window() {
   tally_.collisions += static_cast<std::uint64_t>(window.collisions);
 }
 
+// While the run goes on the scout takes about as many steps as it does; where it halts there is
+// time for more, for most disks collide while all the others do so a few times.
+std::optional<Encounter> WatchedRun::next_encounter(bool halted) {
+  constexpr std::uint64_t kHeadStart = 5000;
+  const Simulation<2>& simulation = run_.simulation();
+  const std::uint64_t steps = simulation.counts().steps();
+  const std::uint64_t since = steps - std::exchange(steps_told_, steps);
+  if (!picked_) return std::nullopt;
+  if (!scout_) scout_.emplace(simulation, *picked_);
+  const std::uint64_t most =
+      halted ? 100 * (simulation.disks().size() + 100) : 2 * since + kHeadStart;
+  return scout_->next_after(simulation.time(), most);
+}
+
 void WatchedRun::tell(Frame& frame, bool halted) {
   close_window();
   if (!scene_) scene_ = std::make_shared<const Scene>(run_.scene());
@@ -60,15 +79,15 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.started = started_;
   frame.profile.reset();
   if (profile_) frame.profile = profile_->profile();
+  frame.residuals.reset();
+  if (residuals_) frame.residuals = residuals_->profile();
   frame.seed = run_.seed();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
   frame.last_encounter = encounters_->last() ? encounters_->last() : encounter_;
-  frame.next_encounter.reset();
+  frame.next_encounter = next_encounter(halted);
   frame.state_hash.reset();
-  if (!halted) return;
-  frame.state_hash = run_.simulation().state_hash();
-  if (picked_) frame.next_encounter = next_encounter(run_.simulation(), *picked_);
+  if (halted) frame.state_hash = run_.simulation().state_hash();
 }
 
 }  // namespace clatter

@@ -5,6 +5,7 @@
 
 #include "engine/measure/live_profile.h"
 #include "engine/measure/totals.h"
+#include "engine/publish/command.h"
 #include "engine/publish/frame.h"
 #include "engine/publish/scheduled_run.h"
 
@@ -18,8 +19,8 @@ class WatchedRun {
 
   /// The run itself.
   ScheduledRun& run() { return run_; }
-  /// Whether frames have profiles from now on.
-  void show_profile(bool on);
+  /// What frames have profiles of from now on.
+  void show_profile(Profiled what);
   /// Frames tell the collisions of this disk from now on; absent, or no disk: of none.
   void pick(std::optional<std::uint32_t> disk);
   /// Fills in what it knows; a hash where `halted`.
@@ -37,6 +38,7 @@ class WatchedRun {
 
   void observe(Simulation<2>& simulation);
   void close_window();
+  std::optional<Encounter> next_encounter(bool halted);
 
   ScheduledRun run_;
   std::optional<Totals<2>> totals_;
@@ -44,8 +46,11 @@ class WatchedRun {
   std::optional<std::uint32_t> picked_;
   std::optional<EncounterWatch> encounters_;  // of that disk
   std::optional<Encounter> encounter_;        // its last before laws changed
-  bool shows_profile_ = false;
-  std::unique_ptr<LiveProfile> profile_;  // where it does
+  std::optional<Scout> scout_;                // of that disk, once frames have told of it
+  std::uint64_t steps_told_ = 0;              // of the run, by the last frame
+  Profiled profiled_ = Profiled::Nothing;
+  std::optional<LiveProfile> profile_;  // of that
+  std::optional<LiveResiduals> residuals_;
   Tally tally_;
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // as told last

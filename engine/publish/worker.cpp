@@ -103,8 +103,8 @@ class Work {
     if (watched_) gas().show(asked.view);
   }
   void obey(const command::ShowProfile& asked) {
-    shows_profile_ = asked.on;
-    if (watched_) watched_->show_profile(asked.on);
+    profiled_ = asked.what;
+    if (watched_) watched_->show_profile(profiled_);
   }
   void obey(const command::Pick& asked) {
     if (watched_) watched_->pick(asked.disk);
@@ -112,13 +112,15 @@ class Work {
   void obey(const command::Open& asked) {
     Scene scene = asked.scene;
     if (asked.keeps_gas && watched_) {
-      State<2> state = refitted(gas().simulation().state(), scene, asked.seed);
+      State<2> state = gas().simulation().state();
+      for (Vec2& position : state.positions) position += asked.shift;
+      state = refitted(state, scene, asked.seed);
       scene.disks.start = {.layout = Layout::File, .file = "", .state = std::move(state)};
     }
     auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
     halt();
     watched_ = std::move(opened);
-    watched_->show_profile(shows_profile_);
+    watched_->show_profile(profiled_);
     pace_.set_speed(asked.scene.view.speed);
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
@@ -221,7 +223,7 @@ class Work {
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
-  bool shows_profile_ = false;
+  Profiled profiled_ = Profiled::Nothing;
   bool plays_ = false;
   double until_ = std::numeric_limits<double>::infinity();  // where it halts of itself
   std::optional<double> step_to_;

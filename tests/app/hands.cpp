@@ -98,6 +98,12 @@ void Hands::drag(const std::string& widget, double from, double to) const {
   tool(line + "mouseup 1" + kPause);
 }
 
+void Hands::pull(const std::string& widget, int right, int down) const {
+  const std::string way = std::to_string(right) + ' ' + std::to_string(down);
+  tool("mousemove " + at(place(widget), 0.5) + kPause + "mousedown 1" + kPause +
+       "mousemove_relative -- " + way + kPause + "mouseup 1" + kPause);
+}
+
 std::vector<int> Hands::pixel(int x, int y) const {
   const std::string place = std::to_string(x) + ',' + std::to_string(y);
   const Outcome outcome =

@@ -29,6 +29,8 @@ class Hands {
   void click(const std::string& widget) const;
   /// Drags a slider's grip from one share of its width to another, in steps.
   void drag(const std::string& widget, double from, double to) const;
+  /// Drags a widget by so many pixels.
+  void pull(const std::string& widget, int right, int down) const;
 
   /// The newest event of a name after the `after` first events for which `is_it` holds; waits for
   /// it, for some seconds, and fails where it does not come.

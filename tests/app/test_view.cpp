@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 #include "tests/app/hands.h"
@@ -37,6 +38,31 @@ void check_saved_scene(const Hands& hands) {
   const std::string scene = hands.wait_for("saved", told)["file"];
   const json now = hands.wait_for("status", 0, halted);
   CHECK(hash_of_run(hands, scene, now) == now["hash"]);
+}
+
+// The file of the disks with which the gas has started.
+std::string saved_start(const Hands& hands) {
+  const std::size_t told = hands.told();
+  hands.key("ctrl+s");
+  std::string file = hands.wait_for("saved", told)["file"];
+  return hands.shell().read(file.replace(file.rfind('.'), file.size(), ".csv"));
+}
+
+// A column of a table, whose first line names them.
+std::vector<double> column_of(const std::string& table, const std::string& name) {
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  const auto column =
+      std::count(line.begin(), line.begin() + static_cast<long>(line.find(name)), ',');
+  std::vector<double> values;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (long i = 0; i <= column; ++i) std::getline(cells, cell, ',');
+    values.push_back(std::stod(cell));
+  }
+  return values;
 }
 
 // The upper left corner of the stage's picture.
@@ -169,18 +195,59 @@ TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be save
 }
 
 TEST_CASE("Window: a wall that is dragged makes another box for the same disks") {
-  const Hands hands("");
-  const json before = hands.wait_for("status");
-  const std::size_t told = hands.told();
-  hands.drag("wall.right", 0.5, 8.0);
-  const json wider =
-      hands.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
-  CHECK(wider["disks"] == before["disks"]);
-  CHECK(wider["box"][0].get<double>() > before["box"][0].get<double>() + 1.0);
-  CHECK(wider["box"][1] == before["box"][1]);
-  hands.key("ctrl+z");
-  hands.wait_for("status", told,
-                 [&](const json& status) { return status["box"] == before["box"]; });
+  const Hands hands("--set walls.bottom.kind=static --set walls.top.kind=static");
+  struct Case {
+    const char* wall;
+    int right, down;  // outwards
+    int axis;
+    const char* column;  // of the disks' places along it
+  };
+  for (const auto& [wall, right, down, axis, column] :
+       {Case{"wall.right", 75, 0, 0, "x"}, Case{"wall.left", -75, 0, 0, "x"},
+        Case{"wall.top", 0, -75, 1, "y"}, Case{"wall.bottom", 0, 75, 1, "y"}}) {
+    CAPTURE(wall);
+    const json before = hands.wait_for("status");
+    const std::size_t told = hands.told();
+    const auto opened = [&](const json& status) { return status["run"] > before["run"]; };
+    hands.pull(wall, right, down);
+    const json wider = hands.wait_for("status", told, opened);
+    CHECK(wider["disks"] == before["disks"]);
+    const double grown = wider["box"][axis].get<double>() - before["box"][axis].get<double>();
+    CHECK(grown > 1.0);
+    CHECK(wider["box"][1 - axis] == before["box"][1 - axis]);
+    // The disks are where they were: what is new of the box begins without any.
+    const std::string saved = saved_start(hands);
+    const bool low = right + down == (axis == 0 ? -75 : 75);
+    const auto [least, most] = std::ranges::minmax(column_of(saved, column));
+    const double room = low ? least : wider["box"][axis].get<double>() - most;
+    CHECK(room >= grown + 0.5 - 1e-9);
+    hands.key("ctrl+z");
+    hands.wait_for("status", told,
+                   [&](const json& status) { return status["box"] == before["box"]; });
+    const auto [lowest, highest] = std::ranges::minmax(column_of(saved_start(hands), column));
+    CHECK(lowest >= 0.5 - 1e-9);
+    CHECK(highest <= before["box"][axis].get<double>() - 0.5 + 1e-9);
+  }
+  hands.pull("wall.left", 40, 0);
+  hands.key("space");
+  check_saved_scene(hands);
+}
+
+TEST_CASE("Window: what the balance equations leave open is plotted only where it is asked for") {
+  const Hands hands("--set view.speed=10");
+  const auto told_residuals = [](const json& status) { return status.contains("residuals"); };
+  hands.key("p");
+  hands.click("plots.profile");
+  std::size_t told = hands.told();
+  hands.click("plots.profile.balance residuals");
+  const json with = hands.wait_for("status", told, [&](const json& status) {
+    return told_residuals(status) && status["residuals"][3] > 0.0;
+  });
+  for (const json& residual : with["residuals"]) CHECK(residual < 1e-9);
+  CHECK(with["run"] == 1);
+  hands.key("p");
+  told = hands.told();
+  hands.wait_for("status", told, [&](const json& status) { return !told_residuals(status); });
 }
 
 TEST_CASE("Window: what there is to try closes, and a lecture is for a projector") {

@@ -163,7 +163,7 @@ TEST_CASE(
   Worker worker(60.0);
   worker.send(command::Open{scene, 25});
   CHECK_FALSE(wait_for_handled(worker, 1).profile);
-  worker.send(command::ShowProfile{true});
+  worker.send(command::ShowProfile{Profiled::Fields});
   const Frame shown = wait_for(worker, [](const Frame& frame) {
     return frame.profile && !frame.profile->values.empty() && frame.snapshot.time > 30.0;
   });
@@ -174,11 +174,34 @@ TEST_CASE(
   CHECK(disks == doctest::Approx(200.0).epsilon(1e-9));
   // A band in the middle: there are some hundred disks' errors between it and the walls.
   CHECK(density[10].mean > density[0].mean + 5.0 * density[10].standard_error);
-  worker.send(command::ShowProfile{false});
+  worker.send(command::ShowProfile{Profiled::Nothing});
   worker.send(command::Play{false});
   const Frame halted = wait_for_handled(worker, 4);
   CHECK_FALSE(halted.profile);
   const auto simulation = simulation_of(scene, 25);
+  simulation->run_until(halted.snapshot.time);
+  CHECK(simulation->state_hash() == *halted.state_hash);
+}
+
+TEST_CASE("Worker: balance residuals along x come when asked for, and are of rounding size") {
+  const Scene scene = scene_at_speed("vibrated", 50.0);
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 29});
+  worker.send(command::ShowProfile{Profiled::Balances});
+  const Frame shown = wait_for(worker, [](const Frame& frame) {
+    return frame.residuals && !frame.residuals->residuals.cells.empty() &&
+           frame.snapshot.time > 10.0;
+  });
+  CHECK_FALSE(shown.profile);
+  CHECK(shown.residuals->residuals.cells.size() == 20);
+  CHECK(shown.residuals->width == doctest::Approx(shown.snapshot.box.x() / 20.0));
+  // As in measurements: far below what an event left out would leave, but not nothing.
+  const Conserved<2> largest = shown.residuals->residuals.largest();
+  CHECK(largest.maxCoeff() < 1e-9);
+  CHECK(largest[3] > 0.0);
+  worker.send(command::Play{false});
+  const Frame halted = wait_for_handled(worker, 3);
+  const auto simulation = simulation_of(scene, 29);
   simulation->run_until(halted.snapshot.time);
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
@@ -205,6 +228,38 @@ TEST_CASE("Worker: of a picked disk it tells the next collision, and the last on
   CHECK(after.last_encounter->time == doctest::Approx(time).epsilon(1e-12));
   CHECK(after.last_encounter->partner == picked.next_encounter->partner);
   CHECK(after.next_encounter->time > time);
+}
+
+TEST_CASE("Worker: while the gas plays, too, the next collision of a picked disk comes true") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 2.0), 30});
+  worker.send(command::Pick{11});
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    // It is under the laws in force.
+    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(1.0 - 0.1 * i)}}});
+    const Frame ahead = wait_for(worker, [&](const Frame& frame) {
+      return frame.handled == 2 + i && frame.next_encounter &&
+             frame.next_encounter->time > frame.snapshot.time;
+    });
+    CHECK(ahead.plays);
+    const Encounter expected = *ahead.next_encounter;
+    // The first frame after it; the disk may have met another since.
+    const Frame after =
+        wait_for(worker, [&](const Frame& frame) { return frame.snapshot.time >= expected.time; });
+    REQUIRE(after.last_encounter);
+    CHECK(after.last_encounter->time >= expected.time * (1.0 - 1e-12));
+    if (after.last_encounter->time > expected.time * (1.0 + 1e-12)) continue;
+    CHECK(after.last_encounter->partner == expected.partner);
+    CHECK(after.last_encounter->side == expected.side);
+  }
+  // To look ahead leaves the run as it is.
+  worker.send(command::Play{false});
+  const Frame halted = wait_for_handled(worker, 8);
+  Scene scene = *halted.started;
+  scene.changes = halted.scene->changes;
+  ScheduledRun alone(scene, 30);
+  alone.run_until(halted.snapshot.time);
+  CHECK(alone.simulation().state_hash() == *halted.state_hash);
 }
 
 TEST_CASE("Worker: of a picked disk at rest there is no next collision") {
