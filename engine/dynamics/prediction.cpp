@@ -33,13 +33,13 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
   }
 }
 
-// Copies a fixed number of a line's disks, for how many it holds cannot be foreseen.
-template <int D, int kCopies>
+// Copies a whole line, for how many disks it holds cannot be foreseen.
+template <int D>
 [[gnu::always_inline]] static inline void copy(const typename CellGrid<D>::Line& line,
                                                const Vec<D>* wrap, int to, Candidates<D>& near) {
-  std::memcpy(near.disks + to, line.disks.data(), kCopies * sizeof(std::uint32_t));
+  std::memcpy(near.disks + to, line.disks.data(), sizeof line.disks);
   if (!wrap) return;
-  for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + to, kCopies, (*wrap)[k]);
+  for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + to, line.disks.size(), (*wrap)[k]);
   near.wrapped = true;
 }
 
@@ -48,21 +48,18 @@ template <int D>
 [[gnu::always_inline]] inline void Prediction<D>::look_at_disks(std::uint32_t disk,
                                                                 const Stencil& stencil,
                                                                 Plan<D>& plan) const {
-  constexpr int kUsualPerCell = 8;  // few cells hold more disks
   Candidates<D> near;
   int size = 0;
-  bool crowded = false;
+  bool full = false;
   const auto add = [&](const Line& line, const Vec<D>* wrap) __attribute__((always_inline)) {
     const int count = static_cast<int>(line.count);
-    copy<D, kUsualPerCell>(line, wrap, size, near);
-    if (count > kUsualPerCell) [[unlikely]] {
-      copy<D, Line::kCapacity>(line, wrap, size, near);
-      crowded = true;
-    }
+    copy<D>(line, wrap, size, near);
+    if (count == Line::kCapacity) [[unlikely]]
+      full = true;
     size += count;
   };
   grid_.visit_first_lines(plan.cell, stencil, add);
-  if (crowded) [[unlikely]]
+  if (full) [[unlikely]]
     size = add_chained(disk, stencil, size, near, plan);
   weigh(disk, near, size, plan);
 }
@@ -76,7 +73,7 @@ int Prediction<D>::add_chained(std::uint32_t disk, const Stencil& stencil, int s
       weigh(disk, near, size, plan);
       size = 0;
     }
-    copy<D, Line::kCapacity>(line, wrap, size, near);
+    copy<D>(line, wrap, size, near);
     size += static_cast<int>(line.count);
   });
   return size;

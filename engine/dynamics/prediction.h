@@ -16,7 +16,7 @@ namespace clatter {
 
 /// What a disk will do next: the first contact known of, and when it leaves its cell.
 template <int D>
-struct Plan {
+struct alignas(64) Plan {
   double contact = kNever;              ///< time of the first contact; kNever: none known
   double crossing = kNever;             ///< time at which it leaves its cell
   std::uint32_t partner = 0;            ///< of the contact: a disk, or kWall + side
