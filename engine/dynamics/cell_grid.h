@@ -17,11 +17,12 @@ namespace clatter {
 template <int D>
 class CellGrid {
  public:
-  /// An empty grid of about one cell per disk over the box.
+  /// An empty grid over the box, of about one cell for each of a number of disks.
   CellGrid(const Model<D>& model, std::size_t disks);
 
-  /// Takes every disk out.
-  void clear();
+  /// Disks in the cell of a disk, itself included, on average over disks: far more than one where
+  /// they lie in clusters.
+  double crowding() const;
   /// Puts a disk into a cell.
   void insert(std::uint32_t disk, const IntVec<D>& cell);
   /// Takes a disk out of the cell it was put into.

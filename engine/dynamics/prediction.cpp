@@ -24,12 +24,9 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       grid_(grid),
       falling_((model.gravity.array() != 0.0).any()),
       first_contact_(first_contact_kernel<D>(falling_)) {
+  // Farther than the wall comes, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
-    const double travel = boundary.innermost_travel(side);
-    if (travel == 0.0) continue;
-    // One cell more than the wall comes to, so that rounding at a border does not matter.
-    const double cells = (0.5 * model.diameter + travel) / grid.width(side / 2);
-    reach_[side] = static_cast<int>(cells) + 1;
+    reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
   }
 }
 
@@ -171,7 +168,7 @@ void Prediction<D>::look_at_walls(std::uint32_t disk, double now, Plan<D>& plan)
     if (model_.periodic(axis)) continue;
     for (const int side : {2 * axis, 2 * axis + 1}) {
       const int cells_off = side % 2 ? grid_.counts()[axis] - 1 - plan.cell[axis] : plan.cell[axis];
-      if (cells_off > reach_[side]) continue;
+      if (cells_off * grid_.width(axis) > reach_[side]) continue;
       offer(boundary_.contact_time(side, disks_[disk].flight, now), disk,
             kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }

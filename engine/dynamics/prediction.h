@@ -72,7 +72,7 @@ class Prediction {
   const CellGrid<D>& grid_;
   bool falling_;  // whether there is gravity
   FirstContactKernel<D>* first_contact_;
-  std::array<int, 2 * D> reach_{};  // cells from the side's edge in which its wall can be touched
+  std::array<double, 2 * D> reach_;  // from the box's edge: where the side's wall can be touched
 };
 
 extern template class Prediction<2>;
