@@ -10,6 +10,7 @@
 #include "engine/error.h"
 #include "engine/publish/pace.h"
 #include "engine/publish/watched_run.h"
+#include "engine/temperature.h"
 
 namespace clatter {
 
@@ -121,7 +122,11 @@ class Work {
       State<2> state = gas().simulation().state();
       for (Vec2& position : state.positions) position += asked.shift;
       state = refitted(state, scene, asked.seed);
-      scene.disks.start = {.layout = Layout::File, .file = "", .state = std::move(state)};
+      const double temperature = temperature_of(state);
+      scene.disks.start = {.layout = Layout::File,
+                           .file = "",
+                           .state = std::move(state),
+                           .temperature = temperature};
     }
     auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
     halt();

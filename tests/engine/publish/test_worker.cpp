@@ -336,6 +336,16 @@ TEST_CASE("Worker: what goes wrong once it halts is told, too") {
   CHECK(there.message.find("between 0 and 1") != std::string::npos);
 }
 
+TEST_CASE("Worker: a gas that is kept starts with the temperature that it has") {
+  Worker worker(60.0);
+  worker.send(command::Open{load_scene("vibrated", {{"disks.start.temperature", "4"}}), 1, false});
+  worker.send(
+      command::Open{load_scene("vibrated", {{"box.size", "[20.0, 30.0]"}}), 1, false, true});
+  const Frame& frame = wait_for_handled(worker, 2);
+  CHECK(frame.run == 2);
+  CHECK(frame.scene->disks.start.temperature == doctest::Approx(4.0).epsilon(1e-12));
+}
+
 TEST_CASE("Worker: costs nothing while the gas halts") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
