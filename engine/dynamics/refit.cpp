@@ -9,8 +9,6 @@
 namespace clatter {
 
 State<2> refitted(const State<2>& state, const Scene& scene, std::uint64_t seed) {
-  constexpr double kLeastFraction = 1e-3;
-  if (scene.area_fraction() < kLeastFraction) return start_state(scene, seed);
   const Vec2 corner = scene.clear_corner();
   std::vector<Vec2> wanted = state.positions;
   for (Vec2& position : wanted) position -= corner;
