@@ -11,9 +11,11 @@ struct GasMemory {
   double spins = 0.0;
   double last_collisions = 0.0;
 
+  /// Of all three.
   double total() const { return disks + spins + last_collisions; }
 };
 
+/// What the scene's simulation will take.
 GasMemory gas_memory(const Scene& scene);
 
 /// Throws UserError where that is more than the machine has.

@@ -147,59 +147,92 @@ class Insertion {
 
 // The same for a few disks in a large room, where almost every try succeeds: memory follows the
 // disks and not the room.
-std::vector<Vec2> sparse_insertion(const Room& room, std::size_t count, Random& random) {
-  Model<2> model;
-  model.box = room.box;
-  model.diameter = room.diameter;
-  for (int side = 0; side < 4; ++side) {
-    if (!room.periodic[side / 2]) model.walls[side] = Wall{};
+class SparseInsertion {
+ public:
+  SparseInsertion(const Room& room, std::size_t count) : model_(empty(room)), grid_(model_, count) {
+    placed_.reserve(count);
   }
-  CellGrid<2> grid(model, count);
-  std::vector<Vec2> placed;
-  while (placed.size() < count) {
-    Vec2 point;
-    for (int axis = 0; axis < 2; ++axis) {
-      const double low = model.periodic(axis) ? 0.0 : model.wall_plane(axis, 0);
-      point[axis] = low + random.uniform() * (room.box[axis] - 2.0 * low);
+
+  void place(std::size_t count, Random& random) {
+    while (placed_.size() < count) {
+      Vec2 point;
+      for (int axis = 0; axis < 2; ++axis) {
+        point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));
+      }
+      place_at(point);
     }
+  }
+
+  bool place_first(const Vec2& point) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(point[axis] >= low(axis) && point[axis] < model_.box[axis] - low(axis))) return false;
+    }
+    return place_at(point);
+  }
+
+  std::vector<Vec2>& placed() { return placed_; }
+
+ private:
+  static Model<2> empty(const Room& room) {
+    Model<2> model;
+    model.box = room.box;
+    model.diameter = room.diameter;
+    for (int side = 0; side < 4; ++side) {
+      if (!room.periodic[side / 2]) model.walls[side] = Wall{};
+    }
+    return model;
+  }
+
+  double low(int axis) const { return model_.periodic(axis) ? 0.0 : model_.wall_plane(axis, 0); }
+
+  bool place_at(const Vec2& point) {
     bool overlaps = false;
-    grid.visit(grid.cell_at(point), {}, [&](const auto& line, const Vec2* wrap) {
+    grid_.visit(grid_.cell_at(point), {}, [&](const auto& line, const Vec2* wrap) {
       for (std::uint32_t k = 0; k < line.count; ++k) {
-        Vec2 x = placed[line.disks[k]] - point;
-        if (wrap) x += wrap->cwiseProduct(room.box);
-        overlaps = overlaps || x.norm() < room.diameter;
+        Vec2 x = placed_[line.disks[k]] - point;
+        if (wrap) x += wrap->cwiseProduct(model_.box);
+        overlaps = overlaps || x.norm() < model_.diameter;
       }
     });
-    if (overlaps) continue;
-    grid.insert(static_cast<std::uint32_t>(placed.size()), grid.cell_at(point));
-    placed.push_back(point);
+    if (overlaps) return false;
+    grid_.insert(static_cast<std::uint32_t>(placed_.size()), grid_.cell_at(point));
+    placed_.push_back(point);
+    return true;
   }
-  return placed;
+
+  Model<2> model_;
+  CellGrid<2> grid_;
+  std::vector<Vec2> placed_;
+};
+
+// As many of `wanted` as fit, then random places; empty where there is none for one.
+template <class Places>
+std::vector<Vec2> filled(Places places, int count, Random& random, const std::vector<Vec2>& wanted,
+                         std::vector<std::size_t>& kept) {
+  for (std::size_t i = 0; i < wanted.size() && static_cast<int>(kept.size()) < count; ++i) {
+    if (places.place_first(wanted[i])) kept.push_back(i);
+  }
+  places.place(static_cast<std::size_t>(count), random);
+  if (static_cast<int>(places.placed().size()) < count) return {};
+  return std::move(places.placed());
 }
 
 }  // namespace
 
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random) {
-  constexpr double kSparse = 50.0;  // squares of the diameter per disk: phi below 0.016
-  if (room.box.prod() > kSparse * room.diameter * room.diameter * count) {
-    return sparse_insertion(room, static_cast<std::size_t>(count), random);
-  }
-  Insertion insertion(room);
-  insertion.place(static_cast<std::size_t>(count), random);
-  if (static_cast<int>(insertion.placed().size()) < count) return {};
-  return std::move(insertion.placed());
+  std::vector<std::size_t> none;
+  return random_insertion(room, count, random, {}, none);
 }
 
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random,
                                    const std::vector<Vec2>& wanted,
                                    std::vector<std::size_t>& kept) {
-  Insertion insertion(room);
-  for (std::size_t i = 0; i < wanted.size() && static_cast<int>(kept.size()) < count; ++i) {
-    if (insertion.place_first(wanted[i])) kept.push_back(i);
+  constexpr double kSparse = 50.0;  // squares of the diameter per disk: phi below 0.016
+  if (room.box.prod() > kSparse * room.diameter * room.diameter * count) {
+    const auto places = static_cast<std::size_t>(count);
+    return filled(SparseInsertion(room, places), count, random, wanted, kept);
   }
-  insertion.place(static_cast<std::size_t>(count), random);
-  if (static_cast<int>(insertion.placed().size()) < count) return {};
-  return std::move(insertion.placed());
+  return filled(Insertion(room), count, random, wanted, kept);
 }
 
 }  // namespace clatter

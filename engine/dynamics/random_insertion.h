@@ -13,7 +13,7 @@ namespace clatter {
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random);
 
 /// The same, after as many of `wanted` as fit into the room and overlap none before; `kept` says
-/// which these are. For rooms of which disks fill more than a thousandth.
+/// which these are.
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random,
                                    const std::vector<Vec2>& wanted, std::vector<std::size_t>& kept);
 

@@ -4,19 +4,11 @@
 
 #include "engine/dynamics/random_insertion.h"
 #include "engine/dynamics/start.h"
+#include "engine/temperature.h"
 
 namespace clatter {
 
-static double temperature_of(const State<2>& state) {
-  double squares = 0.0;
-  for (const Vec2& v : state.velocities) squares += v.squaredNorm();
-  const auto count = static_cast<double>(state.velocities.size());
-  return count > 0.0 ? squares / (2.0 * count) : 0.0;
-}
-
 State<2> refitted(const State<2>& state, const Scene& scene, std::uint64_t seed) {
-  constexpr double kLeastFraction = 1e-3;
-  if (scene.area_fraction() < kLeastFraction) return start_state(scene, seed);
   const Vec2 corner = scene.clear_corner();
   std::vector<Vec2> wanted = state.positions;
   for (Vec2& position : wanted) position -= corner;

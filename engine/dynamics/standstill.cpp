@@ -54,7 +54,8 @@ static bool is_lossless(const Model<D>& model) {
   return lossless;
 }
 
-// The greatest speed that a wall's drive or its motion gives to a disk at rest.
+// About the greatest speed that a wall's drive or its motion gives to a disk at rest: exactly for
+// driven walls and the saw-tooth.
 template <int D>
 static double drive_of(const Model<D>& model) {
   double drive = 0.0;
@@ -62,6 +63,13 @@ static double drive_of(const Model<D>& model) {
     if (wall) drive = std::max({drive, wall->drive_speed, 2.0 * wall->stroke * wall->frequency});
   }
   return drive;
+}
+
+// Speeds that disks reach without walls: by falling across the box, and by a kick.
+template <int D>
+static double free_speed(const Model<D>& model) {
+  const double fall = std::sqrt(2.0 * model.gravity.cwiseAbs().dot(model.box));
+  return std::max(fall, model.bulk_drive ? model.bulk_drive->kick_speed : 0.0);
 }
 
 // Where walls multiply speeds, beyond 1e60 products of them would soon be no ordinary numbers any
@@ -73,8 +81,8 @@ double fastest_speed(const Model<D>& model, double start_speed) {
   constexpr double kMostGrowth = 1e6;
   if (gains(model)) return kFastest;
   const double drive = drive_of(model);
-  if (drive > 0.0 && is_lossless(model)) return kMostGrowth * std::max(drive, start_speed);
-  return kNever;
+  if (!(drive > 0.0 && is_lossless(model))) return kNever;
+  return kMostGrowth * std::max({drive, start_speed, free_speed(model)});
 }
 
 template <int D>

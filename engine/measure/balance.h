@@ -22,6 +22,7 @@ struct Booked {
   Conserved<D> size = Conserved<D>::Zero();  ///< sum of what was booked, each without its sign
 };
 
+/// Passes over all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Booked<D>& sum) {
   auto& [net, size] = sum;
@@ -41,6 +42,7 @@ struct Bookings {
   std::vector<Conserved<D>> weights;
 };
 
+/// Passes over all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Bookings<D>& bookings) {
   auto& [faces, sources, weights] = bookings;

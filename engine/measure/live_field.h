@@ -25,6 +25,8 @@ class LiveField {
   /// Goes on where one that was saved ended: the simulation is at that time, under those laws.
   /// Throws UserError where the view is another one.
   LiveField(Simulation<2>& simulation, const View& view, ArchiveReader saved);
+  LiveField(const LiveField&) = delete;
+  LiveField& operator=(const LiveField&) = delete;
 
   /// All that the averages to come depend on, beside simulation and view. Nothing changes by it.
   std::string save();

@@ -27,6 +27,7 @@ struct Residuals {
 /// Throws RunError where cells gained something else than was booked to them, beyond rounding.
 void require_closed(const Residuals& residuals);
 
+/// Passes over all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Residuals& residuals) {
   auto& [cells] = residuals;

@@ -16,6 +16,8 @@ class WatchedRun {
  public:
   /// From the scene's start.
   WatchedRun(const Scene& scene, std::uint64_t seed);
+  WatchedRun(const WatchedRun&) = delete;
+  WatchedRun& operator=(const WatchedRun&) = delete;
 
   /// The run itself.
   ScheduledRun& run() { return run_; }

@@ -10,6 +10,7 @@
 #include "engine/error.h"
 #include "engine/publish/pace.h"
 #include "engine/publish/watched_run.h"
+#include "engine/temperature.h"
 
 namespace clatter {
 
@@ -40,7 +41,9 @@ class Work {
     while (!commands_.closed()) {
       const std::vector<Command> asked = commands_.take();
       for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
-        if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) attempt(asked[i]);
+        if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) {
+          attempt([&] { std::visit([this](const auto& command) { obey(command); }, asked[i]); });
+        }
         ++handled_;
       }
       if (!asked.empty()) publish();
@@ -72,12 +75,16 @@ class Work {
     pace_.restart();
   }
 
-  // A person's mistake, a physical stop, a lack of memory: told, and the gas before stands.
-  void attempt(const Command& command) {
+  // Whether it went well. A person's mistake, a physical stop, a lack of memory: told, and the gas
+  // before stands.
+  template <class Act>
+  bool attempt(const Act& act) {
     try {
-      std::visit([this](const auto& asked) { obey(asked); }, command);
+      act();
+      return true;
     } catch (const std::exception& error) {
       tell(error.what());
+      return false;
     }
   }
 
@@ -115,7 +122,11 @@ class Work {
       State<2> state = gas().simulation().state();
       for (Vec2& position : state.positions) position += asked.shift;
       state = refitted(state, scene, asked.seed);
-      scene.disks.start = {.layout = Layout::File, .file = "", .state = std::move(state)};
+      const double temperature = temperature_of(state);
+      scene.disks.start = {.layout = Layout::File,
+                           .file = "",
+                           .state = std::move(state),
+                           .temperature = temperature};
     }
     auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
     halt();
@@ -130,23 +141,23 @@ class Work {
 
   // Runs up to a time, or as far as it gets until `due`, or until something is asked for.
   bool advance(double time, std::uint64_t collisions, Clock::time_point due) {
+    bool arrived = false;
+    if (!attempt([&] { arrived = run_slices(time, collisions, due); })) halt();
+    return arrived;
+  }
+
+  bool run_slices(double time, std::uint64_t collisions, Clock::time_point due) {
     constexpr std::chrono::milliseconds kSlice{2};
-    try {
-      for (;;) {
-        const auto began = Clock::now();
-        const EventCounts& counts = gas().simulation().counts();
-        const bool arrived = gas().run_until(time, collisions, counts.steps() + slice_);
-        const bool collided = gas().simulation().counts().collisions() >= collisions;
-        const auto now = Clock::now();
-        slice_ = now - began < kSlice ? 2 * slice_ : std::max<std::uint64_t>(1, slice_ / 2);
-        slice_ = std::min(slice_, kLongestSlice);
-        if (arrived || collided) return arrived;
-        if (now >= due || commands_.pending()) return false;
-      }
-    } catch (const std::exception& stop) {
-      tell(stop.what());
-      halt();
-      return false;
+    for (;;) {
+      const auto began = Clock::now();
+      const EventCounts& counts = gas().simulation().counts();
+      const bool arrived = gas().run_until(time, collisions, counts.steps() + slice_);
+      const bool collided = gas().simulation().counts().collisions() >= collisions;
+      const auto now = Clock::now();
+      slice_ = now - began < kSlice ? 2 * slice_ : std::max<std::uint64_t>(1, slice_ / 2);
+      slice_ = std::min(slice_, kLongestSlice);
+      if (arrived || collided) return arrived;
+      if (now >= due || commands_.pending()) return false;
     }
   }
 
@@ -178,12 +189,12 @@ class Work {
   void halt_at_collision() {
     halt();
     partners_ = watched_->partners();
-    gas().settle();
+    attempt([this] { gas().settle(); });
   }
 
   void publish() {
     Frame& frame = frames_.back();
-    if (watched_) watched_->tell(frame, !moves());
+    if (watched_ && !attempt([&] { watched_->tell(frame, !moves()); })) halt();
     frame.run = runs_;
     frame.handled = handled_;
     frame.plays = plays_;

@@ -16,6 +16,7 @@
 #include "engine/scene/schedule.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
+#include "engine/temperature.h"
 
 namespace clatter {
 
@@ -49,13 +50,6 @@ bool is_file(const std::filesystem::path& path) {
   throw UserError(place, "there is no file '" + path.string() + "'",
                   near.empty() ? "name a CSV file, relative to the scene's folder"
                                : "did you mean '" + near + "'?");
-}
-
-double temperature_of(const State<2>& state) {
-  double sum = 0.0;
-  for (const Vec2& velocity : state.velocities) sum += velocity.squaredNorm();
-  const auto count = static_cast<double>(state.velocities.size());
-  return count > 0.0 ? sum / (2.0 * count) : 0.0;
 }
 
 /// Reads the state that the scene starts from, and makes the name of its file one that is found

@@ -333,6 +333,7 @@ void visit_view(Visitor& io, View& view) {
   io.list("camera", view.camera, [](auto& io, CameraKey& key) { visit_camera(io, key); });
 }
 
+/// The keys of one of [[change]].
 template <class Visitor>
 void visit_change(Visitor& io, Change& change) {
   io.value("time", change.time, at_least(0.0), kRequired);

@@ -176,15 +176,15 @@ TEST_CASE("barometer: a thin gas has the barometric profile at one temperature")
   constexpr double kCount = 100.0;
   const Scene scene = column(200.0, 160.5, 100, kGravity);
   const Model<2> model = model_of(scene, 404);
-  // Layers counted from the lowest centres at y = 1/2, by samples every 100: twice the time of a
-  // bounce, and there are enough collisions to mix.
+  // Layers counted from the lowest centres at y = 1/2, by samples every 100: almost three times the
+  // time of a bounce, and there are enough collisions to mix.
   Simulation<2> simulation(model, start_state(scene, 404));
   std::vector<Sample> densities(kLayers), temperatures(kLayers);
   for (int window = -20; window < kWindows; ++window) {
-    simulation.run_until(50.0 * (window + 21));
+    simulation.run_until(100.0 * (window + 21));
     if (window < 0) continue;
     const State<2> state = simulation.state();
-    std::vector<double> counts(kLayers), squares(kLayers);
+    std::vector<double> counts(kLayers);
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
       const auto layer = static_cast<std::size_t>((state.positions[i].y() - 0.5) / 10.0);
       counts[layer] += 1.0;

@@ -40,7 +40,8 @@ TEST_CASE("refitted: all disks stay that fit, others come, none overlap") {
   for (const auto& [scene, least] :
        {Case{box(200, 20.0, 25.0), 200}, Case{box(300, 20.0, 25.0), 200},
         Case{box(120, 20.0, 25.0), 120}, Case{box(200, 30.0, 30.0), 190},
-        Case{box(150, 15.0, 20.0), 80}}) {
+        Case{box(150, 15.0, 20.0), 80}, Case{box(210, 600.0, 600.0), 190},
+        Case{box(1, 20.0, 25.0), 1}, Case{box(3, 60.0, 60.0), 3}}) {
     CAPTURE(scene.disks.count);
     CAPTURE(scene.box.x());
     const State<2> now = refitted(before, scene, 3);

@@ -51,6 +51,25 @@ TEST_CASE("standstill: a cold gas between walls that heat it is no divergence") 
   check_sound(simulation);
 }
 
+// The walls give next to nothing; the disks are as fast as their fall, or their kicks, makes them.
+TEST_CASE("standstill: disks that fall or are kicked between walls that hum are no divergence") {
+  const Wall hums{.kind = WallKind::Sinusoidal, .stroke = 1e-6, .frequency = 1.0};
+  Model<2> falls = with_walls(periodic_box(10.0, 30.0), 1, kStatic);
+  falls.walls[kBottom] = hums;
+  Model<2> kicked = falls;
+  falls.gravity = {0.0, -1.0};
+  kicked.bulk_drive = BulkDrive{0.1, 5.0, 0.0};
+  for (const Model<2>& model : {falls, kicked}) {
+    State<2> start = random_gas(model, 20, 965);
+    for (Vec2& v : start.velocities) v = Vec2::Zero();
+    for (Vec2& r : start.positions) r.y() += 0.05 * (29.5 - r.y()) / 29.0;
+    Simulation<2> simulation(model, start);
+    CHECK_NOTHROW(simulation.run_until(100.0));
+    CHECK(simulation.counts().disk_wall > 100);
+    check_sound(simulation);
+  }
+}
+
 TEST_CASE("standstill: elastic disks at rest on a floor are seen, and t_c lets them rest") {
   Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, kStatic);
   model.gravity = {0.0, -1.0};

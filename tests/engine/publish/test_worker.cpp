@@ -316,6 +316,36 @@ TEST_CASE("Worker: where the run stops before the next collision, it tells of no
   CHECK_FALSE(stopped.partners);
 }
 
+// A law that is none, and comes into force with the very collision that is stepped to.
+TEST_CASE("Worker: what goes wrong once it halts is told, too") {
+  Scene scene = scene_at_speed("vibrated", 2.0);
+  const auto hit = [](const Frame& frame) { return frame.handled == 2 && frame.partners; };
+  double time = 0.0;
+  {
+    Worker worker(60.0);
+    worker.send(command::Open{scene, 1, false});
+    worker.send(command::StepCollision{});
+    time = wait_for(worker, hit).snapshot.time;
+  }
+  scene.changes = {{.time = time, .set = {{"disks.restitution", "7"}}}};
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 1, false});
+  worker.send(command::StepCollision{});
+  const Frame& there = wait_for(worker, hit);
+  CHECK(there.messages == 1);
+  CHECK(there.message.find("between 0 and 1") != std::string::npos);
+}
+
+TEST_CASE("Worker: a gas that is kept starts with the temperature that it has") {
+  Worker worker(60.0);
+  worker.send(command::Open{load_scene("vibrated", {{"disks.start.temperature", "4"}}), 1, false});
+  worker.send(
+      command::Open{load_scene("vibrated", {{"box.size", "[20.0, 30.0]"}}), 1, false, true});
+  const Frame& frame = wait_for_handled(worker, 2);
+  CHECK(frame.run == 2);
+  CHECK(frame.scene->disks.start.temperature == doctest::Approx(4.0).epsilon(1e-12));
+}
+
 TEST_CASE("Worker: costs nothing while the gas halts") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
