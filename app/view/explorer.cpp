@@ -128,6 +128,7 @@ void Explorer::left_panel(float top, float width) {
   gas_panel(session_, controls_);
   box_panel(session_, controls_);
   view_panel(session_, controls_);
+  accuracy_panel(session_, controls_);
   switch (record_panel(controls_, film_ ? std::optional(film_->done()) : std::nullopt)) {
     case Recording::Screenshot:
       screenshot();
