@@ -195,16 +195,18 @@ bool Controls::choice(const char* key, const char* name, const char* help,
   if (changed) chosen = usual;
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str());
-  log_place(key);
-  if (!open) tell_help(help);
-  if (open) {
+  if (!open) {
+    log_place(key);
+    tell_help(help);
+  } else {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
       const std::string& word = words[static_cast<std::size_t>(i)];
       if (ImGui::Selectable(word.c_str(), i == chosen)) {
         changed = i != chosen;
         chosen = i;
       }
-      log_place((std::string(key) + '.' + word).c_str());
+      // The list finds its place in its first picture.
+      if (!ImGui::IsWindowAppearing()) log_place((std::string(key) + '.' + word).c_str());
     }
     ImGui::EndCombo();
   }

@@ -22,6 +22,8 @@ namespace clatter {
 // In sizes of text, at most the share of the window's width.
 static constexpr float kPanelWidth = 17.0f;
 static constexpr float kPanelShare = 0.175f;
+// In a lecture, how many times as large letters are.
+static constexpr float kLectureLetters = 1.6f;
 
 Explorer::Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker, ScriptLog& log)
     : window_(window),
@@ -37,15 +39,14 @@ Explorer::Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker,
 void Explorer::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
   session_.open(scene, seed, !until);
   if (until) session_.play_until(*until);
-  if (shown_.lecture) lecture(true);
 }
 
 // Takes the window's scale and loads fonts for it.
 void Explorer::begin() {
-  constexpr float kTextSize = 14.0f, kLectureSize = 22.0f;
+  constexpr float kTextSize = 14.0f;
   float scale = 1.0f;
   glfwGetWindowContentScale(window_, &scale, nullptr);
-  const float size = std::round((shown_.lecture ? kLectureSize : kTextSize) * scale);
+  const float size = std::round((shown_.lecture ? kLectureLetters : 1.0f) * kTextSize * scale);
   if (size != text_size_) {
     text_size_ = size;
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -53,7 +54,7 @@ void Explorer::begin() {
     ImGui::GetIO().FontDefault = const_cast<ImFont*>(add_fonts(atlas, size).text);
     gui_.upload(atlas);
   }
-  apply_style(size, panel_theme(session_.view()));
+  apply_style(size, panel_theme(shown_view()));
   scale_ = std::max(1.0f, ImGui::GetIO().DisplayFramebufferScale.x);
   ImGui::NewFrame();
 }
@@ -81,7 +82,7 @@ void Explorer::draw() {
                   static_cast<int>((area_.high.y - area_.low.y) * scale_)};
   if (size.width > 0 && size.height > 0 && session_.frame().scene) {
     if (std::exchange(drawn_views_, session_.views()) != session_.views()) stage_.redraw();
-    stage_.draw(session_.frame(), session_.view(), size);
+    stage_.draw(session_.frame(), shown_view(), size, shown_.lecture ? kLectureLetters : 1.0);
     stage_.show(static_cast<int>(area_.low.x * scale_),
                 static_cast<int>((whole.y - area_.high.y) * scale_));
   }
@@ -131,6 +132,7 @@ void Explorer::left_panel(float top, float width) {
   gas_panel(session_, controls_);
   box_panel(session_, controls_);
   view_panel(session_, controls_);
+  accuracy_panel(session_, controls_);
   switch (record_panel(controls_, film_ ? std::optional(film_->done()) : std::nullopt)) {
     case Recording::Screenshot:
       screenshot();
@@ -158,7 +160,7 @@ void Explorer::plots_drawer(float top, float width) {
   ImGui::SetNextWindowPos(ImVec2(whole.x - width, top));
   ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
   ImGui::Begin("plots", nullptr, kFixedPanel);
-  const ThemeColours theme = panel_theme(session_.view());
+  const ThemeColours theme = panel_theme(shown_view());
   controls_.choice(
       "plots.profile", "Profile along x",
       "Since the plots were opened, or laws, averages or trails changed: averages, with a band of "
@@ -222,14 +224,17 @@ void Explorer::use_stage() {
   }
 }
 
-// Also of a scene that is opened while it goes on.
 void Explorer::lecture(bool on) {
-  View view = session_.view();
-  if (on) theme_before_ = view.theme;
-  view.theme = on ? Theme::Projector : theme_before_;
-  session_.set_view(view);
-  if (on && !shown_.lecture) shown_.lesson = false;
+  if (on) shown_.lesson = false;
   shown_.lecture = on;
+  stage_.redraw();
+}
+
+// The view that is on screen: in a lecture it is for a projector, whatever the scene's theme is.
+View Explorer::shown_view() const {
+  View view = session_.view();
+  if (shown_.lecture) view.theme = Theme::Projector;
+  return view;
 }
 
 void Explorer::open_gallery_scene(const EmbeddedFile& scene) {

@@ -41,6 +41,7 @@ class Explorer {
   void use_signs();
   void close_something();
   void lecture(bool on);
+  View shown_view() const;
   void panels();
   void side_panels();
   void left_panel(float top, float width);
@@ -53,6 +54,7 @@ class Explorer {
   void toggle_full_screen();
   void fix_range();
   void screenshot();
+  Scene recorded_beside(const std::string& file) const;
   std::string save_scene();
   std::vector<std::string> film_arguments(const std::string& scene) const;
   void copy_command();
@@ -73,7 +75,6 @@ class Explorer {
   std::optional<FilmJob> film_;
   GuiLayer gui_;
   Shown shown_;
-  Theme theme_before_ = Theme::Dark;  // the lecture
   std::string title_;                 // of the window; empty: the program's
   std::uint64_t drawn_views_ = 0;     // of Session::views()
   bool told_gallery_ = false;         // whether the script log knows that it is open

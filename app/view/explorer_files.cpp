@@ -39,8 +39,9 @@ static std::string free_name(const std::string& extension) {
 }
 
 // What is on screen as a scene. A start state that is in no file gets one of that name.
-static Scene recorded_beside(const std::string& file, const Session& session) {
-  Scene scene = session.recorded();
+Scene Explorer::recorded_beside(const std::string& file) const {
+  Scene scene = session_.recorded();
+  scene.view.theme = shown_view().theme;
   Start& start = scene.disks.start;
   if (start.layout == Layout::File && start.file.empty()) {
     start.file = std::filesystem::path(file).replace_extension(".csv");
@@ -53,7 +54,7 @@ void Explorer::screenshot() {
   if (!stage_.drawn()) return;
   try {
     const std::string name = free_name(".png");
-    const Scene scene = recorded_beside(name, session_);
+    const Scene scene = recorded_beside(name);
     const std::vector<PngText> texts = {{"Title", scene.title},
                                         {"Software", "clatter " CLATTER_VERSION},
                                         {"Seed", std::to_string(session_.frame().seed)},
@@ -70,7 +71,7 @@ std::string Explorer::save_scene() {
   if (!session_.frame().scene) return "";
   try {
     const std::string name = free_name(".toml");
-    write_file(name, scene_to_toml(recorded_beside(name, session_)));
+    write_file(name, scene_to_toml(recorded_beside(name)));
     log_.event("saved", {{"file", name}});
     session_.tell("Saved: " + name);
     return name;

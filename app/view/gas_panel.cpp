@@ -41,32 +41,6 @@ static void roughness(Session& session, Controls& controls) {
                usual.any() ? usual.tangential_restitution_in_force() : 0.5);
 }
 
-static void contact_time(Session& session, Controls& controls) {
-  constexpr double kUsual = 1e-5;
-  const auto& time = session.scene().contact_time;
-  const auto table = [](std::optional<double> t) {
-    return t ? "{ contact_time = " + value_text(*t) + " }" : std::string("{}");
-  };
-  bool on = time.has_value();
-  if (controls.toggle("contact_time", "Contact time",
-                      "Collisions that follow each other within t_c lose nothing: no collapse",
-                      on)) {
-    controls.set({{"collapse", table(time)}},
-                 {{"collapse", table(on ? std::optional(kUsual) : std::nullopt)}});
-  } else if (on) {
-    controls.law({.key = "collapse.contact_time",
-                  .name = "Its length",
-                  .symbol = "t_c",
-                  .unit = "t",
-                  .help = "Of the TC model",
-                  .low = 1e-9,
-                  .high = 0.1,
-                  .logarithmic = true,
-                  .format = "%.1e"},
-                 *time, session.opened().contact_time.value_or(kUsual));
-  }
-}
-
 void gas_panel(Session& session, Controls& controls) {
   if (!group("Gas")) return;
   const Scene& scene = session.scene();
@@ -90,7 +64,6 @@ void gas_panel(Session& session, Controls& controls) {
                         "1: elastic, Eq. (2.5)"},
                scene.disks.restitution, session.opened().disks.restitution);
   roughness(session, controls);
-  contact_time(session, controls);
   ImGui::Spacing();
 }
 

@@ -13,6 +13,8 @@ void gas_panel(Session& session, Controls& controls);
 void box_panel(Session& session, Controls& controls);
 /// What is drawn.
 void view_panel(Session& session, Controls& controls);
+/// The dials between speed and accuracy, with what they cost.
+void accuracy_panel(Session& session, Controls& controls);
 /// A round end for a range of the disks' colours: twice the thermal speed.
 double disk_colour_end(const Snapshot& snapshot);
 /// What a person asked the record panel for.

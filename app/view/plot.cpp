@@ -1,7 +1,8 @@
 #include "app/view/plot.h"
 
+#include <imgui.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,45 +15,13 @@ namespace clatter {
 
 namespace {
 
-// An axis: from values to shares of its length.
-struct Scale {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  bool logarithmic = false;
-  double floor = 0.0;  // of a logarithmic axis
-
-  bool shows(double value) const {
-    return std::isfinite(value) && (!logarithmic || std::max(value, floor) > 0.0);
-  }
-  double place(double value) const {
-    return logarithmic ? std::log10(std::max(value, floor)) : value;
-  }
-  void include(double value) {
-    if (!shows(value)) return;
-    low = std::min(low, place(value));
-    high = std::max(high, place(value));
-  }
-  double share(double value) const { return (place(value) - low) / (high - low); }
-};
-
-void widen(Scale& scale, bool from_zero) {
-  if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
-  if (from_zero && !scale.logarithmic && scale.low > 0.0) scale.low = 0.0;
-  if (from_zero) scale.high += 0.05 * (scale.high - scale.low);
-  if (!(scale.high > scale.low)) {
-    const double room = std::max(1e-12, 0.1 * std::fabs(scale.low));
-    scale.low -= room;
-    scale.high += room;
-  }
-}
-
 struct Tick {
   double share;
   std::string text;
 };
 
 // Round values, or powers of ten.
-std::vector<Tick> ticks_of(const Scale& scale, int count) {
+std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
   std::vector<Tick> ticks;
   const auto places = round_ticks(scale.low, scale.high, count);
   for (const double place : places) {
@@ -76,7 +45,7 @@ std::vector<Tick> ticks_of(const Scale& scale, int count) {
 // The area of a plot within its axes, and its scales.
 struct PlotFrame {
   ImVec2 low, high;  // upper left and lower right corner, pixels
-  Scale x, y;
+  PlotScale x, y;
 
   ImVec2 at(const Vec2& point) const {
     return {low.x + static_cast<float>(x.share(point.x())) * (high.x - low.x),
@@ -197,6 +166,46 @@ void legend(const LivePlot& plot) {
 
 }  // namespace
 
+bool PlotScale::shows(double value) const {
+  return std::isfinite(value) && (!logarithmic || std::max(value, floor) > 0.0);
+}
+
+double PlotScale::place(double value) const {
+  return logarithmic ? std::log10(std::max(value, floor)) : value;
+}
+
+// Room about what is shown, of which the ends are infinite where there is nothing.
+static void widen(PlotScale& scale, bool from_zero) {
+  if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
+  if (from_zero && !scale.logarithmic && scale.low > 0.0) scale.low = 0.0;
+  if (from_zero) scale.high += 0.05 * (scale.high - scale.low);
+  if (!(scale.high > scale.low)) {
+    const double room = std::max(1e-12, 0.1 * std::fabs(scale.low));
+    scale.low -= room;
+    scale.high += room;
+  }
+}
+
+std::array<PlotScale, 2> scales_of(const LivePlot& plot) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  PlotScale x{kNowhere, -kNowhere, plot.log_x};
+  PlotScale y{kNowhere, -kNowhere, plot.log_y, plot.floor};
+  const auto include = [](PlotScale& scale, double value) {
+    scale.low = std::min(scale.low, scale.place(value));
+    scale.high = std::max(scale.high, scale.place(value));
+  };
+  for (const Curve& curve : plot.curves) {
+    for (const Vec2& point : curve.points) {
+      if (!x.shows(point.x()) || !y.shows(point.y())) continue;
+      include(x, point.x());
+      include(y, point.y());
+    }
+  }
+  widen(x, false);
+  widen(y, true);
+  return {x, y};
+}
+
 void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted(plot.title.c_str());
@@ -209,19 +218,8 @@ void draw_plot(const LivePlot& plot, float height) {
   ImGui::PopID();
   legend(plot);
 
-  PlotFrame frame;
-  frame.x.logarithmic = plot.log_x;
-  frame.y.logarithmic = plot.log_y;
-  frame.y.floor = plot.floor;
-  for (const Curve& curve : plot.curves) {
-    for (const Vec2& point : curve.points) {
-      if (!frame.x.shows(point.x()) || !frame.y.shows(point.y())) continue;
-      frame.x.include(point.x());
-      frame.y.include(point.y());
-    }
-  }
-  widen(frame.x, false);
-  widen(frame.y, true);
+  const auto [x, y] = scales_of(plot);
+  PlotFrame frame{{}, {}, x, y};
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   frame.low = ImVec2(corner.x + 3.0f * unit, corner.y + 0.4f * unit);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <imgui.h>
-
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,6 +29,24 @@ struct LivePlot {
   std::string y_label = "";  ///< what it is and its unit
   double floor = 0.0;  ///< of a logarithmic axis y: what is less, as 0, stands there; 0: nowhere
 };
+
+/// An axis: from values to shares of its length.
+struct PlotScale {
+  double low = 0.0;  ///< its ends, < high; of a logarithmic one their logarithms to base 10
+  double high = 1.0;
+  bool logarithmic = false;
+  double floor = 0.0;  ///< of a logarithmic one, see LivePlot
+
+  /// Whether a value has a place on it.
+  bool shows(double value) const;
+  /// Where, in the unit of its ends.
+  double place(double value) const;
+  /// Likewise, as a share of its length.
+  double share(double value) const { return (place(value) - low) / (high - low); }
+};
+
+/// The axes x and y of a plot, wide enough for all that they show.
+std::array<PlotScale, 2> scales_of(const LivePlot& plot);
 
 /// Draws a plot of this height over the width of the ImGui window, with its axes and legend.
 void draw_plot(const LivePlot& plot, float height);

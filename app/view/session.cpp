@@ -38,6 +38,7 @@ static nlohmann::json status(const Frame& frame) {
     told["hash"] = hash;
   }
   if (frame.partners) told["partners"] = *frame.partners;
+  if (frame.contact_time_error) told["elasticised"] = frame.contact_time_error->elasticised;
   if (frame.residuals) told["residuals"] = frame.residuals->residuals.largest();
   return told;
 }
@@ -210,8 +211,7 @@ void Session::redo() {
 }
 
 void Session::set_view(const View& view) {
-  const bool observes_anew = view.field != view_.field || view.arrows != view_.arrows ||
-                             view.window != view_.window || view.trails != view_.trails;
+  const bool observes_anew = !view.averages_like(view_) || view.trails != view_.trails;
   view_ = view;
   ++views_;
   if (observes_anew) send(command::Show{view});

@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-void Stage::draw(const Frame& frame, const View& view, Size size) {
+void Stage::draw(const Frame& frame, const View& view, Size size, double letters) {
   if (!canvas_ || canvas_->size().width != size.width || canvas_->size().height != size.height) {
     canvas_.emplace(*gl_, size);
     stale_ = true;
@@ -19,7 +19,7 @@ void Stage::draw(const Frame& frame, const View& view, Size size) {
   }
   if (!stale_) return;
   stale_ = false;
-  const OverlayText text{frame.scene->title, frame.scene->caption};
+  const OverlayText text{frame.scene->title, frame.scene->caption, 0.0, letters};
   if (fits_) camera_ = renderer_.fit(frame.snapshot, size, view, text);
   if (follows_ && *picked_ < frame.snapshot.positions.size()) {
     camera_.centre = frame.snapshot.positions[*picked_];

@@ -15,8 +15,9 @@ class Stage {
  public:
   explicit Stage(const Gl& gl) : gl_(&gl), renderer_(gl) {}
 
-  /// Draws a frame into a picture of its own, of `size` pixels, if anything has changed.
-  void draw(const Frame& frame, const View& view, Size size);
+  /// Draws a frame into a picture of its own, of `size` pixels, with letters so many times as large
+  /// as in films, if anything has changed.
+  void draw(const Frame& frame, const View& view, Size size, double letters);
   /// Copies the picture into the window, its lower left corner at a pixel of it.
   void show(int x, int y) const;
   /// The picture as it is.

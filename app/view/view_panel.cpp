@@ -177,17 +177,6 @@ void view_panel(Session& session, Controls& controls) {
   changed |= choose_heatmap(session, controls, view);
   changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction, chapter 4",
                     kArrows, "none", view.arrows, usual.arrows);
-  if (view.shows_averages()) {
-    changed |= controls.number({.key = "view.window",
-                                .name = "Averaged over",
-                                .unit = "t",
-                                .help = "How far back in time heatmap and arrows reach",
-                                .low = 0.1,
-                                .high = 100.0,
-                                .logarithmic = true,
-                                .format = "%.2f"},
-                               view.window, usual.window);
-  }
   changed |= choose_trails(controls, view.trails, usual.trails);
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,

@@ -47,7 +47,8 @@ std::optional<LiveField::Averages> LiveField::averages_for(const Simulation<2>& 
   if (fields.empty()) return std::nullopt;
   const Model<2>& model = simulation.model();
   const MomentLayout<2> layout = moment_layout<2>(fields, model.spins);
-  return Averages{CellIntegrals<2>(simulation, cells_of_one_diameter(model), layout), {}};
+  return Averages{
+      CellIntegrals<2>(simulation, cells_of_one_diameter(model), layout, {view.estimator, {}}), {}};
 }
 
 std::optional<LiveField::Closure> LiveField::closure_for(const Simulation<2>& simulation,
@@ -61,8 +62,9 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view)
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
-      start_(simulation.time() + view.window / kWindowParts) {
-  watch(simulation, view.window / kWindowParts);
+      start_(simulation.time() + view.window / kWindowParts),
+      sampled_from_(simulation.time()) {
+  watch(simulation, view);
 }
 
 LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& before)
@@ -71,14 +73,16 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& be
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       start_(before.start_),
-      closed_(before.closed_) {
+      closed_(before.closed_),
+      sampled_from_(before.sampled_from_),
+      samples_(before.samples_) {
   before.look();
   if (averages_ && before.averages_ &&
       averages_->observer.layout().size == before.averages_->observer.layout().size) {
     averages_->sums = std::move(before.averages_->sums);
   }
   if (closure_ && before.closure_) closure_->sums = std::move(before.closure_->sums);
-  watch(simulation, view.window / kWindowParts);
+  watch(simulation, view);
 }
 
 LiveField::LiveField(Simulation<2>& simulation, const View& view, ArchiveReader saved)
@@ -88,7 +92,7 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view, ArchiveReader 
       closure_(closure_for(simulation, view)) {
   visit(saved);
   saved.finish();
-  watch(simulation, view.window / kWindowParts);
+  watch(simulation, view);
 }
 
 std::string LiveField::save() {
@@ -99,22 +103,30 @@ std::string LiveField::save() {
 
 template <class Archive>
 void LiveField::visit(Archive& io) {
-  auto& [field, arrows, averages, closure, start, closed] = *this;
+  auto& [field, arrows, averages, closure, start, closed, sampled_from, samples] = *this;
   if (averages) io(averages->observer, averages->sums);
   if (closure) io(closure->observer, closure->sums);
-  io(start, closed);
+  io(start, closed, sampled_from, samples);
 }
 
-void LiveField::watch(Simulation<2>& simulation, double part) {
+void LiveField::watch(Simulation<2>& simulation, const View& view) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);
+  // Before the parts, so that a sample at the end of one belongs to it.
+  if (averages_ && view.estimator == Estimator::Snapshot) {
+    const auto sample = [this](double) {
+      ++samples_;
+      averages_->observer.sample();
+    };
+    simulation.every(sampled_from_, view.interval, sample, samples_);
+  }
   const auto close = [this](double) {
     ++closed_;
     look();
     if (averages_) averages_->sums.next_part();
     if (closure_) closure_->sums.next_part();
   };
-  simulation.every(start_, part, close, closed_);
+  simulation.every(start_, view.window / kWindowParts, close, closed_);
 }
 
 void LiveField::look() {

@@ -51,7 +51,7 @@ class LiveField {
   void visit(Archive& io);
   static std::optional<Averages> averages_for(const Simulation<2>& simulation, const View& view);
   static std::optional<Closure> closure_for(const Simulation<2>& simulation, const View& view);
-  void watch(Simulation<2>& simulation, double part);
+  void watch(Simulation<2>& simulation, const View& view);
   void look();
 
   std::optional<Field> field_;
@@ -60,6 +60,8 @@ class LiveField {
   std::optional<Closure> closure_;    // where the field is a residual
   double start_;                      // simulation time at which the first part closes
   std::uint64_t closed_ = 0;          // parts since then
+  double sampled_from_;               // simulation time of the first sample, of snapshots
+  std::uint64_t samples_ = 0;         // since then
 };
 
 }  // namespace clatter

@@ -22,7 +22,15 @@ struct Tally {
   double bulk_in = 0.0;                      ///< energy that kicks gave
   double gravity_in = 0.0;                   ///< work of gravity
   double dissipated = 0.0;                   ///< energy lost between disks, > 0
+  double undissipated = 0.0;                 ///< what they would have lost more without t_c
   std::uint64_t collisions = 0;              ///< disk-disk
+  std::uint64_t elasticised = 0;             ///< of these, by t_c
+};
+
+/// The error that t_c makes: what it took away, over what happened.
+struct ContactTimeError {
+  double undissipated = 0.0;  ///< share of the energy that collisions of disks dissipated
+  double elasticised = 0.0;   ///< share of these collisions
 };
 
 /// What the engine's thread tells at one time: the gas, and how its run goes.
@@ -41,12 +49,14 @@ struct Frame {
   std::optional<Encounter> next_encounter;   ///< likewise, as far as it has been looked for
   std::uint64_t seed = 1;
   bool plays = false;
-  double speed = 1.0;                       ///< asked for, simulation time per second
-  double held = 1.0;                        ///< share of the speed that the engine holds, at most 1
-  double events_per_second = 0.0;           ///< collisions, real time
-  double ledger_residual = 0.0;             ///< see Totals, since laws last changed
-  double deepest_overlap = 0.0;             ///< see RunChecks
-  std::optional<std::uint64_t> state_hash;  ///< where the run halts
+  double speed = 1.0;              ///< asked for, simulation time per second
+  double held = 1.0;               ///< share of the speed that the engine holds, at most 1
+  double events_per_second = 0.0;  ///< collisions, real time
+  std::optional<ContactTimeError> contact_time_error;  ///< since laws last changed; absent: no t_c,
+                                                       ///< or nothing dissipated
+  double ledger_residual = 0.0;                        ///< see Totals, since then
+  double deepest_overlap = 0.0;                        ///< see RunChecks
+  std::optional<std::uint64_t> state_hash;             ///< where the run halts
   std::optional<std::array<std::uint32_t, 2>> partners;  ///< of a collision just stepped to
   std::string message;         ///< the last thing to tell: what was refused, why the run stopped
   std::uint64_t messages = 0;  ///< how many there were

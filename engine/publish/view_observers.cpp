@@ -5,10 +5,6 @@
 
 namespace clatter {
 
-static bool same_averages(const View& a, const View& b) {
-  return a.field == b.field && a.arrows == b.arrows && a.window == b.window;
-}
-
 ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
                              ViewObservers* before)
     : view_(view), exposure_(exposure) {
@@ -44,7 +40,7 @@ std::string ViewObservers::save() {
 }
 
 void ViewObservers::watch_field(Simulation<2>& simulation, ViewObservers* before) {
-  if (before && before->field_ && same_averages(before->view_, view_)) {
+  if (before && before->field_ && before->view_.averages_like(view_)) {
     field_.emplace(simulation, view_, std::move(*before->field_));
   } else {
     field_.emplace(simulation, view_);

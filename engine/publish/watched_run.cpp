@@ -19,6 +19,7 @@ WatchedRun::WatchedRun(const Scene& scene, std::uint64_t seed)
 
 void WatchedRun::observe(Simulation<2>& simulation) {
   totals_.emplace(simulation);
+  tally_at_laws_ = tally_;
   simulation.add_observer(*totals_);
   simulation.add_observer(last_);
   if (encounters_ && encounters_->last()) encounter_ = encounters_->last();
@@ -53,7 +54,18 @@ void WatchedRun::close_window() {
   tally_.bulk_in += window.bulk_in;
   tally_.gravity_in += window.gravity_in;
   tally_.dissipated += window.dissipated;
+  tally_.undissipated += window.undissipated;
   tally_.collisions += static_cast<std::uint64_t>(window.collisions);
+  tally_.elasticised += static_cast<std::uint64_t>(window.elasticised);
+}
+
+std::optional<ContactTimeError> WatchedRun::contact_time_error() const {
+  const double dissipated = tally_.dissipated - tally_at_laws_.dissipated;
+  const auto collisions = static_cast<double>(tally_.collisions - tally_at_laws_.collisions);
+  if (!run_.scene().contact_time || !(dissipated > 0.0)) return std::nullopt;
+  const double undissipated = tally_.undissipated - tally_at_laws_.undissipated;
+  const auto elastic = static_cast<double>(tally_.elasticised - tally_at_laws_.elasticised);
+  return ContactTimeError{undissipated / dissipated, elastic / collisions};
 }
 
 // While the run goes on the scout takes about as many steps as it does; where it halts there is
@@ -82,6 +94,7 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.residuals.reset();
   if (residuals_) frame.residuals = residuals_->profile();
   frame.seed = run_.seed();
+  frame.contact_time_error = contact_time_error();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
   frame.last_encounter = encounters_->last() ? encounters_->last() : encounter_;

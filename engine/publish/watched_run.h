@@ -41,6 +41,7 @@ class WatchedRun {
   void observe(Simulation<2>& simulation);
   void close_window();
   std::optional<Encounter> next_encounter(bool halted);
+  std::optional<ContactTimeError> contact_time_error() const;
 
   ScheduledRun run_;
   std::optional<Totals<2>> totals_;
@@ -54,6 +55,7 @@ class WatchedRun {
   std::optional<LiveProfile> profile_;  // of that
   std::optional<LiveResiduals> residuals_;
   Tally tally_;
+  Tally tally_at_laws_;  // when those in force came
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // as told last
 };

@@ -208,7 +208,9 @@ struct View {
   std::optional<Field>
       field;            ///< the heatmap below the disks; absent: none, and nothing is averaged
   double window = 5.0;  ///< averaging time of the live field, > 0
-  double speed = 1.0;   ///< simulation time per second of film, > 0
+  Estimator estimator = Estimator::Exact;  ///< of the live field
+  double interval = 0.1;  ///< between samples of the snapshot estimator, > 0 and at most the window
+  double speed = 1.0;     ///< simulation time per second of film, > 0
   Palette palette = Palette::Viridis;    ///< of the disks' magnitudes
   ColourRange range;                     ///< of the disks' colours; locked: as first shown
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
@@ -224,6 +226,11 @@ struct View {
 
   /// Whether it shows what has to be averaged over time.
   bool shows_averages() const { return field || arrows; }
+  /// Whether another view averages the same in the same way.
+  bool averages_like(const View& other) const {
+    return field == other.field && arrows == other.arrows && window == other.window &&
+           estimator == other.estimator && interval == other.interval;
+  }
 };
 
 /// A key of the scene file set to a TOML value: of a `--set` on the command line, or of a change.

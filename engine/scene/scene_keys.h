@@ -89,7 +89,7 @@ inline constexpr Presence kNotWithoutRamp = {Presence::Forbidden, "has no meanin
                                              "remove it, or set ramp = \"linear\""};
 inline constexpr Presence kNotOfExact = {
     Presence::Forbidden, "has no meaning for the exact estimator, which counts flights as a whole",
-    "remove it, or set measure.estimator = \"snapshot\""};
+    "remove it, or set estimator = \"snapshot\""};
 inline constexpr Presence kNotOfBox = {Presence::Forbidden,
                                        "has no meaning for the box kernel: cells have their size",
                                        "remove it, or set measure.kernel = \"gaussian\""};
@@ -318,6 +318,10 @@ void visit_view(Visitor& io, View& view) {
   io.choice("colour_by", view.colour_by, kColourings);
   io.choice("field", view.field, kHeatmaps);
   io.value("window", view.window, above(0.0));
+  io.choice("estimator", view.estimator, kEstimators);
+  const bool exact = view.estimator == Estimator::Exact;
+  io.value("interval", view.interval, Limits{.lowest = 0.0, .highest = view.window, .above = true},
+           exact ? kNotOfExact : kRequired);
   io.value("speed", view.speed, above(0.0));
   io.choice("palette", view.palette, kPalettes);
   io.value("range", view.range);

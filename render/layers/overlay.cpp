@@ -31,8 +31,9 @@ struct Page {
   float caption = 0.0f;  // from the upper edge to the caption, below the title, pixels
 };
 
-float unit_for(Size size) {
-  return static_cast<float>(std::max(12.0, std::round(std::min(size.width, size.height) / 40.0)));
+float unit_for(Size size, double letters) {
+  const double usual = std::max(12.0, std::min(size.width, size.height) / 40.0);
+  return static_cast<float>(std::round(letters * usual));
 }
 
 Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& theme, Size size,
@@ -250,13 +251,14 @@ double card_opacity(double length, double time) {
 
 Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
 
-Fonts Overlay::fonts_for(Size size, const std::string& title) {
+Fonts Overlay::fonts_for(Size size, const OverlayText& text) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  if (unit_for(size) == loaded_size_ && title == loaded_title_) return loaded_fonts(atlas);
+  const float unit = unit_for(size, text.letters);
+  if (unit == loaded_size_ && text.title == loaded_title_) return loaded_fonts(atlas);
   atlas.Clear();
-  loaded_size_ = unit_for(size);
-  loaded_title_ = title;
-  const Fonts fonts = add_fonts(atlas, loaded_size_, title);
+  loaded_size_ = unit;
+  loaded_title_ = text.title;
+  const Fonts fonts = add_fonts(atlas, loaded_size_, loaded_title_);
   gui_.upload(atlas);
   return fonts;
 }
@@ -264,14 +266,14 @@ Fonts Overlay::fonts_for(Size size, const std::string& title) {
 Margins Overlay::margins(const Snapshot& snapshot, Size size, const Legends& legends,
                          const OverlayText& text) {
   const CurrentContext current(context_.get());
-  return arrange(snapshot, fonts_for(size, text.title), kDarkTheme, size, legends, text).margins;
+  return arrange(snapshot, fonts_for(size, text), kDarkTheme, size, legends, text).margins;
 }
 
 void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
                    const OverlayText& text, const ThemeColours& theme) {
   const CurrentContext current(context_.get());
   const Size size = projection.size;
-  const Page page = arrange(snapshot, fonts_for(size, text.title), theme, size, legends, text);
+  const Page page = arrange(snapshot, fonts_for(size, text), theme, size, legends, text);
   ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();

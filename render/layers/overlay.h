@@ -15,7 +15,8 @@ namespace clatter {
 struct OverlayText {
   std::string title;
   std::string caption;
-  double card = 0.0;  ///< opacity of a card with the two over the whole picture, 0..1
+  double card = 0.0;     ///< opacity of a card with the two over the whole picture, 0..1
+  double letters = 1.0;  ///< how many times as large as usual all letters are
 };
 
 /// The opacity of a card that stands for the first `length` seconds of a film, `time` seconds after
@@ -38,7 +39,7 @@ class Overlay {
 
  private:
   /// Loads the fonts for a picture of `size`, and for a title; the context must be current.
-  Fonts fonts_for(Size size, const std::string& title);
+  Fonts fonts_for(Size size, const OverlayText& text);
 
   GuiLayer gui_;
   GuiContext context_;

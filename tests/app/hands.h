@@ -43,7 +43,7 @@ class Hands {
   std::size_t told() const { return events().size(); }
   /// The colour of a pixel of the screen: red, green, blue.
   std::vector<int> pixel(int x, int y) const;
-  /// The mean over a widget's pixels of how bright they are, 0..255.
+  /// The mean over a widget's pixels of how much brighter they are than the darkest, 0..255.
   double brightness(const std::string& widget) const;
   /// The program's exit code, once it has ended; -1 where it has not within some seconds.
   int exit_code() const;

@@ -251,7 +251,7 @@ TEST_CASE("Window: what the balance equations leave open is plotted only where i
 }
 
 TEST_CASE("Window: what there is to try closes, and a lecture is for a projector") {
-  const Hands hands("");
+  const Hands hands("", "1280x1500");
   const auto height = [&](std::size_t told) {
     return hands
         .wait_for("widget", told,
@@ -262,9 +262,14 @@ TEST_CASE("Window: what there is to try closes, and a lecture is for a projector
   std::size_t told = hands.told();
   hands.click("close_lesson");
   CHECK(height(told) > before + 20.0);
+  // An edit of the view, to be taken back in the lecture.
+  hands.click("view.grid");
   told = hands.told();
   hands.key("l");
   height(told);
+  CHECK(corner_colour(hands) == std::vector<int>{255, 255, 255});
+  hands.key("ctrl+z");
+  hands.wait_for("undo", told);
   CHECK(corner_colour(hands) == std::vector<int>{255, 255, 255});
   told = hands.told();
   hands.key("Escape");
@@ -273,13 +278,19 @@ TEST_CASE("Window: what there is to try closes, and a lecture is for a projector
 }
 
 TEST_CASE("Window: trails come with their slider, go with undo, and are in the saved scene") {
-  const Hands hands("", "1280x1500");
+  // Few disks on a dark ground, so that most of the light is that of trails, some disks long each.
+  const Hands hands(
+      "equilibrium --set disks.area_fraction=0.03 --set view.overlay=false --set view.speed=5",
+      "1280x1500");
   const json before = hands.wait_for("status");
   CHECK(before["flights"] == 0);
   std::size_t told = hands.told();
-  hands.drag("view.trails", 0.02, 0.4);
-  const json with =
+  hands.drag("view.trails", 0.02, 0.9);
+  const json begun =
       hands.wait_for("status", told, [](const json& status) { return status["flights"] > 0; });
+  const json with = hands.wait_for("status", told, [&](const json& status) {
+    return status["time"].get<double>() > begun["time"].get<double>() + 5.0;
+  });
   // Nothing but the picture is another.
   CHECK(with["run"] == before["run"]);
   CHECK(with["changes"] == 0);
@@ -290,7 +301,9 @@ TEST_CASE("Window: trails come with their slider, go with undo, and are in the s
   told = hands.told();
   hands.key("ctrl+z");
   hands.wait_for("status", told, [](const json& status) { return status["flights"] == 0; });
-  CHECK(hands.brightness("stage") < 0.99 * bright);
+  const double dark = hands.brightness("stage");
+  MESSAGE("brightness " << bright << " with trails, " << dark << " without");
+  CHECK(dark < 0.8 * bright);
   hands.key("ctrl+y");
   told = hands.told();
   hands.key("ctrl+s");
@@ -298,8 +311,28 @@ TEST_CASE("Window: trails come with their slider, go with undo, and are in the s
   CHECK(scene.find("trails = ") != std::string::npos);
 }
 
+TEST_CASE("Window: what a contact time leaves out is told, and fields may come from snapshots") {
+  const Hands hands("--set view.speed=10", "1280x1500");
+  std::size_t told = hands.told();
+  hands.click("contact_time");
+  const json few = hands.wait_for(
+      "status", told, [](const json& status) { return status.contains("elasticised"); });
+  CHECK(few["elasticised"] < 0.01);
+  told = hands.told();
+  hands.drag("collapse.contact_time", 0.5, 1.0);
+  hands.wait_for("status", told, [](const json& status) {
+    return status.contains("elasticised") && status["elasticised"] > 0.05;
+  });
+  hands.click("view.estimator");
+  hands.click("view.estimator.snapshot  x1.1");
+  told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  CHECK(scene.find("estimator = \"snapshot\"\ninterval = 0.1") != std::string::npos);
+}
+
 TEST_CASE("Window: films what was done to the gas, as the command does that it gives") {
-  const Hands hands("--set view.speed=4", "1280x1500");
+  const Hands hands("--set view.speed=4", "1280x1700");
   hands.drag("disks.restitution", 0.88, 0.7);
   hands.drag("walls.left.drive_speed", 0.2, 0.4);
   hands.drag("walls.right.restitution", 0.9, 0.8);
@@ -351,6 +384,16 @@ TEST_CASE("Window: closes at once while it films, and what there is of the film 
   CHECK(hands.run("xdotool search --onlyvisible --name 'Vibrated box'").code != 0);
   CHECK(hands.exit_code() == 0);
   CHECK(hands.shell().run("ffmpeg -v error -i clatter-1.mp4 -f null - </dev/null").code == 0);
+}
+
+TEST_CASE("Window: where its OpenGL context is lost it says what to do instead") {
+  const Hands hands("");
+  // The sanitizers would rather come first themselves.
+  const Outcome lost = hands.run("ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" +
+                                 std::string(CLATTER_LOST_CONTEXT) + " clatter view");
+  CHECK(lost.code == 1);
+  CHECK(lost.err.find("context is lost") != std::string::npos);
+  CHECK(lost.err.find("clatter render") != std::string::npos);
 }
 
 TEST_CASE("Window: quits at once") {

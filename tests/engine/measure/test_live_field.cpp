@@ -72,6 +72,43 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
   }
 }
 
+TEST_CASE("LiveField: of snapshots it is what samples of its cells give, also under other laws") {
+  const Scene scene = gas(12.0, 8.0, 30, 0.9);
+  View view = view_of(Field::Temperature, 2.0);
+  view.estimator = Estimator::Snapshot;
+  view.interval = 0.25;
+  const auto simulation = simulation_of(scene, 41);
+  LiveField live(*simulation, view);
+  CellIntegrals<2> integrals(*simulation, {12, 8}, full_layout(), {Estimator::Snapshot, {}});
+  // Samples of the times 0, 0.25, ..., 1.75.
+  for (int i = 0; i < 8; ++i) {
+    simulation->run_until(0.25 * i);
+    integrals.sample();
+  }
+  simulation->run_until(1.0 + 0.9);
+  const CellSums sums = integrals.close_window();
+  const FieldMap map = map_of(live);
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    CAPTURE(i);
+    const double expected =
+        field_value(Field::Temperature, averages_of(integrals.layout(), sums, i, 1.0));
+    CHECK(std::isnan(map.values[i]) == std::isnan(expected));
+    if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
+  }
+  // It goes on with the sample that is due next, handed over or saved.
+  const std::string saved = live.save();
+  Simulation<2> next(simulation->model(), simulation->save());
+  LiveField handed(next, view, std::move(live));
+  Simulation<2> again(simulation->model(), simulation->save());
+  LiveField read(again, view, ArchiveReader(saved, "averages"));
+  next.run_until(3.1);
+  again.run_until(3.1);
+  const FieldMap a = map_of(handed), b = map_of(read);
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    CHECK((a.values[i] == b.values[i] || (std::isnan(a.values[i]) && std::isnan(b.values[i]))));
+  }
+}
+
 TEST_CASE("LiveField: every residual is that of its cells over the window") {
   Scene scene = rough_mixture(20);
   scene.disks.roughness.friction = 0.4;

@@ -95,6 +95,8 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.colour_by == b.view.colour_by);
   CHECK(a.view.field == b.view.field);
   CHECK(a.view.window == b.view.window);
+  CHECK(a.view.estimator == b.view.estimator);
+  CHECK(a.view.interval == b.view.interval);
   CHECK(a.view.speed == b.view.speed);
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
@@ -318,7 +320,8 @@ TEST_CASE("a scene as JSON has the keys of the file") {
       R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
       R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
       R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
-      R"("view": {"colour_by": "speed", "window": 5.0, "speed": 1.0, "palette": "viridis", )"
+      R"("view": {"colour_by": "speed", "window": 5.0, "estimator": "exact", "speed": 1.0, )"
+      R"("palette": "viridis", )"
       R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
 }
 

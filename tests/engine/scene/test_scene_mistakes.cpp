@@ -96,7 +96,7 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {kDisks + "[measure]\ninterval = 1.0\n",
        "s.toml:4:1: 'measure.interval' has no meaning for the exact estimator, which counts "
        "flights "
-       "as a whole; remove it, or set measure.estimator = \"snapshot\""},
+       "as a whole; remove it, or set estimator = \"snapshot\""},
       {kDisks + "[measure]\nestimator = \"snapshot\"\n",
        "s.toml:3:1: 'measure.interval' is missing"},
       {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 0\n",

@@ -1,0 +1,122 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene_parts.h"
+#include "app/view/panels.h"
+#include "engine/scene/key_writer.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+static void tell_price(double price) {
+  ImGui::TextDisabled("CPU time %s", price_text(price).c_str());
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("The engine's with it over that without it, measured for 1000 disks");
+  }
+}
+
+static void tell_share(const char* name, double share) {
+  if (std::isnan(share)) return ImGui::TextDisabled("%s: -", name);
+  ImGui::TextDisabled("%s: %.2g %%", name, 100.0 * share);
+}
+
+static void contact_time(Session& session, Controls& controls) {
+  constexpr double kUsual = 1e-5;
+  const auto& time = session.scene().contact_time;
+  const auto table = [](std::optional<double> t) {
+    return t ? "{ contact_time = " + value_text(*t) + " }" : std::string("{}");
+  };
+  bool on = time.has_value();
+  if (controls.toggle("contact_time", "Contact time",
+                      "Collisions that follow each other within t_c lose nothing: no collapse",
+                      on)) {
+    controls.set({{"collapse", table(time)}},
+                 {{"collapse", table(on ? std::optional(kUsual) : std::nullopt)}});
+  } else if (on) {
+    controls.law({.key = "collapse.contact_time",
+                  .name = "Its length",
+                  .symbol = "t_c",
+                  .unit = "t",
+                  .help = "Of the TC model; below are its errors since laws last changed: energy "
+                          "that would have been lost over what was, and the share of collisions "
+                          "that lost none",
+                  .low = 1e-9,
+                  .high = 0.1,
+                  .logarithmic = true,
+                  .format = "%.1e"},
+                 *time, session.opened().contact_time.value_or(kUsual));
+  }
+  tell_price(kContactTimePrice);
+  if (!on) return;
+  // Also before there is an error, lest the panel jump at each change of laws.
+  const auto& error = session.frame().contact_time_error;
+  tell_share("Not dissipated", error ? error->undissipated : std::nan(""));
+  tell_share("Elastic collisions", error ? error->elasticised : std::nan(""));
+}
+
+// How disks count in the averages.
+static bool choose_estimator(Controls& controls, View& view, const View& usual) {
+  std::vector<std::string> words;
+  for (const auto& [name, estimator] : kEstimators) {
+    words.push_back(std::string(name) + "  " + price_text(price_of(estimator)));
+  }
+  int chosen = static_cast<int>(view.estimator);
+  bool changed = controls.choice(
+      "view.estimator", "Fields from",
+      "What heatmap and arrows average: whole flights of disks, or where they are now and then, "
+      "chapter 4; with CPU time over that without fields",
+      words, chosen, static_cast<int>(usual.estimator));
+  view.estimator = static_cast<Estimator>(chosen);
+  if (view.estimator == Estimator::Snapshot) {
+    changed |= controls.number({.key = "view.interval",
+                                .name = "Snapshots every",
+                                .unit = "t",
+                                .help = "Time between two of them; those far apart are "
+                                        "independent, those close are many",
+                                .low = 0.01,
+                                .high = view.window,
+                                .logarithmic = true},
+                               view.interval, std::min(usual.interval, view.window));
+  }
+  return changed;
+}
+
+// The averages of the view: none, of fields, or what balances leave open.
+static void averages(Session& session, Controls& controls) {
+  View view = session.view();
+  const View& usual = session.opened().view;
+  bool changed = false;
+  if (view.field && is_residual(*view.field)) {
+    ImGui::TextUnformatted("Balances");
+    ImGui::SameLine();
+    tell_price(kBalancePrice);
+  }
+  if (view.arrows || (view.field && !is_residual(*view.field))) {
+    changed |= choose_estimator(controls, view, usual);
+  }
+  if (view.shows_averages()) {
+    changed |= controls.number({.key = "view.window",
+                                .name = "Averaged over",
+                                .unit = "t",
+                                .help = "How far back in time heatmap and arrows reach; it costs "
+                                        "no CPU time: a longer one is less noisy, and later",
+                                .low = 0.1,
+                                .high = 100.0,
+                                .logarithmic = true,
+                                .format = "%.2f"},
+                               view.window, usual.window);
+    view.interval = std::min(view.interval, view.window);
+  }
+  controls.show(view, changed);
+}
+
+void accuracy_panel(Session& session, Controls& controls) {
+  if (!group("Accuracy")) return;
+  contact_time(session, controls);
+  averages(session, controls);
+  ImGui::Spacing();
+}
+
+}  // namespace clatter
