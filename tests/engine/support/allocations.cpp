@@ -22,6 +22,13 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return counted(error == 0 ? memory : nullptr, bytes);
 }
 
+// The buffer of std::stable_sort comes from here, and goes where all memory goes.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  void* memory = std::malloc(bytes);
+  if (memory) allocated += bytes;
+  return memory;
+}
+
 void operator delete(void* memory) noexcept {
   std::free(memory);
 }
