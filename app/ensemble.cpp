@@ -1,7 +1,6 @@
 #include "app/ensemble.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,8 @@
 
 #include "app/interrupt.h"
 #include "app/result_json.h"
+#include "app/run.h"
+#include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 
 namespace clatter {
@@ -31,7 +32,8 @@ class Replicas {
         ensemble_(ensemble),
         progress_(progress),
         done_(static_cast<std::size_t>(ensemble.replicas)),
-        times_(done_.size()) {}
+        times_(done_.size()),
+        failed_(done_.size()) {}
 
   void run() {
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
@@ -40,7 +42,7 @@ class Replicas {
       threads.emplace_back([this] { work(); });
     }
     threads.clear();  // joins them
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure_) rethrow();
   }
 
   const std::vector<std::optional<Replica>>& done() const { return done_; }
@@ -52,15 +54,31 @@ class Replicas {
         measure(*next);
       } catch (...) {
         const std::scoped_lock lock(mutex_);
-        failure_ = std::current_exception();
+        if (*next < failed_) {
+          failed_ = *next;
+          failure_ = std::current_exception();
+        }
       }
     }
   }
 
   std::optional<std::size_t> take() {
     const std::scoped_lock lock(mutex_);
-    if (next_ == done_.size() || interrupted()) return {};
+    if (next_ == done_.size() || failure_ || interrupted()) return {};
     return next_++;
+  }
+
+  // Replicas are taken in order, so that none before the first that fails is left out: which one it
+  // is does not depend on the threads.
+  [[noreturn]] void rethrow() const {
+    const std::string seed = "seed " + std::to_string(ensemble_.first_seed + failed_) + ": ";
+    try {
+      std::rethrow_exception(failure_);
+    } catch (const PhysicalStop& stop) {
+      throw PhysicalStop(seed + stop.what(), stop.remedy());
+    } catch (const RunError& error) {
+      throw RunError(seed + error.what());
+    }
   }
 
   void measure(std::size_t index) {
@@ -70,22 +88,25 @@ class Replicas {
     Measurement measurement(*simulation, scene_.measure, ensemble_.end);
     while (!simulation->run_until(ensemble_.end, Simulation<2>::kNoLimit,
                                   simulation->counts().steps() + kSlice)) {
-      if (interrupted()) return;
-      tell(index, simulation->time());
+      if (interrupted() || !tell(index, simulation->time())) return;
     }
+    require_no_overlap(simulation->checks());
     const Measured measured = measurement.result();
+    if (measured.residuals) require_closed(*measured.residuals);
     Json result = result_json(scene_, seed, *simulation, measured, {});
     result.erase("performance");
     const std::scoped_lock lock(mutex_);
     done_[index] = Replica{std::move(result), estimates_of(measured)};
   }
 
-  void tell(std::size_t index, double time) {
+  // Shows how far all are; whether this one is still wanted.
+  bool tell(std::size_t index, double time) {
     const std::scoped_lock lock(mutex_);
     times_[index] = time;
     double sum = 0.0;
     for (const double each : times_) sum += each;
     progress_.update(sum);
+    return index < failed_;
   }
 
   const Scene& scene_;
@@ -95,18 +116,9 @@ class Replicas {
   std::size_t next_ = 0;
   std::vector<std::optional<Replica>> done_;
   std::vector<double> times_;
+  std::size_t failed_;  // the first that has; the number of all: none
   std::exception_ptr failure_;
 };
-
-// The mean over replicas, which are independent.
-Json ensemble_estimate(const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value / count;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {{"mean", mean},
-          {"standard_error", count > 1.0 ? std::sqrt(squares / (count * (count - 1.0))) : 0.0}};
-}
 
 }  // namespace
 
@@ -124,7 +136,9 @@ Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& pr
   for (std::size_t k = 0; !done.empty() && k < done.front()->estimates.size(); ++k) {
     std::vector<double> values;
     for (const Replica* replica : done) values.push_back(replica->estimates[k].second.mean);
-    json[estimate_pointer(done.front()->estimates[k].first)] = ensemble_estimate(values);
+    const Estimate over_replicas = independent_estimate(values);
+    json[estimate_pointer(done.front()->estimates[k].first)] = {
+        {"mean", over_replicas.mean}, {"standard_error", over_replicas.standard_error}};
   }
   return json;
 }

@@ -18,8 +18,8 @@ struct Ensemble {
 /// Measures the replicas, as many at once as there are processors. The result has the means over
 /// replicas with the standard errors that these scatter by, by the names that results have, and
 /// under "results" what `clatter measure --seed` would write for each, without performance. After
-/// an interrupt it has the replicas that were done. Throws PhysicalStop, once all others are done,
-/// where one has stopped.
+/// an interrupt it has the replicas that were done. Where one stops, or is not sound, the rest is
+/// left out: throws PhysicalStop or RunError, which name the first such seed.
 nlohmann::ordered_json measure_ensemble(const Scene& scene, const Ensemble& ensemble,
                                         Progress& progress);
 

@@ -3,7 +3,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <string>
+
+#include "engine/error.h"
 
 namespace clatter {
 
@@ -64,6 +68,23 @@ CLI::Validator seed_number() {
         return "'" + text + "' is wrong; give a whole number between 0 and 18446744073709551615";
       },
       "");
+}
+
+Size parse_size(const std::string& text, Size least) {
+  constexpr int kMost = 16384;
+  Size size;
+  char after;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &after) == 2 &&
+      size.width >= least.width && size.height >= least.height && size.width <= kMost &&
+      size.height <= kMost) {
+    return size;
+  }
+  const auto text_of = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw UserError({"--size", 0, 0}, "'" + text + "' is no size that there can be",
+                  "write WIDTHxHEIGHT, from " + text_of(least.width, least.height) + " to " +
+                      text_of(kMost, kMost) + ", for instance 1280x720");
 }
 
 }  // namespace clatter

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "render/camera.h"
+
 namespace clatter {
 
 /// Checks of the values of flags, whose messages say what to give. NaN and infinity never pass.
@@ -12,6 +14,10 @@ CLI::Validator number_between(double low, double high);
 CLI::Validator share();
 /// Whole, and one of 64 bits: CLI11 itself takes -1 for the largest.
 CLI::Validator seed_number();
+
+/// The value WIDTHxHEIGHT of --size, in pixels. Throws UserError where it is none, or an extent is
+/// not from the least to the largest one that an image has.
+Size parse_size(const std::string& text, Size least);
 
 /// A flag whose value is one of a few words, each of which stands for a value.
 template <class E>

@@ -19,6 +19,8 @@ namespace clatter {
 
 namespace {
 
+constexpr Size kLeastSize = {16, 16};
+
 // Presets of size and rate.
 enum class Quality { Low, Medium, High };
 
@@ -60,17 +62,6 @@ struct RenderOptions {
   bool one_picture() const { return std::filesystem::path(out).extension() == ".png"; }
 };
 
-Size parse_size(const std::string& text) {
-  Size size;
-  char after;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &after) == 2 &&
-      size.width >= 16 && size.height >= 16 && size.width <= 16384 && size.height <= 16384) {
-    return size;
-  }
-  throw UserError({"--size", 0, 0}, "'" + text + "' is no picture size",
-                  "write WIDTHxHEIGHT, each from 16 to 16384, for instance 1280x720");
-}
-
 FrameRange parse_frames(const std::string& text) {
   FrameRange range;
   char after;
@@ -100,7 +91,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
   const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
   FilmState film;
-  film.size = parse_size(options.size.value_or(preset.size));
+  film.size = parse_size(options.size.value_or(preset.size), kLeastSize);
   film.samples = options.supersample.value_or(1);
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
@@ -152,17 +143,17 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   std::optional<Size> size;
   std::optional<double> fps = options.fps;
   if (options.quality) {
-    size = parse_size(preset_of(*options.quality).size);
+    size = parse_size(preset_of(*options.quality).size, kLeastSize);
     if (!fps) fps = preset_of(*options.quality).fps;
   }
-  if (options.size) size = parse_size(*options.size);
+  if (options.size) size = parse_size(*options.size, kLeastSize);
   keep(size, film.size, "--size", size_text);
   keep(fps, times.fps, "--fps", number_text);
   keep(options.speed, times.speed, "--speed", number_text);
   keep(options.supersample, film.samples, "--supersample", [](int n) { return std::to_string(n); });
   keep(options.shutter, film.shutter, "--shutter", number_text);
   if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
-  film.overlay = film.overlay && !options.no_overlay;
+  if (options.no_overlay && film.overlay) refuse_change("--no-overlay", "an overlay");
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to) film.times.count = count_frames(times, to);
   if (film.times.count < film.next) {

@@ -171,12 +171,11 @@ void Run::put_aside() {
   }
 }
 
-// Throws where disks have overlapped by more than rounding: then events were lost.
-static void require_no_overlap(double deepest) {
+void require_no_overlap(const RunChecks& checks) {
   constexpr double kRounding = 1e-9;  // diameters
-  if (deepest <= kRounding) return;
+  if (checks.deepest_overlap <= kRounding) return;
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", deepest);
+  std::snprintf(text, sizeof text, "%.3g", checks.deepest_overlap);
   throw PhysicalStop(std::string("disks overlapped by ") + text +
                      " diameters: events were lost; please report this scene and seed");
 }
@@ -188,7 +187,7 @@ int Run::end() {
                                             ? "; go on with --resume " + file_.string() + remedy
                                             : "; no checkpoint is left: " + failure_));
   }
-  require_no_overlap(simulation().checks().deepest_overlap);
+  require_no_overlap(simulation().checks());
   // Also of a run that was interrupted: its exit code would say that all there is has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
   return ended_early_ ? kInterrupted : kOk;

@@ -16,6 +16,10 @@
 
 namespace clatter {
 
+/// Throws PhysicalStop where the disks of a run have overlapped by more than rounding: then events
+/// were lost.
+void require_no_overlap(const RunChecks& checks);
+
 /// A run that a command makes of a scene: from its start or from a checkpoint, with checkpoints as
 /// asked for, and one where it ends before its time.
 class Run {

@@ -3,46 +3,47 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/physics/theory.h"
-
 namespace clatter {
 
 using Json = nlohmann::ordered_json;
 
-// Whether left and right are the same wall, vibrated or at rest, and nothing else acts.
-static bool is_vibrated_gas(const Scene& scene) {
-  const auto& left = scene.walls[kLeft];
-  const auto& right = scene.walls[kRight];
+std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
+  const auto &left = scene.walls[kLeft], &right = scene.walls[kRight];
   const auto vibrates = [](const std::optional<Wall>& wall) {
     return wall && (wall->kind == WallKind::Driven || wall->kind == WallKind::Static);
   };
-  return vibrates(left) && vibrates(right) && scene.periodic(1) && scene.disks.count > 0 &&
-         left->restitution == right->restitution && left->drive_speed == right->drive_speed &&
-         !scene.spins() && !scene.gravity && !scene.bulk_drive;
+  const bool alike = vibrates(left) && vibrates(right) && left->restitution == right->restitution &&
+                     left->drive_speed == right->drive_speed;
+  const bool falls = scene.gravity && scene.gravity->norm() > 0.0;
+  if (!alike || !scene.periodic(1) || scene.disks.count == 0 || scene.spins() || falls ||
+      scene.bulk_drive) {
+    return std::nullopt;
+  }
+  return VibratedGas{static_cast<double>(scene.disks.count),
+                     scene.box.x(),
+                     scene.box.y(),
+                     scene.disks.restitution,
+                     left->restitution,
+                     left->drive_speed};
 }
 
 // Eqs. (3.6)-(3.14).
-static void add_vibrated(Json& json, const Scene& scene) {
-  const Wall& wall = *scene.walls[kLeft];
-  const VibratedGas gas{static_cast<double>(scene.disks.count),
-                        scene.box.x(),
-                        scene.box.y(),
-                        scene.disks.restitution,
-                        wall.restitution,
-                        wall.drive_speed};
+static void add_vibrated(Json& json, const VibratedGas& gas, double start_temperature) {
   json["psi"] = gas.psi();
   json["epsilon_effective"] = gas.epsilon_effective();
-  if (wall.drive_speed > 0.0 && gas.epsilon_effective() > 0.0) {
-    json["temperature_simple"] = gas.temperature_simple();
-    json["temperature_refined"] = gas.temperature_refined();
-    json["temperature_corrected"] = gas.temperature_corrected();
-  }
   // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
-  if (wall.drive_speed == 0.0) {
-    const double rate = gas.haff_rate_corrected(scene.disks.start.temperature);
+  if (gas.drive_speed == 0.0) {
+    const double rate = gas.haff_rate_corrected(start_temperature);
     json["haff_rate"] = rate;
     if (rate < 0.0) json["divergence_time"] = divergence_time(rate);
+    return;
   }
+  const auto add = [&](const char* name, double temperature) {
+    if (std::isfinite(temperature)) json[name] = temperature;
+  };
+  add("temperature_simple", gas.temperature_simple());
+  add("temperature_refined", gas.temperature_refined());
+  add("temperature_corrected", gas.temperature_corrected());
 }
 
 // Whether nothing makes one place another than the next.
@@ -79,7 +80,9 @@ static void add_homogeneous(Json& json, const Scene& scene) {
 
 Json theory_json(const Scene& scene) {
   Json json{{"chi", contact_correlation(scene.area_fraction())}};
-  if (is_vibrated_gas(scene)) add_vibrated(json, scene);
+  if (const auto gas = vibrated_gas(scene)) {
+    add_vibrated(json, *gas, scene.disks.start.temperature);
+  }
   if (is_homogeneous_gas(scene)) add_homogeneous(json, scene);
   return json;
 }

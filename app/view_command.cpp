@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "app/commands.h"
 #include "app/flag_checks.h"
@@ -27,11 +26,7 @@ int view(const ViewOptions& options) {
   window.seed = options.common.seed.value_or(1);
   window.until = options.common.until;
   window.script_log = options.script_log;
-  if (std::sscanf(options.size.c_str(), "%dx%d", &window.width, &window.height) != 2 ||
-      window.width < 320 || window.height < 240) {
-    throw UserError({"--size", 0, 0}, "'" + options.size + "' is no window size",
-                    "write WIDTHxHEIGHT, at least 320x240, for instance 1280x800");
-  }
+  window.size = parse_size(options.size, {320, 240});
   show_window(window);
   return kOk;
 }

@@ -43,18 +43,17 @@ bool has_room(int count, double area_fraction) {
   return lattice_capacity(start_room(scene_of(count, area_fraction))) >= count;
 }
 
-// In equilibrium.
-EngineRate measure_engine(int count, double area_fraction) {
-  constexpr std::uint64_t kEquilibration = 10;  // collisions per disk
+// After a number of collisions of each disk: elastic disks are in equilibrium after ten.
+EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
   constexpr int kRepetitions = 3;
-  const Scene scene = scene_of(count, area_fraction);
+  const auto disks = static_cast<std::uint64_t>(scene.disks.count);
   restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
   const auto simulation = simulation_of(scene, 1);
-  EngineRate result{count, area_fraction, 0.0, cpu_seconds() - setup_began, 0.0};
-  const auto disks = static_cast<std::uint64_t>(count);
-  simulation->run_until(kNever, kEquilibration * disks / 2);
+  EngineRate result{scene.disks.count, scene.area_fraction(), 0.0, cpu_seconds() - setup_began,
+                    0.0};
+  simulation->run_until(kNever, equilibration * disks / 2);
   const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, disks);
   for (int k = 0; k < kRepetitions; ++k) {
     const double began = cpu_seconds();
@@ -63,7 +62,7 @@ EngineRate measure_engine(int count, double area_fraction) {
     result.rate = std::max(result.rate, rate);
   }
   result.bytes_per_disk =
-      static_cast<double>(peak_memory_bytes() - memory_before) / static_cast<double>(count);
+      static_cast<double>(peak_memory_bytes() - memory_before) / static_cast<double>(disks);
   return result;
 }
 
@@ -74,7 +73,7 @@ Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<E
   std::printf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s", "bytes/disk");
   Json json = Json::array();
   for (const auto& [count, area_fraction] : cells) {
-    const EngineRate r = measure_engine(count, area_fraction);
+    const EngineRate r = measure_engine(scene_of(count, area_fraction));
     rates.push_back(r);
     std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.area_fraction, r.rate,
                 r.setup_seconds, r.bytes_per_disk);
@@ -84,6 +83,47 @@ Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<E
                     {"million_collisions_per_cpu_second", r.rate},
                     {"setup_seconds", r.setup_seconds},
                     {"bytes_per_disk", r.bytes_per_disk}});
+  }
+  return json;
+}
+
+// Gases whose disks lie in clusters, beside those of the same number and mean density at the start,
+// which are homogeneous.
+struct Inhomogeneous {
+  const char* name;
+  Scene scene;
+  std::uint64_t after;  // collisions of each disk
+};
+
+std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
+  constexpr double kMeanAreaFraction = 0.1;
+  Scene cooling = scene_of(count, kMeanAreaFraction);
+  cooling.disks.restitution = 0.6;
+  cooling.contact_time = 1e-6;
+  Scene falling = scene_of(count, kMeanAreaFraction);
+  falling.disks.restitution = 0.9;
+  falling.contact_time = 1e-6;
+  falling.walls[kTop] = Wall{};
+  falling.walls[kBottom] = Wall{.restitution = 0.9};
+  falling.gravity = Vec2(0.0, -0.2);
+  return {{"cooled into clusters", std::move(cooling), 200},
+          {"collapsed under gravity", std::move(falling), 200}};
+}
+
+Json print_inhomogeneous(int count) {
+  std::printf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog.");
+  Json json = Json::array();
+  for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
+    const double homogeneous = measure_engine(scene_of(count, gas.scene.area_fraction())).rate;
+    const EngineRate r = measure_engine(gas.scene, gas.after);
+    std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.area_fraction, r.rate,
+                r.rate / homogeneous);
+    std::fflush(stdout);
+    json.push_back({{"gas", gas.name},
+                    {"count", r.count},
+                    {"area_fraction", r.area_fraction},
+                    {"million_collisions_per_cpu_second", r.rate},
+                    {"of_homogeneous", r.rate / homogeneous}});
   }
   return json;
 }
@@ -142,7 +182,10 @@ int bench_growth(const std::string& json, const std::string& plot, int count) {
   }
   if (!plot.empty()) require_writable_file(plot, "--plot");
   std::vector<EngineRate> rates;
-  const Json rows = print_rates(cells, rates);
+  Json rows = print_rates(cells, rates);
+  for (Json& row : print_inhomogeneous(count > 0 ? std::min(count, 100'000) : 100'000)) {
+    rows.push_back(std::move(row));
+  }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   if (!plot.empty()) plot_growth(plot, rates);
   return kOk;

@@ -39,7 +39,6 @@ Explorer::Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker,
 void Explorer::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
   session_.open(scene, seed, !until);
   if (until) session_.play_until(*until);
-  glfwSetWindowTitle(window_, (scene.title + " – clatter").c_str());
 }
 
 // Takes the window's scale and loads fonts for it.
@@ -65,6 +64,10 @@ void Explorer::draw() {
   if (session_.update()) {
     stage_.redraw();
     history_.add(session_.frame());
+  }
+  if (title_ != session_.opened().title) {
+    title_ = session_.opened().title;
+    glfwSetWindowTitle(window_, (title_ + " – clatter").c_str());
   }
   watch_film();
   use_keys();
@@ -178,7 +181,8 @@ void Explorer::stage() {
   if (shown_.gallery != told_gallery_ && shown_.gallery) log_.event("gallery", {{"open", true}});
   told_gallery_ = shown_.gallery;
   if (shown_.gallery) {
-    if (const auto name = gallery_.draw(controls_, whole.x, whole.y)) open_gallery_scene(*name);
+    const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y);
+    if (chosen) open_gallery_scene(*chosen);
   }
   if (shown_.help) help_window(whole.x, whole.y);
   if (!frame.scene) return;
@@ -233,9 +237,9 @@ View Explorer::shown_view() const {
   return view;
 }
 
-void Explorer::open_gallery_scene(const std::string& name) {
+void Explorer::open_gallery_scene(const EmbeddedFile& scene) {
   shown_.gallery = false;
-  open(load_scene(name), session_.frame().seed);
+  open(load_gallery_scene(scene), session_.frame().seed);
 }
 
 void Explorer::toggle_full_screen() {

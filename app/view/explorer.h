@@ -49,7 +49,7 @@ class Explorer {
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
   void stage();
   void use_stage();
-  void open_gallery_scene(const std::string& name);
+  void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void toggle_full_screen();
   void fix_range();
@@ -75,6 +75,7 @@ class Explorer {
   std::optional<FilmJob> film_;
   GuiLayer gui_;
   Shown shown_;
+  std::string title_;                 // of the window; empty: the program's
   std::uint64_t drawn_views_ = 0;     // of Session::views()
   bool told_gallery_ = false;         // whether the script log knows that it is open
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none

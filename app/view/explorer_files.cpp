@@ -1,6 +1,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -24,11 +26,15 @@ void Explorer::open_file(const std::string& file) {
   }
 }
 
-// The first name that is free: "clatter-1.png", "clatter-2.png", ...
+// The first name that is free: "clatter-1.png", "clatter-2.png", ... A scene may get a start state
+// and a film of its name.
 static std::string free_name(const std::string& extension) {
   for (int number = 1;; ++number) {
-    const std::string name = "clatter-" + std::to_string(number) + extension;
-    if (!std::filesystem::exists(name)) return name;
+    const std::string name = "clatter-" + std::to_string(number);
+    const auto is_taken = [&](const char* other) { return std::filesystem::exists(name + other); };
+    if (std::ranges::none_of(std::array{".png", ".toml", ".csv", ".mp4"}, is_taken)) {
+      return name + extension;
+    }
   }
 }
 
@@ -45,7 +51,7 @@ Scene Explorer::recorded_beside(const std::string& file) const {
 }
 
 void Explorer::screenshot() {
-  if (!session_.frame().scene) return;
+  if (!stage_.drawn()) return;
   try {
     const std::string name = free_name(".png");
     const Scene scene = recorded_beside(name);

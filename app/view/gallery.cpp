@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cstdint>
 
-#include "engine/embedded_file.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {
@@ -16,7 +15,7 @@ namespace clatter {
 Gallery::Gallery(const Gl& gl) : thumbnails_(gl, [] { glfwPostEmptyEvent(); }) {
   for (const EmbeddedFile& file : embedded_scenes()) {
     const Scene scene = load_gallery_scene(file);
-    entries_.push_back({std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,
+    entries_.push_back({&file, std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,
                         scene.caption, scene.goal, scene.try_this});
   }
   std::ranges::sort(entries_, {}, &Entry::title);
@@ -47,7 +46,7 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
   const bool clicked = controls.card(("gallery." + entry.name).c_str(), height);
   ImGui::PopID();
   const ImVec2 after = ImGui::GetCursorPos();
-  if (const GLuint texture = thumbnails_.of(entry.name)) {
+  if (const GLuint texture = thumbnails_.of(*entry.file)) {
     ImGui::GetWindowDrawList()->AddImageRounded(
         reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)),
         ImVec2(corner.x + edge, corner.y + edge),
@@ -69,8 +68,8 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
   return clicked;
 }
 
-std::optional<std::string> Gallery::draw(Controls& controls, float width, float height) {
-  std::optional<std::string> chosen;
+const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height) {
+  const EmbeddedFile* chosen = nullptr;
   const float unit = ImGui::GetFontSize();
   const ImVec2 size(std::min(58.0f * unit, 0.9f * width), std::min(46.0f * unit, 0.9f * height));
   ImGui::SetNextWindowPos(ImVec2(0.5f * width, 0.5f * height), 0, ImVec2(0.5f, 0.5f));
@@ -95,8 +94,8 @@ std::optional<std::string> Gallery::draw(Controls& controls, float width, float 
     const std::string texts = entry.name + ' ' + entry.title + ' ' + entry.caption + ' ' +
                               entry.goal + ' ' + entry.try_this;
     if (lower(texts).find(wanted) == std::string::npos) continue;
-    if (entered && !chosen) chosen = entry.name;
-    if (draw_card(entry, controls)) chosen = entry.name;
+    if (entered && !chosen) chosen = entry.file;
+    if (draw_card(entry, controls)) chosen = entry.file;
   }
   ImGui::EndChild();
   ImGui::End();
@@ -105,11 +104,11 @@ std::optional<std::string> Gallery::draw(Controls& controls, float width, float 
   return chosen;
 }
 
-const std::string& Gallery::neighbour(const std::string& title, int step) const {
+const EmbeddedFile& Gallery::neighbour(const std::string& title, int step) const {
   const auto count = static_cast<int>(entries_.size());
   const auto found = std::ranges::find(entries_, title, &Entry::title);
   const int at = found == entries_.end() ? 0 : static_cast<int>(found - entries_.begin()) + step;
-  return entries_[static_cast<std::size_t>((at + count) % count)].name;
+  return *entries_[static_cast<std::size_t>((at + count) % count)].file;
 }
 
 }  // namespace clatter

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/view/controls.h"
 #include "app/view/thumbnails.h"
+#include "engine/embedded_file.h"
 
 namespace clatter {
 
@@ -15,13 +15,14 @@ class Gallery {
  public:
   explicit Gallery(const Gl& gl);
 
-  /// Draws it over the window, whose extent is given; the name of the scene that was chosen.
-  std::optional<std::string> draw(Controls& controls, float width, float height);
+  /// Draws it over the window, whose extent is given; the scene that was chosen, null: none.
+  const EmbeddedFile* draw(Controls& controls, float width, float height);
   /// The scene `step` places after the one of a title.
-  const std::string& neighbour(const std::string& title, int step) const;
+  const EmbeddedFile& neighbour(const std::string& title, int step) const;
 
  private:
   struct Entry {
+    const EmbeddedFile* file;
     std::string name, title, caption, goal, try_this;
   };
 

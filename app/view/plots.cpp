@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
-#include "engine/physics/theory.h"
+#include "app/theory_json.h"
 #include "render/quantity.h"
 
 namespace clatter {
@@ -17,23 +16,6 @@ namespace {
 constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
                  kGreen = {0x00, 0x9e, 0x73}, kRed = {0xd5, 0x5e, 0x00},
                  kPurple = {0xcc, 0x79, 0xa7};
-
-// The gas of theory, where the scene is one: smooth disks between two like driven walls.
-std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
-  const auto &left = scene.walls[kLeft], &right = scene.walls[kRight];
-  const bool driven = left && right && left->kind == WallKind::Driven &&
-                      right->kind == WallKind::Driven && scene.periodic(1) && !scene.spins() &&
-                      left->drive_speed == right->drive_speed && left->drive_speed > 0.0 &&
-                      left->restitution == right->restitution && !scene.bulk_drive &&
-                      !(scene.gravity && scene.gravity->norm() > 0.0) && scene.disks.count > 0;
-  if (!driven) return std::nullopt;
-  return VibratedGas{static_cast<double>(scene.disks.count),
-                     scene.box.x(),
-                     scene.box.y(),
-                     scene.disks.restitution,
-                     left->restitution,
-                     left->drive_speed};
-}
 
 template <class Value>
 Curve over_time(const char* name, Colour colour, const std::vector<Sample>& samples, Value value) {
@@ -56,7 +38,7 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
       over_time("T_x", kOrange, samples, [](const Sample& s) { return s.temperature.x(); }),
       over_time("T_y", kBlue, samples, [](const Sample& s) { return s.temperature.y(); }),
       over_time("T", plain, samples, [](const Sample& s) { return 0.5 * s.temperature.sum(); })};
-  if (const auto gas = vibrated_gas(scene)) {
+  if (const auto gas = vibrated_gas(scene); gas && gas->drive_speed > 0.0) {
     plot.curves.push_back(level("simple", kRed, samples, gas->temperature_simple()));
     plot.curves.push_back(level("refined", kGreen, samples, gas->temperature_refined()));
     plot.curves.push_back(level("corrected", kPurple, samples, gas->temperature_corrected()));
@@ -177,7 +159,7 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   plots.push_back(energy_plot(samples, theme.text));
   plots.push_back(velocity_plot(history.velocities(), theme.text));
   const auto gas = vibrated_gas(*frame.scene);
-  if (gas && gas->wall_restitution == 1.0 && gas->restitution < 1.0) {
+  if (gas && gas->drive_speed > 0.0 && gas->wall_restitution == 1.0 && gas->restitution < 1.0) {
     plots.push_back(figure_plot(samples, *gas));
   }
   plots.push_back(residual_plot(samples));

@@ -55,14 +55,7 @@ bool Session::update() {
     log_.event("handled", {{"command", handled_}});
   }
   // What the panels show is what was asked for last, until the engine has answered.
-  if (now.handled == sent_) {
-    plays_ = now.plays;
-    if (now.scene && now.scene != seen_) {
-      seen_ = now.scene;
-      scene_ = *now.scene;
-      scene_.disks.start = opened_.disks.start;
-    }
-  }
+  if (now.handled == sent_ && now.run > 0) answered(now);
   constexpr std::chrono::milliseconds kStatus{100};
   if (log_.on() && now.scene && (Clock::now() - logged_ > kStatus || now.state_hash)) {
     logged_ = Clock::now();
@@ -71,7 +64,27 @@ bool Session::update() {
   return true;
 }
 
+// Nothing that was refused stays.
+void Session::answered(const Frame& now) {
+  plays_ = now.plays;
+  speed_ = now.speed;
+  seed_ = now.seed;
+  if (before_ && before_->run == now.run) {
+    opened_ = before_->opened;
+    view_ = before_->view;
+    ++views_;
+  }
+  before_.reset();
+  if (!now.scene || (now.scene == seen_ && !wishes_)) return;
+  seen_ = now.scene;
+  wishes_ = false;
+  scene_ = *now.scene;
+  scene_.disks.start = opened_.disks.start;
+}
+
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
+  if (!before_ && frame().run > 0) before_ = Before{opened_, view_, frame().run};
+  wishes_ = true;
   scene_ = opened_ = scene;
   view_ = scene.view;
   speed_ = view_.speed;
@@ -152,6 +165,7 @@ void Session::set_speed(double speed) {
 void Session::set(const std::vector<Override>& settings, const Vec2& shift) {
   try {
     scene_ = with_settings(scene_, settings);
+    wishes_ = true;
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;

@@ -85,6 +85,14 @@ class Session {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // What stays where the engine refuses the scene that is opened.
+  struct Before {
+    Scene opened;
+    View view;
+    std::uint64_t run = 0;
+  };
+
+  void answered(const Frame& now);
   void send(Command command);
   void apply(const Edit& edit, bool again);
   void refit(const Vec2& shift);
@@ -103,6 +111,8 @@ class Session {
   std::uint64_t handled_ = 0;
   std::uint64_t views_ = 0;
   std::shared_ptr<const Scene> seen_;
+  bool wishes_ = false;           // whether scene_ has what the engine may refuse
+  std::optional<Before> before_;  // a scene that is being opened
   std::uint64_t messages_ = 0;
   std::vector<Edit> done_;
   std::vector<Edit> undone_;

@@ -11,24 +11,24 @@
 namespace clatter {
 
 // The gas of a scene after a few seconds on screen, but no longer than a few thousand events take.
-static Snapshot snapshot_of_scene(const std::string& name) {
+static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
   constexpr double kSeconds = 3.0;
   constexpr std::uint64_t kMostSteps = 20'000;
-  const Scene scene = load_scene(name);
+  const Scene scene = load_gallery_scene(file);
   ScheduledRun run(scene, 1);
   run.show(scene.view);
   run.run_until(kSeconds * scene.view.speed, Simulation<2>::kNoLimit, kMostSteps);
   return run.snapshot();
 }
 
-GLuint Thumbnails::of(const std::string& name) {
+GLuint Thumbnails::of(const EmbeddedFile& scene) {
   finish();
-  const auto found = textures_.find(name);
+  const auto found = textures_.find(scene.name);
   if (found != textures_.end()) return found->second ? found->second->id() : 0;
-  if (making_.empty()) {
-    making_ = name;
-    snapshot_ = std::async(std::launch::async, [this, name] {
-      Snapshot snapshot = snapshot_of_scene(name);
+  if (!making_) {
+    making_ = &scene;
+    snapshot_ = std::async(std::launch::async, [this, &scene] {
+      Snapshot snapshot = snapshot_of_scene(scene);
       on_ready_();
       return snapshot;
     });
@@ -37,20 +37,18 @@ GLuint Thumbnails::of(const std::string& name) {
 }
 
 void Thumbnails::finish() {
-  if (making_.empty() || snapshot_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    return;
-  }
-  const std::string name = std::exchange(making_, {});
-  textures_[name];
+  if (!making_ || snapshot_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  const EmbeddedFile& scene = *std::exchange(making_, nullptr);
+  textures_[scene.name];
   try {
-    draw(name, snapshot_.get());
+    draw(scene, snapshot_.get());
   } catch (const std::exception&) {
     // A scene without a picture may still be opened, and tells there what is wrong with it.
   }
 }
 
-void Thumbnails::draw(const std::string& name, const Snapshot& snapshot) {
-  View view = load_scene(name).view;
+void Thumbnails::draw(const EmbeddedFile& scene, const Snapshot& snapshot) {
+  View view = load_gallery_scene(scene).view;
   view.overlay = false;
   const Canvas canvas(*gl_, kSize);
   canvas.bind();
@@ -64,7 +62,7 @@ void Thumbnails::draw(const std::string& name, const Snapshot& snapshot) {
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSize.width, kSize.height, 0, GL_RGBA,
                   GL_UNSIGNED_BYTE, picture.rgba.data());
   gl_->BindFramebuffer(GL_FRAMEBUFFER, 0);
-  textures_[name] = std::move(texture);
+  textures_[scene.name] = std::move(texture);
 }
 
 }  // namespace clatter

@@ -4,9 +4,10 @@
 #include <future>
 #include <map>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <utility>
 
+#include "engine/embedded_file.h"
 #include "engine/publish/snapshot.h"
 #include "render/gl_object.h"
 #include "render/renderer.h"
@@ -24,16 +25,16 @@ class Thumbnails {
       : gl_(&gl), on_ready_(std::move(on_ready)) {}
 
   /// The texture with the picture of a gallery scene; 0 until there is one.
-  GLuint of(const std::string& name);
+  GLuint of(const EmbeddedFile& scene);
 
  private:
   void finish();
-  void draw(const std::string& name, const Snapshot& snapshot);
+  void draw(const EmbeddedFile& scene, const Snapshot& snapshot);
 
   const Gl* gl_;
   std::function<void()> on_ready_;
-  std::map<std::string, std::optional<Texture>> textures_;  // absent: could not be made
-  std::string making_;                                      // name of the one under way
+  std::map<std::string_view, std::optional<Texture>> textures_;  // absent: could not be made
+  const EmbeddedFile* making_ = nullptr;                         // the one under way; null: none
   std::future<Snapshot> snapshot_;
 };
 

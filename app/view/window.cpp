@@ -75,7 +75,7 @@ void wait_for_events(bool settles, RealClock::time_point began, double rate) {
 }  // namespace
 
 static void show(const WindowOptions& options) {
-  const GlfwContext context("clatter", Size{options.width, options.height});
+  const GlfwContext context("clatter", options.size);
   const ContextGuard guard;
   GLFWwindow* window = context.window();
   glfwSwapInterval(1);
@@ -98,6 +98,8 @@ static void show(const WindowOptions& options) {
       guard.check();
       wait_for_events(left > 0 || explorer.films(), began, rate);
     }
+    // What is under way, a film say, comes to its end, for which nobody has to look on.
+    glfwHideWindow(window);
     log.event("quit", nlohmann::json::object());
   }
   // An engine that cannot end at once, say while it looks for room for a million disks, has nothing

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/scene/scene.h"
+#include "render/camera.h"
 
 namespace clatter {
 
@@ -11,8 +12,7 @@ namespace clatter {
 struct WindowOptions {
   Scene scene;
   std::uint64_t seed = 1;
-  int width = 1280;
-  int height = 800;
+  Size size = {1280, 800};
   std::optional<double> until;  ///< simulation time at which the gas halts; absent: none
   std::string script_log;       ///< file that is told what happens; empty: none
 };

@@ -55,10 +55,18 @@ CellGrid<D>::CellGrid(const Model<D>& model, std::size_t disks)
 }
 
 template <int D>
-void CellGrid<D>::clear() {
-  lines_.resize(static_cast<std::size_t>(counts_.prod()));
-  std::fill(lines_.begin(), lines_.end(), Line{});
-  spare_.clear();
+double CellGrid<D>::crowding() const {
+  double disks = 0.0, pairs = 0.0;
+  for (int cell = 0; cell < counts_.prod(); ++cell) {
+    double count = 0.0;
+    for (const Line* line = &lines_[static_cast<std::size_t>(cell)];; line = &lines_[line->next]) {
+      count += line->count;
+      if (line->next == kNone) break;
+    }
+    disks += count;
+    pairs += count * count;
+  }
+  return disks > 0.0 ? pairs / disks : 0.0;
 }
 
 template <int D>

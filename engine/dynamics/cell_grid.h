@@ -12,16 +12,17 @@
 namespace clatter {
 
 /// Cells of at least one diameter that say which disks are near: two disks that touch lie in the
-/// same cell or in neighbouring ones. Each cell is one cache line of disk numbers, to which the
+/// same cell or in neighbouring ones. Each cell is half a cache line of disk numbers, to which the
 /// clusters of a dissipative gas chain further ones.
 template <int D>
 class CellGrid {
  public:
-  /// An empty grid of about one cell per disk over the box.
+  /// An empty grid over the box, of about one cell for each of a number of disks.
   CellGrid(const Model<D>& model, std::size_t disks);
 
-  /// Takes every disk out.
-  void clear();
+  /// Disks in the cell of a disk, itself included, on average over disks: far more than one where
+  /// they lie in clusters.
+  double crowding() const;
   /// Puts a disk into a cell.
   void insert(std::uint32_t disk, const IntVec<D>& cell);
   /// Takes a disk out of the cell it was put into.
@@ -51,13 +52,13 @@ class CellGrid {
   };
 
   /// Disks that lie together: some of one cell's.
-  struct alignas(64) Line {
-    static constexpr int kCapacity = 14;
+  struct alignas(32) Line {
+    static constexpr int kCapacity = 7;
     std::array<std::uint32_t, kCapacity> disks;
-    std::uint32_t count = 0;
-    std::uint32_t next = kNone;  ///< line that continues the cell
+    std::uint32_t count : 3 = 0;
+    std::uint32_t next : 29 = kNone;  ///< line that continues the cell
   };
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = (1u << 29) - 1;
 
   /// Calls visit(line, wrap) for each line of the cells in the stencil about a cell. `wrap` points
   /// to the box lengths by which the line's cell lies round the periodic borders, or is null where

@@ -24,22 +24,19 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       grid_(grid),
       falling_((model.gravity.array() != 0.0).any()),
       first_contact_(first_contact_kernel<D>(falling_)) {
+  // Farther than the wall comes, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
-    const double travel = boundary.innermost_travel(side);
-    if (travel == 0.0) continue;
-    // One cell more than the wall comes to, so that rounding at a border does not matter.
-    const double cells = (0.5 * model.diameter + travel) / grid.width(side / 2);
-    reach_[side] = static_cast<int>(cells) + 1;
+    reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
   }
 }
 
-// Copies a fixed number of a line's disks, for how many it holds cannot be foreseen.
-template <int D, int kCopies>
+// Copies a whole line, for how many disks it holds cannot be foreseen.
+template <int D>
 [[gnu::always_inline]] static inline void copy(const typename CellGrid<D>::Line& line,
                                                const Vec<D>* wrap, int to, Candidates<D>& near) {
-  std::memcpy(near.disks + to, line.disks.data(), kCopies * sizeof(std::uint32_t));
+  std::memcpy(near.disks + to, line.disks.data(), sizeof line.disks);
   if (!wrap) return;
-  for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + to, kCopies, (*wrap)[k]);
+  for (int k = 0; k < D; ++k) std::fill_n(near.wraps[k] + to, line.disks.size(), (*wrap)[k]);
   near.wrapped = true;
 }
 
@@ -48,21 +45,18 @@ template <int D>
 [[gnu::always_inline]] inline void Prediction<D>::look_at_disks(std::uint32_t disk,
                                                                 const Stencil& stencil,
                                                                 Plan<D>& plan) const {
-  constexpr int kUsualPerCell = 8;  // few cells hold more disks
   Candidates<D> near;
   int size = 0;
-  bool crowded = false;
+  bool full = false;
   const auto add = [&](const Line& line, const Vec<D>* wrap) __attribute__((always_inline)) {
     const int count = static_cast<int>(line.count);
-    copy<D, kUsualPerCell>(line, wrap, size, near);
-    if (count > kUsualPerCell) [[unlikely]] {
-      copy<D, Line::kCapacity>(line, wrap, size, near);
-      crowded = true;
-    }
+    copy<D>(line, wrap, size, near);
+    if (count == Line::kCapacity) [[unlikely]]
+      full = true;
     size += count;
   };
   grid_.visit_first_lines(plan.cell, stencil, add);
-  if (crowded) [[unlikely]]
+  if (full) [[unlikely]]
     size = add_chained(disk, stencil, size, near, plan);
   weigh(disk, near, size, plan);
 }
@@ -76,7 +70,7 @@ int Prediction<D>::add_chained(std::uint32_t disk, const Stencil& stencil, int s
       weigh(disk, near, size, plan);
       size = 0;
     }
-    copy<D, Line::kCapacity>(line, wrap, size, near);
+    copy<D>(line, wrap, size, near);
     size += static_cast<int>(line.count);
   });
   return size;
@@ -174,7 +168,7 @@ void Prediction<D>::look_at_walls(std::uint32_t disk, double now, Plan<D>& plan)
     if (model_.periodic(axis)) continue;
     for (const int side : {2 * axis, 2 * axis + 1}) {
       const int cells_off = side % 2 ? grid_.counts()[axis] - 1 - plan.cell[axis] : plan.cell[axis];
-      if (cells_off > reach_[side]) continue;
+      if (cells_off * grid_.width(axis) > reach_[side]) continue;
       offer(boundary_.contact_time(side, disks_[disk].flight, now), disk,
             kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }

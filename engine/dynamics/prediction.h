@@ -16,7 +16,7 @@ namespace clatter {
 
 /// What a disk will do next: the first contact known of, and when it leaves its cell.
 template <int D>
-struct Plan {
+struct alignas(64) Plan {
   double contact = kNever;              ///< time of the first contact; kNever: none known
   double crossing = kNever;             ///< time at which it leaves its cell
   std::uint32_t partner = 0;            ///< of the contact: a disk, or kWall + side
@@ -72,7 +72,7 @@ class Prediction {
   const CellGrid<D>& grid_;
   bool falling_;  // whether there is gravity
   FirstContactKernel<D>* first_contact_;
-  std::array<int, 2 * D> reach_{};  // cells from the side's edge in which its wall can be touched
+  std::array<double, 2 * D> reach_;  // from the box's edge: where the side's wall can be touched
 };
 
 extern template class Prediction<2>;

@@ -102,12 +102,10 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
       flight = {flight.at(now_, saved.gravity), flight.velocity_at(now_, saved.gravity), now_,
                 flight.number};
     }
-    const Vec<D> r = flight.at(now_, model_.gravity);
-    disks_[i].image = model_.boxes_off(r);
-    plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
-    grid_.insert(static_cast<std::uint32_t>(i), plans_[i].cell);
   }
   saved.flights = {};
+  fill_cells();
+  fit_cells();
   // What a run bore at contacts, it bears when it goes on.
   const double borne = kStartRounding + checks_.deepest_overlap;
   if (const double overlap = deepest_overlap(); overlap > borne) {
@@ -118,6 +116,38 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
         " diameters; move them apart");
   }
   plan_all();
+}
+
+template <int D>
+void Simulation<D>::fill_cells() {
+  for (std::uint32_t i = 0; i < disks_.size(); ++i) {
+    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
+    disks_[i].image = model_.boxes_off(r);
+    plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
+    grid_.insert(i, plans_[i].cell);
+  }
+}
+
+// Cells made for the mean density hold too many disks where those lie in clusters: there they
+// become finer, up to so many for each disk that memory allows. Where disks are found does not
+// depend on it.
+template <int D>
+void Simulation<D>::fit_cells() {
+  constexpr double kCrowded = 3.0, kWanted = 2.0, kScattered = 1.25;  // disks in the cell of a disk
+  constexpr double kMost = 4.0;                                       // cells for each disk
+  if (disks_.empty()) return;
+  const double count = static_cast<double>(disks_.size());
+  const double cells = grid_.counts().template cast<double>().prod();
+  const double crowding = grid_.crowding();
+  double fitting = cells;
+  if (crowding > kCrowded && cells < 0.75 * kMost * count) {
+    fitting = std::min(cells * crowding / kWanted, kMost * count);
+  } else if (crowding < kScattered && cells > count) {
+    fitting = count;
+  }
+  if (fitting == cells) return;
+  grid_ = CellGrid<D>(model_, static_cast<std::size_t>(fitting));
+  fill_cells();
 }
 
 template <int D>
@@ -143,6 +173,7 @@ void Simulation<D>::move_base() {
   boundary_.move_base(clock_);
   now_ = 0.0;
   until_base_moves_ = std::max<std::uint64_t>(kLeastEventsPerBase, kEventsPerBase * disks_.size());
+  fit_cells();
   plan_all();
   if (watchdog_) watchdog_->on_base_moved(shift);
   for (Observer<D>* observer : observers_) observer->on_base_moved(shift);

@@ -110,6 +110,8 @@ class Simulation {
   void enter_next_cell(std::uint32_t number);
   void renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity);
   void schedule(std::uint32_t disk);
+  void fill_cells();
+  void fit_cells();
   void plan_all();
   void move_base();
   bool holds(const Event& event) const;

@@ -13,13 +13,12 @@ static double mean_of(std::span<const double> series) {
   return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }
 
-// Standard error of the mean of values that are independent of each other.
-static double naive_error(std::span<const double> series) {
-  const double mean = mean_of(series);
-  const auto count = static_cast<double>(series.size());
+Estimate independent_estimate(std::span<const double> values) {
+  const double mean = mean_of(values);
+  const auto count = static_cast<double>(values.size());
   double squares = 0.0;
-  for (const double value : series) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / (count * (count - 1.0)));
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (count * (count - 1.0)))};
 }
 
 // The errors that values would have, were they independent, and those of blocks of 2, 4, ...
@@ -27,7 +26,7 @@ static double naive_error(std::span<const double> series) {
 static std::vector<double> error_levels(std::vector<double> series) {
   std::vector<double> errors;
   while (series.size() >= 2 && (errors.empty() || series.size() >= kLeastBlocks)) {
-    errors.push_back(naive_error(series));
+    errors.push_back(independent_estimate(series).standard_error);
     for (std::size_t k = 0; k < series.size() / 2; ++k) {
       series[k] = 0.5 * (series[2 * k] + series[2 * k + 1]);
     }

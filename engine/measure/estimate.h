@@ -22,6 +22,9 @@ struct Estimate {
   double cautious_error() const { return standard_error * std::sqrt(rise); }
 };
 
+/// Mean of independent values, at least one, and its standard error, NaN of a single one.
+Estimate independent_estimate(std::span<const double> values);
+
 /// Standard error of the mean of a correlated, stationary series by blocking (Flyvbjerg & Petersen
 /// 1989): neighbours are averaged in pairs again and again, and the error that independent blocks
 /// would have rises to that of the mean. The largest over the levels with at least 32 blocks is

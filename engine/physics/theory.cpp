@@ -37,6 +37,7 @@ double VibratedGas::epsilon_effective() const {
 
 double VibratedGas::temperature_simple() const {
   const double loss = epsilon_effective() * psi();
+  if (!(loss > 0.0)) return std::numeric_limits<double>::infinity();
   const double alpha_w = wall_restitution;
   const double s = std::pow(2.0 / pi, 1.5) *
                    (alpha_w + std::sqrt(alpha_w * alpha_w + pi * pi / 4.0 * loss)) / loss;
@@ -45,6 +46,7 @@ double VibratedGas::temperature_simple() const {
 
 // Eq. (3.14); `loss` stands for eps_eff psi.
 static double stationary_refined(double loss, double wall_restitution, double drive_speed) {
+  if (!(loss > 0.0)) return std::numeric_limits<double>::infinity();
   const double alpha_w = wall_restitution;
   const double s =
       (alpha_w + std::sqrt(alpha_w * alpha_w + 2.0 * loss)) / (std::sqrt(2.0 * pi) * loss);

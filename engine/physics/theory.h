@@ -19,7 +19,8 @@ struct VibratedGas {
   double psi() const;
   /// eps_eff = (1 - alpha^2) + (2/pi) (1 - alpha_w^2) / psi, Eq. (3.8).
   double epsilon_effective() const;
-  /// Stationary temperature of the simple theory, Eq. (3.12); infinite where nothing dissipates.
+  /// Stationary temperature of the simple theory, Eq. (3.12); infinite where disks and walls do not
+  /// dissipate, eps_eff <= 0. So are the other two.
   double temperature_simple() const;
   /// Stationary temperature of the refined theory, Eq. (3.14): averages over the disks that
   /// collide.

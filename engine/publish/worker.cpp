@@ -168,7 +168,8 @@ class Work {
       const double ahead = time() + pace_.speed() * frame_seconds_;
       while (to_collision_ && time() < ahead && Clock::now() < due && !commands_.pending()) {
         advance(ahead, gas().simulation().counts().collisions() + 1, due);
-        if (gas().simulation().counts().disk_disk >= to_collision_) halt_at_collision();
+        const std::uint64_t collisions = gas().simulation().counts().disk_disk;
+        if (to_collision_ && collisions >= *to_collision_) halt_at_collision();
       }
     }
     publish();

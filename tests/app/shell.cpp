@@ -24,10 +24,10 @@ Shell::~Shell() {
   std::filesystem::remove_all(folder_);
 }
 
-Outcome Shell::run(const std::string& line) const {
+Outcome Shell::run(const std::string& line, int seconds) const {
   std::ofstream(folder_ / "line") << "cd here\nPATH=" CLATTER_FOLDER ":$PATH\n" << line << '\n';
-  const std::string command =
-      "cd '" + folder_.string() + "' && timeout 60 sh line >out 2>err </dev/null";
+  const std::string command = "cd '" + folder_.string() + "' && timeout " +
+                              std::to_string(seconds) + " sh line >out 2>err </dev/null";
   const int status = std::system(command.c_str());
   REQUIRE(WIFEXITED(status));
   return {WEXITSTATUS(status), bytes_of(folder_ / "out"), bytes_of(folder_ / "err")};

@@ -22,8 +22,8 @@ class Shell {
   Shell& operator=(const Shell&) = delete;
   ~Shell();
 
-  /// Runs a line of POSIX shell, for a minute at most (exit code 124).
-  Outcome run(const std::string& line) const;
+  /// Runs a line of POSIX shell, for so many seconds at most (exit code 124).
+  Outcome run(const std::string& line, int seconds = 60) const;
 
   /// Writes a file into the folder.
   void write(const std::string& name, const std::string& text) const;

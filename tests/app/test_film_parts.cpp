@@ -35,6 +35,21 @@ std::string hashes(const Shell& shell, const std::string& input) {
       .out;
 }
 
+// Films until the second piece has begun; then `act` is done to the run, which is $pid.
+Outcome film_into_second_piece(const Shell& shell, const std::string& act,
+                               const std::string& flags = "") {
+  return shell.run(
+      kFilm + flags +
+      "--out film.mp4 & pid=$!\n"
+      "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n" +
+      act);
+}
+
+void check_goes_on_to_whole(const Shell& shell) {
+  CHECK(shell.run(kFilm + "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole").code ==
+        0);
+}
+
 }  // namespace
 
 TEST_CASE("Parts of a film, and one that goes on from another's checkpoint, are the film") {
@@ -76,6 +91,7 @@ TEST_CASE("A film goes on with the flags it began with, and refuses others") {
   check_refused(shell, on + "--out film --speed 2", {"--speed"});
   check_refused(shell, on + "--out film --shutter 0.2", {"--shutter", "has 0.7"});
   check_refused(shell, on + "--out film --transparent", {"--transparent", "a background"});
+  check_refused(shell, on + "--out film --no-overlay", {"--no-overlay", "an overlay"});
   check_refused(shell, on + "--out film --to 3", {"--to", "5.9"});
   check_refused(shell, on + "--out film --set view.field=density", {"view.field", "--from"});
   check_refused(shell, on + "--out film --frames 10:30", {"--frames", "60"});
@@ -93,10 +109,7 @@ TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes
   write_scene(shell);
   REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
   const Outcome killed =
-      shell.run(kFilm +
-                "--out film.mp4 & pid=$!\n"
-                "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n"
-                "kill -9 $(cat /proc/$pid/task/$pid/children); wait $pid");
+      film_into_second_piece(shell, "kill -9 $(cat /proc/$pid/task/$pid/children); wait $pid");
   CAPTURE(killed.err);
   CHECK(killed.code == 1);
   CHECK(says(killed.err,
@@ -104,8 +117,7 @@ TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes
              "film.checkpoint"));
   CHECK(hashes(shell, "-i film.mp4.part/000000.mp4").size() == 60 * 33);
   check_refused(shell, kFilm + "--out film.mp4", {"film.mp4.part", "--resume", "--overwrite"});
-  CHECK(shell.run(kFilm + "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole").code ==
-        0);
+  check_goes_on_to_whole(shell);
 }
 
 // The first run's encoder opens its file only when the second has filmed the same frames.
@@ -121,11 +133,10 @@ TEST_CASE("An encoder that outlives a killed run does not touch the film made af
             "--out film.mp4 & pid=$!\n"
             "while [ ! -e begun ] && kill -0 $pid; do sleep 0.02; done; kill -9 $pid");
   const Outcome film =
-      shell.run(kFilm +
-                "--out film.mp4 --overwrite & pid=$!\n"
-                "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n"
-                "kill -STOP $pid; touch go; until [ -e ended ]; do sleep 0.02; done\n"
-                "kill -CONT $pid; wait $pid");
+      film_into_second_piece(shell,
+                             "kill -STOP $pid; touch go; until [ -e ended ]; do sleep 0.02; done\n"
+                             "kill -CONT $pid; wait $pid",
+                             "--overwrite ");
   CAPTURE(film.err);
   CHECK(film.code == 0);
   CHECK(hashes(shell, "-i film.mp4").size() == 150 * 33);
@@ -135,16 +146,12 @@ TEST_CASE("A batch system that ends the encoder, too, leaves a film that plays a
   const Shell shell;
   write_scene(shell);
   REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
-  const Outcome ended =
-      shell.run(kFilm +
-                "--out film.mp4 & pid=$!\n"
-                "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n"
-                "kill -TERM $(cat /proc/$pid/task/$pid/children) $pid; wait $pid");
+  const Outcome ended = film_into_second_piece(
+      shell, "kill -TERM $(cat /proc/$pid/task/$pid/children) $pid; wait $pid");
   CAPTURE(ended.err);
   CHECK(ended.code == 130);
   CHECK(hashes(shell, "-i film.mp4").size() >= 60 * 33);
-  CHECK(shell.run(kFilm + "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole").code ==
-        0);
+  check_goes_on_to_whole(shell);
 }
 
 TEST_SUITE_BEGIN("slow");

@@ -379,6 +379,42 @@ TEST_CASE("Replicas measured at once have the numbers of those measured one by o
   check_refused(shell, line + "--replicas 2 --checkpoint c", {"--replicas", "--checkpoint"});
 }
 
+// At alpha = 0.9975 disks lose what walls give to a gas as dense everywhere, but not what they give
+// to one that is denser at the walls.
+TEST_CASE("A gas that its walls heat without bound has no temperature in theory") {
+  const Shell shell;
+  const auto theory = [&](const std::string& settings) {
+    const std::string line =
+        "clatter measure vibrated --quiet --set measure.burn_in=0 --until 1 "
+        "--set walls.left.restitution=1.05 --set walls.right.restitution=1.05 ";
+    return json::parse(shell.run(line + settings).out).at("theory");
+  };
+  const json heated = theory("--set disks.restitution=1");
+  CHECK(heated.at("epsilon_effective") < 0.0);
+  CHECK_FALSE(heated.contains("temperature_simple"));
+  const json layered = theory("--set disks.restitution=0.9975");
+  CHECK(layered.at("epsilon_effective") > 0.0);
+  CHECK(layered.contains("temperature_refined"));
+  CHECK_FALSE(layered.contains("temperature_corrected"));
+  // No gravity is none that acts.
+  CHECK(theory("--set gravity.acceleration=[0,0]").contains("psi"));
+  CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
+}
+
+// Seed 7 gets through, seed 8 collapses. Were all that follow run, too, it would take hours.
+TEST_CASE("Of replicas that stop the first seed is named, and the rest is left out") {
+  const Shell shell;
+  for (const std::string replicas : {"2", "100000"}) {
+    const Outcome outcome = shell.run(
+        "clatter measure collapse --quiet --set collapse={} --set disks.count=100 "
+        "--set box.size=[15,15] --set measure.burn_in=0 --seed 7 --out all.json --replicas " +
+        replicas);
+    CHECK(outcome.code == 3);
+    CHECK(says(outcome.err, "seed 8: time stands still"));
+    CHECK(shell.read("all.json").empty());
+  }
+}
+
 TEST_CASE("Of a gas that cools it is said that it is not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");

@@ -120,8 +120,31 @@ TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") 
   hands.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
 }
 
+// Grains at rest on a floor that hardly moves: with a long stroke it would lie in them.
+TEST_CASE("Window: what the engine refuses stays neither in the panels nor in what they start") {
+  const Hands hands(
+      "shaker --set walls.bottom.stroke=0.1 --set view.speed=20 --set collapse.contact_time=1e-3 "
+      "--until 30.25",
+      "1280x1500");
+  hands.wait_for("status", 0, halted);
+  std::size_t told = hands.told();
+  hands.drag("walls.bottom.stroke", 0.1, 0.95);
+  const json message = hands.wait_for("message", told);
+  CHECK(says(message["text"], "overlap"));
+  hands.key("r");
+  hands.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
+  told = hands.told();
+  hands.key("ctrl+s");
+  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  const std::size_t stroke = scene.find("stroke = ");
+  REQUIRE(stroke != std::string::npos);
+  CHECK(std::stod(scene.substr(stroke + 9)) < 1.0);
+}
+
 TEST_CASE("Window: a scene of the gallery, found by its name") {
   const Hands hands("");
+  // Files of these names are other scenes, or none.
+  hands.shell().run("echo none | tee cooling cradle rough_cooling equilibrium");
   std::size_t told = hands.told();
   hands.key("g");
   hands.wait_for("gallery", told);
@@ -144,8 +167,11 @@ TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays
   hands.drag("walls.left.drive_speed", 0.3, 0.8);
   hands.key("space");
   std::size_t told = hands.told();
+  // Those that a scene of that name would write, too.
+  hands.shell().run("touch clatter-1.csv clatter-2.mp4");
   hands.key("F2");
   const std::string file = hands.wait_for("screenshot", told)["file"];
+  CHECK(file == "clatter-3.png");
   CHECK(hands.shell().read(file).starts_with("\x89PNG"));
   // Above the left wall there is background, on the wall there is not.
   CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
@@ -355,6 +381,19 @@ TEST_CASE("Window: where its OpenGL context is lost it says what to do instead")
   CHECK(lost.code == 1);
   CHECK(lost.err.find("context is lost") != std::string::npos);
   CHECK(lost.err.find("clatter render") != std::string::npos);
+}
+
+TEST_CASE("Window: closes at once while it films, and what there is of the film plays") {
+  const Hands hands("--set view.speed=0.5 --set disks.count=20", "1280x1700");
+  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 4.0; });
+  hands.click("film");
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  hands.key("ctrl+q");
+  hands.wait_for("quit");
+  // It is found by its name while it is on the screen.
+  CHECK(hands.run("xdotool search --onlyvisible --name 'Vibrated box'").code != 0);
+  CHECK(hands.exit_code() == 0);
+  CHECK(hands.shell().run("ffmpeg -v error -i clatter-1.mp4 -f null - </dev/null").code == 0);
 }
 
 TEST_CASE("Window: quits at once") {

@@ -180,9 +180,12 @@ TEST_CASE("A picture or film that cannot be is refused") {
   const Shell shell;
   for (const std::string size : {"nonsense", "1280", "1280x", "x720", "0x0", "-64x64", "64x64x64",
                                  "1e3x1e3", "99999x99999", "640x480px"}) {
-    check_refused(shell, "clatter render vibrated --out x.png --size=" + size,
-                  {"--size", size, "1280x720"});
+    for (const std::string line : {"render vibrated --out x.png", "view vibrated"}) {
+      check_refused(shell, "DISPLAY= clatter " + line + " --size=" + size,
+                    {"--size", size, "1280x720"});
+    }
   }
+  check_refused(shell, "DISPLAY= clatter view --size 319x240", {"from 320x240"});
   check_refused(shell, "clatter render vibrated --out x.mp4 --fps 0", {"--fps"});
   check_refused(shell, "clatter render vibrated --out x.mp4 --speed 0", {"--speed"});
   check_refused(shell, "clatter render vibrated --out x.mp4 --from 9 --to 8", {"--to", "--from"});

@@ -67,7 +67,7 @@ TEST_CASE("cell grid: a cell holds what was put into it and not taken out, chain
   const IntVec<2> cell = {1, 2}, other = {2, 2};
   std::uint32_t next = 0;
   for (int i = 0; i < 5000; ++i) {
-    // Fills to some 250 disks, 18 lines, and empties again.
+    // Fills to some 250 disks, 36 lines, and empties again.
     const bool fill = (i / 250) % 2 == 0;
     if (fill || inside.empty()) {
       grid.insert(next, cell);
@@ -82,8 +82,17 @@ TEST_CASE("cell grid: a cell holds what was put into it and not taken out, chain
     REQUIRE(contents(grid, cell) == inside);
     REQUIRE(contents(grid, other).size() == inside.size());
   }
-  grid.clear();
-  CHECK(contents(grid, cell).empty());
+}
+
+TEST_CASE("cell grid: crowding is how many disks share the cell of a disk") {
+  CellGrid<2> grid(periodic_box(10.0, 10.0), 50);
+  CHECK(grid.crowding() == 0.0);
+  std::uint32_t next = 0;
+  for (const auto& [cell, count] :
+       {std::pair{IntVec<2>(1, 1), 1}, {IntVec<2>(2, 1), 3}, {IntVec<2>(0, 4), 20}}) {
+    for (int i = 0; i < count; ++i) grid.insert(next++, cell);
+  }
+  CHECK(grid.crowding() == (1.0 + 9.0 + 400.0) / 24.0);
 }
 
 TEST_CASE("cell grid: every position lies in a cell, and between its borders") {

@@ -46,6 +46,16 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
+TEST_CASE("independent_estimate: the error of few values, and none of a single one") {
+  const std::vector<double> values = {1.0, 2.0, 6.0};  // variance 7
+  const Estimate estimate = independent_estimate(values);
+  CHECK(estimate.mean == doctest::Approx(3.0));
+  CHECK(estimate.standard_error == doctest::Approx(std::sqrt(7.0 / 3.0)));
+  const std::vector<double> one = {2.0};
+  CHECK(independent_estimate(one).mean == 2.0);
+  CHECK(std::isnan(independent_estimate(one).standard_error));
+}
+
 TEST_CASE("blocked_error: white noise has the error sigma/sqrt(n)") {
   // Not below: the level without blocking is known to 1/sqrt(2 n) = 1.1 %. Above by up to the
   // uncertainty of the last level, 1/sqrt(62) = 13 %, since the largest of the levels is taken.

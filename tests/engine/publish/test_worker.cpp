@@ -295,6 +295,27 @@ TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
         }).messages == 2);
 }
 
+TEST_CASE("Worker: where the run stops before the next collision, it tells of none") {
+  // A stroke that would put the bottom among the disks, before long.
+  Scene scene = load_scene("shaker");
+  scene.changes = {{.time = 0.05, .set = {{"walls.bottom.stroke", "40"}}}};
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 1, false});
+  std::uint64_t commands = 1;
+  do {
+    worker.send(command::StepCollision{});
+    ++commands;
+    wait_for(worker, [&](const Frame& frame) {
+      return frame.handled == commands && (frame.partners || frame.messages > 0);
+    });
+  } while (worker.frames().front().messages == 0);
+  const Frame& stopped = worker.frames().front();
+  CHECK(stopped.snapshot.time == 0.05);
+  CHECK(stopped.snapshot.collisions > 0);
+  CHECK(stopped.message.find("overlap") != std::string::npos);
+  CHECK_FALSE(stopped.partners);
+}
+
 TEST_CASE("Worker: costs nothing while the gas halts") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
