@@ -57,24 +57,26 @@ static std::string percent(double share) {
   return text;
 }
 
-// The time of the next look at the error: each about a sixteenth later than the last.
-static double next_look(const Measurement& measurement, double now) {
+// The time of the first look at the error from a time on: each is about a sixteenth later than the
+// last.
+static double look_from(const Measurement& measurement, double from) {
   double windows = 256.0;
   const auto time = [&] { return measurement.averages_start() + windows * measurement.window(); };
-  while (time() <= now + 0.5 * measurement.window()) windows += std::floor(windows / 16.0);
+  while (time() < from) windows += std::floor(windows / 16.0);
   return time();
 }
 
 void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement& measurement, double end,
                  Progress& progress) {
-  while (true) {
-    const double stop = std::min(end, next_look(measurement, run.simulation().time()));
-    if (!run.until(stop, progress) || stop == end) return;
+  // A run that goes on may have been put aside when it had come to a look, but not looked.
+  double look = look_from(measurement, run.simulation().time());
+  while (run.until(std::min(end, look), progress) && look < end) {
     const Measured measured = measurement.means();
     const double error = relative_error(estimate_for(goal, measured));
     if (error <= goal.relative) return;
     progress.expect(std::min(end, measurement.averages_start() + needed_time(goal, measured)),
                     "measuring, " + goal.of + " within " + percent(error));
+    look = look_from(measurement, std::nextafter(look, end));
   }
 }
 
