@@ -51,7 +51,7 @@ void add_bench_command(CLI::App& program, int& exit_code) {
       ->add_option(
           "name", options->name,
           "Which table: engine, how fast collisions are; growth, how that falls with the number "
-          "of disks and their density; features, what each thing that a scene "
+          "of disks and their density, and in clusters; features, what each thing that a scene "
           "adds takes of that; fields, what they cost; render, "
           "what a frame costs; window, what a picture of it costs beside the drawing; accuracy, "
           "what each dial costs and how far off it is")

@@ -15,8 +15,8 @@
 
 namespace clatter {
 
-// Besides the disk and its plan: one line of a cell each, and two entries of the event queue with
-// room to grow.
+// Besides the disk and its plan: one line of a cell each, up to four where disks lie in clusters
+// (Simulation::fit_cells), and two entries of the event queue with room to grow.
 static constexpr double kBytesPerDisk =
     sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
 
