@@ -45,7 +45,7 @@ std::string percent(const Estimate& bias) {
   if (std::isnan(bias.mean)) return "-";
   if (bias.mean == 0.0 && bias.standard_error == 0.0) return "0";
   const double error = 100.0 * bias.standard_error;
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 4);
+  const int digits = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(error)), 0.0, 4.0));
   return formatted("%+.*f ±%.*f", digits, 100.0 * bias.mean, digits, error);
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clatter {
 
 namespace {
 
 using Replicas = std::vector<Observed>;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 ProfileValues mean_profile(const Replicas& replicas, ProfileValues Observed::*profile) {
   ProfileValues mean{};
@@ -130,7 +133,9 @@ Comparison compare(const Replicas& replicas, const Replicas& reference) {
     const auto quantity = static_cast<Quantity>(k);
     std::vector<double> values = values_of(replicas, quantity, heat_flux);
     const std::vector<double> others = values_of(reference, quantity, heat_flux);
-    const double scale = independent_mean(others).mean;
+    const double mean = independent_mean(others).mean;
+    // Of nothing, as of what elastic disks dissipate, nothing is a share.
+    const double scale = mean == 0.0 ? kNone : mean;
     const double error = independent_mean(values).standard_error / scale;
     for (std::size_t r = 0; r < values.size(); ++r) values[r] = (values[r] - others[r]) / scale;
     add(k, independent_mean(values), error * error);

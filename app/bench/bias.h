@@ -15,7 +15,7 @@ inline constexpr int kDensityProfile = kQuantities;
 /// How far a setting's replicas are from those of a reference, as shares of the reference.
 struct Comparison {
   /// [kCompared] differences with standard errors; of the density, the root of the mean square
-  /// difference less what scatter contributes. NaN: the scene has none.
+  /// difference less what scatter contributes. NaN: the reference has none.
   std::array<Estimate, kCompared> bias;
   /// sqrt(bias^2 + variance per CPU second), the root mean square of it over all that is compared:
   /// the error of means that take one second of CPU. bias^2 is less the square of its standard
