@@ -30,7 +30,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   per_width_ = width > 0.0 && std::isfinite(1.0 / width) ? 1.0 / width : 1.0;
 
   row_shift_ = 8;
-  while (row_shift_ < 12 && (std::size_t{16} << row_shift_) < events.size()) ++row_shift_;
+  while (row_shift_ < 12 && (std::size_t{1} << row_shift_) < events.size()) ++row_shift_;
   in_row_ = (std::int64_t{1} << row_shift_) - 1;
   buckets_.resize(std::size_t{1} << row_shift_);
   for (const Event& event : events) {
@@ -145,7 +145,6 @@ void EventQueue::next_bucket() {
   auto& bucket = buckets_[static_cast<std::size_t>(bucket_ & in_row_)];
   in_buckets_ -= bucket.size();
   current_.swap(bucket);
-  sort_current();
 }
 
 // Spreads the row that begins with the bucket at hand.

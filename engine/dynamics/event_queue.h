@@ -56,6 +56,8 @@ class EventQueue {
   std::int64_t last_of_row() const { return bucket_ | in_row_; }
   Chunk*& row_of(std::int64_t bucket) { return rows_[(bucket >> row_shift_) & (kRows - 1)]; }
   void spread(std::vector<Event>& events, std::size_t first);
+  template <typename Live>
+  void drop_dead(const Live& live);
   void sort_current();
   void push_current(const Event& event);
   void thin_out();
@@ -91,7 +93,20 @@ const Event* EventQueue::top(const Live& live) {
     }
     if (in_buckets_ + in_rows_ + later_.size() == 0) return nullptr;
     next_bucket();
+    drop_dead(live);
+    sort_current();
   }
+}
+
+// Without branches, for which are dead cannot be foreseen.
+template <typename Live>
+void EventQueue::drop_dead(const Live& live) {
+  std::size_t kept = 0;
+  for (const Event event : current_) {
+    current_[kept] = event;
+    kept += live(event);
+  }
+  current_.resize(kept);
 }
 
 template <typename Visit>
