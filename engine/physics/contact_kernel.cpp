@@ -63,15 +63,16 @@ struct Earliest {
   return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
 }
 
+// One sum over the lanes tells who is first and how many are: a number, and kOne for each.
 [[gnu::always_inline]] inline FirstContact first_of(const Earliest& lanes) {
+  constexpr int kOne = 1 << 16;
   const Lanes time = least(lanes.time);
-  const Lanes once = broadcast(1.0), not_at_all{};
-  const Lanes number = least(lanes.time == time ? lanes.number : broadcast(kNever));
+  const Lanes none{}, one = broadcast(kOne);
   const Lanes sharing =
-      (lanes.time == time ? once : not_at_all) + (lanes.tie == time ? once : not_at_all);
-  const double count = (sharing[0] + sharing[1]) + (sharing[2] + sharing[3]);
-  return {time[0], static_cast<int>(number[0]),
-          (count == 1.0 || time[0] == kNever) && time[0] != kTouching};
+      (lanes.time == time ? lanes.number + one : none) + (lanes.tie == time ? one : none);
+  const int sum = static_cast<int>((sharing[0] + sharing[1]) + (sharing[2] + sharing[3]));
+  const bool alone = sum < 2 * kOne;
+  return {time[0], sum % kOne, (alone || time[0] == kNever) && time[0] != kTouching};
 }
 
 template <int D, bool kFalling>
