@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/physics/spin.h"
@@ -14,6 +15,9 @@ struct State {
   std::vector<Vec<D>> velocities;   ///< [N]
   std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
 };
+
+/// Most disks that there can be.
+inline constexpr std::uint32_t kMostDisks = (1u << 28) - 1;
 
 /// Overlaps up to this, in diameters, are the rounding of a start state's positions: runs begin
 /// with them.

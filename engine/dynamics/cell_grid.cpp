@@ -2,25 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
 namespace clatter {
 
-// Cells hold this many disks on average: measured best from phi = 0.1 to 0.7.
-static constexpr double kDisksPerCell = 1.08;
-// Cells are wider than a diameter by more than any rounding of positions.
-static constexpr double kLeastWidth = 1.05;
+// Cells less the overhangs of both neighbours are wider than a diameter by more than any rounding
+// of positions.
+static constexpr double kLeastWidth = 1.01;
 static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Cells along each axis: as near to cubes as the box allows, shortest edge first, so that a narrow
 // box has the more cells along it.
 template <int D>
-static IntVec<D> choose_counts(const Model<D>& model, std::size_t disks) {
+static IntVec<D> choose_counts(const Model<D>& model, double cells) {
   std::array<int, D> axes;
   std::iota(axes.begin(), axes.end(), 0);
   std::sort(axes.begin(), axes.end(), [&](int a, int b) { return model.box[a] < model.box[b]; });
-  double cells = std::max(1.0, static_cast<double>(disks) / kDisksPerCell);
+  cells = std::max(1.0, cells);
   double volume = model.box.prod();
   IntVec<D> counts;
   for (int k = 0; k < D; ++k) {
@@ -36,42 +36,34 @@ static IntVec<D> choose_counts(const Model<D>& model, std::size_t disks) {
 }
 
 template <int D>
-CellGrid<D>::CellGrid(const Model<D>& model, std::size_t disks)
-    : counts_(choose_counts(model, disks)), box_(model.box) {
+CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_counts(model, cells)) {
   int stride = 1;
   for (int axis = 0; axis < D; ++axis) {
-    periodic_[axis] = model.periodic(axis);
-    widths_[axis] = box_[axis] / counts_[axis];
-    for (int cell = 0; cell < counts_[axis]; ++cell) borders_[axis].push_back(cell * widths_[axis]);
-    borders_[axis].push_back(box_[axis]);
-    if (!periodic_[axis]) {
+    const int count = counts_[axis];
+    widths_[axis] = model.box[axis] / count;
+    overhangs_[axis] = 0.5 * std::max(0.0, widths_[axis] - kLeastWidth * model.diameter);
+    for (int cell = 0; cell < count; ++cell) {
+      borders_[axis].push_back(cell * widths_[axis] - overhangs_[axis]);
+      borders_[axis].push_back((cell + 1) * widths_[axis] + overhangs_[axis]);
+    }
+    strides_[axis] = stride;
+    auto& places = places_[axis];
+    places.resize(static_cast<std::size_t>(count) + 2);
+    for (int cell = 0; cell < count; ++cell) {
+      places[static_cast<std::size_t>(cell) + 1].index = static_cast<std::uint32_t>(cell * stride);
+    }
+    if (model.periodic(axis)) {
+      // From beyond the low border the box lies a length above, from beyond the high one below.
+      const auto wrap = [&](unsigned bits) { return Neighbour{bits} << (kDiskBits + 2 * axis); };
+      places.front() = {places[static_cast<std::size_t>(count)].index, wrap(0b01)};
+      places.back() = {places[1].index, wrap(0b11)};
+    } else {
       borders_[axis].front() = -kInfinity;
       borders_[axis].back() = kInfinity;
     }
-    strides_[axis] = stride;
-    stride *= counts_[axis];
+    stride *= count;
   }
-  lines_.resize(static_cast<std::size_t>(stride));
-}
-
-template <int D>
-double CellGrid<D>::crowding() const {
-  double disks = 0.0, pairs = 0.0;
-  for (int cell = 0; cell < counts_.prod(); ++cell) {
-    double count = 0.0;
-    for (const Line* line = &lines_[static_cast<std::size_t>(cell)];; line = &lines_[line->next]) {
-      count += line->count;
-      if (line->next == kNone) break;
-    }
-    disks += count;
-    pairs += count * count;
-  }
-  return disks > 0.0 ? pairs / disks : 0.0;
-}
-
-template <int D>
-std::size_t CellGrid<D>::index(const IntVec<D>& cell) const {
-  return static_cast<std::size_t>(cell.dot(strides_));
+  lists_.resize(static_cast<std::size_t>(stride));
 }
 
 template <int D>
@@ -85,50 +77,109 @@ IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
 }
 
 template <int D>
-std::uint32_t CellGrid<D>::new_line() {
-  if (spare_.empty()) {
-    lines_.emplace_back();
-    return static_cast<std::uint32_t>(lines_.size() - 1);
-  }
-  const std::uint32_t line = spare_.back();
-  spare_.pop_back();
-  lines_[line] = Line{};
-  return line;
-}
-
-template <int D>
 void CellGrid<D>::insert(std::uint32_t disk, const IntVec<D>& cell) {
-  std::size_t at = index(cell);
-  while (lines_[at].count == Line::kCapacity) {
-    if (lines_[at].next == kNone) {
-      const std::uint32_t added = new_line();  // may move lines_
-      lines_[at].next = added;
-    }
-    at = lines_[at].next;
-  }
-  Line& line = lines_[at];
-  line.disks[line.count++] = disk;
+  visit_lists<D - 1>(about(cell), 0, 0,
+                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, disk | wrap); });
 }
 
 template <int D>
 void CellGrid<D>::remove(std::uint32_t disk, const IntVec<D>& cell) {
-  Line* line = &lines_[index(cell)];
-  std::uint32_t* place = nullptr;
-  Line* last = line;
-  Line* before_last = nullptr;
-  for (;; line = &lines_[line->next]) {
-    const auto end = line->disks.begin() + line->count;
-    const auto found = std::find(line->disks.begin(), end, disk);
-    if (found != end) place = &*found;
-    last = line;
-    if (line->next == kNone) break;
-    before_last = line;
+  visit_lists<D - 1>(about(cell), 0, 0,
+                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, disk | wrap); });
+}
+
+template <int D>
+void CellGrid<D>::move(std::uint32_t disk, const IntVec<D>& cell, int axis, int step) {
+  const int next = cell[axis] + step;
+  if (next < 0 || next == counts_[axis]) {
+    // Round a border, it is seen otherwise from everywhere.
+    remove(disk, cell);
+    insert(disk, neighbour(cell, axis, step));
+    return;
   }
-  *place = last->disks[--last->count];
-  if (last->count == 0 && before_last) {
+  visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0,
+                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, disk | wrap); });
+  visit_lists<D - 1>(row(cell, axis, next + step), 0, 0,
+                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, disk | wrap); });
+}
+
+template <int D>
+void CellGrid<D>::put_on(std::uint32_t at, Neighbour neighbour) {
+  while (lists_[at].count == List::kCapacity) [[unlikely]] {
+      if (lists_[at].next == kNone) {
+        const std::uint32_t added = new_list();  // may move lists_
+        lists_[at].next = added;
+      }
+      at = lists_[at].next;
+    }
+  List& list = lists_[at];
+  list.neighbours[list.count++] = neighbour;
+  list.wraps = list.wraps || neighbour != disk_of(neighbour);
+}
+
+// Where a neighbour stands on a list; 0 where it does not. Looks at all places at once, for where
+// it is cannot be foreseen.
+template <class List>
+static std::uint32_t place_of(std::uint32_t neighbour, const List& list) {
+  using Four = std::uint32_t __attribute__((vector_size(16)));
+  // The last two words of a list hold no neighbours.
+  static constexpr Four kPlaces[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}, {12, 13, 0, 0}};
+  static_assert(List::kCapacity == 14 && sizeof(List) == 4 * sizeof(Four));
+  Four found{};
+  for (int k = 0; k < 4; ++k) {
+    Four four;
+    std::memcpy(&four, reinterpret_cast<const char*>(&list) + k * sizeof four, sizeof four);
+    found |= (four == neighbour) & kPlaces[k];
+  }
+  return (found[0] | found[1]) | (found[2] | found[3]);
+}
+
+template <int D>
+void CellGrid<D>::take_off(std::uint32_t at, Neighbour neighbour) {
+  List& list = lists_[at];
+  if (list.next != kNone) [[unlikely]]
+    return take_off_chain(at, neighbour);
+  Neighbour& last = list.neighbours[--list.count];
+  list.neighbours[place_of(neighbour, list)] = last;
+  last = kNobody;
+}
+
+// The last of the chain comes to where the neighbour was.
+template <int D>
+void CellGrid<D>::take_off_chain(std::uint32_t at, Neighbour neighbour) {
+  Neighbour* place = nullptr;
+  List* holder = nullptr;
+  List* list = &lists_[at];
+  List* before_last = nullptr;
+  for (;; list = &lists_[list->next]) {
+    Neighbour& found = list->neighbours[place_of(neighbour, *list)];
+    if (found == neighbour) {
+      place = &found;
+      holder = list;
+    }
+    if (list->next == kNone) break;
+    before_last = list;
+  }
+  Neighbour& last = list->neighbours[--list->count];
+  *place = last;
+  holder->wraps = holder->wraps || list->wraps;
+  last = kNobody;
+  if (list->count == 0) {
     spare_.push_back(before_last->next);
     before_last->next = kNone;
   }
+}
+
+template <int D>
+std::uint32_t CellGrid<D>::new_list() {
+  if (spare_.empty()) {
+    lists_.emplace_back();
+    return static_cast<std::uint32_t>(lists_.size() - 1);
+  }
+  const std::uint32_t list = spare_.back();
+  spare_.pop_back();
+  lists_[list] = List{};
+  return list;
 }
 
 template class CellGrid<2>;

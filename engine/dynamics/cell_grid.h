@@ -11,22 +11,25 @@
 
 namespace clatter {
 
-/// Cells of at least one diameter that say which disks are near: two disks that touch lie in the
-/// same cell or in neighbouring ones. Each cell is half a cache line of disk numbers, to which the
-/// clusters of a dissipative gas chain further ones.
+/// Cells that say which disks are near: two disks that touch belong to the same cell or to
+/// neighbouring ones. A disk belongs to its cell until it is beyond the cell's border by an
+/// overhang, as wide as that allows, so that those who rattle about a border do not cross it.
+///
+/// Each cell lists the disks of itself and of all cells about it, for a disk looks for partners far
+/// more often than it changes cells: who looks reads one list, and who enters a cell is taken off
+/// one row of lists and put on another.
 template <int D>
 class CellGrid {
  public:
-  /// An empty grid over the box, of about one cell for each of a number of disks.
-  CellGrid(const Model<D>& model, std::size_t disks);
+  /// An empty grid over the box, of about so many cells, each wider than a diameter.
+  CellGrid(const Model<D>& model, double cells);
 
-  /// Disks in the cell of a disk, itself included, on average over disks: far more than one where
-  /// they lie in clusters.
-  double crowding() const;
   /// Puts a disk into a cell.
   void insert(std::uint32_t disk, const IntVec<D>& cell);
   /// Takes a disk out of the cell it was put into.
   void remove(std::uint32_t disk, const IntVec<D>& cell);
+  /// Moves a disk from its cell to the neighbour along an axis, on the side of `step` = +1 or -1.
+  void move(std::uint32_t disk, const IntVec<D>& cell, int axis, int step);
 
   /// Number of cells along each axis.
   const IntVec<D>& counts() const { return counts_; }
@@ -39,135 +42,155 @@ class CellGrid {
     if (cell[axis] < 0 || cell[axis] == counts_[axis]) cell[axis] -= step * counts_[axis];
     return cell;
   }
-  /// Place along an axis of the border below cell number `cell`, or of the last cell's far border
-  /// for counts(); infinitely far off where the box ends at a wall, for there is no cell beyond.
-  double border(int axis, int cell) const { return borders_[axis][static_cast<std::size_t>(cell)]; }
-  /// Edge length of the cells along an axis.
-  double width(int axis) const { return widths_[axis]; }
+  /// Place along an axis where a disk leaves cell number `cell`, above it or below; infinitely far
+  /// off where the box ends at a wall, for there is no cell beyond.
+  double border(int axis, int cell, bool upper) const {
+    return borders_[axis][static_cast<std::size_t>(2 * cell + upper)];
+  }
+  /// Least distance of a disk in cell number `cell` from the lower or upper end of the box.
+  double distance_from_end(int axis, int cell, bool upper) const {
+    const int cells = upper ? counts_[axis] - 1 - cell : cell;
+    return cells * widths_[axis] - overhangs_[axis];
+  }
 
-  /// A box of cells about one: the offsets from `from` to `to` along each axis.
-  struct Stencil {
-    IntVec<D> from = IntVec<D>::Constant(-1);
-    IntVec<D> to = IntVec<D>::Constant(1);
+  /// A disk that is near: its number below, and above for each axis, in two bits, by how many box
+  /// lengths it lies round the periodic borders (-1, 0 or +1). A disk comes up several times, seen
+  /// round different borders, where the box is only one or two cells wide.
+  using Neighbour = std::uint32_t;
+  static constexpr int kDiskBits = 32 - 2 * D;
+  static_assert(kMostDisks < std::uint32_t{1} << kDiskBits);  // the last number is kNobody's
+  static std::uint32_t disk_of(Neighbour neighbour) { return neighbour & kDiskMask; }
+  static int wrap_of(Neighbour neighbour, int axis) {
+    // Two bits with their sign.
+    return static_cast<std::int32_t>(neighbour << (2 * (D - 1 - axis))) >> 30;
+  }
+
+  /// A list of those near a cell, or a part of it: a cache line.
+  struct alignas(64) List {
+    static constexpr int kCapacity = 14;
+    std::array<Neighbour, kCapacity> neighbours;  ///< those beyond the count are kNobody
+    std::uint16_t count = 0;
+    bool wraps = false;          ///< whether some may lie round a periodic border
+    std::uint32_t next = kNone;  ///< list that continues this one, which is full; or kNone
+
+    List() { neighbours.fill(kNobody); }
   };
+  static constexpr Neighbour kDiskMask = (Neighbour{1} << kDiskBits) - 1;
+  static constexpr Neighbour kNobody = ~Neighbour{0};
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  /// Disks that lie together: some of one cell's.
-  struct alignas(32) Line {
-    static constexpr int kCapacity = 7;
-    std::array<std::uint32_t, kCapacity> disks;
-    std::uint32_t count : 3 = 0;
-    std::uint32_t next : 29 = kNone;  ///< line that continues the cell
-  };
-  static constexpr std::uint32_t kNone = (1u << 29) - 1;
-
-  /// Calls visit(line, wrap) for each line of the cells in the stencil about a cell. `wrap` points
-  /// to the box lengths by which the line's cell lies round the periodic borders, or is null where
-  /// no cell of the stencil does. A cell comes up several times, with different wraps, where the
-  /// box is only one or two cells wide.
+  /// The list of a cell.
+  const List& near(const IntVec<D>& cell) const { return lists_[index(cell)]; }
+  /// The one that continues a list, or null.
+  const List* next(const List& list) const {
+    return list.next == kNone ? nullptr : &lists_[list.next];
+  }
+  /// How many are near a cell.
+  std::size_t count_near(const IntVec<D>& cell) const;
+  /// Calls visit(disk, wrap) for each disk near a cell; `wrap` are the box lengths by which it lies
+  /// round the periodic borders.
   template <typename Visit>
-  void visit(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
+  void visit(const IntVec<D>& cell, const Visit& visit) const;
 
-  /// The same for the first line of each cell only. Cells go on after those that are full.
+  /// Calls visit(list) for the first list of each cell that move() changes; round a periodic border
+  /// it changes more.
   template <typename Visit>
-  void visit_first_lines(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
-
-  /// The same for the other lines.
-  template <typename Visit>
-  void visit_chained_lines(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const;
+  void visit_moved(const IntVec<D>& cell, int axis, int step, const Visit& visit) const;
 
  private:
-  /// The cells of a stencil along the axes up to Axis, for given places along the others; kInside:
-  /// none of them lies beyond the box.
-  template <int Axis, bool kInside, typename VisitCell>
-  void visit_cells(const IntVec<D>& cell, const Stencil& stencil, int at, Vec<D>& wrap,
-                   const VisitCell& visit) const;
-  template <typename VisitCell>
-  void visit_cells(const IntVec<D>& cell, const Stencil& stencil, const VisitCell& visit) const;
-  std::size_t index(const IntVec<D>& cell) const;
-  std::uint32_t new_line();
+  // A cell along one axis, from the one before the first to the one after the last.
+  struct Place {
+    std::uint32_t index = kNone;  // of its list, less those of the other axes; kNone: a wall
+    Neighbour wrap = 0;           // how those within the box are seen from there
+  };
+  struct Block {
+    IntVec<D> from;
+    IntVec<D> to;
+  };
+  static Block about(const IntVec<D>& cell);
+  static Block row(const IntVec<D>& cell, int axis, int at);
+
+  template <int Axis, typename Visit>
+  void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap,
+                   const Visit& visit) const;
+  void put_on(std::uint32_t list, Neighbour neighbour);
+  void take_off(std::uint32_t list, Neighbour neighbour);
+  void take_off_chain(std::uint32_t list, Neighbour neighbour);
+  std::uint32_t index(const IntVec<D>& cell) const;
+  std::uint32_t new_list();
 
   IntVec<D> counts_;
   IntVec<D> strides_;
-  Vec<D> box_;
   Vec<D> widths_;
-  std::array<std::vector<double>, D> borders_;  // [counts + 1] along each axis
-  std::array<bool, D> periodic_;
-  LargeArray<Line> lines_;            // the cells' own lines first, then the chained ones
-  std::vector<std::uint32_t> spare_;  // chained lines not in use
+  Vec<D> overhangs_;
+  std::array<std::vector<double>, D> borders_;  // [2 counts] along each axis: lower, upper, ...
+  std::array<std::vector<Place>, D> places_;    // [counts + 2] along each axis
+  LargeArray<List> lists_;            // the cells' own first, then those that continue them
+  std::vector<std::uint32_t> spare_;  // of the latter, those not in use
 };
 
-// Inlined by force down to the caller's visit, so that what it needs stays in registers.
 template <int D>
-template <int Axis, bool kInside, typename VisitCell>
-[[gnu::always_inline]] inline void CellGrid<D>::visit_cells(const IntVec<D>& cell,
-                                                            const Stencil& stencil, int at,
-                                                            Vec<D>& wrap,
-                                                            const VisitCell& visit) const {
-  const int count = counts_[Axis];
-  const int stride = strides_[Axis];
-  for (int offset = stencil.from[Axis]; offset <= stencil.to[Axis]; ++offset) {
-    int k = cell[Axis] + offset;
-    if constexpr (!kInside) {
-      wrap[Axis] = 0.0;
-      if (static_cast<unsigned>(k) >= static_cast<unsigned>(count)) {
-        if (!periodic_[Axis]) continue;
-        wrap[Axis] = k < 0 ? -1.0 : 1.0;
-        k += k < 0 ? count : -count;
-      }
+std::uint32_t CellGrid<D>::index(const IntVec<D>& cell) const {
+  return static_cast<std::uint32_t>(cell.dot(strides_));
+}
+
+template <int D>
+std::size_t CellGrid<D>::count_near(const IntVec<D>& cell) const {
+  std::size_t count = 0;
+  for (const List* list = &near(cell); list; list = next(*list)) count += list->count;
+  return count;
+}
+
+template <int D>
+template <typename Visit>
+void CellGrid<D>::visit(const IntVec<D>& cell, const Visit& visit) const {
+  for (const List* list = &near(cell); list; list = next(*list)) {
+    for (std::uint32_t k = 0; k < list->count; ++k) {
+      Vec<D> wrap;
+      for (int axis = 0; axis < D; ++axis) wrap[axis] = wrap_of(list->neighbours[k], axis);
+      visit(disk_of(list->neighbours[k]), wrap);
     }
+  }
+}
+
+template <int D>
+typename CellGrid<D>::Block CellGrid<D>::about(const IntVec<D>& cell) {
+  return {cell - IntVec<D>::Ones(), cell + IntVec<D>::Ones()};
+}
+
+// Those of the cells about one that lie at a place along an axis.
+template <int D>
+typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, int at) {
+  Block block = about(cell);
+  block.from[axis] = block.to[axis] = at;
+  return block;
+}
+
+// Calls visit(list, wrap) for the list of each cell of a block; `wrap` is how a disk within the box
+// is seen from there.
+template <int D>
+template <int Axis, typename Visit>
+[[gnu::always_inline]] inline void CellGrid<D>::visit_lists(const Block& block, std::uint32_t index,
+                                                            Neighbour wrap,
+                                                            const Visit& visit) const {
+  for (int k = block.from[Axis]; k <= block.to[Axis]; ++k) {
+    const Place& place = places_[Axis][static_cast<std::size_t>(k + 1)];
+    if (place.index == kNone) continue;
     if constexpr (Axis == 0) {
-      visit(static_cast<std::size_t>(at + k), kInside ? nullptr : &wrap);
+      visit(index + place.index, wrap | place.wrap);
     } else {
-      visit_cells<Axis - 1, kInside>(cell, stencil, at + k * stride, wrap, visit);
+      visit_lists<Axis - 1>(block, index + place.index, wrap | place.wrap, visit);
     }
   }
 }
 
 template <int D>
-template <typename VisitCell>
-[[gnu::always_inline]] inline void CellGrid<D>::visit_cells(const IntVec<D>& cell,
-                                                            const Stencil& stencil,
-                                                            const VisitCell& visit) const {
-  bool inside = true;
-  for (int axis = 0; axis < D; ++axis) {
-    inside = inside && cell[axis] > 0 && cell[axis] < counts_[axis] - 1;
-  }
-  Vec<D> wrap = Vec<D>::Zero();
-  if (inside) {
-    visit_cells<D - 1, true>(cell, stencil, 0, wrap, visit);
-  } else {
-    visit_cells<D - 1, false>(cell, stencil, 0, wrap, visit);
-  }
-}
-
-template <int D>
 template <typename Visit>
-[[gnu::always_inline]] inline void CellGrid<D>::visit_first_lines(const IntVec<D>& cell,
-                                                                  const Stencil& stencil,
-                                                                  const Visit& visit) const {
-  const Line* const lines = lines_.data();
-  visit_cells(
-      cell, stencil, [&](std::size_t at, const Vec<D>* wrap) __attribute__((always_inline)) {
-        visit(lines[at], wrap);
-      });
-}
-
-template <int D>
-template <typename Visit>
-void CellGrid<D>::visit_chained_lines(const IntVec<D>& cell, const Stencil& stencil,
-                                      const Visit& visit) const {
-  visit_first_lines(cell, stencil, [&](const Line& first, const Vec<D>* wrap) {
-    for (const Line* line = &first; line->next != kNone; visit(*line, wrap)) {
-      line = &lines_[line->next];
-    }
-  });
-}
-
-template <int D>
-template <typename Visit>
-void CellGrid<D>::visit(const IntVec<D>& cell, const Stencil& stencil, const Visit& visit) const {
-  visit_first_lines(cell, stencil, visit);
-  visit_chained_lines(cell, stencil, visit);
+void CellGrid<D>::visit_moved(const IntVec<D>& cell, int axis, int step, const Visit& visit) const {
+  const IntVec<D> next = neighbour(cell, axis, step);
+  const auto visit_list = [&](std::uint32_t list, Neighbour) { visit(lists_[list]); };
+  visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0, visit_list);
+  visit_lists<D - 1>(row(cell, axis, next[axis] + step), 0, 0, visit_list);
 }
 
 extern template class CellGrid<2>;

@@ -5,16 +5,26 @@
 
 namespace clatter {
 
-/// What stands for a partner where an event has none: a wall (kWall + side) or a cell border.
-/// Disk numbers lie below.
-inline constexpr std::uint32_t kWall = 0xfffffff0u;
-inline constexpr std::uint32_t kCellBorder = 0xfffffffeu;
+/// What stands for a partner where an event has none: a wall (kWall + side) or a border of the
+/// disk's cell (kCellBorder + side). Disk numbers lie below.
+inline constexpr std::uint32_t kWall = 0xffffffe0u;
+inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
+
+/// Which border of its cell a disk crosses: the axis, and the step across it, +1 or -1.
+struct Crossing {
+  int axis;
+  int step;
+};
+inline Crossing crossing_of(std::uint32_t border) {
+  const auto side = static_cast<int>(border - kCellBorder);
+  return {side / 2, side % 2 ? 1 : -1};
+}
 
 /// An entry of the event queue: something that a disk does at a time.
 struct Event {
   double time = 0.0;  ///< on the moving base
   std::uint32_t disk = 0;
-  std::uint32_t partner = 0;  ///< a disk, kWall + side, or kCellBorder
+  std::uint32_t partner = 0;  ///< a disk, kWall + side, or kCellBorder + side
 };
 
 /// Total order of events: by time; ties by kind (disks, walls, cell borders), then by disks, a pair

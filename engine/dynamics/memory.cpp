@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,13 +13,15 @@
 #include "engine/error.h"
 #include "engine/physics/spin.h"
 #include "engine/scene/text.h"
+#include "engine/state.h"
 
 namespace clatter {
 
-// Besides the disk and its plan: one line of a cell each, up to four where disks lie in clusters
-// (Simulation::fit_cells), and two entries of the event queue with room to grow.
+// Besides the disk and its plan: the list of one cell, of up to four and what continues them where
+// disks lie in clusters (Simulation::fit_cells), and two entries of the event queue with room to
+// grow.
 static constexpr double kBytesPerDisk =
-    sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::Line) + 4 * sizeof(Event);
+    sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::List) + 4 * sizeof(Event);
 
 GasMemory gas_memory(const Scene& scene) {
   const double count = scene.disks.count;
@@ -30,13 +33,15 @@ void require_memory(const Scene& scene) {
   const double there =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const double needed = gas_memory(scene).total();
-  if (needed <= there) return;
+  if (needed <= there && scene.disks.count <= static_cast<int>(kMostDisks)) return;
+  const double fitting = std::floor(scene.disks.count * (there / needed));
   const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
+  const std::string reason = needed <= there ? " disks are more than can be numbered"
+                                             : " disks take about " + gigabytes(needed) +
+                                                   " GB, and this machine has " + gigabytes(there);
   throw UserError(
-      {"disks.count", 0, 0},
-      std::to_string(scene.disks.count) + " disks take about " + gigabytes(needed) +
-          " GB, and this machine has " + gigabytes(there),
-      "choose at most " + std::to_string(static_cast<int>(scene.disks.count * there / needed)));
+      {"disks.count", 0, 0}, std::to_string(scene.disks.count) + reason,
+      "choose at most " + std::to_string(static_cast<int>(std::min<double>(kMostDisks, fitting))));
 }
 
 }  // namespace clatter

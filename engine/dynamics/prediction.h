@@ -14,23 +14,14 @@
 
 namespace clatter {
 
-/// What a disk will do next: the first contact known of, and when it leaves its cell.
+/// What a disk in its cell will do next: its first contact there, or leave the cell.
 template <int D>
-struct alignas(64) Plan {
-  double contact = kNever;              ///< time of the first contact; kNever: none known
-  double crossing = kNever;             ///< time at which it leaves its cell
-  std::uint32_t partner = 0;            ///< of the contact: a disk, or kWall + side
+struct Plan {
+  double time = kNever;                 ///< kNever: it rests, and nothing comes near
+  std::uint32_t partner = 0;            ///< as in an Event
   std::uint32_t partner_flight = 0;     ///< number of the partner's flight that the contact is with
   IntVec<D> image = IntVec<D>::Zero();  ///< box lengths to add to this disk's r minus the partner's
   IntVec<D> cell = IntVec<D>::Zero();
-  std::int8_t crossing_axis = 0;
-  std::int8_t crossing_step = 0;  ///< +1 or -1 along that axis
-
-  /// The earlier of the two, as an entry of the event queue.
-  Event event(std::uint32_t disk) const {
-    const bool touches = contact <= crossing;
-    return {touches ? contact : crossing, disk, touches ? partner : kCellBorder};
-  }
 };
 
 /// Finds what a disk will do next, from stored states alone.
@@ -41,28 +32,19 @@ class Prediction {
   Prediction(const Model<D>& model, const Boundary<D>& boundary, const LargeArray<Disk<D>>& disks,
              const CellGrid<D>& grid);
 
-  /// The first contact with any disk or wall about the disk's cell, and its way out of the cell.
+  /// The first contact with any disk or wall about the disk's cell, or its way out of the cell.
   void plan(std::uint32_t disk, double now, Plan<D>& plan) const;
 
-  /// The same after the disk has just entered `plan.cell` by `step` along `axis`: the contact known
-  /// stays, and only the cells that came within reach are looked at.
-  void plan_entered(std::uint32_t disk, double now, int axis, int step, Plan<D>& plan) const;
-
  private:
-  using Line = typename CellGrid<D>::Line;
-  using Stencil = typename CellGrid<D>::Stencil;
-
-  [[gnu::always_inline]] void look_at_disks(std::uint32_t disk, const Stencil& stencil,
-                                            Plan<D>& plan) const;
-  int add_chained(std::uint32_t disk, const Stencil& stencil, int size, Candidates<D>& near,
-                  Plan<D>& plan) const;
-  void weigh(std::uint32_t disk, Candidates<D>& near, int size, Plan<D>& plan) const;
+  void look_at_disks(std::uint32_t disk, Plan<D>& plan) const;
+  void weigh(std::uint32_t disk, Candidates<D>& near, Plan<D>& plan) const;
   Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near, int i) const;
   void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                   Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const;
   void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
   void look_at_borders_falling(std::uint32_t disk, double now, Plan<D>& plan) const;
+  void offer_border(double time, int axis, bool upper, Plan<D>& plan) const;
   void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
 
@@ -71,6 +53,7 @@ class Prediction {
   const LargeArray<Disk<D>>& disks_;
   const CellGrid<D>& grid_;
   bool falling_;  // whether there is gravity
+  bool walled_;   // whether there are walls
   FirstContactKernel<D>* first_contact_;
   std::array<double, 2 * D> reach_;  // from the box's edge: where the side's wall can be touched
 };

@@ -149,7 +149,8 @@ class Insertion {
 // disks and not the room.
 class SparseInsertion {
  public:
-  SparseInsertion(const Room& room, std::size_t count) : model_(empty(room)), grid_(model_, count) {
+  SparseInsertion(const Room& room, std::size_t count)
+      : model_(empty(room)), grid_(model_, static_cast<double>(count)) {
     placed_.reserve(count);
   }
 
@@ -187,12 +188,9 @@ class SparseInsertion {
 
   bool place_at(const Vec2& point) {
     bool overlaps = false;
-    grid_.visit(grid_.cell_at(point), {}, [&](const auto& line, const Vec2* wrap) {
-      for (std::uint32_t k = 0; k < line.count; ++k) {
-        Vec2 x = placed_[line.disks[k]] - point;
-        if (wrap) x += wrap->cwiseProduct(model_.box);
-        overlaps = overlaps || x.norm() < model_.diameter;
-      }
+    grid_.visit(grid_.cell_at(point), [&](std::uint32_t other, const Vec2& wrap) {
+      const Vec2 x = placed_[other] - point + wrap.cwiseProduct(model_.box);
+      overlaps = overlaps || x.norm() < model_.diameter;
     });
     if (overlaps) return false;
     grid_.insert(static_cast<std::uint32_t>(placed_.size()), grid_.cell_at(point));

@@ -18,6 +18,8 @@ namespace clatter {
 // renew_flight().
 static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
+// Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
+static constexpr double kCellsPerDisk = 1.0;
 // Fetching ahead pays once the disks no longer fit the cache.
 static constexpr std::size_t kFetchAheadFrom = 20000;
 
@@ -75,7 +77,7 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
       spins_(saved.spins.begin(), saved.spins.end()),
       last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
       plans_(disks_.size()),
-      grid_(model_, disks_.size()),
+      grid_(model_, kCellsPerDisk * static_cast<double>(disks_.size())),
       prediction_(model_, boundary_, disks_, grid_),
       until_base_moves_(saved.until_base_moves),
       start_speed_(saved.start_speed),
@@ -128,25 +130,27 @@ void Simulation<D>::fill_cells() {
   }
 }
 
-// Cells made for the mean density hold too many disks where those lie in clusters: there they
-// become finer, up to so many for each disk that memory allows. Where disks are found does not
-// depend on it.
+// Cells made for the mean density have long lists where disks lie in clusters: there they become
+// finer, up to so many for each disk that memory allows. Where disks are found does not depend on
+// it.
 template <int D>
 void Simulation<D>::fit_cells() {
-  constexpr double kCrowded = 3.0, kWanted = 2.0, kScattered = 1.25;  // disks in the cell of a disk
-  constexpr double kMost = 4.0;                                       // cells for each disk
+  constexpr double kCrowded = 27.0, kWanted = 18.0, kScattered = 4.0;  // disks near a disk
+  constexpr double kMost = 4.0;                                        // cells for each disk
   if (disks_.empty()) return;
+  double near = 0.0;
+  for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
   const double count = static_cast<double>(disks_.size());
+  const double crowding = near / count;
   const double cells = grid_.counts().template cast<double>().prod();
-  const double crowding = grid_.crowding();
   double fitting = cells;
   if (crowding > kCrowded && cells < 0.75 * kMost * count) {
     fitting = std::min(cells * crowding / kWanted, kMost * count);
-  } else if (crowding < kScattered && cells > count) {
-    fitting = count;
+  } else if (crowding < kScattered && cells > 1.25 * kCellsPerDisk * count) {
+    fitting = kCellsPerDisk * count;
   }
   if (fitting == cells) return;
-  grid_ = CellGrid<D>(model_, static_cast<std::size_t>(fitting));
+  grid_ = CellGrid<D>(model_, fitting);
   fill_cells();
 }
 
@@ -156,8 +160,8 @@ void Simulation<D>::plan_all() {
   events.reserve(disks_.size());
   for (std::uint32_t i = 0; i < disks_.size(); ++i) {
     prediction_.plan(i, now_, plans_[i]);
-    const Event event = plans_[i].event(i);
-    if (event.time < kNever) events.push_back(event);
+    const Plan<D>& plan = plans_[i];
+    if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
   }
   queue_.rebuild(events);
 }
@@ -181,14 +185,14 @@ void Simulation<D>::move_base() {
 
 template <int D>
 void Simulation<D>::schedule(std::uint32_t disk) {
-  const Event event = plans_[disk].event(disk);
-  if (event.time < kNever) queue_.push(event);
+  const Plan<D>& plan = plans_[disk];
+  if (plan.time < kNever) queue_.push({plan.time, disk, plan.partner});
 }
 
 template <int D>
 bool Simulation<D>::holds(const Event& event) const {
-  const Event planned = plans_[event.disk].event(event.disk);
-  return planned.time == event.time && planned.partner == event.partner;
+  const Plan<D>& plan = plans_[event.disk];
+  return (plan.time == event.time) & (plan.partner == event.partner);
 }
 
 template <int D>
@@ -276,7 +280,7 @@ template <int D>
 void Simulation<D>::process(const Event& event) {
   checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
   now_ = std::max(now_, event.time);
-  if (event.partner == kCellBorder) {
+  if (event.partner >= kCellBorder) {
     enter_next_cell(event.disk);
   } else if (event.partner >= kWall) {
     hit_wall(event.disk, static_cast<int>(event.partner - kWall));
@@ -373,16 +377,12 @@ double Simulation<D>::deepest_overlap() const {
   double deepest = 0.0;
   for (std::uint32_t i = 0; i < disks_.size(); ++i) {
     const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
-    grid_.visit(plans_[i].cell, {}, [&](const auto& line, const Vec<D>* wrap) {
-      for (std::uint32_t k = 0; k < line.count; ++k) {
-        const std::uint32_t j = line.disks[k];
-        if (j <= i) continue;
-        Vec<D> image = disks_[j].image - disks_[i].image;
-        if (wrap) image -= *wrap;
-        const Vec<D> x =
-            r - disks_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
-        deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
-      }
+    grid_.visit(plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
+      if (j <= i) return;
+      const Vec<D> image = disks_[j].image - disks_[i].image - wrap;
+      const Vec<D> x =
+          r - disks_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
+      deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
     });
     for (int side = 0; side < 2 * D; ++side) {
       if (!model_.walls[side]) continue;
@@ -394,48 +394,50 @@ double Simulation<D>::deepest_overlap() const {
   return deepest;
 }
 
-// The first lines of the cells where the disks of an event will look for partners.
-template <int D>
-template <typename Visit>
-void Simulation<D>::visit_lines_needed(const Event& event, const Visit& visit) const {
-  const Plan<D>& plan = plans_[event.disk];
-  if (event.partner == kCellBorder) {
-    const int axis = plan.crossing_axis;
-    const int step = plan.crossing_step;
-    typename CellGrid<D>::Stencil ahead;
-    ahead.from[axis] = ahead.to[axis] = step;
-    grid_.visit_first_lines(grid_.neighbour(plan.cell, axis, step), ahead, visit);
-    return;
-  }
-  grid_.visit_first_lines(plan.cell, {}, visit);
-  if (event.partner < kWall && plans_[event.partner].cell != plan.cell) {
-    grid_.visit_first_lines(plans_[event.partner].cell, {}, visit);
-  }
-}
-
-// Three looks ahead, each of which finds in the cache what the one before fetched: the disk and its
-// plan, then its partner and the cells that it will look at, then the disks in those cells.
+// Three looks ahead, each of which finds in the cache what the one before fetched: the disks and
+// their plans, then the lists that they will look at or move between, then the disks on these.
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();
   queue_.look_ahead(8, [&](const Event& event) {
     fetch(disks_[event.disk]);
     fetch(plans_[event.disk]);
+    if (event.partner >= kWall) return;
+    fetch(disks_[event.partner]);
+    fetch(plans_[event.partner]);
   });
   queue_.look_ahead(5, [&](const Event& event) {
     if (!holds(event)) return;
-    if (event.partner < kWall) {
-      fetch(disks_[event.partner]);
-      fetch(plans_[event.partner]);
+    if (event.partner >= kCellBorder) {
+      const auto [axis, step] = crossing_of(event.partner);
+      grid_.visit_moved(plans_[event.disk].cell, axis, step, [](const auto& list) { fetch(list); });
     }
-    visit_lines_needed(event, [](const auto& line, const Vec<D>*) { fetch(line); });
+    visit_cells_needed(event, [this](const IntVec<D>& cell) { fetch(grid_.near(cell)); });
   });
   queue_.look_ahead(3, [&](const Event& event) {
     if (!holds(event)) return;
-    visit_lines_needed(event, [&](const auto& line, const Vec<D>*) {
-      for (std::uint32_t k = 0; k < line.count; ++k) fetch(disks_[line.disks[k]]);
+    visit_cells_needed(event, [this](const IntVec<D>& cell) {
+      for (const auto neighbour : grid_.near(cell).neighbours) {
+        if (neighbour != CellGrid<D>::kNobody) fetch(disks_[CellGrid<D>::disk_of(neighbour)]);
+      }
     });
   });
+}
+
+// The cells from which the disks of an event will look for partners.
+template <int D>
+template <typename Visit>
+void Simulation<D>::visit_cells_needed(const Event& event, const Visit& visit) const {
+  const IntVec<D>& cell = plans_[event.disk].cell;
+  if (event.partner >= kCellBorder) {
+    const auto [axis, step] = crossing_of(event.partner);
+    visit(grid_.neighbour(cell, axis, step));
+    return;
+  }
+  visit(cell);
+  if (event.partner < kWall && plans_[event.partner].cell != cell) {
+    visit(plans_[event.partner].cell);
+  }
 }
 
 template class Simulation<2>;

@@ -117,7 +117,7 @@ class Simulation {
   bool holds(const Event& event) const;
   void fetch_ahead();
   template <typename Visit>
-  void visit_lines_needed(const Event& event, const Visit& visit) const;
+  void visit_cells_needed(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
   DiskChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
                           const Impulse<D>& gain) const;

@@ -13,15 +13,13 @@ namespace clatter {
 template <int D>
 void Simulation<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
-  const int axis = plan.crossing_axis;
-  const int step = plan.crossing_step;
+  const auto [axis, step] = crossing_of(plan.partner);
   const IntVec<D> next = grid_.neighbour(plan.cell, axis, step);
   if (next[axis] != plan.cell[axis] + step) disks_[number].image[axis] += step;
-  grid_.remove(number, plan.cell);
+  grid_.move(number, plan.cell, axis, step);
   plan.cell = next;
-  grid_.insert(number, plan.cell);
   ++counts_.cell_crossings;
-  prediction_.plan_entered(number, now_, axis, step, plan);
+  prediction_.plan(number, now_, plan);
   schedule(number);
 }
 
@@ -110,8 +108,8 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   counts_.elasticised += outcome.elasticised;
   if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
   prediction_.plan(first, now_, plans_[first]);
-  schedule(first);
   prediction_.plan(second, now_, plans_[second]);
+  schedule(first);
   schedule(second);
 }
 

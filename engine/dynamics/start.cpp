@@ -69,7 +69,7 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   constexpr double kReach = 1.5;
   Model<2> reach = model;
   reach.diameter = kReach * model.diameter;
-  CellGrid<2> grid(reach, state.positions.size());
+  CellGrid<2> grid(reach, static_cast<double>(state.positions.size()));
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     grid.insert(i, grid.cell_at(state.positions[i]));
   }
@@ -77,14 +77,11 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   double bonds = 0.0;
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     const Vec2& r = state.positions[i];
-    grid.visit(grid.cell_at(r), {}, [&](const auto& line, const Vec2* wrap) {
-      for (std::uint32_t k = 0; k < line.count; ++k) {
-        Vec2 x = state.positions[line.disks[k]] - r;
-        if (wrap) x += wrap->cwiseProduct(model.box);
-        if (line.disks[k] == i || x.norm() > reach.diameter) continue;
-        sum += std::polar(1.0, m * std::atan2(x.y(), x.x()));
-        bonds += 1.0;
-      }
+    grid.visit(grid.cell_at(r), [&](std::uint32_t j, const Vec2& wrap) {
+      const Vec2 x = state.positions[j] - r + wrap.cwiseProduct(model.box);
+      if (j == i || x.norm() > reach.diameter) return;
+      sum += std::polar(1.0, m * std::atan2(x.y(), x.x()));
+      bonds += 1.0;
     });
   }
   return bonds > 0.0 ? std::abs(sum) / bonds : 0.0;

@@ -15,7 +15,7 @@ inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
 /// frame lies off the box.
 template <int D>
 struct Candidates {
-  static constexpr int kCapacity = 128;
+  static constexpr int kCapacity = 16;
 
   /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
   static constexpr int kMargin = 3;
@@ -28,7 +28,7 @@ struct Candidates {
 /// Which of its candidates a disk touches first.
 struct FirstContact {
   double time;      ///< kNever: none, kTouching: at least one touches already
-  int candidate;    ///< whose time this is
+  int candidate;    ///< whose time this is; 0 where there is none
   bool told_apart;  ///< false: others may share the time, or touch too, and must be asked
 };
 

@@ -268,9 +268,9 @@ void visit_start(Visitor& io, Start& start, Presence spin_key) {
 /// The keys of [disks]; count and area_fraction are resolved when the whole scene is known.
 template <class Visitor>
 void visit_disks(Visitor& io, SceneInput& input) {
-  constexpr double kMostDisks = std::numeric_limits<int>::max();
+  constexpr double kLargestCount = std::numeric_limits<int>::max();
   Disks& disks = input.scene.disks;
-  io.value("count", input.count, between(0, kMostDisks));
+  io.value("count", input.count, between(0, kLargestCount));
   io.value("area_fraction", input.area_fraction, between(0.0, 1.0));
   io.value("restitution", disks.restitution, between(0.0, 1.0));
   visit_roughness(io, disks.roughness, kOptional);

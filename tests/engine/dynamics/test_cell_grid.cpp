@@ -1,7 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -15,16 +16,25 @@ using namespace clatter::testing;
 
 namespace {
 
-std::vector<std::uint32_t> contents(const CellGrid<2>& grid, const IntVec<2>& cell) {
-  std::vector<std::uint32_t> disks;
-  CellGrid<2>::Stencil itself;
-  itself.from.setZero();
-  itself.to.setZero();
-  grid.visit(cell, itself, [&](const auto& line, const Vec2*) {
-    disks.insert(disks.end(), line.disks.begin(), line.disks.begin() + line.count);
+using Image = std::tuple<std::uint32_t, int, int>;  // disk, box lengths along x and y
+
+std::multiset<Image> near(const CellGrid<2>& grid, const IntVec<2>& cell) {
+  std::multiset<Image> images;
+  grid.visit(cell, [&](std::uint32_t disk, const Vec2& wrap) {
+    images.insert({disk, static_cast<int>(wrap.x()), static_cast<int>(wrap.y())});
   });
-  std::sort(disks.begin(), disks.end());
-  return disks;
+  return images;
+}
+
+// Whether each list that holds somebody round a periodic border says so.
+bool wraps_are_told(const CellGrid<2>& grid, const IntVec<2>& cell) {
+  for (const auto* list = &grid.near(cell); list; list = grid.next(*list)) {
+    for (std::uint32_t k = 0; k < list->count; ++k) {
+      const auto neighbour = list->neighbours[k];
+      if (neighbour != CellGrid<2>::disk_of(neighbour) && !list->wraps) return false;
+    }
+  }
+  return true;
 }
 
 // A box from wide to narrower than two diameters, with either pair of sides walled or periodic.
@@ -45,9 +55,8 @@ Vec2 random_place(const Model<2>& model, const CellGrid<2>& grid, Random& random
   for (int axis = 0; axis < 2; ++axis) {
     r[axis] = model.box[axis] * random.uniform();
     if (random.below(4) == 0) {
-      const double border =
-          grid.border(axis, static_cast<int>(random.below(grid.counts()[axis] + 1)));
-      r[axis] = std::clamp(border, 0.0, model.box[axis]);
+      const int count = grid.counts()[axis];
+      r[axis] = model.box[axis] / count * static_cast<double>(random.below(count + 1));
     }
     if (!model.periodic(axis)) {
       r[axis] = std::clamp(r[axis], model.wall_plane(axis, 0), model.wall_plane(axis, 1));
@@ -56,54 +65,115 @@ Vec2 random_place(const Model<2>& model, const CellGrid<2>& grid, Random& random
   return r;
 }
 
-using Image = std::tuple<std::size_t, int, int>;  // disk, box lengths along x and y
+// A disk in a grid: its cell, and its place in the frame of that cell.
+struct Guest {
+  IntVec<2> cell;
+  Vec2 r;
+};
+
+bool belongs(const CellGrid<2>& grid, const Guest& guest) {
+  bool within = true;
+  for (int axis = 0; axis < 2; ++axis) {
+    within = within && guest.r[axis] >= grid.border(axis, guest.cell[axis], false) &&
+             guest.r[axis] <= grid.border(axis, guest.cell[axis], true);
+  }
+  return within;
+}
+
+// Where the disk is after a step to a neighbouring cell, or nowhere if there is a wall.
+std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Guest guest, int axis,
+                             int step) {
+  const int next = guest.cell[axis] + step;
+  const bool round = next < 0 || next == grid.counts()[axis];
+  if (round && !model.periodic(axis)) return {};
+  guest.cell = grid.neighbour(guest.cell, axis, step);
+  if (round) guest.r[axis] -= step * model.box[axis];
+  return guest;
+}
 
 }  // namespace
 
-TEST_CASE("cell grid: a cell holds what was put into it and not taken out, chained or not") {
-  CellGrid<2> grid(periodic_box(10.0, 10.0), 50);
+TEST_CASE(
+    "cell grid: a list holds those about its cell that came and did not leave, chained or not") {
+  CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
+  REQUIRE(grid.counts() == IntVec<2>(7, 7));
   Random random(61, Stream::Placement, 0, 0);
-  std::vector<std::uint32_t> inside;
-  const IntVec<2> cell = {1, 2}, other = {2, 2};
+  std::multiset<Image> inside;
+  const IntVec<2> cell = {1, 2}, beside = {2, 3}, off = {4, 2};
   std::uint32_t next = 0;
   for (int i = 0; i < 5000; ++i) {
-    // Fills to some 250 disks, 36 lines, and empties again.
+    // Fills to some 250 disks, 18 lists, and empties again.
     const bool fill = (i / 250) % 2 == 0;
     if (fill || inside.empty()) {
       grid.insert(next, cell);
-      grid.insert(next + 100000, other);
-      inside.push_back(next++);
+      grid.insert(next + 100000, off);
+      inside.insert({next++, 0, 0});
     } else {
-      const std::size_t at = random.below(inside.size());
-      grid.remove(inside[at], cell);
-      grid.remove(inside[at] + 100000, other);
-      inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(at));
+      const auto leaver = std::next(inside.begin(), static_cast<int>(random.below(inside.size())));
+      grid.remove(std::get<0>(*leaver), cell);
+      grid.remove(std::get<0>(*leaver) + 100000, off);
+      inside.erase(leaver);
     }
-    REQUIRE(contents(grid, cell) == inside);
-    REQUIRE(contents(grid, other).size() == inside.size());
+    REQUIRE(near(grid, cell) == inside);
+    REQUIRE(near(grid, beside) == inside);
+    REQUIRE(near(grid, off).size() == inside.size());
+    REQUIRE(grid.count_near(cell) == inside.size());
   }
 }
 
-TEST_CASE("cell grid: crowding is how many disks share the cell of a disk") {
-  CellGrid<2> grid(periodic_box(10.0, 10.0), 50);
-  CHECK(grid.crowding() == 0.0);
-  std::uint32_t next = 0;
-  for (const auto& [cell, count] :
-       {std::pair{IntVec<2>(1, 1), 1}, {IntVec<2>(2, 1), 3}, {IntVec<2>(0, 4), 20}}) {
-    for (int i = 0; i < count; ++i) grid.insert(next++, cell);
+TEST_CASE("cell grid: a list tells that some lie round a border, whoever leaves it") {
+  CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
+  const IntVec<2> first = {0, 2}, last = {6, 2};
+  // Those beyond the border come where others were.
+  for (std::uint32_t disk = 0; disk < 20; ++disk) grid.insert(disk, first);
+  for (std::uint32_t disk = 20; disk < 40; ++disk) grid.insert(disk, last);
+  for (std::uint32_t disk = 0; disk < 20; ++disk) {
+    grid.remove(disk, first);
+    REQUIRE(wraps_are_told(grid, first));
   }
-  CHECK(grid.crowding() == (1.0 + 9.0 + 400.0) / 24.0);
+  CHECK(near(grid, first).count({39, -1, 0}) == 1);
 }
 
-TEST_CASE("cell grid: every position lies in a cell, and between its borders") {
+TEST_CASE("cell grid: who moves is listed as if put where it is") {
+  Random random(62, Stream::Placement, 1, 0);
+  for (int i = 0; i < 300; ++i) {
+    const Model<2> model = random_box(random);
+    const std::uint32_t count = 1 + static_cast<std::uint32_t>(random.below(40));
+    CellGrid<2> moved(model, count), put(model, count);
+    std::vector<Guest> guests;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Vec2 r = random_place(model, moved, random);
+      guests.push_back({moved.cell_at(r), r});
+      moved.insert(k, guests[k].cell);
+      for (int steps = 0; steps < 6; ++steps) {
+        const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
+        const auto next = stepped(model, moved, guests[k], axis, step);
+        if (!next) continue;
+        moved.move(k, guests[k].cell, axis, step);
+        guests[k] = *next;
+      }
+      put.insert(k, guests[k].cell);
+    }
+    for (int x = 0; x < moved.counts().x(); ++x) {
+      for (int y = 0; y < moved.counts().y(); ++y) {
+        REQUIRE(near(moved, {x, y}) == near(put, {x, y}));
+        REQUIRE(wraps_are_told(moved, {x, y}));
+      }
+    }
+  }
+}
+
+TEST_CASE("cell grid: every position lies in a cell, within its borders") {
   Random random(62, Stream::Placement, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     const Model<2> model = random_box(random);
-    const CellGrid<2> grid(model, random.below(60));
+    const CellGrid<2> grid(model, static_cast<double>(random.below(60)));
     for (int axis = 0; axis < 2; ++axis) {
-      const double beyond = model.periodic(axis) ? 0.0 : std::numeric_limits<double>::infinity();
-      REQUIRE(grid.border(axis, 0) == -beyond);
-      REQUIRE(grid.border(axis, grid.counts()[axis]) == model.box[axis] + beyond);
+      const int last = grid.counts()[axis] - 1;
+      REQUIRE(grid.border(axis, 0, false) <= 0.0);
+      REQUIRE(grid.border(axis, last, true) >= model.box[axis]);
+      REQUIRE(std::isfinite(grid.border(axis, 0, false)) == model.periodic(axis));
+      REQUIRE(std::isfinite(grid.border(axis, last, true)) == model.periodic(axis));
     }
     for (int k = 0; k < 50; ++k) {
       const Vec2 r = random_place(model, grid, random);
@@ -112,8 +182,11 @@ TEST_CASE("cell grid: every position lies in a cell, and between its borders") {
         REQUIRE(cell[axis] >= 0);
         REQUIRE(cell[axis] < grid.counts()[axis]);
         // On a border rounding may name the cell on either side.
-        REQUIRE(r[axis] >= grid.border(axis, cell[axis]) - 1e-14);
-        REQUIRE(r[axis] <= grid.border(axis, cell[axis] + 1) + 1e-14);
+        REQUIRE(r[axis] >= grid.border(axis, cell[axis], false) - 1e-14);
+        REQUIRE(r[axis] <= grid.border(axis, cell[axis], true) + 1e-14);
+        REQUIRE(r[axis] >= grid.distance_from_end(axis, cell[axis], false) - 1e-14);
+        REQUIRE(model.box[axis] - r[axis] >=
+                grid.distance_from_end(axis, cell[axis], true) - 1e-14);
       }
     }
   }
@@ -121,30 +194,41 @@ TEST_CASE("cell grid: every position lies in a cell, and between its borders") {
 
 TEST_CASE("cell grid: no image of a disk within one diameter is missed, and none comes twice") {
   Random random(63, Stream::Placement, 0, 0);
+  int overhanging = 0;
   for (int i = 0; i < 10000; ++i) {
     const Model<2> model = random_box(random);
-    const std::size_t count = 2 + random.below(40);
+    const std::uint32_t count = 2 + static_cast<std::uint32_t>(random.below(40));
     CellGrid<2> grid(model, count);
-    std::vector<Vec2> r;
-    for (std::size_t k = 0; k < count; ++k) {
-      r.push_back(random_place(model, grid, random));
-      grid.insert(static_cast<std::uint32_t>(k), grid.cell_at(r[k]));
+    std::vector<Guest> guests;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Vec2 r = random_place(model, grid, random);
+      guests.push_back({grid.cell_at(r), r});
+      grid.insert(k, guests[k].cell);
+      // Any cell will do within whose borders it lies.
+      for (int steps = 0; steps < 4; ++steps) {
+        const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
+        const auto next = stepped(model, grid, guests[k], axis, step);
+        if (!next || !belongs(grid, *next)) continue;
+        grid.move(k, guests[k].cell, axis, step);
+        guests[k] = *next;
+        ++overhanging;
+      }
     }
-    for (std::size_t k = 0; k < count; ++k) {
-      std::set<Image> visited;
-      std::size_t visits = 0;
-      grid.visit(grid.cell_at(r[k]), {}, [&](const auto& line, const Vec2* wrap) {
-        const IntVec<2> image = wrap ? IntVec<2>(wrap->cast<int>()) : IntVec<2>(0, 0);
-        for (std::uint32_t n = 0; n < line.count; ++n, ++visits) {
-          visited.insert({line.disks[n], image.x(), image.y()});
-        }
-      });
-      REQUIRE(visited.size() == visits);
-      for (std::size_t j = 0; j < count; ++j) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      for (int axis = 0; axis < 2; ++axis) {
+        if (model.periodic(axis)) continue;
+        const double r = guests[k].r[axis];
+        REQUIRE(r >= grid.distance_from_end(axis, guests[k].cell[axis], false) - 1e-14);
+        REQUIRE(model.box[axis] - r >=
+                grid.distance_from_end(axis, guests[k].cell[axis], true) - 1e-14);
+      }
+      const std::multiset<Image> visited = near(grid, guests[k].cell);
+      REQUIRE(std::set<Image>(visited.begin(), visited.end()).size() == visited.size());
+      for (std::uint32_t j = 0; j < count; ++j) {
         for (int kx = -2; kx <= 2; ++kx) {
           for (int ky = -2; ky <= 2; ++ky) {
             if ((kx && !model.periodic(0)) || (ky && !model.periodic(1))) continue;
-            const Vec2 x = r[k] - r[j] - Vec2(kx * model.box.x(), ky * model.box.y());
+            const Vec2 x = guests[k].r - guests[j].r - Vec2(kx * model.box.x(), ky * model.box.y());
             if (x.norm() > 1.0) continue;
             INFO("box " << model.box.transpose() << " image " << kx << " " << ky);
             REQUIRE(visited.count({j, kx, ky}) == 1);
@@ -153,4 +237,5 @@ TEST_CASE("cell grid: no image of a disk within one diameter is missed, and none
       }
     }
   }
+  CHECK(overhanging > 10000);
 }

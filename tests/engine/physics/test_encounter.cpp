@@ -215,11 +215,12 @@ struct Crowd {
 }  // namespace
 
 TEST_CASE("contact kernel: the first encounter_time, to the bit, of every number of candidates") {
+  constexpr std::uint32_t kRepeats = 1600;
   int different = 0, others = 0, met = 0, touching = 0;
   for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
-    for (std::uint32_t repeat = 0; repeat < 200; ++repeat) {
+    for (std::uint32_t repeat = 0; repeat < kRepeats; ++repeat) {
       const Vec2& gravity = kGravities[repeat % 2];
-      Crowd crowd(200 * static_cast<std::uint32_t>(size) + repeat, size, gravity);
+      Crowd crowd(kRepeats * static_cast<std::uint32_t>(size) + repeat, size, gravity);
       const FirstContact first = crowd.first(gravity);
       const auto earliest = std::min_element(crowd.times.begin(), crowd.times.end());
       const double expected = size > 0 ? *earliest : kNever;
