@@ -63,6 +63,8 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
     }
     stride *= count;
   }
+  // With room for those that continue them in a dilute gas, one in 25, so that nothing is moved.
+  lists_.reserve(static_cast<std::size_t>(stride) + static_cast<std::size_t>(stride) / 8);
   lists_.resize(static_cast<std::size_t>(stride));
 }
 
