@@ -107,13 +107,13 @@ void CellGrid<D>::move(std::uint32_t disk, const IntVec<D>& cell, int axis, int 
 
 template <int D>
 void CellGrid<D>::put_on(std::uint32_t at, Neighbour neighbour) {
-  while (lists_[at].count == List::kCapacity) [[unlikely]] {
-      if (lists_[at].next == kNone) {
-        const std::uint32_t added = new_list();  // may move lists_
-        lists_[at].next = added;
-      }
-      at = lists_[at].next;
+  while (lists_[at].count == List::kCapacity) {
+    if (lists_[at].next == kNone) {
+      const std::uint32_t added = new_list();  // may move lists_
+      lists_[at].next = added;
     }
+    at = lists_[at].next;
+  }
   List& list = lists_[at];
   list.neighbours[list.count++] = neighbour;
   list.wraps = list.wraps || neighbour != disk_of(neighbour);

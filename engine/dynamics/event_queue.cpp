@@ -29,6 +29,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   const double width = 3.0 * (last->time - origin_) / static_cast<double>(first + 1);
   per_width_ = width > 0.0 && std::isfinite(1.0 / width) ? 1.0 / width : 1.0;
 
+  // Rows so long that few events lie beyond the one at hand: which do cannot be foreseen.
   row_shift_ = 8;
   while (row_shift_ < 12 && (std::size_t{1} << row_shift_) < events.size()) ++row_shift_;
   in_row_ = (std::int64_t{1} << row_shift_) - 1;
