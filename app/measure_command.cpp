@@ -165,7 +165,9 @@ int measure(const MeasureOptions& options) {
                     "go beyond measure.burn_in = " + number_text(spec.burn_in));
   }
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
-  if (resumed && !(end > resumed->time())) {
+  // One that was killed when it had arrived, but before its results were written, is at its end.
+  if (resumed && (end < resumed->time() ||
+                  (end == resumed->time() && resumed->checkpoint.measurement.empty()))) {
     throw UserError({"--until", 0, 0},
                     "the checkpoint is at t = " + number_text(resumed->time()) +
                         ", and the run ends at " + number_text(end),

@@ -122,8 +122,9 @@ bool Run::until(double time, Progress& progress) {
     stop_ = stop;
     return false;
   }
-  ended_early_ = interrupted();
-  return !ended_early_;
+  // Also where an interrupt came meanwhile: a run that has arrived has nothing to go on with.
+  ended_early_ = false;
+  return true;
 }
 
 Checkpoint Run::checkpoint() {
