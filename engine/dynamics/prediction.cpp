@@ -21,9 +21,8 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       boundary_(boundary),
       disks_(disks),
       grid_(grid),
-      falling_((model.gravity.array() != 0.0).any()),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
-      first_contact_(first_contact_kernel<D>(falling_)) {
+      first_contact_(first_contact_kernel<D>((model.gravity.array() != 0.0).any())) {
   // Farther than the wall comes, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
     reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
@@ -133,7 +132,7 @@ void Prediction<D>::look_at_walls(std::uint32_t disk, double now, Plan<D>& plan)
   }
 }
 
-// The partner of a contact at the same time stays.
+// The partner of a contact at the same time stays; also where there is no time.
 template <int D>
 void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& plan) const {
   const std::uint32_t border = kCellBorder + static_cast<std::uint32_t>(2 * axis + upper);
@@ -144,39 +143,36 @@ void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& pla
 // Written without branches, for neither the signs of the velocity nor what comes first can be
 // foreseen.
 template <int D>
-void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const {
+void Prediction<D>::look_at_borders(std::uint32_t disk, double now, int axis, Plan<D>& plan) const {
   const Disk<D>& self = disks_[disk];
-  for (int axis = 0; axis < D; ++axis) {
-    const double v = self.flight.v[axis];
-    const bool upper = v >= 0.0;
-    const double place =
-        grid_.border(axis, plan.cell[axis], upper) + self.image[axis] * model_.box[axis];
-    // v + 0.0 is no negative zero: a disk at rest comes to the border above it at infinity.
-    const double time = self.flight.time + (place - self.flight.r[axis]) / (v + 0.0);
-    offer_border(std::max(now, time), axis, upper, plan);
-  }
+  const double v = self.flight.v[axis];
+  const bool upper = v >= 0.0;
+  const double place =
+      grid_.border(axis, plan.cell[axis], upper) + self.image[axis] * model_.box[axis];
+  // v + 0.0 is no negative zero: a disk at rest comes to the border above it at infinity.
+  const double time = self.flight.time + (place - self.flight.r[axis]) / (v + 0.0);
+  offer_border(std::max(now, time), axis, upper, plan);
 }
 
 // A disk on a parabola may leave through the border by which it came. It is looked at from where it
 // is now: a crossing, unlike a contact, need not be a function of the stored state alone.
 template <int D>
-void Prediction<D>::look_at_borders_falling(std::uint32_t disk, double now, Plan<D>& plan) const {
+void Prediction<D>::look_at_borders_falling(std::uint32_t disk, double now, int axis,
+                                            Plan<D>& plan) const {
   const Disk<D>& self = disks_[disk];
-  const Vec<D> r = self.flight.at(now, model_.gravity);
-  const Vec<D> v = self.flight.velocity_at(now, model_.gravity);
-  for (int axis = 0; axis < D; ++axis) {
-    for (const int step : {-1, 1}) {
-      const double border = grid_.border(axis, plan.cell[axis], step > 0);
-      if (std::isinf(border)) continue;
-      const double place = border + self.image[axis] * model_.box[axis];
-      const double recession = -step * v[axis];
-      double time =
-          now + fall_time(step * (place - r[axis]), recession, -step * model_.gravity[axis]);
-      // Who turns just beyond a border returns later, be it by the least time that there is.
-      if (recession > 0.0 && time == now) time = std::nextafter(now, kNever);
-      offer_border(time, axis, step > 0, plan);
-    }
-  }
+  const double a = model_.gravity[axis];
+  const double since = now - self.flight.time;
+  const double r = self.flight.r[axis] + (self.flight.v[axis] + a * (0.5 * since)) * since -
+                   self.image[axis] * model_.box[axis];
+  const double v = self.flight.v[axis] + a * since;
+  const double lower = grid_.border(axis, plan.cell[axis], false);
+  const double upper = grid_.border(axis, plan.cell[axis], true);
+  const WayOut out = way_out(r - lower, upper - r, v, a);
+  double time = now + out.time;
+  // Who turns just beyond a border returns later, be it by the least time that there is.
+  if (time == now && (v < 0.0) == out.upper) [[unlikely]]
+    time = std::nextafter(now, kNever);
+  offer_border(time, axis, out.upper, plan);
 }
 
 template <int D>
@@ -184,7 +180,13 @@ void Prediction<D>::plan(std::uint32_t disk, double now, Plan<D>& plan) const {
   plan.time = kNever;
   look_at_disks(disk, plan);
   if (walled_) look_at_walls(disk, now, plan);
-  falling_ ? look_at_borders_falling(disk, now, plan) : look_at_borders(disk, now, plan);
+  for (int axis = 0; axis < D; ++axis) {
+    if (model_.gravity[axis] == 0.0) {
+      look_at_borders(disk, now, axis, plan);
+    } else {
+      look_at_borders_falling(disk, now, axis, plan);
+    }
+  }
 }
 
 template class Prediction<2>;

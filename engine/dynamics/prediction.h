@@ -42,8 +42,8 @@ class Prediction {
   void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                   Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const;
-  void look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const;
-  void look_at_borders_falling(std::uint32_t disk, double now, Plan<D>& plan) const;
+  void look_at_borders(std::uint32_t disk, double now, int axis, Plan<D>& plan) const;
+  void look_at_borders_falling(std::uint32_t disk, double now, int axis, Plan<D>& plan) const;
   void offer_border(double time, int axis, bool upper, Plan<D>& plan) const;
   void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
@@ -52,8 +52,7 @@ class Prediction {
   const Boundary<D>& boundary_;
   const LargeArray<Disk<D>>& disks_;
   const CellGrid<D>& grid_;
-  bool falling_;  // whether there is gravity
-  bool walled_;   // whether there are walls
+  bool walled_;  // whether there are walls
   FirstContactKernel<D>* first_contact_;
   std::array<double, 2 * D> reach_;  // from the box's edge: where the side's wall can be touched
 };

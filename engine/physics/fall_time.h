@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/physics/encounter.h"
@@ -19,6 +20,34 @@ inline double fall_time(double gap, double speed, double acceleration) {
   if (gap == 0.0) return 0.0;
   if (acceleration == 0.0) return gap / -speed;
   return discriminant > 0.0 ? 2.0 * gap / (std::sqrt(discriminant) - speed) : kNever;
+}
+
+/// The way out from between two planes.
+struct WayOut {
+  double time;  ///< from now; not a number where the plane that it falls to is infinitely far off
+  bool upper;   ///< through which plane
+};
+
+/// The first way out of a body `above` the lower and `below` the upper of two planes; these are
+/// distances, of which those below zero are taken as rounding, that is as zero. The acceleration is
+/// not zero.
+///
+/// As fall_time(), but without branches, for neither the speed's sign nor the plane can be
+/// foreseen.
+inline WayOut way_out(double above, double below, double speed, double acceleration) {
+  const bool upwards = acceleration > 0.0;
+  const double a = std::fabs(acceleration);
+  const double falling = upwards ? speed : -speed;
+  const double depth = std::max(0.0, upwards ? below : above);
+  const double height = std::max(0.0, upwards ? above : below);
+  const double square = falling * falling;
+  const double at_height = square - 2.0 * a * height;
+  const bool gets_there = (falling < 0.0) & (at_height > 0.0);
+  const double root = std::sqrt(gets_there ? at_height : square + 2.0 * a * depth);
+  const bool turns = (falling <= 0.0) & !gets_there;
+  const double numerator = turns ? root - falling : 2.0 * (gets_there ? height : depth);
+  const double denominator = turns ? a : root + std::fabs(falling);
+  return {numerator / denominator, upwards != gets_there};
 }
 
 }  // namespace clatter

@@ -52,3 +52,22 @@ TEST_CASE("edges: a disk that falls and turns on a border of its cell") {
     check_sound(simulation);
   }
 }
+
+// As above, where cells are so narrow that they have no overhang, as about the disks of a crystal:
+// all of them lie on borders, rise, and are back within the least time that there is.
+TEST_CASE("edges: disks that turn right beyond a border of narrow cells") {
+  Model<2> model = periodic_box(20.2, 20.2);
+  model.gravity = {0.0, -1e4};
+  Saved<2> saved;
+  saved.gravity = model.gravity;
+  saved.now = 1e4;
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 place(1.01 * (2 + i % 10), 1.01 * (2 + i / 10));
+    saved.flights.push_back({place, {0.0, 1e-10 * (i % 10)}, saved.now, 0});
+  }
+  saved.until_base_moves = 1000;
+  Simulation<2> simulation(model, saved);
+  CHECK(simulation.run_until(1e4 + 1e-9, Simulation<2>::kNoLimit, 1000));
+  CHECK(simulation.counts().cell_crossings >= 90);
+  CHECK(simulation.deepest_overlap() == 0.0);
+}
