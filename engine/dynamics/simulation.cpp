@@ -77,7 +77,8 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
       spins_(saved.spins.begin(), saved.spins.end()),
       last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
       plans_(disks_.size()),
-      grid_(model_, kCellsPerDisk * static_cast<double>(disks_.size())),
+      cells_per_disk_(kCellsPerDisk),
+      grid_(model_, cells_per_disk_ * static_cast<double>(disks_.size())),
       prediction_(model_, boundary_, disks_, grid_),
       until_base_moves_(saved.until_base_moves),
       start_speed_(saved.start_speed),
@@ -135,22 +136,21 @@ void Simulation<D>::fill_cells() {
 // it.
 template <int D>
 void Simulation<D>::fit_cells() {
-  constexpr double kCrowded = 27.0, kWanted = 18.0, kScattered = 4.0;  // disks near a disk
-  constexpr double kMost = 4.0;                                        // cells for each disk
+  constexpr double kCrowded = 10.5, kWanted = 5.5;  // others near a disk; evenly spread: 9 in 2D
+  constexpr double kMost = 4.0;                     // cells for each disk
+  constexpr double kWorthwhile = 1.25;              // ratio of numbers of cells
   if (disks_.empty()) return;
-  double near = 0.0;
-  for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
   const double count = static_cast<double>(disks_.size());
-  const double crowding = near / count;
+  double near = -count;  // a disk is near itself
+  for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
   const double cells = grid_.counts().template cast<double>().prod();
-  double fitting = cells;
-  if (crowding > kCrowded && cells < 0.75 * kMost * count) {
-    fitting = std::min(cells * crowding / kWanted, kMost * count);
-  } else if (crowding < kScattered && cells > 1.25 * kCellsPerDisk * count) {
-    fitting = kCellsPerDisk * count;
+  const double crowding = near * cells / (count * count);  // in cells for the mean density
+  const double per_disk = crowding > kCrowded ? std::min(crowding / kWanted, kMost) : kCellsPerDisk;
+  if (std::max(per_disk, cells_per_disk_) < kWorthwhile * std::min(per_disk, cells_per_disk_)) {
+    return;
   }
-  if (fitting == cells) return;
-  grid_ = CellGrid<D>(model_, fitting);
+  cells_per_disk_ = per_disk;
+  grid_ = CellGrid<D>(model_, per_disk * count);
   fill_cells();
 }
 

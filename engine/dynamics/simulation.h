@@ -131,6 +131,7 @@ class Simulation {
   LargeArray<Spin<D>> spins_;           // [N], or empty
   LargeArray<double> last_collisions_;  // [N] times on the base, where there is a t_c; else empty
   LargeArray<Plan<D>> plans_;
+  double cells_per_disk_;  // asked of the grid
   CellGrid<D> grid_;
   Prediction<D> prediction_;
   EventQueue queue_;
