@@ -3,6 +3,8 @@
 
 #include "engine/physics/contact_kernel.h"
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include "engine/physics/encounter.h"
@@ -14,6 +16,7 @@ namespace {
 // Four numbers, in one register or in two, as the instruction set has it.
 constexpr int kLanes = 4;
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
+using Bits = std::int64_t __attribute__((vector_size(8 * kLanes)));
 
 [[gnu::always_inline]] inline Lanes load(const double* from) {
   Lanes lanes;
@@ -39,20 +42,6 @@ using Lanes = double __attribute__((vector_size(8 * kLanes)));
   columns[3] = __builtin_shufflevector(odd_01, odd_23, 2, 3, 6, 7);
 }
 
-// The earliest of several times, and the number that goes with it.
-struct Earliest {
-  Lanes time = broadcast(kNever);
-  Lanes number{};
-  Lanes tie = broadcast(kNever);  ///< the last time that came up again
-
-  [[gnu::always_inline]] void offer(const Lanes& other, const Lanes& its_number) {
-    tie = other == time ? other : tie;
-    const Lanes earlier = other < time ? other : time;
-    number = earlier < time ? its_number : number;
-    time = earlier;
-  }
-};
-
 [[gnu::always_inline]] inline Lanes lesser(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }
@@ -63,16 +52,18 @@ struct Earliest {
   return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
 }
 
-// One sum over the lanes tells who is first and how many are: a number, and kOne for each.
-[[gnu::always_inline]] inline FirstContact first_of(const Earliest& lanes) {
-  constexpr int kOne = 1 << 16;
-  const Lanes time = least(lanes.time);
-  const Lanes none{}, one = broadcast(kOne);
-  const Lanes sharing =
-      (lanes.time == time ? lanes.number + one : none) + (lanes.tie == time ? one : none);
-  const int sum = static_cast<int>((sharing[0] + sharing[1]) + (sharing[2] + sharing[3]));
-  const bool alone = sum < 2 * kOne;
-  return {time[0], sum % kOne, (alone || time[0] == kNever) && time[0] != kTouching};
+// Who of several groups of four touches at the least of all their times.
+[[gnu::always_inline]] inline FirstContact first_of(const Lanes* times, int groups,
+                                                    const Lanes& least_time) {
+  Bits shared{}, bit{1, 2, 4, 8};
+  for (int group = 0; group < groups; ++group, bit <<= kLanes) {
+    shared |= (times[group] == least_time) & bit;
+  }
+  const auto sharing =
+      static_cast<std::uint64_t>((shared[0] | shared[1]) | (shared[2] | shared[3]));
+  const double time = least_time[0];
+  const bool never = time == kNever, alone = (sharing & (sharing - 1)) == 0;
+  return {time, never ? 0 : std::countr_zero(sharing), (alone || never) && time != kTouching};
 }
 
 template <int D, bool kFalling>
@@ -91,8 +82,9 @@ template <int D, bool kFalling>
   const Lanes time = broadcast(own[2 * D]);
   for (int i = 0; i < Candidates<D>::kMargin; ++i) candidates.disks[candidates.size + i] = self;
 
-  Earliest earliest;
-  Lanes number{0.0, 1.0, 2.0, 3.0};
+  Lanes times[Candidates<D>::kCapacity / kLanes];
+  Lanes earliest = broadcast(kNever);
+  int groups = 0;
   for (int i = 0; i < candidates.size; i += kLanes) {
     const double* row[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -108,10 +100,10 @@ template <int D, bool kFalling>
     }
     const Lanes contact = encounter_time<D, kFalling>(r, v, time, columns, columns + D,
                                                       columns[2 * D], shift, diameter, gravity);
-    earliest.offer(contact, number);
-    number += static_cast<double>(kLanes);
+    times[groups++] = contact;
+    earliest = lesser(contact, earliest);
   }
-  return first_of(earliest);
+  return first_of(times, groups, least(earliest));
 }
 
 #if defined(__x86_64__)
