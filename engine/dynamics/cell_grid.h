@@ -130,7 +130,7 @@ class CellGrid {
 };
 
 template <int D>
-std::uint32_t CellGrid<D>::index(const IntVec<D>& cell) const {
+[[gnu::always_inline]] inline std::uint32_t CellGrid<D>::index(const IntVec<D>& cell) const {
   return static_cast<std::uint32_t>(cell.dot(strides_));
 }
 

@@ -78,13 +78,20 @@ void Prediction<D>::offer_disk(std::uint32_t disk, const Candidates<D>& near, in
   offer(time, disk, near.disks[i], image.template cast<int>(), plan);
 }
 
+// Kept apart, for what it needs would slow down who never comes here.
+template <int D>
+[[gnu::noinline]] void Prediction<D>::weigh_each(std::uint32_t disk, const Candidates<D>& near,
+                                                 Plan<D>& plan) const {
+  for (int i = 0; i < near.size; ++i) offer_disk(disk, near, i, kTouching, plan);
+}
+
 template <int D>
 void Prediction<D>::weigh(std::uint32_t disk, Candidates<D>& near, Plan<D>& plan) const {
   const FirstContact first =
       first_contact_(disks_.data()->flight.r.data(), disk, near, model_.box.data(), model_.diameter,
                      model_.gravity.data());
-  if (!first.told_apart) {
-    for (int i = 0; i < near.size; ++i) offer_disk(disk, near, i, kTouching, plan);
+  if (!first.told_apart) [[unlikely]] {
+    weigh_each(disk, near, plan);
   } else if (plan.time == kNever) {
     // Whether there is a contact cannot be foreseen: without one, what is set says so all the same.
     plan.time = first.time;
@@ -98,7 +105,7 @@ void Prediction<D>::weigh(std::uint32_t disk, Candidates<D>& near, Plan<D>& plan
 
 // Tells apart the numbers of those on a list and their ways round the periodic borders.
 template <int D>
-static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
+[[gnu::noinline]] static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
   for (int i = 0; i < near.size; ++i) {
     near.disks[i] = CellGrid<D>::disk_of(list.neighbours[i]);
     for (int k = 0; k < D; ++k) near.wraps[k][i] = CellGrid<D>::wrap_of(list.neighbours[i], k);

@@ -38,6 +38,7 @@ class Prediction {
  private:
   void look_at_disks(std::uint32_t disk, Plan<D>& plan) const;
   void weigh(std::uint32_t disk, Candidates<D>& near, Plan<D>& plan) const;
+  void weigh_each(std::uint32_t disk, const Candidates<D>& near, Plan<D>& plan) const;
   Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near, int i) const;
   void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                   Plan<D>& plan) const;
