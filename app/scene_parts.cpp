@@ -64,7 +64,7 @@ std::vector<ScenePart> parts_of(const Scene& scene) {
       std::ranges::any_of(scene.walls, [](const auto& wall) { return wall && wall->moves(); });
   return {{"disks", "yes", memory.disks, 1.0},
           {"spins", yes(scene.spins()), memory.spins, 1.05},
-          {"gravity", yes(scene.gravity.has_value()), 0.0, 1.1},
+          {"gravity", yes(scene.gravity.has_value()), 0.0, 1.15},
           {"moving walls", yes(moving), 0.0, 1.0},
           {"bulk drive", yes(scene.bulk_drive.has_value()), 0.0,
            scene.bulk_drive ? kick_price(scene) : std::nan("")},

@@ -55,7 +55,7 @@ TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
   CAPTURE(all);
   CHECK(says(all, ", 200 kicks of all disks; "));
   CHECK(std::regex_search(all, std::regex("\n  spins +8 +x1.05  yes\n")));
-  CHECK(std::regex_search(all, std::regex("\n  gravity +0 +x1.1  yes\n")));
+  CHECK(std::regex_search(all, std::regex("\n  gravity +0 +x1.15  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  bulk drive +0 +x[0-9.]+  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  t_c +8 +x1  yes\n")));
   // Three numbers for each of 100 cells in 66 windows, and in 65 maps; and for each of 10 columns
