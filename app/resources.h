@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-/// User CPU time of this process so far, seconds.
+/// CPU time of this process so far, seconds.
 double cpu_seconds();
 
 /// Largest resident size of this process so far, or since restart_peak_memory(), bytes.

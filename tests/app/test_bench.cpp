@@ -99,7 +99,7 @@ TEST_CASE("The table of accuracy compares each setting of a dial with the finest
   const std::string page = shell.read("page.md");
   CHECK(page.starts_with("before\n<!-- tables -->\n"));
   CHECK(page.ends_with("<!-- end of tables -->\nafter\n"));
-  CHECK(says(page, "| off |"));
+  CHECK(says(page, "\n| off "));
   CHECK_FALSE(says(page, "\nold\n"));
   check_refused(shell, "clatter bench accuracy --dial colour",
                 {"no dial 'colour'", "contact_time"});
