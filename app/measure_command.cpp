@@ -147,13 +147,23 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
   catch_interrupts();
   const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
-  const std::string text = measure_ensemble(scene, ensemble, progress).dump(1) + "\n";
+  const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
+  const std::string text = result.dump(1) + "\n";
   if (options.out.empty()) {
     print(text);
   } else {
     write_file(options.out, text);
   }
-  return interrupted() ? kInterrupted : kOk;
+  const bool all = result.at("results").size() == static_cast<std::size_t>(options.replicas);
+  return all ? kOk : kInterrupted;
+}
+
+// A run that was killed between its last checkpoint and its results is at its end, and has only
+// these to give.
+bool goes_on_to(double end, const Resumed& resumed, const CommonOptions& options) {
+  if (end != resumed.time()) return end > resumed.time();
+  return !resumed.checkpoint.measurement.empty() &&
+         changed_laws(resumed, options.seed.value_or(resumed.checkpoint.seed)).empty();
 }
 
 int measure(const MeasureOptions& options) {
@@ -165,9 +175,7 @@ int measure(const MeasureOptions& options) {
                     "go beyond measure.burn_in = " + number_text(spec.burn_in));
   }
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
-  // One that was killed when it had arrived, but before its results were written, is at its end.
-  if (resumed && (end < resumed->time() ||
-                  (end == resumed->time() && resumed->checkpoint.measurement.empty()))) {
+  if (resumed && !goes_on_to(end, *resumed, options.common)) {
     throw UserError({"--until", 0, 0},
                     "the checkpoint is at t = " + number_text(resumed->time()) +
                         ", and the run ends at " + number_text(end),
@@ -181,6 +189,7 @@ int measure(const MeasureOptions& options) {
   const double cpu_before = cpu_seconds();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   Measurement& measurement = run.measure(end);
+  const std::uint64_t collisions_before = run.simulation().counts().disk_disk;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
   {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
@@ -192,7 +201,9 @@ int measure(const MeasureOptions& options) {
   }
   run.put_aside();
   const Measured measured = measurement.result();
-  const Performance performance{cpu_seconds() - cpu_before, peak_memory_bytes()};
+  const Performance performance{cpu_seconds() - cpu_before,
+                                run.simulation().counts().disk_disk - collisions_before,
+                                peak_memory_bytes()};
   write_results(options, json_of(options, scene, run, measured, performance), measured);
   if (!options.common.quiet) {
     advise_on_contact_time(scene, measured);

@@ -106,7 +106,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   if (measured.undissipated_share) {
     json["checks"]["undissipated_share"] = *measured.undissipated_share;
   }
-  const double collisions = static_cast<double>(simulation.counts().disk_disk);
+  const double collisions = static_cast<double>(performance.collisions);
   json["performance"] = {
       {"cpu_seconds", performance.cpu_seconds},
       {"collisions_per_second",

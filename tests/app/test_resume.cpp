@@ -29,7 +29,7 @@ Outcome cut_off(const Shell& shell, const std::string& line, const std::string& 
                    signal + " $pid; wait $pid");
 }
 
-// Some seconds.
+// Most of a second.
 const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --until 6000 --quiet ";
 
 }  // namespace
@@ -104,6 +104,9 @@ TEST_CASE("A run may go on for longer, and is then one run") {
   // As after a kill between the last checkpoint and the results.
   CHECK(shell.run(line + "--until 60 --resume c --out d.json").code == 0);
   CHECK(result_of(shell, "d.json") == result_of(shell, "a.json"));
+  // Of other laws it has nothing to tell.
+  check_refused(shell, line + "--until 60 --resume c --set disks.restitution=0.8",
+                {"--until", "t = 60", "go beyond"});
 }
 
 TEST_CASE(
