@@ -139,7 +139,8 @@ void Prediction<D>::look_at_walls(std::uint32_t disk, double now, Plan<D>& plan)
   }
 }
 
-// The partner of a contact at the same time stays; also where there is no time.
+// The partner of a contact at the same time stays. A time that is not a number is less than none,
+// and std::min then returns its first.
 template <int D>
 void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& plan) const {
   const std::uint32_t border = kCellBorder + static_cast<std::uint32_t>(2 * axis + upper);

@@ -136,16 +136,18 @@ void Simulation<D>::fill_cells() {
 // it.
 template <int D>
 void Simulation<D>::fit_cells() {
-  constexpr double kCrowded = 10.5, kWanted = 5.5;  // others near a disk; evenly spread: 9 in 2D
-  constexpr double kMost = 4.0;                     // cells for each disk
-  constexpr double kWorthwhile = 1.25;              // ratio of numbers of cells
+  // Others near a disk; for points evenly spread: 9 in 2D. Between even and crowded, cells stay.
+  constexpr double kEven = 9.5, kCrowded = 10.5, kWanted = 5.5;
+  constexpr double kMost = 4.0;         // cells for each disk
+  constexpr double kWorthwhile = 1.25;  // ratio of numbers of cells
   if (disks_.empty()) return;
   const double count = static_cast<double>(disks_.size());
   double near = -count;  // a disk is near itself
   for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
   const double cells = grid_.counts().template cast<double>().prod();
   const double crowding = near * cells / (count * count);  // in cells for the mean density
-  const double per_disk = crowding > kCrowded ? std::min(crowding / kWanted, kMost) : kCellsPerDisk;
+  const bool fine = crowding > (cells_per_disk_ > kCellsPerDisk ? kEven : kCrowded);
+  const double per_disk = fine ? std::min(crowding / kWanted, kMost) : kCellsPerDisk;
   if (std::max(per_disk, cells_per_disk_) < kWorthwhile * std::min(per_disk, cells_per_disk_)) {
     return;
   }

@@ -24,8 +24,9 @@ inline double fall_time(double gap, double speed, double acceleration) {
 
 /// The way out from between two planes.
 struct WayOut {
-  double time;  ///< from now; not a number where the plane that it falls to is infinitely far off
-  bool upper;   ///< through which plane
+  double
+      time;  ///< from now; infinite, or not a number, where it falls to a plane infinitely far off
+  bool upper;  ///< through which plane
 };
 
 /// The first way out of a body `above` the lower and `below` the upper of two planes; these are

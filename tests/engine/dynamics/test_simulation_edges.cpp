@@ -53,8 +53,9 @@ TEST_CASE("edges: a disk that falls and turns on a border of its cell") {
   }
 }
 
-// As above, where cells are so narrow that they have no overhang, as about the disks of a crystal:
-// all of them lie on borders, rise, and are back within the least time that there is.
+// As above, where cells are so narrow that they have no overhang, as those about a crystal in a
+// wide box are made (Simulation::fit_cells): all disks lie on borders, rise, and are back within
+// the least time that there is.
 TEST_CASE("edges: disks that turn right beyond a border of narrow cells") {
   Model<2> model = periodic_box(20.2, 20.2);
   model.gravity = {0.0, -1e4};
