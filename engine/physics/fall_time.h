@@ -24,9 +24,8 @@ inline double fall_time(double gap, double speed, double acceleration) {
 
 /// The way out from between two planes.
 struct WayOut {
-  double
-      time;  ///< from now; infinite, or not a number, where it falls to a plane infinitely far off
-  bool upper;  ///< through which plane
+  double time;  ///< from now; infinite, or not a number, where there is no plane to fall to
+  bool upper;   ///< through which plane
 };
 
 /// The first way out of a body `above` the lower and `below` the upper of two planes; these are
