@@ -8,12 +8,6 @@
 
 namespace clatter {
 
-static rusage usage() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage;
-}
-
 // Not getrusage(), which shares the time out between program and system by ticks: what takes less
 // than one may then seem to take nothing.
 double cpu_seconds() {
@@ -23,7 +17,9 @@ double cpu_seconds() {
 }
 
 std::uint64_t peak_memory_bytes() {
-  return static_cast<std::uint64_t>(usage().ru_maxrss) * 1024;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 double heap_bytes() {

@@ -91,6 +91,22 @@ std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Gue
   return guest;
 }
 
+// Moves a disk over borders of its cell, at most so many, where `may(there)` lets it; how many.
+template <typename May>
+int wander(const Model<2>& model, CellGrid<2>& grid, std::uint32_t disk, Guest& guest, int most,
+           Random& random, const May& may) {
+  int crossed = 0;
+  for (int k = 0; k < most; ++k) {
+    const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
+    const auto next = stepped(model, grid, guest, axis, step);
+    if (!next || !may(*next)) continue;
+    grid.move(disk, guest.cell, axis, step);
+    guest = *next;
+    ++crossed;
+  }
+  return crossed;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -145,13 +161,7 @@ TEST_CASE("cell grid: who moves is listed as if put where it is") {
       const Vec2 r = random_place(model, moved, random);
       guests.push_back({moved.cell_at(r), r});
       moved.insert(k, guests[k].cell);
-      for (int steps = 0; steps < 6; ++steps) {
-        const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
-        const auto next = stepped(model, moved, guests[k], axis, step);
-        if (!next) continue;
-        moved.move(k, guests[k].cell, axis, step);
-        guests[k] = *next;
-      }
+      wander(model, moved, k, guests[k], 6, random, [](const Guest&) { return true; });
       put.insert(k, guests[k].cell);
     }
     for (int x = 0; x < moved.counts().x(); ++x) {
@@ -202,14 +212,8 @@ TEST_CASE("cell grid: no image of a disk within one diameter is missed, and none
       guests.push_back({grid.cell_at(r), r});
       grid.insert(k, guests[k].cell);
       // Any cell will do within whose borders it lies.
-      for (int steps = 0; steps < 4; ++steps) {
-        const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
-        const auto next = stepped(model, grid, guests[k], axis, step);
-        if (!next || !belongs(grid, *next)) continue;
-        grid.move(k, guests[k].cell, axis, step);
-        guests[k] = *next;
-        ++overhanging;
-      }
+      overhanging += wander(model, grid, k, guests[k], 4, random,
+                            [&](const Guest& there) { return belongs(grid, there); });
     }
     for (std::uint32_t k = 0; k < count; ++k) {
       for (int axis = 0; axis < 2; ++axis) {
