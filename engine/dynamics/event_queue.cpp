@@ -1,6 +1,8 @@
 #include "engine/dynamics/event_queue.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -10,7 +12,8 @@ void EventQueue::rebuild(std::vector<Event>& events) {
   spread(events, events.size() / 4);
 }
 
-// Three events a bucket, by the density of the first ones.
+// Five events a bucket, by the density of the first ones; some half of them are dead when it comes
+// up.
 void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   current_.clear();
   moved_aside_ = 0;
@@ -20,13 +23,14 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   chunks_.clear();
   spare_ = nullptr;
   later_.clear();
+  arrived_.clear();
   bucket_ = 0;
   if (events.empty()) return;
 
   const auto last = events.begin() + static_cast<std::ptrdiff_t>(first);
   std::nth_element(events.begin(), last, events.end(), before);
   origin_ = std::min_element(events.begin(), last + 1, before)->time;
-  const double width = 3.0 * (last->time - origin_) / static_cast<double>(first + 1);
+  const double width = 5.0 * (last->time - origin_) / static_cast<double>(first + 1);
   per_width_ = width > 0.0 && std::isfinite(1.0 / width) ? 1.0 / width : 1.0;
 
   // Rows so long that few events lie beyond the one at hand: which do cannot be foreseen.
@@ -38,26 +42,20 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
     if (bucket_of(event.time) == bucket_) {
       current_.push_back(event);
     } else {
-      push(event);
+      put_away(event);
     }
   }
   sort_current();
 }
 
-std::int64_t EventQueue::bucket_of(double time) const {
-  const double number = (time - origin_) * per_width_;
-  return static_cast<std::int64_t>(std::clamp(number, 0.0, 0x1p62));
-}
-
-void EventQueue::push(const Event& event) {
+// Takes up an event of a later bucket than the one at hand.
+void EventQueue::put_away(const Event& event) {
   const std::int64_t number = bucket_of(event.time);
   if (number > last_of_row()) {
     add_to_row(event, number);
-  } else if (number > bucket_) {
+  } else {
     buckets_[static_cast<std::size_t>(number & in_row_)].push_back(event);
     ++in_buckets_;
-  } else {
-    push_current(event);
   }
 }
 
@@ -71,24 +69,46 @@ static std::size_t insert_last(Event* events, std::size_t size) {
   return size - 1 - at;
 }
 
+// Exchanges two events unless the later one comes first. Without branches, for which is later
+// cannot be foreseen.
+static void put_later_first(Event& a, Event& b) {
+  using Words = std::array<std::uint64_t, 2>;
+  static_assert(sizeof(Words) == sizeof(Event));
+  const bool tied = a.time == b.time;
+  bool exchange = a.time < b.time;
+  if (tied) [[unlikely]]
+    exchange = before(a, b);
+  const std::uint64_t mask = -std::uint64_t{exchange};
+  auto of_a = std::bit_cast<Words>(a), of_b = std::bit_cast<Words>(b);
+  for (int k = 0; k < 2; ++k) {
+    const std::uint64_t change = (of_a[k] ^ of_b[k]) & mask;
+    of_a[k] ^= change;
+    of_b[k] ^= change;
+  }
+  a = std::bit_cast<Event>(of_a);
+  b = std::bit_cast<Event>(of_b);
+}
+
 void EventQueue::sort_current() {
-  constexpr std::size_t kFew = 16;
+  constexpr std::size_t kFew = 8;
   if (current_.size() <= kFew) {
-    for (std::size_t size = 2; size <= current_.size(); ++size) insert_last(current_.data(), size);
+    Event* const events = current_.data();
+    for (std::size_t end = current_.size(); end >= 2; --end) {
+      for (std::size_t k = 1; k < end; ++k) put_later_first(events[k - 1], events[k]);
+    }
   } else {
     std::sort(current_.begin(), current_.end(),
               [](const Event& a, const Event& b) { return before(b, a); });
   }
 }
 
-// The bucket at hand holds some three events; where a few hot disks among many cold ones crowd it,
+// The bucket at hand holds a few events; where a few hot disks among many cold ones crowd it,
 // the calendar is laid out anew before the crowding has cost more than that does.
 void EventQueue::push_current(const Event& event) {
   current_.push_back(event);
   moved_aside_ += insert_last(current_.data(), current_.size());
   constexpr std::size_t kCrowd = 64;
-  if (current_.size() > kCrowd &&
-      moved_aside_ > 8 * (current_.size() + in_buckets_ + in_rows_ + later_.size())) {
+  if (current_.size() > kCrowd && moved_aside_ > 8 * (current_.size() + beyond_current())) {
     thin_out();
   }
 }
@@ -107,6 +127,7 @@ void EventQueue::thin_out() {
     }
   }
   take(later_);
+  take(arrived_);
   spread(events, crowd - 1);
 }
 
@@ -134,6 +155,8 @@ EventQueue::Chunk* EventQueue::add_chunk(Chunk* next) {
 }
 
 void EventQueue::next_bucket() {
+  for (const Event& event : arrived_) put_away(event);
+  arrived_.clear();
   if (in_buckets_ + in_rows_ == 0) {
     // Nothing within reach: start afresh, at the width of what lies beyond.
     std::vector<Event> events = std::exchange(later_, {});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +36,7 @@ class EventQueue {
   void pop() { current_.pop_back(); }
 
   /// Calls `visit` with each event of the bucket that comes `ahead` buckets after the one at hand,
-  /// so that the caller can fetch what they will need.
+  /// but for those pushed since that came up, so that the caller can fetch what they will need.
   template <typename Visit>
   void look_ahead(std::size_t ahead, const Visit& visit) const;
 
@@ -53,6 +54,9 @@ class EventQueue {
   };
 
   std::int64_t bucket_of(double time) const;
+  std::size_t beyond_current() const {
+    return in_buckets_ + in_rows_ + later_.size() + arrived_.size();
+  }
   std::int64_t last_of_row() const { return bucket_ | in_row_; }
   Chunk*& row_of(std::int64_t bucket) { return rows_[(bucket >> row_shift_) & (kRows - 1)]; }
   void spread(std::vector<Event>& events, std::size_t first);
@@ -61,6 +65,7 @@ class EventQueue {
   void sort_current();
   void push_current(const Event& event);
   void thin_out();
+  void put_away(const Event& event);
   void next_bucket();
   void next_row();
   void add_to_row(const Event& event, std::int64_t bucket);
@@ -80,9 +85,25 @@ class EventQueue {
   std::deque<Chunk> chunks_;  // of all rows
   Chunk* spare_ = nullptr;    // chunks not in use
   std::vector<Event> later_;  // beyond the last row
+  // For later buckets, since the one at hand came up: put away when the next one does, for where to
+  // cannot be foreseen, and their times are long known then.
+  std::vector<Event> arrived_;
   std::size_t in_buckets_ = 0;
   std::size_t in_rows_ = 0;
 };
+
+inline std::int64_t EventQueue::bucket_of(double time) const {
+  const double number = (time - origin_) * per_width_;
+  return static_cast<std::int64_t>(std::clamp(number, 0.0, 0x1p62));
+}
+
+inline void EventQueue::push(const Event& event) {
+  if (bucket_of(event.time) > bucket_) {
+    arrived_.push_back(event);
+  } else {
+    push_current(event);
+  }
+}
 
 template <typename Live>
 const Event* EventQueue::top(const Live& live) {
@@ -91,7 +112,7 @@ const Event* EventQueue::top(const Live& live) {
       if (live(current_.back())) return &current_.back();
       pop();
     }
-    if (in_buckets_ + in_rows_ + later_.size() == 0) return nullptr;
+    if (beyond_current() == 0) return nullptr;
     next_bucket();
     drop_dead(live);
     sort_current();
