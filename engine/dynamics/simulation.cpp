@@ -20,8 +20,10 @@ static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
 static constexpr double kCellsPerDisk = 1.0;
-// Fetching ahead pays once the disks no longer fit the cache.
-static constexpr std::size_t kFetchAheadFrom = 20000;
+// Fetching ahead pays once plans and lists no longer fit the second cache; the many disks that each
+// event looks at, which can be waited for all at once, only where they lie farther off still.
+static constexpr std::size_t kFetchAheadFrom = 12000;
+static constexpr std::size_t kFetchNeighboursFrom = 40000;
 
 // Whether collisions can take energy from the gas, walls give it ever more, or disks come to rest
 // on walls: where time may come to a standstill.
@@ -401,14 +403,14 @@ double Simulation<D>::deepest_overlap() const {
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();
-  queue_.look_ahead(8, [&](const Event& event) {
+  queue_.look_ahead(3, [&](const Event& event) {
     fetch(disks_[event.disk]);
     fetch(plans_[event.disk]);
     if (event.partner >= kWall) return;
     fetch(disks_[event.partner]);
     fetch(plans_[event.partner]);
   });
-  queue_.look_ahead(5, [&](const Event& event) {
+  queue_.look_ahead(2, [&](const Event& event) {
     if (!holds(event)) return;
     if (event.partner >= kCellBorder) {
       const auto [axis, step] = crossing_of(event.partner);
@@ -416,7 +418,8 @@ void Simulation<D>::fetch_ahead() {
     }
     visit_cells_needed(event, [this](const IntVec<D>& cell) { fetch(grid_.near(cell)); });
   });
-  queue_.look_ahead(3, [&](const Event& event) {
+  if (disks_.size() < kFetchNeighboursFrom) return;
+  queue_.look_ahead(1, [&](const Event& event) {
     if (!holds(event)) return;
     visit_cells_needed(event, [this](const IntVec<D>& cell) {
       for (const auto neighbour : grid_.near(cell).neighbours) {
