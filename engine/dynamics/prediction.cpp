@@ -1,9 +1,14 @@
+// What takes or returns vectors is inlined, so how they would be passed does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 #include "engine/dynamics/prediction.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+
+#include "engine/physics/contact_kernel.h"
 
 namespace clatter {
 
@@ -22,7 +27,8 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       disks_(disks),
       grid_(grid),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
-      first_contact_(first_contact_kernel<D>((model.gravity.array() != 0.0).any())) {
+      planners_((model.gravity.array() != 0.0).any() ? widest_planners<true>()
+                                                     : widest_planners<false>()) {
   // Farther than the wall comes, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
     reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
@@ -78,52 +84,78 @@ void Prediction<D>::offer_disk(std::uint32_t disk, const Candidates<D>& near, in
   offer(time, disk, near.disks[i], image.template cast<int>(), plan);
 }
 
-// Kept apart, for what it needs would slow down who never comes here.
 template <int D>
-[[gnu::noinline]] void Prediction<D>::weigh_each(std::uint32_t disk, const Candidates<D>& near,
-                                                 Plan<D>& plan) const {
+void Prediction<D>::weigh_each(std::uint32_t disk, const Candidates<D>& near, Plan<D>& plan) const {
   for (int i = 0; i < near.size; ++i) offer_disk(disk, near, i, kTouching, plan);
-}
-
-template <int D>
-void Prediction<D>::weigh(std::uint32_t disk, Candidates<D>& near, Plan<D>& plan) const {
-  const FirstContact first =
-      first_contact_(disks_.data()->flight.r.data(), disk, near, model_.box.data(), model_.diameter,
-                     model_.gravity.data());
-  if (!first.told_apart) [[unlikely]] {
-    weigh_each(disk, near, plan);
-  } else if (plan.time == kNever) {
-    // Whether there is a contact cannot be foreseen: without one, what is set says so all the same.
-    plan.time = first.time;
-    plan.partner = near.disks[first.candidate];
-    plan.partner_flight = disks_[plan.partner].flight.number;
-    plan.image = image_of(disk, near, first.candidate).template cast<int>();
-  } else if (first.time <= plan.time) {
-    offer_disk(disk, near, first.candidate, first.time, plan);
-  }
 }
 
 // Tells apart the numbers of those on a list and their ways round the periodic borders.
 template <int D>
-[[gnu::noinline]] static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
+static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
   for (int i = 0; i < near.size; ++i) {
     near.disks[i] = CellGrid<D>::disk_of(list.neighbours[i]);
     for (int k = 0; k < D; ++k) near.wraps[k][i] = CellGrid<D>::wrap_of(list.neighbours[i], k);
   }
 }
 
+// Takes a whole list, for how many are on it cannot be foreseen.
 template <int D>
-void Prediction<D>::look_at_disks(std::uint32_t disk, Plan<D>& plan) const {
-  using List = typename CellGrid<D>::List;
-  Candidates<D> near;
-  for (const List* list = &grid_.near(plan.cell); list; list = grid_.next(*list)) {
-    // A whole list, for how many are on it cannot be foreseen.
-    std::memcpy(near.disks, list->neighbours.data(), sizeof list->neighbours);
-    near.size = static_cast<int>(list->count);
-    near.wrapped = list->wraps;
-    if (near.wrapped) [[unlikely]]
-      unwrap<D>(*list, near);
-    weigh(disk, near, plan);
+[[gnu::always_inline]] static inline void take(const typename CellGrid<D>::List& list,
+                                               Candidates<D>& near) {
+  static_assert(sizeof near.disks >= sizeof list);
+  std::memcpy(near.disks, &list, sizeof list);
+  near.size = static_cast<int>(list.count);
+  near.wrapped = list.wraps;
+}
+
+// Lists are plain where nothing continues them, none of those near lies round a periodic border or
+// has crossed one in its flight, and who comes first is told apart: mostly. Otherwise returns
+// false.
+template <int D>
+template <bool kFalling, std::size_t kDisks>
+bool Prediction<D>::look_at_plain_lists(const Requests<kDisks>& requests) const {
+  std::array<std::uint32_t, kDisks> disks;
+  std::array<Candidates<D>, kDisks> near;
+  for (std::size_t k = 0; k < kDisks; ++k) {
+    const auto& list = grid_.near(requests[k].plan->cell);
+    if (list.wraps || list.next != CellGrid<D>::kNone) return false;
+    disks[k] = requests[k].disk;
+    take<D>(list, near[k]);
+  }
+  const auto first =
+      first_contacts<D, kFalling, false>(disks_.data()->flight.r.data(), disks, near,
+                                         model_.box.data(), model_.diameter, model_.gravity.data());
+  bool told_apart = true;
+  for (std::size_t k = 0; k < kDisks; ++k) {
+    Plan<D>& plan = *requests[k].plan;
+    // Whether there is a contact cannot be foreseen: without one, what is set says so all the same.
+    plan.time = first[k].time;
+    plan.partner = near[k].disks[first[k].candidate];
+    plan.partner_flight = disks_[plan.partner].flight.number;
+    plan.image.setZero();
+    told_apart = told_apart && first[k].told_apart;
+  }
+  return told_apart;
+}
+
+template <int D>
+template <bool kFalling>
+void Prediction<D>::look_at_lists(const Request& request) const {
+  const auto& [disk, plan] = request;
+  plan->time = kNever;
+  std::array<Candidates<D>, 1> nears;
+  Candidates<D>& near = nears[0];
+  for (const auto* list = &grid_.near(plan->cell); list; list = grid_.next(*list)) {
+    take<D>(*list, near);
+    if (near.wrapped) unwrap<D>(*list, near);
+    const FirstContact first = first_contacts<D, kFalling, true, 1>(
+        disks_.data()->flight.r.data(), {disk}, nears, model_.box.data(), model_.diameter,
+        model_.gravity.data())[0];
+    if (!first.told_apart) {
+      weigh_each(disk, near, *plan);
+    } else if (first.time <= plan->time) {
+      offer_disk(disk, near, first.candidate, first.time, *plan);
+    }
   }
 }
 
@@ -148,25 +180,11 @@ void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& pla
   plan.time = std::min(plan.time, time);
 }
 
-// Written without branches, for neither the signs of the velocity nor what comes first can be
-// foreseen.
-template <int D>
-void Prediction<D>::look_at_borders(std::uint32_t disk, double now, int axis, Plan<D>& plan) const {
-  const Disk<D>& self = disks_[disk];
-  const double v = self.flight.v[axis];
-  const bool upper = v >= 0.0;
-  const double place =
-      grid_.border(axis, plan.cell[axis], upper) + self.image[axis] * model_.box[axis];
-  // v + 0.0 is no negative zero: a disk at rest comes to the border above it at infinity.
-  const double time = self.flight.time + (place - self.flight.r[axis]) / (v + 0.0);
-  offer_border(std::max(now, time), axis, upper, plan);
-}
-
 // A disk on a parabola may leave through the border by which it came. It is looked at from where it
 // is now: a crossing, unlike a contact, need not be a function of the stored state alone.
 template <int D>
-void Prediction<D>::look_at_borders_falling(std::uint32_t disk, double now, int axis,
-                                            Plan<D>& plan) const {
+void Prediction<D>::look_at_border_falling(std::uint32_t disk, double now, int axis,
+                                           Plan<D>& plan) const {
   const Disk<D>& self = disks_[disk];
   const double a = model_.gravity[axis];
   const double since = now - self.flight.time;
@@ -183,18 +201,73 @@ void Prediction<D>::look_at_borders_falling(std::uint32_t disk, double now, int 
   offer_border(time, axis, out.upper, plan);
 }
 
+// Written without branches, for neither the signs of the velocity nor what comes first can be
+// foreseen.
 template <int D>
-void Prediction<D>::plan(std::uint32_t disk, double now, Plan<D>& plan) const {
-  plan.time = kNever;
-  look_at_disks(disk, plan);
-  if (walled_) look_at_walls(disk, now, plan);
+template <bool kFalling>
+void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const {
+  const Disk<D>& self = disks_[disk];
+  std::array<bool, D> upper;
+  Vec<D> place;
   for (int axis = 0; axis < D; ++axis) {
-    if (model_.gravity[axis] == 0.0) {
-      look_at_borders(disk, now, axis, plan);
+    upper[axis] = self.flight.v[axis] >= 0.0;
+    place[axis] = grid_.border(axis, plan.cell[axis], upper[axis]);
+  }
+  const Vec<D> way = place + self.image.cwiseProduct(model_.box) - self.flight.r;
+  // v + 0.0 is no negative zero: a disk at rest comes to the border above it at infinity.
+  const Vec<D> time = self.flight.time + way.array() / (self.flight.v.array() + 0.0);
+  for (int axis = 0; axis < D; ++axis) {
+    if (kFalling && model_.gravity[axis] != 0.0) {
+      look_at_border_falling(disk, now, axis, plan);
     } else {
-      look_at_borders_falling(disk, now, axis, plan);
+      offer_border(std::max(now, time[axis]), axis, upper[axis], plan);
     }
   }
+}
+
+template <int D>
+template <bool kFalling, bool kPlain, std::size_t kDisks>
+void Prediction<D>::make_plans(const Requests<kDisks>& requests, double now) const {
+  if constexpr (kPlain) {
+    if (!look_at_plain_lists<kFalling>(requests)) [[unlikely]] {
+      for (const Request& request : requests) planners_.any(*this, {request}, now);
+      return;
+    }
+  } else {
+    for (const Request& request : requests) look_at_lists<kFalling>(request);
+  }
+  for (const auto& [disk, plan] : requests) look_at_borders<kFalling>(disk, now, *plan);
+  if (!walled_) return;
+  for (const auto& [disk, plan] : requests) look_at_walls(disk, now, *plan);
+}
+
+template <int D>
+template <bool kFalling, bool kPlain, std::size_t kDisks>
+void Prediction<D>::plan_baseline(const Prediction& prediction, const Requests<kDisks>& requests,
+                                  double now) {
+  prediction.make_plans<kFalling, kPlain>(requests, now);
+}
+
+#if defined(__x86_64__)
+template <int D>
+template <bool kFalling, bool kPlain, std::size_t kDisks>
+void Prediction<D>::plan_avx2(const Prediction& prediction, const Requests<kDisks>& requests,
+                              double now) {
+  prediction.make_plans<kFalling, kPlain>(requests, now);
+}
+#endif
+
+template <int D>
+template <bool kFalling>
+typename Prediction<D>::Planners Prediction<D>::widest_planners() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) {
+    return {plan_avx2<kFalling, true, 1>, plan_avx2<kFalling, true, 2>,
+            plan_avx2<kFalling, false, 1>};
+  }
+#endif
+  return {plan_baseline<kFalling, true, 1>, plan_baseline<kFalling, true, 2>,
+          plan_baseline<kFalling, false, 1>};
 }
 
 template class Prediction<2>;

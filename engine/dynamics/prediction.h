@@ -10,9 +10,11 @@
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/physics/contact.h"
-#include "engine/physics/contact_kernel.h"
 
 namespace clatter {
+
+template <int D>
+struct Candidates;
 
 /// What a disk in its cell will do next: its first contact there, or leave the cell.
 template <int D>
@@ -24,28 +26,69 @@ struct Plan {
   IntVec<D> cell = IntVec<D>::Zero();
 };
 
-/// Finds what a disk will do next, from stored states alone.
+/// Finds what a disk will do next, from stored states alone; the same to the bit whatever
+/// instructions the processor has.
 template <int D>
 class Prediction {
  public:
+  /// A disk to be planned anew, and the plan, whose cell is that of the disk.
+  struct Request {
+    std::uint32_t disk;
+    Plan<D>* plan;
+  };
+
   /// Looks at the model, the walls, the disks and the grid of a simulation, which outlive it.
   Prediction(const Model<D>& model, const Boundary<D>& boundary, const LargeArray<Disk<D>>& disks,
              const CellGrid<D>& grid);
 
   /// The first contact with any disk or wall about the disk's cell, or its way out of the cell.
-  void plan(std::uint32_t disk, double now, Plan<D>& plan) const;
+  void plan(const Request& request, double now) const { planners_.one(*this, {request}, now); }
+  /// The same for two disks, in less time than for one after the other.
+  void plan(const Request& a, const Request& b, double now) const {
+    planners_.two(*this, {a, b}, now);
+  }
 
  private:
-  void look_at_disks(std::uint32_t disk, Plan<D>& plan) const;
-  void weigh(std::uint32_t disk, Candidates<D>& near, Plan<D>& plan) const;
+  template <std::size_t kDisks>
+  using Requests = std::array<Request, kDisks>;
+  template <std::size_t kDisks>
+  using Planner = void(const Prediction&, const Requests<kDisks>&, double now);
+  // With the widest vectors that the processor has.
+  struct Planners {
+    Planner<1>* one;
+    Planner<2>* two;
+    Planner<1>* any;  // for lists that are not plain, see look_at_plain_lists()
+  };
+  template <bool kFalling>
+  static Planners widest_planners();
+  // Attributes of templates count only where these are declared.
+  template <bool kFalling, bool kPlain, std::size_t kDisks>
+  static void plan_baseline(const Prediction&, const Requests<kDisks>&, double now);
+#if defined(__x86_64__)
+  template <bool kFalling, bool kPlain, std::size_t kDisks>
+  [[gnu::target("avx2")]] static void plan_avx2(const Prediction&, const Requests<kDisks>&,
+                                                double now);
+#endif
+
+  template <bool kFalling, bool kPlain, std::size_t kDisks>
+  [[gnu::always_inline]] inline void make_plans(const Requests<kDisks>& requests, double now) const;
+  template <bool kFalling, std::size_t kDisks>
+  [[gnu::always_inline]] inline bool look_at_plain_lists(const Requests<kDisks>& requests) const;
+  template <bool kFalling>
+  [[gnu::always_inline]] inline void look_at_lists(const Request& request) const;
+  template <bool kFalling>
+  [[gnu::always_inline]] inline void look_at_borders(std::uint32_t disk, double now,
+                                                     Plan<D>& plan) const;
+  [[gnu::always_inline]] inline void look_at_border_falling(std::uint32_t disk, double now,
+                                                            int axis, Plan<D>& plan) const;
+  [[gnu::always_inline]] inline void offer_border(double time, int axis, bool upper,
+                                                  Plan<D>& plan) const;
+  [[gnu::always_inline]] inline Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near,
+                                                int i) const;
   void weigh_each(std::uint32_t disk, const Candidates<D>& near, Plan<D>& plan) const;
-  Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near, int i) const;
   void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                   Plan<D>& plan) const;
   void look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const;
-  void look_at_borders(std::uint32_t disk, double now, int axis, Plan<D>& plan) const;
-  void look_at_borders_falling(std::uint32_t disk, double now, int axis, Plan<D>& plan) const;
-  void offer_border(double time, int axis, bool upper, Plan<D>& plan) const;
   void offer(double time, std::uint32_t disk, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
 
@@ -54,7 +97,7 @@ class Prediction {
   const LargeArray<Disk<D>>& disks_;
   const CellGrid<D>& grid_;
   bool walled_;  // whether there are walls
-  FirstContactKernel<D>* first_contact_;
+  Planners planners_;
   std::array<double, 2 * D> reach_;  // from the box's edge: where the side's wall can be touched
 };
 

@@ -163,7 +163,7 @@ void Simulation<D>::plan_all() {
   std::vector<Event> events;
   events.reserve(disks_.size());
   for (std::uint32_t i = 0; i < disks_.size(); ++i) {
-    prediction_.plan(i, now_, plans_[i]);
+    prediction_.plan({i, &plans_[i]}, now_);
     const Plan<D>& plan = plans_[i];
     if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
   }
@@ -290,7 +290,7 @@ void Simulation<D>::process(const Event& event) {
     hit_wall(event.disk, static_cast<int>(event.partner - kWall));
   } else if (plans_[event.disk].partner_flight != disks_[event.partner].flight.number) {
     ++counts_.stale;
-    prediction_.plan(event.disk, now_, plans_[event.disk]);
+    prediction_.plan({event.disk, &plans_[event.disk]}, now_);
     schedule(event.disk);
   } else {
     collide(event.disk, event.partner);

@@ -19,7 +19,7 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   grid_.move(number, plan.cell, axis, step);
   plan.cell = next;
   ++counts_.cell_crossings;
-  prediction_.plan(number, now_, plan);
+  prediction_.plan({number, &plan}, now_);
   schedule(number);
 }
 
@@ -107,8 +107,7 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   ++counts_.disk_disk;
   counts_.elasticised += outcome.elasticised;
   if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
-  prediction_.plan(first, now_, plans_[first]);
-  prediction_.plan(second, now_, plans_[second]);
+  prediction_.plan({first, &plans_[first]}, {second, &plans_[second]}, now_);
   schedule(first);
   schedule(second);
 }
@@ -141,7 +140,7 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   ++counts_.disk_wall;
   counts_.elasticised_wall += elastic;
   if (!last_collisions_.empty()) last_collisions_[number] = now_;
-  prediction_.plan(number, now_, plans_[number]);
+  prediction_.plan({number, &plans_[number]}, now_);
   schedule(number);
 }
 

@@ -2,7 +2,13 @@
 
 // No Eigen here, see encounter.h.
 
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+
+#include "engine/physics/encounter.h"
 
 namespace clatter {
 
@@ -18,7 +24,7 @@ struct Candidates {
   static constexpr int kCapacity = 16;
 
   /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
-  static constexpr int kMargin = 3;
+  static constexpr int kMargin = 4;
   std::uint32_t disks[kCapacity + kMargin];
   double wraps[D][kCapacity + kMargin];  ///< box lengths to subtract from each one's; if `wrapped`
   int size = 0;
@@ -28,20 +34,154 @@ struct Candidates {
 /// Which of its candidates a disk touches first.
 struct FirstContact {
   double time;      ///< kNever: none, kTouching: at least one touches already
-  int candidate;    ///< whose time this is; 0 where there is none
+  int candidate;    ///< whose time this is; any, or a row behind them, where there is none
   bool told_apart;  ///< false: others may share the time, or touch too, and must be asked
 };
 
-/// The first encounter_time of the disk in row `self` with the candidates. The disk itself may be
-/// among them: it never meets itself. `rows` holds all disks, `box` are its D edge lengths.
-template <int D>
-using FirstContactKernel = FirstContact(const double* rows, std::uint32_t self,
-                                        Candidates<D>& candidates, const double* box,
-                                        double diameter, const double* gravity);
+/// Vectors of four numbers, in one register or in two, as the function has it for whose instruction
+/// set all this is inlined.
+namespace lanes {
 
-/// The kernel with vectors as wide as the processor has; the same bits on any. `gravity` is not
-/// read unless disks are falling.
+inline constexpr int kCount = 4;
+using Doubles = double __attribute__((vector_size(8 * kCount)));
+using Bits = std::int64_t __attribute__((vector_size(8 * kCount)));
+
+[[gnu::always_inline]] inline Doubles load(const double* from) {
+  Doubles numbers;
+  std::memcpy(&numbers, from, sizeof numbers);
+  return numbers;
+}
+
+[[gnu::always_inline]] inline Doubles broadcast(double number) {
+  return Doubles{number, number, number, number};
+}
+
+// Numbers first ... first + 3 of four rows, number by number.
+[[gnu::always_inline]] inline void transpose(const double* const* row, int first,
+                                             Doubles* columns) {
+  Doubles in[4];
+  for (int i = 0; i < 4; ++i) in[i] = load(row[i] + first);
+  const Doubles even_01 = __builtin_shufflevector(in[0], in[1], 0, 4, 2, 6);
+  const Doubles odd_01 = __builtin_shufflevector(in[0], in[1], 1, 5, 3, 7);
+  const Doubles even_23 = __builtin_shufflevector(in[2], in[3], 0, 4, 2, 6);
+  const Doubles odd_23 = __builtin_shufflevector(in[2], in[3], 1, 5, 3, 7);
+  columns[0] = __builtin_shufflevector(even_01, even_23, 0, 1, 4, 5);
+  columns[1] = __builtin_shufflevector(odd_01, odd_23, 0, 1, 4, 5);
+  columns[2] = __builtin_shufflevector(even_01, even_23, 2, 3, 6, 7);
+  columns[3] = __builtin_shufflevector(odd_01, odd_23, 2, 3, 6, 7);
+}
+
+[[gnu::always_inline]] inline Doubles lesser(const Doubles& a, const Doubles& b) {
+  return a < b ? a : b;
+}
+
+// The least of four numbers, in every lane.
+[[gnu::always_inline]] inline Doubles least(const Doubles& numbers) {
+  const Doubles pairs = lesser(numbers, __builtin_shufflevector(numbers, numbers, 2, 3, 0, 1));
+  return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
+}
+
+// A disk and its candidates, in groups of four.
 template <int D>
-FirstContactKernel<D>* first_contact_kernel(bool falling);
+struct Groups {
+  static constexpr int kMost = Candidates<D>::kCapacity / kCount;
+  int count = 0;
+  PairApproach<Doubles> approaches[kMost];
+  Doubles times[kMost];
+  Bits frames;  // all bits of rows' box lengths in the last D lanes
+};
+
+template <int D, bool kFalling, bool kShifted>
+[[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t disk,
+                                            Candidates<D>& candidates, const double* box,
+                                            double diameter, const double* gravity,
+                                            Groups<D>& groups) {
+  constexpr int kColumns = (3 * D + 2 + 3) / 4 * 4;
+  constexpr int kImage = 2 * D + 2;
+  const double* const own = rows + static_cast<std::size_t>(disk) * kRowLength<D>;
+  Doubles r[D], v[D], image[D];
+  for (int k = 0; k < D; ++k) {
+    r[k] = broadcast(own[k]);
+    v[k] = broadcast(own[D + k]);
+    image[k] = broadcast(own[kImage + k]);
+  }
+  const Doubles time = broadcast(own[2 * D]);
+  groups.frames = reinterpret_cast<Bits>(load(own + kImage + D - kCount));
+  for (int i = 0; i < Candidates<D>::kMargin; ++i) candidates.disks[candidates.size + i] = disk;
+  for (int i = 0; i == 0 || i < candidates.size; i += kCount) {
+    const double* row[kCount];
+    for (int lane = 0; lane < kCount; ++lane) {
+      row[lane] = rows + static_cast<std::size_t>(candidates.disks[i + lane]) * kRowLength<D>;
+    }
+    Doubles columns[kColumns];
+    for (int k = 0; k < kColumns; k += 4) transpose(row, k, columns + k);
+    Doubles shift[D];
+    for (int k = 0; k < D && kShifted; ++k) {
+      shift[k] = columns[kImage + k] - image[k];
+      if (candidates.wrapped) shift[k] -= load(&candidates.wraps[k][i]);
+      shift[k] *= box[k];
+    }
+    for (int lane = 0; lane < kCount && !kShifted; ++lane) {
+      groups.frames |= reinterpret_cast<Bits>(load(row[lane] + kImage + D - kCount));
+    }
+    groups.approaches[groups.count++] =
+        approach_of<D, kFalling>(r, v, time, columns, columns + D, columns[2 * D],
+                                 kShifted ? shift : nullptr, diameter, gravity);
+  }
+}
+
+// Who touches first, given the least of all times in every lane.
+template <int D, bool kShifted>
+[[gnu::always_inline]] inline FirstContact first_of(const Groups<D>& groups,
+                                                    const Doubles& earliest) {
+  Bits shared{}, bit{1, 2, 4, 8};
+  for (int group = 0; group < groups.count; ++group, bit <<= kCount) {
+    shared |= (groups.times[group] == earliest) & bit;
+  }
+  const auto sharing =
+      static_cast<std::uint64_t>((shared[0] | shared[1]) | (shared[2] | shared[3]));
+  const double time = earliest[0];
+  const bool never = time == kNever, alone = (sharing & (sharing - 1)) == 0;
+  std::int64_t off = 0;
+  for (int k = kCount - D; k < kCount && !kShifted; ++k) off |= groups.frames[k];
+  const bool told_apart = (alone | never) & (time != kTouching) & (off == 0);
+  return {time, std::countr_zero(sharing), told_apart};
+}
+
+}  // namespace lanes
+
+/// For each of some disks, given by their rows, the first encounter_time with its candidates. The
+/// disk itself may be among these: it never meets itself. `rows` holds all disks, `box` are its D
+/// edge lengths; `gravity` is not read unless disks are falling. The same bits with any instruction
+/// set.
+///
+/// Without kShifted, no candidate may be wrapped, all rows are taken to lie in the frame of the
+/// box, and where one does not, nobody is told apart.
+template <int D, bool kFalling, bool kShifted, std::size_t kDisks>
+[[gnu::always_inline]] inline std::array<FirstContact, kDisks> first_contacts(
+    const double* rows, const std::array<std::uint32_t, kDisks>& disks,
+    std::array<Candidates<D>, kDisks>& candidates, const double* box, double diameter,
+    const double* gravity) {
+  using namespace lanes;
+  Groups<D> groups[kDisks];
+  for (std::size_t k = 0; k < kDisks; ++k) {
+    approach<D, kFalling, kShifted>(rows, disks[k], candidates[k], box, diameter, gravity,
+                                    groups[k]);
+  }
+  // Apart from the above, so that the roots and quotients of all groups are under way at once.
+  Doubles earliest[kDisks];
+  for (std::size_t k = 0; k < kDisks; ++k) {
+    earliest[k] = broadcast(kNever);
+    for (int group = 0; group < groups[k].count; ++group) {
+      groups[k].times[group] = encounter_time(groups[k].approaches[group]);
+      earliest[k] = lesser(groups[k].times[group], earliest[k]);
+    }
+  }
+  std::array<FirstContact, kDisks> first;
+  for (std::size_t k = 0; k < kDisks; ++k) {
+    first[k] = first_of<D, kShifted>(groups[k], least(earliest[k]));
+  }
+  return first;
+}
 
 }  // namespace clatter

@@ -37,52 +37,75 @@ template <int D, class Number>
   return sum;
 }
 
-/// Time at which the disks of two flights touch, kNever, or kTouching. Exchanging the flights and
-/// negating the shift gives the same bits, so it does not matter who asks or when. Number is
-/// double, or a vector of doubles for as many pairs.
+/// How two disks approach each other: what their contact time follows from, see encounter_time.
+/// Number is double, or a vector of doubles for as many pairs.
+template <class Number>
+struct PairApproach {
+  Number start;         ///< of the later flight
+  Number gap;           ///< |x|^2 - a^2 there
+  Number rate;          ///< x.g
+  Number discriminant;  ///< g^2 a^2 - |x ^ g|^2
+};
+
+/// The approach of two flights. A null `shift` is none. Without kFalling, `gravity` is not read.
 ///
 /// Disks share the acceleration of gravity, so seen from each other they move on straight lines; it
-/// enters only where they are at the later flight's start. Without kFalling, `gravity` is not read.
+/// enters only where they are at the later flight's start.
+template <int D, bool kFalling, class Number>
+[[gnu::always_inline]] inline PairApproach<Number> approach_of(const Number* r_a, const Number* v_a,
+                                                               const Number& time_a,
+                                                               const Number* r_b, const Number* v_b,
+                                                               const Number& time_b,
+                                                               const Number* shift, double diameter,
+                                                               const double* gravity) {
+  const Number start = time_a > time_b ? time_a : time_b;
+  const Number since_a = start - time_a, since_b = start - time_b;
+  Number x[D], g[D];
+  for (int k = 0; k < D; ++k) {
+    if constexpr (kFalling) {
+      x[k] = (r_a[k] + (v_a[k] + gravity[k] * (0.5 * since_a)) * since_a) -
+             (r_b[k] + (v_b[k] + gravity[k] * (0.5 * since_b)) * since_b);
+      g[k] = (v_a[k] + gravity[k] * since_a) - (v_b[k] + gravity[k] * since_b);
+    } else {
+      x[k] = (r_a[k] + v_a[k] * since_a) - (r_b[k] + v_b[k] * since_b);
+      g[k] = v_a[k] - v_b[k];
+    }
+    if (shift) x[k] += shift[k];
+  }
+  Number wedge_squared{};
+  for (int k = 0; k < D; ++k) {
+    for (int l = k + 1; l < D; ++l) {
+      const Number area = x[k] * g[l] - x[l] * g[k];
+      wedge_squared = k == 0 && l == 1 ? area * area : wedge_squared + area * area;
+    }
+  }
+  return {start, dot<D>(x, x) - diameter * diameter, dot<D>(x, g),
+          dot<D>(g, g) * (diameter * diameter) - wedge_squared};
+}
+
+/// Time at which the disks of two flights touch, kNever, or kTouching. Exchanging the flights and
+/// negating the shift gives the same bits, so it does not matter who asks or when.
 ///
 /// Contact is the first root of |x + g t| = a. Its discriminant is taken as g^2 a^2 - |x ^ g|^2,
 /// which unlike (x.g)^2 - g^2 (x^2 - a^2) loses nothing when the disks start far apart.
+template <class Number>
+[[gnu::always_inline]] inline Number encounter_time(const PairApproach<Number>& a) {
+  const Number zero{};
+  const Number root = root_of<Number>(a.discriminant > zero ? a.discriminant : zero);
+  const Number time = a.gap > zero ? a.start + a.gap / (root - a.rate) : zero + kTouching;
+  const Number met = a.discriminant > zero ? time : zero + kNever;
+  return a.rate < zero ? met : zero + kNever;
+}
+
+/// encounter_time of the approach_of two flights.
 template <int D, bool kFalling, class Number>
 [[gnu::always_inline]] inline Number encounter_time(const Number* r_a, const Number* v_a,
                                                     const Number& time_a, const Number* r_b,
                                                     const Number* v_b, const Number& time_b,
                                                     const Number* shift, double diameter,
                                                     const double* gravity) {
-  const Number zero{};
-  const Number start = time_a > time_b ? time_a : time_b;
-  const Number since_a = start - time_a, since_b = start - time_b;
-  Number x[D], g[D];
-  for (int k = 0; k < D; ++k) {
-    if constexpr (kFalling) {
-      x[k] = ((r_a[k] + (v_a[k] + gravity[k] * (0.5 * since_a)) * since_a) -
-              (r_b[k] + (v_b[k] + gravity[k] * (0.5 * since_b)) * since_b)) +
-             shift[k];
-      g[k] = (v_a[k] + gravity[k] * since_a) - (v_b[k] + gravity[k] * since_b);
-    } else {
-      x[k] = ((r_a[k] + v_a[k] * since_a) - (r_b[k] + v_b[k] * since_b)) + shift[k];
-      g[k] = v_a[k] - v_b[k];
-    }
-  }
-  const Number approach = dot<D>(x, g);
-  const Number distance_squared = dot<D>(x, x);
-  const Number speed_squared = dot<D>(g, g);
-  Number wedge_squared{};
-  for (int k = 0; k < D; ++k) {
-    for (int l = k + 1; l < D; ++l) {
-      const Number area = x[k] * g[l] - x[l] * g[k];
-      wedge_squared += area * area;
-    }
-  }
-  const Number gap = distance_squared - diameter * diameter;
-  const Number discriminant = speed_squared * (diameter * diameter) - wedge_squared;
-  const Number root = root_of<Number>(discriminant > zero ? discriminant : zero);
-  const Number time = gap > zero ? start + gap / (root - approach) : zero + kTouching;
-  const Number met = discriminant > zero ? time : zero + kNever;
-  return approach < zero ? met : zero + kNever;
+  return encounter_time(
+      approach_of<D, kFalling>(r_a, v_a, time_a, r_b, v_b, time_b, shift, diameter, gravity));
 }
 
 }  // namespace clatter

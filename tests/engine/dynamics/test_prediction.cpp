@@ -1,0 +1,129 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/dynamics/prediction.h"
+#include "engine/dynamics/simulation.h"
+#include "engine/physics/contact.h"
+#include "engine/physics/random.h"
+#include "engine/publish/scheduled_run.h"
+
+using namespace clatter;
+
+namespace {
+
+Scene gas(int count, const Vec2& box, const Vec2& gravity = Vec2::Zero()) {
+  Scene scene;
+  scene.disks.count = count;
+  scene.box = box;
+  scene.gravity = gravity;
+  return scene;
+}
+
+Scene walled(Scene scene) {
+  for (auto& wall : scene.walls) wall = Wall{};
+  return scene;
+}
+
+std::vector<std::pair<std::string, Scene>> scenes() {
+  return {{"periodic", gas(400, {25.0, 25.0})},
+          {"dilute", gas(400, {70.0, 70.0})},
+          {"round a narrow box", gas(60, {2.3, 40.0})},
+          {"falling round the box", gas(300, {20.0, 20.0}, {0.2, -0.5})},
+          {"falling between walls", walled(gas(300, {20.0, 20.0}, {0.0, -0.5}))}};
+}
+
+// A gas after some collisions, and all its disks' plans.
+struct Planned {
+  explicit Planned(const Scene& scene) : model(model_of(scene, 1)) {
+    const auto simulation = simulation_of(scene, 1);
+    simulation->run_until(1e9, 20 * static_cast<std::uint64_t>(scene.disks.count));
+    now = simulation->base_time();
+    clock.emplace(simulation->time() - now);
+    disks = simulation->disks();
+    plans.resize(disks.size());
+    grid.emplace(model, static_cast<double>(disks.size()));
+    for (std::uint32_t i = 0; i < disks.size(); ++i) {
+      const Vec2 r = disks[i].flight.at(now, model.gravity);
+      disks[i].image = model.boxes_off(r);
+      plans[i].cell = grid->cell_at(r - disks[i].image.cwiseProduct(model.box));
+      grid->insert(i, plans[i].cell);
+    }
+    boundary.emplace(model, *clock);
+    prediction.emplace(model, *boundary, disks, *grid);
+    for (std::uint32_t i = 0; i < disks.size(); ++i) prediction->plan({i, &plans[i]}, now);
+  }
+
+  Model<2> model;
+  double now;
+  std::optional<Clock> clock;
+  LargeArray<Disk<2>> disks;
+  std::vector<Plan<2>> plans;
+  std::optional<CellGrid<2>> grid;
+  std::optional<Boundary<2>> boundary;
+  std::optional<Prediction<2>> prediction;
+};
+
+}  // namespace
+
+TEST_CASE("prediction: no two disks touch before the plan of one of them, by brute force") {
+  for (const auto& [name, scene] : scenes()) {
+    CAPTURE(name);
+    const Planned gas(scene);
+    int contacts = 0;
+    for (std::uint32_t i = 0; i < gas.disks.size(); ++i) {
+      for (std::uint32_t j = i + 1; j < gas.disks.size(); ++j) {
+        const double planned = std::min(gas.plans[i].time, gas.plans[j].time);
+        for (int image = 0; image < 9; ++image) {
+          const Vec2 wrap(image % 3 - 1, image / 3 - 1);
+          const bool there = (wrap.x() == 0.0 || gas.model.periodic(0)) &&
+                             (wrap.y() == 0.0 || gas.model.periodic(1));
+          if (!there) continue;
+          const Vec2 boxes = gas.disks[j].image - gas.disks[i].image - wrap;
+          const double time =
+              contact_time<2>(gas.disks[i].flight, gas.disks[j].flight,
+                              boxes.cwiseProduct(gas.model.box), 1.0, gas.model.gravity);
+          REQUIRE(time >= planned);
+          contacts += time == planned;
+        }
+      }
+    }
+    CHECK(contacts > 10);
+  }
+}
+
+TEST_CASE("prediction: two disks planned at once are planned as one after the other, to the bit") {
+  for (const auto& [name, scene] : scenes()) {
+    CAPTURE(name);
+    const Planned gas(scene);
+    Random random(5, Stream::Placement, 0, 0);
+    int contacts = 0, round_borders = 0;
+    for (int k = 0; k < 4000; ++k) {
+      const auto a = static_cast<std::uint32_t>(random.below(gas.disks.size()));
+      const auto b = static_cast<std::uint32_t>(random.below(gas.disks.size()));
+      if (a == b) continue;
+      Plan<2> of_a, of_b;
+      of_a.cell = gas.plans[a].cell;
+      of_b.cell = gas.plans[b].cell;
+      gas.prediction->plan({a, &of_a}, {b, &of_b}, gas.now);
+      for (const auto& [alone, at_once] :
+           {std::pair(&gas.plans[a], &of_a), std::pair(&gas.plans[b], &of_b)}) {
+        REQUIRE(alone->time == at_once->time);
+        REQUIRE(alone->partner == at_once->partner);
+        if (alone->partner >= kWall) continue;
+        REQUIRE(alone->partner_flight == at_once->partner_flight);
+        REQUIRE(alone->image == at_once->image);
+        ++contacts;
+        round_borders += alone->image != IntVec<2>::Zero();
+      }
+    }
+    CHECK(contacts > 1000);
+    if (scene.walls[0]) continue;
+    CHECK(round_borders > 20);
+  }
+}
