@@ -23,7 +23,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   chunks_.clear();
   spare_ = nullptr;
   later_.clear();
-  arrived_.clear();
+  arrived_ = {};  // without the room that a burst of them took
   bucket_ = 0;
   if (events.empty()) return;
 

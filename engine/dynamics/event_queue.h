@@ -36,7 +36,8 @@ class EventQueue {
   void pop() { current_.pop_back(); }
 
   /// Calls `visit` with each event of the bucket that comes `ahead` buckets after the one at hand,
-  /// but for those pushed since that came up, so that the caller can fetch what they will need.
+  /// so that the caller can fetch what they will need; but for events pushed since the bucket at
+  /// hand came up.
   template <typename Visit>
   void look_ahead(std::size_t ahead, const Visit& visit) const;
 

@@ -108,6 +108,15 @@ template <int D>
   near.wrapped = list.wraps;
 }
 
+template <int D>
+template <bool kFalling, bool kShifted, std::size_t kDisks>
+std::array<FirstContact, kDisks> Prediction<D>::first_of(
+    const std::array<std::uint32_t, kDisks>& disks, std::array<Candidates<D>, kDisks>& near) const {
+  return first_contacts<D, kFalling, kShifted>(reinterpret_cast<const double*>(disks_.data()),
+                                               disks, near, model_.box.data(), model_.diameter,
+                                               model_.gravity.data());
+}
+
 // Lists are plain where nothing continues them, none of those near lies round a periodic border or
 // has crossed one in its flight, and who comes first is told apart: mostly. Otherwise returns
 // false.
@@ -122,9 +131,7 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kDisks>& requests) const 
     disks[k] = requests[k].disk;
     take<D>(list, near[k]);
   }
-  const auto first =
-      first_contacts<D, kFalling, false>(disks_.data()->flight.r.data(), disks, near,
-                                         model_.box.data(), model_.diameter, model_.gravity.data());
+  const auto first = first_of<kFalling, false>(disks, near);
   bool told_apart = true;
   for (std::size_t k = 0; k < kDisks; ++k) {
     Plan<D>& plan = *requests[k].plan;
@@ -148,9 +155,7 @@ void Prediction<D>::look_at_lists(const Request& request) const {
   for (const auto* list = &grid_.near(plan->cell); list; list = grid_.next(*list)) {
     take<D>(*list, near);
     if (near.wrapped) unwrap<D>(*list, near);
-    const FirstContact first = first_contacts<D, kFalling, true, 1>(
-        disks_.data()->flight.r.data(), {disk}, nears, model_.box.data(), model_.diameter,
-        model_.gravity.data())[0];
+    const FirstContact first = first_of<kFalling, true, 1>({disk}, nears)[0];
     if (!first.told_apart) {
       weigh_each(disk, near, *plan);
     } else if (first.time <= plan->time) {

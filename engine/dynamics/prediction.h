@@ -15,6 +15,7 @@ namespace clatter {
 
 template <int D>
 struct Candidates;
+struct FirstContact;
 
 /// What a disk in its cell will do next: its first contact there, or leave the cell.
 template <int D>
@@ -43,7 +44,7 @@ class Prediction {
 
   /// The first contact with any disk or wall about the disk's cell, or its way out of the cell.
   void plan(const Request& request, double now) const { planners_.one(*this, {request}, now); }
-  /// The same for two disks, in less time than for one after the other.
+  /// The same for two disks, neither of which waits for what the other looks at.
   void plan(const Request& a, const Request& b, double now) const {
     planners_.two(*this, {a, b}, now);
   }
@@ -61,7 +62,8 @@ class Prediction {
   };
   template <bool kFalling>
   static Planners widest_planners();
-  // Attributes of templates count only where these are declared.
+  // Attributes of templates count only where these are declared. No compiler option in their place:
+  // Eigen's layouts would follow it.
   template <bool kFalling, bool kPlain, std::size_t kDisks>
   static void plan_baseline(const Prediction&, const Requests<kDisks>&, double now);
 #if defined(__x86_64__)
@@ -85,6 +87,10 @@ class Prediction {
                                                   Plan<D>& plan) const;
   [[gnu::always_inline]] inline Vec<D> image_of(std::uint32_t disk, const Candidates<D>& near,
                                                 int i) const;
+  template <bool kFalling, bool kShifted, std::size_t kDisks>
+  [[gnu::always_inline]] inline std::array<FirstContact, kDisks> first_of(
+      const std::array<std::uint32_t, kDisks>& disks,
+      std::array<Candidates<D>, kDisks>& near) const;
   void weigh_each(std::uint32_t disk, const Candidates<D>& near, Plan<D>& plan) const;
   void offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
                   Plan<D>& plan) const;

@@ -399,7 +399,8 @@ double Simulation<D>::deepest_overlap() const {
 }
 
 // Three looks ahead, each of which finds in the cache what the one before fetched: the disks and
-// their plans, then the lists that they will look at or move between, then the disks on these.
+// their plans, then the lists that they will look at or move between, then, in a large gas, the
+// disks on these.
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();

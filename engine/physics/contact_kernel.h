@@ -1,7 +1,5 @@
 #pragma once
 
-// No Eigen here, see encounter.h.
-
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -34,8 +32,9 @@ struct Candidates {
 /// Which of its candidates a disk touches first.
 struct FirstContact {
   double time;      ///< kNever: none, kTouching: at least one touches already
-  int candidate;    ///< whose time this is; any, or a row behind them, where there is none
-  bool told_apart;  ///< false: others may share the time, or touch too, and must be asked
+  int candidate;    ///< whose time this is; 0 where there is none
+  bool told_apart;  ///< false: others may share the time, or touch too, and must be asked; or see
+                    ///< first_contacts
 };
 
 /// Vectors of four numbers, in one register or in two, as the function has it for whose instruction
@@ -99,11 +98,10 @@ template <int D, bool kFalling, bool kShifted>
   constexpr int kColumns = (3 * D + 2 + 3) / 4 * 4;
   constexpr int kImage = 2 * D + 2;
   const double* const own = rows + static_cast<std::size_t>(disk) * kRowLength<D>;
-  Doubles r[D], v[D], image[D];
+  Doubles r[D], v[D];
   for (int k = 0; k < D; ++k) {
     r[k] = broadcast(own[k]);
     v[k] = broadcast(own[D + k]);
-    image[k] = broadcast(own[kImage + k]);
   }
   const Doubles time = broadcast(own[2 * D]);
   groups.frames = reinterpret_cast<Bits>(load(own + kImage + D - kCount));
@@ -116,13 +114,16 @@ template <int D, bool kFalling, bool kShifted>
     Doubles columns[kColumns];
     for (int k = 0; k < kColumns; k += 4) transpose(row, k, columns + k);
     Doubles shift[D];
-    for (int k = 0; k < D && kShifted; ++k) {
-      shift[k] = columns[kImage + k] - image[k];
-      if (candidates.wrapped) shift[k] -= load(&candidates.wraps[k][i]);
-      shift[k] *= box[k];
-    }
-    for (int lane = 0; lane < kCount && !kShifted; ++lane) {
-      groups.frames |= reinterpret_cast<Bits>(load(row[lane] + kImage + D - kCount));
+    if constexpr (kShifted) {
+      for (int k = 0; k < D; ++k) {
+        shift[k] = columns[kImage + k] - broadcast(own[kImage + k]);
+        if (candidates.wrapped) shift[k] -= load(&candidates.wraps[k][i]);
+        shift[k] *= box[k];
+      }
+    } else {
+      for (const double* other : row) {
+        groups.frames |= reinterpret_cast<Bits>(load(other + kImage + D - kCount));
+      }
     }
     groups.approaches[groups.count++] =
         approach_of<D, kFalling>(r, v, time, columns, columns + D, columns[2 * D],
@@ -142,10 +143,13 @@ template <int D, bool kShifted>
       static_cast<std::uint64_t>((shared[0] | shared[1]) | (shared[2] | shared[3]));
   const double time = earliest[0];
   const bool never = time == kNever, alone = (sharing & (sharing - 1)) == 0;
-  std::int64_t off = 0;
-  for (int k = kCount - D; k < kCount && !kShifted; ++k) off |= groups.frames[k];
-  const bool told_apart = (alone | never) & (time != kTouching) & (off == 0);
-  return {time, std::countr_zero(sharing), told_apart};
+  bool told_apart = (alone | never) & (time != kTouching);
+  if constexpr (!kShifted) {
+    std::int64_t off = 0;
+    for (int k = kCount - D; k < kCount; ++k) off |= groups.frames[k];
+    told_apart &= off == 0;
+  }
+  return {time, never ? 0 : std::countr_zero(sharing), told_apart};
 }
 
 }  // namespace lanes
@@ -155,8 +159,8 @@ template <int D, bool kShifted>
 /// edge lengths; `gravity` is not read unless disks are falling. The same bits with any instruction
 /// set.
 ///
-/// Without kShifted, no candidate may be wrapped, all rows are taken to lie in the frame of the
-/// box, and where one does not, nobody is told apart.
+/// Without kShifted, no candidate may be wrapped, and all rows are taken to lie in the frame of the
+/// box: where one does not, nobody is told apart, and the rest of the answer means nothing.
 template <int D, bool kFalling, bool kShifted, std::size_t kDisks>
 [[gnu::always_inline]] inline std::array<FirstContact, kDisks> first_contacts(
     const double* rows, const std::array<std::uint32_t, kDisks>& disks,

@@ -1,8 +1,5 @@
 #pragma once
 
-// No Eigen here: kernels for wider instruction sets include this file, and Eigen's layouts depend
-// on the instruction set.
-
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -76,6 +73,7 @@ template <int D, bool kFalling, class Number>
   for (int k = 0; k < D; ++k) {
     for (int l = k + 1; l < D; ++l) {
       const Number area = x[k] * g[l] - x[l] * g[k];
+      // The first is not added to a zero, which no compiler may leave out.
       wedge_squared = k == 0 && l == 1 ? area * area : wedge_squared + area * area;
     }
   }
