@@ -12,8 +12,7 @@ void EventQueue::rebuild(std::vector<Event>& events) {
   spread(events, events.size() / 4);
 }
 
-// Five events a bucket, by the density of the first ones; some half of them are dead when it comes
-// up.
+// Five events a bucket, by the density of the first ones; two of them are dead when it comes up.
 void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   current_.clear();
   moved_aside_ = 0;

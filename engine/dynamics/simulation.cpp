@@ -20,8 +20,8 @@ static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
 static constexpr double kCellsPerDisk = 1.0;
-// Fetching ahead pays once plans and lists no longer fit the second cache; the many disks that each
-// event looks at, which can be waited for all at once, only where they lie farther off still.
+// Measured: where fetching plans and lists ahead pays, which do not fit the second cache then, and
+// where fetching the many disks that each event looks at does, which can be waited for all at once.
 static constexpr std::size_t kFetchAheadFrom = 12000;
 static constexpr std::size_t kFetchNeighboursFrom = 40000;
 

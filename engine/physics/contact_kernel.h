@@ -90,6 +90,7 @@ struct Groups {
   Bits frames;  // all bits of rows' box lengths in the last D lanes
 };
 
+// How all candidates approach a disk, see first_contacts.
 template <int D, bool kFalling, bool kShifted>
 [[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t disk,
                                             Candidates<D>& candidates, const double* box,
