@@ -32,11 +32,6 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   const double width = 5.0 * (last->time - origin_) / static_cast<double>(first + 1);
   per_width_ = width > 0.0 && std::isfinite(1.0 / width) ? 1.0 / width : 1.0;
 
-  // Rows so long that few events lie beyond the one at hand: which do cannot be foreseen.
-  row_shift_ = 8;
-  while (row_shift_ < 12 && (std::size_t{1} << row_shift_) < events.size()) ++row_shift_;
-  in_row_ = (std::int64_t{1} << row_shift_) - 1;
-  buckets_.resize(std::size_t{1} << row_shift_);
   for (const Event& event : events) {
     if (bucket_of(event.time) == bucket_) {
       current_.push_back(event);
@@ -53,7 +48,7 @@ void EventQueue::put_away(const Event& event) {
   if (number > last_of_row()) {
     add_to_row(event, number);
   } else {
-    buckets_[static_cast<std::size_t>(number & in_row_)].push_back(event);
+    buckets_[static_cast<std::size_t>(number & kInRow)].push_back(event);
     ++in_buckets_;
   }
 }
@@ -131,7 +126,7 @@ void EventQueue::thin_out() {
 }
 
 void EventQueue::add_to_row(const Event& event, std::int64_t bucket) {
-  if ((bucket >> row_shift_) - (bucket_ >> row_shift_) >= kRows) {
+  if ((bucket >> kRowShift) - (bucket_ >> kRowShift) >= kRows) {
     later_.push_back(event);
     return;
   }
@@ -164,15 +159,15 @@ void EventQueue::next_bucket() {
   }
   if (in_buckets_ == 0) bucket_ = last_of_row();
   ++bucket_;
-  if ((bucket_ & in_row_) == 0) next_row();
-  auto& bucket = buckets_[static_cast<std::size_t>(bucket_ & in_row_)];
+  if ((bucket_ & kInRow) == 0) next_row();
+  auto& bucket = buckets_[static_cast<std::size_t>(bucket_ & kInRow)];
   in_buckets_ -= bucket.size();
   current_.swap(bucket);
 }
 
 // Spreads the row that begins with the bucket at hand.
 void EventQueue::next_row() {
-  const std::int64_t row = bucket_ >> row_shift_;
+  const std::int64_t row = bucket_ >> kRowShift;
   if ((row & (kRows / 2 - 1)) == 0) {
     // Twice a turn of the ring, what has come within its reach moves in.
     for (const Event& event : std::exchange(later_, {})) add_to_row(event, bucket_of(event.time));
@@ -180,7 +175,7 @@ void EventQueue::next_row() {
   for (Chunk* chunk = std::exchange(row_of(bucket_), nullptr); chunk;) {
     for (std::size_t k = 0; k < chunk->size; ++k) {
       const Event& event = chunk->events[k];
-      buckets_[static_cast<std::size_t>(bucket_of(event.time) & in_row_)].push_back(event);
+      buckets_[static_cast<std::size_t>(bucket_of(event.time) & kInRow)].push_back(event);
     }
     in_rows_ -= chunk->size;
     in_buckets_ += chunk->size;

@@ -45,7 +45,11 @@ class EventQueue {
   std::int64_t bucket() const { return bucket_; }
 
  private:
-  static constexpr std::int64_t kRows = 1024;
+  // A row so short that what it is spread over fits the first cache, even though more events then
+  // lie in rows and move down one rung more.
+  static constexpr unsigned kRowShift = 9;                                // log2 of its buckets
+  static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;  // which of them
+  static constexpr std::int64_t kRows = 2048;
   // Rows grow by chunks from a common store, so that memory follows what is planned and not what
   // each row once held.
   struct Chunk {
@@ -58,8 +62,8 @@ class EventQueue {
   std::size_t beyond_current() const {
     return in_buckets_ + in_rows_ + later_.size() + arrived_.size();
   }
-  std::int64_t last_of_row() const { return bucket_ | in_row_; }
-  Chunk*& row_of(std::int64_t bucket) { return rows_[(bucket >> row_shift_) & (kRows - 1)]; }
+  std::int64_t last_of_row() const { return bucket_ | kInRow; }
+  Chunk*& row_of(std::int64_t bucket) { return rows_[(bucket >> kRowShift) & (kRows - 1)]; }
   void spread(std::vector<Event>& events, std::size_t first);
   template <typename Live>
   void drop_dead(const Live& live);
@@ -75,12 +79,10 @@ class EventQueue {
   double per_width_ = 1.0;       // buckets per time
   double origin_ = 0.0;          // time at which bucket 0 starts
   std::int64_t bucket_ = 0;      // number of the bucket at hand
-  unsigned row_shift_ = 8;       // log2 of the buckets per row
-  std::int64_t in_row_ = 255;    // the bits of a bucket's number that say which of its row it is
   std::vector<Event> current_;   // the bucket at hand, the earliest last
   std::size_t moved_aside_ = 0;  // events, to make room for others in current_
-  // [1 << row_shift_] of the row at hand
-  std::vector<std::vector<Event>> buckets_ = std::vector<std::vector<Event>>(1u << row_shift_);
+  // Of the row at hand.
+  std::array<std::vector<Event>, kInRow + 1> buckets_;
   // [kRows], a ring over the coming rows: their newest chunks, or null
   std::vector<Chunk*> rows_ = std::vector<Chunk*>(kRows);
   std::deque<Chunk> chunks_;  // of all rows
@@ -133,7 +135,7 @@ void EventQueue::drop_dead(const Live& live) {
 
 template <typename Visit>
 void EventQueue::look_ahead(std::size_t ahead, const Visit& visit) const {
-  const std::size_t in_row = static_cast<std::size_t>(bucket_ & in_row_) + ahead;
+  const std::size_t in_row = static_cast<std::size_t>(bucket_ & kInRow) + ahead;
   if (in_row >= buckets_.size()) return;
   for (const Event& event : buckets_[in_row]) visit(event);
 }
