@@ -20,9 +20,11 @@ static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
 static constexpr double kCellsPerDisk = 1.0;
-// Measured: where fetching plans and lists ahead pays, which do not fit the second cache then, and
-// where fetching the many disks that each event looks at does, which can be waited for all at once.
-static constexpr std::size_t kFetchAheadFrom = 12000;
+// Measured: where it pays to fetch what few instructions can tell, for a gas that no longer fits the
+// second cache of 1 MB; where to fetch all plans and lists; and where to fetch the many disks that
+// each event looks at, which can be waited for all at once.
+static constexpr std::size_t kFetchFrom = 4000;
+static constexpr std::size_t kFetchListsFrom = 16000;
 static constexpr std::size_t kFetchNeighboursFrom = 40000;
 
 // Whether collisions can take energy from the gas, walls give it ever more, or disks come to rest
@@ -203,7 +205,7 @@ template <int D>
 typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t collisions,
                                                     std::uint64_t steps) {
   const auto live = [this](const Event& event) { return holds(event); };
-  const bool fetch = disks_.size() >= kFetchAheadFrom;
+  const bool fetch = disks_.size() >= kFetchFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
     const Event* next = queue_.top(live);
     if (!next || next->time > stop) return Halt::Time;
@@ -398,20 +400,42 @@ double Simulation<D>::deepest_overlap() const {
   return deepest;
 }
 
-// Three looks ahead, each of which finds in the cache what the one before fetched: the disks and
-// their plans, then the lists that they will look at or move between, then, in a large gas, the
-// disks on these.
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();
-  queue_.look_ahead(3, [&](const Event& event) {
+  if (disks_.size() < kFetchListsFrom) {
+    fetch_at_hand();
+  } else {
+    fetch_far_ahead();
+  }
+}
+
+// What the events at hand need and their plans, seen when the dead were dropped, tell at once.
+template <int D>
+void Simulation<D>::fetch_at_hand() {
+  queue_.look_ahead(1, [&](const Event& event) { fetch(plans_[event.disk]); });
+  queue_.look_ahead(0, [&](const Event& event) {
+    fetch(grid_.near(plans_[event.disk].cell));
+    if (event.partner >= kWall) return;
+    fetch(disks_[event.partner]);
+    fetch(plans_[event.partner]);
+  });
+}
+
+// Looks ahead, each of which finds in the cache what the one before fetched: the disks and their
+// plans, then the lists that they will look at or move between, then, in a large gas, the disks on
+// these.
+template <int D>
+void Simulation<D>::fetch_far_ahead() {
+  const bool neighbours = disks_.size() >= kFetchNeighboursFrom;
+  queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
     fetch(disks_[event.disk]);
     fetch(plans_[event.disk]);
     if (event.partner >= kWall) return;
     fetch(disks_[event.partner]);
     fetch(plans_[event.partner]);
   });
-  queue_.look_ahead(2, [&](const Event& event) {
+  queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
     if (!holds(event)) return;
     if (event.partner >= kCellBorder) {
       const auto [axis, step] = crossing_of(event.partner);
@@ -419,7 +443,7 @@ void Simulation<D>::fetch_ahead() {
     }
     visit_cells_needed(event, [this](const IntVec<D>& cell) { fetch(grid_.near(cell)); });
   });
-  if (disks_.size() < kFetchNeighboursFrom) return;
+  if (!neighbours) return;
   queue_.look_ahead(1, [&](const Event& event) {
     if (!holds(event)) return;
     visit_cells_needed(event, [this](const IntVec<D>& cell) {
