@@ -98,7 +98,7 @@ void EventQueue::sort_current() {
 
 // The bucket at hand holds a few events; where a few hot disks among many cold ones crowd it,
 // the calendar is laid out anew before the crowding has cost more than that does.
-void EventQueue::push_current(const Event& event) {
+void EventQueue::push_current(Event event) {
   current_.push_back(event);
   moved_aside_ += insert_last(current_.data(), current_.size());
   constexpr std::size_t kCrowd = 64;

@@ -25,7 +25,7 @@ class EventQueue {
   void rebuild(std::vector<Event>& events);
 
   /// Adds an event at a finite time.
-  void push(const Event& event);
+  void push(Event event);
 
   /// The earliest live event (in the order of `before`), or null where none is left. It stays until
   /// pop(). `live(event)` says whether an event still holds.
@@ -68,7 +68,7 @@ class EventQueue {
   template <typename Live>
   void drop_dead(const Live& live);
   void sort_current();
-  void push_current(const Event& event);
+  void push_current(Event event);
   void thin_out();
   void put_away(const Event& event);
   void next_bucket();
@@ -100,7 +100,7 @@ inline std::int64_t EventQueue::bucket_of(double time) const {
   return static_cast<std::int64_t>(std::clamp(number, 0.0, 0x1p62));
 }
 
-inline void EventQueue::push(const Event& event) {
+inline void EventQueue::push(Event event) {
   if (bucket_of(event.time) > bucket_) {
     arrived_.push_back(event);
   } else {

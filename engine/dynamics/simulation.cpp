@@ -283,7 +283,7 @@ void Simulation<D>::fire(Timer& timer) {
 }
 
 template <int D>
-void Simulation<D>::process(const Event& event) {
+void Simulation<D>::process(Event event) {
   checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
   now_ = std::max(now_, event.time);
   if (event.partner >= kCellBorder) {

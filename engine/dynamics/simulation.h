@@ -98,7 +98,7 @@ class Simulation {
   Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
   Timer* due_timer(double stop);
   void fire(Timer& timer);
-  void process(const Event& event);
+  void process(Event event);
   void collide(std::uint32_t first, std::uint32_t second);
   void hit_wall(std::uint32_t number, int side);
   void kick();
