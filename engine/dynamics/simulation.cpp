@@ -190,12 +190,6 @@ void Simulation<D>::move_base() {
 }
 
 template <int D>
-void Simulation<D>::schedule(std::uint32_t disk) {
-  const Plan<D>& plan = plans_[disk];
-  if (plan.time < kNever) queue_.push({plan.time, disk, plan.partner});
-}
-
-template <int D>
 bool Simulation<D>::holds(const Event& event) const {
   const Plan<D>& plan = plans_[event.disk];
   return (plan.time == event.time) & (plan.partner == event.partner);

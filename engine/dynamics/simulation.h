@@ -108,8 +108,8 @@ class Simulation {
   [[noreturn]] void stop_at_standstill() const;
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
-  void renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity);
-  void schedule(std::uint32_t disk);
+  [[gnu::always_inline]] inline void renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity);
+  [[gnu::always_inline]] inline void schedule(std::uint32_t disk);
   void fill_cells();
   void fit_cells();
   void plan_all();
@@ -149,6 +149,12 @@ class Simulation {
   EventCounts counts_;
   RunChecks checks_;
 };
+
+template <int D>
+void Simulation<D>::schedule(std::uint32_t disk) {
+  const Plan<D>& plan = plans_[disk];
+  if (plan.time < kNever) queue_.push({plan.time, disk, plan.partner});
+}
 
 extern template class Simulation<2>;
 

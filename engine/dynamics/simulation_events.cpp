@@ -173,7 +173,6 @@ void Simulation<D>::kick() {
 }
 
 template void Simulation<2>::enter_next_cell(std::uint32_t);
-template void Simulation<2>::renew_flight(Disk<2>&, const Vec2&, const Vec2&);
 template Spin<2> Simulation<2>::spin(std::uint32_t) const;
 template void Simulation<2>::add_spin(std::uint32_t, const Spin<2>&);
 template bool Simulation<2>::within_contact_time(std::uint32_t) const;
