@@ -74,6 +74,7 @@ Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_ti
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
     : model_(model),
+      falls_((model_.gravity.array() != 0.0).any()),
       clock_(saved.base),
       boundary_(model_, clock_),
       now_(saved.now),

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/dynamics/fetch.h"
 #include "engine/dynamics/outcome.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/physics/random.h"
@@ -21,6 +22,15 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
+}
+
+// Most gases do not fall; then the bits are those that gravity 0 gives, which makes negative zeros
+// positive.
+template <int D>
+typename Simulation<D>::Motion Simulation<D>::motion_now(const Flight<D>& flight) const {
+  if (falls_) return {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
+  const Vec<D> v = flight.v.array() + 0.0;
+  return {flight.r + v * (now_ - flight.time), v};
 }
 
 // Where a disk becomes fast late after the base, say one of a cold gas at a driven wall, it would
@@ -64,13 +74,13 @@ DiskChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& posit
 
 template <int D>
 void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
+  // While the collision is worked out; the processor does not look that far ahead.
+  for (const std::uint32_t disk : {first, second}) fetch(grid_.near(plans_[disk].cell));
   Disk<D>& a = disks_[first];
   Disk<D>& b = disks_[second];
   const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
-  const Vec<D> r_a = a.flight.at(now_, model_.gravity);
-  const Vec<D> r_b = b.flight.at(now_, model_.gravity);
-  const Vec<D> v_a = a.flight.velocity_at(now_, model_.gravity);
-  const Vec<D> v_b = b.flight.velocity_at(now_, model_.gravity);
+  const auto [r_a, v_a] = motion_now(a.flight);
+  const auto [r_b, v_b] = motion_now(b.flight);
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = v_a - v_b;
   const double least = (1.0 - checks_.deepest_overlap) * model_.diameter;
@@ -116,8 +126,7 @@ template <int D>
 void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   Disk<D>& disk = disks_[number];
   const int axis = side / 2;
-  Vec<D> r = disk.flight.at(now_, model_.gravity);
-  const Vec<D> v = disk.flight.velocity_at(now_, model_.gravity);
+  auto [r, v] = motion_now(disk.flight);
   const double place = boundary_.touching_place(side, now_);
   const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
@@ -160,8 +169,7 @@ void Simulation<D>::kick() {
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     gains[i].momentum -= mean;
-    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
-    const Vec<D> v = disks_[i].flight.velocity_at(now_, model_.gravity);
+    const auto [r, v] = motion_now(disks_[i].flight);
     const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(disks_[i], r, v + gains[i].momentum);
