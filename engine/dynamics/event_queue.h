@@ -35,9 +35,9 @@ class EventQueue {
   /// Takes out what top() returned.
   void pop() { current_.pop_back(); }
 
-  /// Calls `visit` with each event of the bucket at hand, or of the one that comes `ahead` buckets
-  /// after it, so that the caller can fetch what they will need; the latter but for events pushed
-  /// since the bucket at hand came up.
+  /// Calls `visit` with each event of the bucket that comes `ahead` buckets after the one at hand,
+  /// so that the caller can fetch what they will need; but for events pushed since the bucket at
+  /// hand came up.
   template <typename Visit>
   void look_ahead(std::size_t ahead, const Visit& visit) const;
 
@@ -137,7 +137,7 @@ template <typename Visit>
 void EventQueue::look_ahead(std::size_t ahead, const Visit& visit) const {
   const std::size_t in_row = static_cast<std::size_t>(bucket_ & kInRow) + ahead;
   if (in_row >= buckets_.size()) return;
-  for (const Event& event : ahead == 0 ? current_ : buckets_[in_row]) visit(event);
+  for (const Event& event : buckets_[in_row]) visit(event);
 }
 
 }  // namespace clatter

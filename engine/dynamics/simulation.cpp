@@ -395,33 +395,17 @@ double Simulation<D>::deepest_overlap() const {
   return deepest;
 }
 
+// In a gas a little larger than the cache, the plans of the events that come next. In a larger one,
+// looks ahead, each of which finds in the cache what the one before fetched: the disks and their
+// plans, then the lists that they will look at or move between, then, in a yet larger one, the disks
+// on these.
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();
   if (disks_.size() < kFetchListsFrom) {
-    fetch_at_hand();
-  } else {
-    fetch_far_ahead();
+    queue_.look_ahead(1, [&](const Event& event) { fetch(plans_[event.disk]); });
+    return;
   }
-}
-
-// What the events at hand need and their plans, seen when the dead were dropped, tell at once.
-template <int D>
-void Simulation<D>::fetch_at_hand() {
-  queue_.look_ahead(1, [&](const Event& event) { fetch(plans_[event.disk]); });
-  queue_.look_ahead(0, [&](const Event& event) {
-    fetch(grid_.near(plans_[event.disk].cell));
-    if (event.partner >= kWall) return;
-    fetch(disks_[event.partner]);
-    fetch(plans_[event.partner]);
-  });
-}
-
-// Looks ahead, each of which finds in the cache what the one before fetched: the disks and their
-// plans, then the lists that they will look at or move between, then, in a large gas, the disks on
-// these.
-template <int D>
-void Simulation<D>::fetch_far_ahead() {
   const bool neighbours = disks_.size() >= kFetchNeighboursFrom;
   queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
     fetch(disks_[event.disk]);

@@ -121,8 +121,6 @@ class Simulation {
   void move_base();
   bool holds(const Event& event) const;
   void fetch_ahead();
-  void fetch_at_hand();
-  void fetch_far_ahead();
   template <typename Visit>
   void visit_cells_needed(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
