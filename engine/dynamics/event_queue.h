@@ -47,7 +47,7 @@ class EventQueue {
  private:
   // A row so short that what it is spread over fits the first cache, even though more events then
   // lie in rows and move down one rung more.
-  static constexpr unsigned kRowShift = 9;                                // log2 of its buckets
+  static constexpr unsigned kRowShift = 9;                                    // log2 of its buckets
   static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;  // which of them
   static constexpr std::int64_t kRows = 2048;
   // Rows grow by chunks from a common store, so that memory follows what is planned and not what

@@ -113,7 +113,8 @@ class Simulation {
     Vec<D> v;
   };
   [[gnu::always_inline]] inline Motion motion_now(const Flight<D>& flight) const;
-  [[gnu::always_inline]] inline void renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity);
+  [[gnu::always_inline]] inline void renew_flight(Disk<D>& disk, const Vec<D>& position,
+                                                  const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t disk);
   void fill_cells();
   void fit_cells();
