@@ -45,10 +45,11 @@ class EventQueue {
   std::int64_t bucket() const { return bucket_; }
 
  private:
-  // A row so short that what it is spread over fits the first cache, even though more events then
-  // lie in rows and move down one rung more.
-  static constexpr unsigned kRowShift = 9;                                    // log2 of its buckets
-  static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;  // which of them
+  // So few buckets a row that they leave the second cache to the disks: worth more than that fewer
+  // events would lie in rows, to be moved once more.
+  static constexpr unsigned kRowShift = 9;  // log2 of the buckets per row
+  // The bits of a bucket's number that say which of its row it is.
+  static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;
   static constexpr std::int64_t kRows = 2048;
   // Rows grow by chunks from a common store, so that memory follows what is planned and not what
   // each row once held.
@@ -81,8 +82,7 @@ class EventQueue {
   std::int64_t bucket_ = 0;      // number of the bucket at hand
   std::vector<Event> current_;   // the bucket at hand, the earliest last
   std::size_t moved_aside_ = 0;  // events, to make room for others in current_
-  // Of the row at hand.
-  std::array<std::vector<Event>, kInRow + 1> buckets_;
+  std::array<std::vector<Event>, kInRow + 1> buckets_;  // of the row at hand
   // [kRows], a ring over the coming rows: their newest chunks, or null
   std::vector<Chunk*> rows_ = std::vector<Chunk*>(kRows);
   std::deque<Chunk> chunks_;  // of all rows

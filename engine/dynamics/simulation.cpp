@@ -20,10 +20,10 @@ static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kLeastEventsPerBase = 64;
 // Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
 static constexpr double kCellsPerDisk = 1.0;
-// Measured: where it pays to fetch what few instructions can tell, for a gas that no longer fits
-// the second cache of 1 MB; where to fetch all plans and lists; and where to fetch the many disks
-// that each event looks at, which can be waited for all at once.
-static constexpr std::size_t kFetchFrom = 4000;
+// Measured, from how many disks on it pays to fetch ahead: the next plans, for all no longer fits
+// the second cache of 1 MB; lists too; and the many disks on these, which can be waited for all at
+// once.
+static constexpr std::size_t kFetchPlansFrom = 4000;
 static constexpr std::size_t kFetchListsFrom = 16000;
 static constexpr std::size_t kFetchNeighboursFrom = 40000;
 
@@ -200,7 +200,7 @@ template <int D>
 typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t collisions,
                                                     std::uint64_t steps) {
   const auto live = [this](const Event& event) { return holds(event); };
-  const bool fetch = disks_.size() >= kFetchFrom;
+  const bool fetch = disks_.size() >= kFetchPlansFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
     const Event* next = queue_.top(live);
     if (!next || next->time > stop) return Halt::Time;
@@ -395,10 +395,9 @@ double Simulation<D>::deepest_overlap() const {
   return deepest;
 }
 
-// In a gas a little larger than the cache, the plans of the events that come next. In a larger one,
-// looks ahead, each of which finds in the cache what the one before fetched: the disks and their
-// plans, then the lists that they will look at or move between, then, in a yet larger one, the
-// disks on these.
+// The plans of the events that come next, or in a larger gas looks farther ahead, each of which
+// finds in the cache what the one before fetched: the disks and their plans, then the lists that
+// they will look at or move between, then, in a yet larger one, the disks on these.
 template <int D>
 void Simulation<D>::fetch_ahead() {
   fetched_bucket_ = queue_.bucket();

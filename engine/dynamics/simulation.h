@@ -109,7 +109,7 @@ class Simulation {
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
   struct Motion {
-    Vec<D> r;
+    Vec<D> r;  // of the centre
     Vec<D> v;
   };
   [[gnu::always_inline]] inline Motion motion_now(const Flight<D>& flight) const;
