@@ -26,6 +26,8 @@ struct Model {
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
   std::uint64_t seed = 1;               ///< of every random number of the run
 
+  /// Whether there is gravity, so that disks fly along parabolas.
+  bool falls() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
   /// The whole box lengths by which a position lies outside the box, along periodic axes.

@@ -27,8 +27,7 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       disks_(disks),
       grid_(grid),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
-      planners_((model.gravity.array() != 0.0).any() ? widest_planners<true>()
-                                                     : widest_planners<false>()) {
+      planners_(model.falls() ? widest_planners<true>() : widest_planners<false>()) {
   // Farther than the wall comes, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
     reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);

@@ -31,13 +31,12 @@ static constexpr std::size_t kFetchNeighboursFrom = 40000;
 // on walls: where time may come to a standstill.
 template <int D>
 static bool may_stand_still(const Model<D>& model) {
-  const bool falls = (model.gravity.array() != 0.0).any();
   bool may = model.restitution < 1.0 || model.roughness.any();
   for (const auto& wall : model.walls) {
     if (!wall) continue;
     const bool holds = wall->kind == WallKind::Thermal && wall->temperature == 0.0;
-    may =
-        may || falls || holds || wall->moves() || wall->restitution != 1.0 || wall->roughness.any();
+    may = may || model.falls() || holds || wall->moves() || wall->restitution != 1.0 ||
+          wall->roughness.any();
   }
   return may;
 }
@@ -74,7 +73,6 @@ Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_ti
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
     : model_(model),
-      falls_((model_.gravity.array() != 0.0).any()),
       clock_(saved.base),
       boundary_(model_, clock_),
       now_(saved.now),

@@ -92,6 +92,11 @@ class Simulation {
     std::function<void(double)> action;
   };
 
+  struct Motion {
+    Vec<D> r;  // of the centre
+    Vec<D> v;
+  };
+
   /// Why advance() came back.
   enum class Halt { Time, Limit, BaseMoved };
 
@@ -108,10 +113,6 @@ class Simulation {
   [[noreturn]] void stop_at_standstill() const;
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
-  struct Motion {
-    Vec<D> r;  // of the centre
-    Vec<D> v;
-  };
   [[gnu::always_inline]] inline Motion motion_now(const Flight<D>& flight) const;
   [[gnu::always_inline]] inline void renew_flight(Disk<D>& disk, const Vec<D>& position,
                                                   const Vec<D>& velocity);
@@ -130,7 +131,6 @@ class Simulation {
   void add_spin(std::uint32_t number, const Spin<D>& gain);
 
   Model<D> model_;
-  bool falls_;  // whether there is gravity
   Clock clock_;
   Boundary<D> boundary_;
   double now_ = 0.0;  // on the clock's base

@@ -24,13 +24,11 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   schedule(number);
 }
 
-// Most gases do not fall; then the bits are those that gravity 0 gives, which makes negative zeros
-// positive.
+// Most gases do not fall, and then less must be waited for.
 template <int D>
 typename Simulation<D>::Motion Simulation<D>::motion_now(const Flight<D>& flight) const {
-  if (falls_) return {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
-  const Vec<D> v = flight.v.array() + 0.0;
-  return {flight.r + v * (now_ - flight.time), v};
+  if (!model_.falls()) return {flight.r + flight.v * (now_ - flight.time), flight.v};
+  return {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
 }
 
 // Where a disk becomes fast late after the base, say one of a cold gas at a driven wall, it would
@@ -74,7 +72,8 @@ DiskChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& posit
 
 template <int D>
 void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
-  // While the collision is worked out; the processor does not look that far ahead.
+  // They come while the collision is worked out, beyond which the processor does not look by
+  // itself.
   for (const std::uint32_t disk : {first, second}) fetch(grid_.near(plans_[disk].cell));
   Disk<D>& a = disks_[first];
   Disk<D>& b = disks_[second];

@@ -237,7 +237,7 @@ Measured Measurement::means() const {
   if (model.bulk_drive) {
     measured.bulk_in = estimate([](const auto& w) { return w.bulk_in / w.duration; });
   }
-  if ((model.gravity.array() != 0.0).any()) {
+  if (model.falls()) {
     measured.gravity_in = estimate([](const auto& w) { return w.gravity_in / w.duration; });
   }
   if (model.contact_time) {
