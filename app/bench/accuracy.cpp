@@ -18,8 +18,6 @@ namespace {
 
 using Replicas = std::vector<Observed>;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 Observed observe_one(const Setting& setting, double duration, std::uint64_t seed) {
   const Effort effort{.burn_in = 0.2 * duration, .duration = setting.duration * duration};
   return setting.time_step > 0.0 ? observe_stepped(setting.scene, setting.time_step, effort, seed)
@@ -57,11 +55,13 @@ AccuracyRow row_of(const Setting& setting, const Replicas& replicas, const Repli
 
 // What the settings but the first tend to as their values go to 0, compared with the first.
 AccuracyRow limit_row(const Dial& dial, const std::vector<Replicas>& runs) {
-  AccuracyRow row{
-      .setting = "-> 0", .value = 0.0, .cpu_per_time = kNone, .elasticised_share = kNone};
-  row.events_per_second = row.bytes = row.deepest_overlap = row.comparison.error = kNone;
+  AccuracyRow row{.setting = "-> 0",
+                  .value = 0.0,
+                  .cpu_per_time = kNotANumber,
+                  .elasticised_share = kNotANumber};
+  row.events_per_second = row.bytes = row.deepest_overlap = row.comparison.error = kNotANumber;
   for (int k = 0; k < kQuantities; ++k) {
-    const auto quantity = static_cast<Quantity>(k);
+    const auto quantity = static_cast<ComparedMean>(k);
     std::vector<double> places;
     std::vector<Estimate> estimates;
     for (std::size_t s = 1; s < runs.size(); ++s) {
@@ -74,7 +74,7 @@ AccuracyRow limit_row(const Dial& dial, const std::vector<Replicas>& runs) {
         found.mean / limit.mean - 1.0,
         std::hypot(found.standard_error, limit.standard_error) / std::fabs(limit.mean)};
   }
-  row.comparison.bias[kDensityProfile] = {kNone, kNone};
+  row.comparison.bias[kDensityProfile] = {kNotANumber, kNotANumber};
   return row;
 }
 

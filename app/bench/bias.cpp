@@ -10,8 +10,6 @@ namespace {
 
 using Replicas = std::vector<Observed>;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 ProfileValues mean_profile(const Replicas& replicas, ProfileValues Observed::*profile) {
   ProfileValues mean{};
   for (const Observed& replica : replicas) {
@@ -32,7 +30,7 @@ Estimate independent_mean(const std::vector<double>& values) {
 }
 
 // One mean of each replica.
-std::vector<double> values_of(const Replicas& replicas, Quantity quantity,
+std::vector<double> values_of(const Replicas& replicas, ComparedMean quantity,
                               const ProfileValues& heat_flux) {
   std::vector<double> values;
   for (const Observed& replica : replicas) {
@@ -111,7 +109,7 @@ double cpu_of(const Replicas& replicas) {
 
 }  // namespace
 
-Estimate mean_over(const Replicas& replicas, Quantity quantity, const Replicas& reference) {
+Estimate mean_over(const Replicas& replicas, ComparedMean quantity, const Replicas& reference) {
   return independent_mean(
       values_of(replicas, quantity, mean_profile(reference, &Observed::heat_flux)));
 }
@@ -130,12 +128,12 @@ Comparison compare(const Replicas& replicas, const Replicas& reference) {
     ++compared;
   };
   for (int k = 0; k < kQuantities; ++k) {
-    const auto quantity = static_cast<Quantity>(k);
+    const auto quantity = static_cast<ComparedMean>(k);
     std::vector<double> values = values_of(replicas, quantity, heat_flux);
     const std::vector<double> others = values_of(reference, quantity, heat_flux);
     const double mean = independent_mean(others).mean;
     // Of nothing, as of what elastic disks dissipate, nothing is a share.
-    const double scale = mean == 0.0 ? kNone : mean;
+    const double scale = mean == 0.0 ? kNotANumber : mean;
     const double error = independent_mean(values).standard_error / scale;
     for (std::size_t r = 0; r < values.size(); ++r) values[r] = (values[r] - others[r]) / scale;
     add(k, independent_mean(values), error * error);

@@ -28,7 +28,7 @@ struct Comparison {
 Comparison compare(const std::vector<Observed>& replicas, const std::vector<Observed>& reference);
 
 /// A mean of a reference's replicas; the heat flux with the sign that it has in each column.
-Estimate mean_over(const std::vector<Observed>& replicas, Quantity quantity,
+Estimate mean_over(const std::vector<Observed>& replicas, ComparedMean quantity,
                    const std::vector<Observed>& reference);
 
 /// The intercept at 0 of the straight line through estimates at `places`, each weighted by its

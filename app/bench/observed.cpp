@@ -13,8 +13,6 @@ namespace clatter {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 // The fields along an axis that are compared.
 std::vector<Field> fields_along(Axis axis) {
   const bool x = axis == Axis::X;
@@ -84,7 +82,7 @@ Observed observe(const Scene& scene, const Effort& effort, std::uint64_t seed) {
   const int near = 2 * static_cast<int>(axis);
   observed.means[kTemperature] = measured.temperature.mean;
   observed.means[kPressure] =
-      pressure[near] ? 0.5 * (pressure[near]->mean + pressure[near + 1]->mean) : kNone;
+      pressure[near] ? 0.5 * (pressure[near]->mean + pressure[near + 1]->mean) : kNotANumber;
   observed.means[kStress] = mean_of(measured.profile->at(fields[1]));
   observed.means[kDissipation] = mean_of(measured.profile->at(Field::Dissipation));
   observed.density = compared(measured.profile->at(Field::Density));

@@ -11,11 +11,14 @@ namespace clatter {
 
 /// The means by which settings are compared. Stress and heat flux are those along the axis from
 /// wall to wall, averaged over the box.
-enum Quantity { kTemperature, kPressure, kStress, kHeatFlux, kDissipation, kQuantities };
+enum ComparedMean { kTemperature, kPressure, kStress, kHeatFlux, kDissipation, kQuantities };
 
 /// Columns that profiles are compared on; coarser ones are taken for constant across each column.
 inline constexpr int kProfileColumns = 60;
 using ProfileValues = std::array<double, kProfileColumns>;
+
+/// Stands for a value that a setting does not have.
+inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// What one run of a setting found, and at which cost.
 struct Observed {
@@ -26,7 +29,7 @@ struct Observed {
   double collision_rate = 0.0;
   double deepest_overlap = 0.0;  ///< diameters
   /// Share of the collisions of disks that t_c made elastic; NaN: there is no t_c.
-  double elasticised_share = std::numeric_limits<double>::quiet_NaN();
+  double elasticised_share = kNotANumber;
   std::array<double, kQuantities> means{};  ///< but kHeatFlux, which needs a sign; NaN: none
   ProfileValues density{};                  ///< along the axis
   ProfileValues heat_flux{};                ///< likewise

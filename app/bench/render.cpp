@@ -32,7 +32,7 @@ constexpr double kFps = 30.0;
 
 // What a frame passes through. Disks, heatmap and overlay are parts of the drawing, done once more
 // by themselves.
-enum Stage {
+enum Task {
   kSimulate,
   kSnapshot,
   kDraw,
@@ -43,12 +43,12 @@ enum Stage {
   kPng,
   kX264,
   kVeryfast,
-  kStages
+  kTasks
 };
-constexpr std::array<const char*, kStages> kNames = {"simulate", "snapshot", "draw", "disks",
-                                                     "heatmap",  "overlay",  "read", "png",
-                                                     "x264",     "veryfast"};
-using Times = std::array<double, kStages>;  // milliseconds of CPU a frame
+constexpr std::array<const char*, kTasks> kNames = {"simulate", "snapshot", "draw", "disks",
+                                                    "heatmap",  "overlay",  "read", "png",
+                                                    "x264",     "veryfast"};
+using Times = std::array<double, kTasks>;  // milliseconds of CPU a frame
 
 // Of all threads of the program, since OpenGL may draw on several.
 double cpu_milliseconds() {
@@ -67,13 +67,13 @@ double children_milliseconds() {
   return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
 }
 
-// Adds to `times` what a stage takes, once its drawing is done.
+// Adds to `times` what a task takes, once its drawing is done.
 template <class Work>
-void spend(Times& times, Stage stage, const Gl& gl, Work work) {
+void spend(Times& times, Task task, const Gl& gl, Work work) {
   const double began = cpu_milliseconds();
   work();
   gl.Finish();
-  times[stage] += (cpu_milliseconds() - began) / kFrames;
+  times[task] += (cpu_milliseconds() - began) / kFrames;
 }
 
 // Elastic disks at half the area of a periodic box as wide as a film, coloured over a heatmap.
@@ -241,9 +241,9 @@ int bench_render(const std::string& json, int count) {
       std::printf("%8d %10s", disks, size_text.c_str());
       nlohmann::ordered_json row = {
           {"count", disks}, {"width", size.width}, {"height", size.height}};
-      for (int stage = 0; stage < kStages; ++stage) {
-        std::printf(" %8.2f", times[stage]);
-        row[std::string(kNames[stage]) + "_milliseconds"] = times[stage];
+      for (int task = 0; task < kTasks; ++task) {
+        std::printf(" %8.2f", times[task]);
+        row[std::string(kNames[task]) + "_milliseconds"] = times[task];
       }
       std::printf("\n");
       std::fflush(stdout);

@@ -31,7 +31,7 @@ static std::string value_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return number_text(number->get());
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* text = node.as_string()) return in_quotes(text->get());
   if (const auto* array = node.as_array()) {
     std::string list;
     for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + value_text(item);
@@ -41,7 +41,7 @@ static std::string value_text(const toml::node& node) {
   if (!table) return "a date";
   std::string list;
   for (const auto& [key, item] : *table) {
-    list += (list.empty() ? "" : ", ") + quoted(key.str()) + " = " + value_text(item);
+    list += (list.empty() ? "" : ", ") + in_quotes(key.str()) + " = " + value_text(item);
   }
   return '{' + list + '}';
 }
@@ -106,8 +106,8 @@ void KeyReader::refuse_name(std::string_view key, const toml::node& node,
                             const std::vector<std::string>& names) const {
   const std::string_view near = near_miss(node.value_or(std::string_view()), names);
   std::string wanted;
-  for (const std::string& name : names) wanted += (wanted.empty() ? "" : ", ") + quoted(name);
-  if (!near.empty()) wanted += "; did you mean " + quoted(near) + "?";
+  for (const std::string& name : names) wanted += (wanted.empty() ? "" : ", ") + in_quotes(name);
+  if (!near.empty()) wanted += "; did you mean " + in_quotes(near) + "?";
   refuse(key, node, (names.size() > 1 ? "one of " : "") + wanted);
 }
 

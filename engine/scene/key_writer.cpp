@@ -23,7 +23,7 @@ std::string value_text(bool flag) {
 }
 
 std::string value_text(const std::string& text) {
-  return quoted(text);
+  return in_quotes(text);
 }
 
 template <class T>
@@ -42,9 +42,9 @@ std::string value_text(const std::array<int, 2>& numbers) {
 std::string value_text(const ColourRange& range) {
   switch (range.kind) {
     case ColourRange::Auto:
-      return quoted("auto");
+      return in_quotes("auto");
     case ColourRange::Locked:
-      return quoted("locked");
+      return in_quotes("locked");
     case ColourRange::Given:
       return pair_text(range.ends[0], range.ends[1]);
   }
@@ -54,7 +54,7 @@ std::string value_text(const ColourRange& range) {
 std::string value_text(const Rgb& colour) {
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.red, colour.green, colour.blue);
-  return quoted(text);
+  return in_quotes(text);
 }
 
 std::string TomlWriter::path() const {
@@ -96,19 +96,19 @@ void TomlWriter::close_list() {
 void TomlWriter::settings(std::string_view key, const std::vector<Override>& settings) {
   std::string list;
   for (const auto& [name, value] : settings) {
-    list += (list.empty() ? "" : ", ") + quoted(name) + " = " + value;
+    list += (list.empty() ? "" : ", ") + in_quotes(name) + " = " + value;
   }
   write(key, "{ " + list + " }");
 }
 
 void JsonWriter::begin(std::string_view key) {
   if (!text_.empty() && text_.back() != '{') text_ += ", ";
-  text_ += quoted(key) + ": ";
+  text_ += in_quotes(key) + ": ";
 }
 
 void JsonWriter::write(std::string_view key, const std::string& value) {
   begin(key);
-  text_ += value == "inf" ? quoted(value) : value;  // JSON has no infinity
+  text_ += value == "inf" ? in_quotes(value) : value;  // JSON has no infinity
 }
 
 void JsonWriter::open(std::string_view key) {
@@ -144,7 +144,7 @@ void JsonWriter::close_list() {
 void JsonWriter::settings(std::string_view key, const std::vector<Override>& settings) {
   std::string list;
   for (const auto& [name, value] : settings) {
-    list += (list.empty() ? "" : ", ") + quoted(name) + ": " + quoted(value);
+    list += (list.empty() ? "" : ", ") + in_quotes(name) + ": " + in_quotes(value);
   }
   write(key, '{' + list + '}');
 }

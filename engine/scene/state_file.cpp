@@ -116,13 +116,13 @@ Column Reader::column_of(const Cell& cell) const {
   if (name == kNames.end()) {
     const std::vector<std::string> names(kNames.begin(), kNames.end());
     const std::string near(near_miss(cell.text, names));
-    throw UserError(place_of(cell), "unknown column " + quoted(cell.text),
+    throw UserError(place_of(cell), "unknown column " + in_quotes(cell.text),
                     near.empty() ? "the columns are x, y, vx, vy and, for spins, omega"
-                                 : "did you mean " + quoted(near) + "?");
+                                 : "did you mean " + in_quotes(near) + "?");
   }
   const auto column = static_cast<Column>(name - kNames.begin());
   if (std::ranges::find(columns_, column) != columns_.end()) {
-    throw UserError(place_of(cell), "a second column " + quoted(cell.text), "remove one of them");
+    throw UserError(place_of(cell), "a second column " + in_quotes(cell.text), "remove one of them");
   }
   if (column == kOmega && !scene_.spins()) {
     throw UserError(place_of(cell), "the column \"omega\" has no meaning where nothing spins",
@@ -136,7 +136,7 @@ void Reader::read_header() {
   visit_cells([&](const Cell& cell) { columns_.push_back(column_of(cell)); });
   for (const Column column : {kX, kY, kVx, kVy}) {
     if (std::ranges::find(columns_, column) != columns_.end()) continue;
-    throw UserError(place_of(Cell{}), "the column " + quoted(kNames[column]) + " is missing",
+    throw UserError(place_of(Cell{}), "the column " + in_quotes(kNames[column]) + " is missing",
                     kHeaderAdvice);
   }
 }
@@ -146,7 +146,7 @@ double Reader::number_in(const Cell& cell) const {
   const char* const end = cell.text.data() + cell.text.size();
   const auto [stopped, error] = std::from_chars(cell.text.data(), end, number);
   if (error == std::errc() && stopped == end && std::isfinite(number)) return number;
-  throw UserError(place_of(cell), quoted(cell.text.substr(0, 40)) + " is no finite number",
+  throw UserError(place_of(cell), in_quotes(cell.text.substr(0, 40)) + " is no finite number",
                   "write, say, -0.25 or 1.5e-3");
 }
 

@@ -14,7 +14,7 @@ std::string number_text(double number) {
   return std::string(digits.begin(), end);
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::string_view hex = "0123456789abcdef";
   std::string result = "\"";
   for (const char c : text) {

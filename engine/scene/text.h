@@ -10,7 +10,7 @@ namespace clatter {
 std::string number_text(double number);
 
 /// The text between double quotes, escaped so that both TOML and JSON read it back.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// The candidate that `word` most likely misspells; empty where none is near.
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates);
