@@ -1,4 +1,4 @@
-#include "app/commands.h"
+#include "app/commands/commands.h"
 
 int main(int argc, char** argv) {
   return clatter::run_program(argc, argv);

@@ -17,10 +17,4 @@ std::span<const EmbeddedFile> embedded_scenes();
 /// The start states of assets/scenes that the scenes beside them name.
 std::span<const EmbeddedFile> embedded_start_states();
 
-/// The shaders of shaders/.
-std::span<const EmbeddedFile> embedded_shaders();
-
-/// The fonts that text is drawn with: DejaVuSans.ttf.
-std::span<const EmbeddedFile> embedded_fonts();
-
 }  // namespace clatter

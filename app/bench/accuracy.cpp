@@ -7,8 +7,8 @@
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
-#include "app/commands.h"
-#include "app/write_file.h"
+#include "app/commands/commands.h"
+#include "app/system/write_file.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/bias.h"
-#include "app/bench/dials.h"
+#include "app/bench/comparison.h"
+#include "app/bench/parameter_sweeps.h"
 
 namespace clatter {
 

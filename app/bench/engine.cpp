@@ -7,12 +7,12 @@
 #include <numbers>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/resources.h"
-#include "app/write_file.h"
+#include "app/commands/commands.h"
+#include "app/system/process_usage.h"
+#include "app/system/write_file.h"
 #include "engine/error.h"
+#include "engine/physics/lattice.h"
 #include "engine/publish/scheduled_run.h"
-#include "engine/scene/lattice.h"
 #include "render/context/context.h"
 #include "render/layers/plot.h"
 
@@ -40,7 +40,7 @@ Scene scene_of(int count, double area_fraction) {
 }
 
 bool has_room(int count, double area_fraction) {
-  return lattice_capacity(start_room(scene_of(count, area_fraction))) >= count;
+  return lattice_capacity(scene_of(count, area_fraction).start_room()) >= count;
 }
 
 // After a number of collisions of each disk: elastic disks are in equilibrium after ten.

@@ -12,15 +12,15 @@
 #include <numbers>
 #include <optional>
 
-#include "app/commands.h"
-#include "app/resources.h"
-#include "app/write_file.h"
+#include "app/commands/commands.h"
+#include "app/system/process_usage.h"
+#include "app/system/write_file.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
-#include "engine/publish/latest.h"
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/publish/triple_buffer.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/commands.h"
-#include "app/resources.h"
-#include "app/write_file.h"
+#include "app/commands/commands.h"
+#include "app/system/process_usage.h"
+#include "app/system/write_file.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
 #include "engine/publish/scheduled_run.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/resources.h"
+#include "app/system/process_usage.h"
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
 #include "render/canvas.h"

@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/commands.h"
-#include "app/run.h"
-#include "app/write_file.h"
-#include "engine/measure/live_field.h"
+#include "app/commands/commands.h"
+#include "app/runs/run.h"
+#include "app/system/write_file.h"
+#include "engine/publish/live_field.h"
 #include "engine/publish/publish.h"
 #include "render/canvas.h"
 #include "render/context/context.h"

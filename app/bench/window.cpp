@@ -13,9 +13,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
+#include "app/system/write_file.h"
 #include "app/view/explorer.h"
-#include "app/write_file.h"
 #include "render/context/glfw_context.h"
 
 namespace clatter {

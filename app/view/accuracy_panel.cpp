@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene_parts.h"
+#include "app/runs/feature_cost.h"
 #include "app/view/panels.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_keys.h"

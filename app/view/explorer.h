@@ -9,10 +9,10 @@
 #include "app/view/history.h"
 #include "app/view/keys.h"
 #include "app/view/notes.h"
+#include "app/view/panel_visibility.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
-#include "app/view/shown.h"
-#include "app/view/stage.h"
+#include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
 #include "render/layers/gui_layer.h"
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/commands.h"
-#include "app/picture_scene.h"
+#include "app/commands/commands.h"
+#include "app/runs/picture_scene.h"
+#include "app/system/write_file.h"
 #include "app/view/explorer.h"
-#include "app/write_file.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
 

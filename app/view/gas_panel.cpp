@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/view/panels.h"
+#include "engine/physics/lattice.h"
 #include "engine/scene/key_writer.h"
-#include "engine/scene/lattice.h"
 
 namespace clatter {
 
@@ -45,7 +45,7 @@ void gas_panel(Session& session, Controls& controls) {
   if (!group("Gas")) return;
   const Scene& scene = session.scene();
   if (session.opened().disks.start.layout != Layout::File) {
-    const int most = std::min(lattice_capacity(start_room(scene)), 100'000);
+    const int most = std::min(lattice_capacity(scene.start_room()), 100'000);
     controls.whole({.key = "disks.count",
                     .name = "Disks",
                     .symbol = "N",

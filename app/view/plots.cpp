@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/theory_json.h"
+#include "app/results/theory_json.h"
 #include "render/quantity.h"
 
 namespace clatter {

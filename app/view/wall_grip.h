@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/view/notes.h"
-#include "app/view/stage.h"
+#include "app/view/viewport.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/dynamics/saved.h"
+#include "engine/dynamics/run_state.h"
 
 namespace clatter {
 

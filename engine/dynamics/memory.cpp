@@ -7,13 +7,13 @@
 #include <string>
 
 #include "engine/dynamics/cell_grid.h"
-#include "engine/dynamics/disk.h"
 #include "engine/dynamics/event.h"
+#include "engine/dynamics/particle.h"
 #include "engine/dynamics/prediction.h"
 #include "engine/error.h"
 #include "engine/physics/spin.h"
+#include "engine/physics/state.h"
 #include "engine/scene/text.h"
-#include "engine/state.h"
 
 namespace clatter {
 

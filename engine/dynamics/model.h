@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "engine/physics/state.h"
 #include "engine/scene/scene.h"
-#include "engine/state.h"
 #include "engine/vec.h"
 
 namespace clatter {

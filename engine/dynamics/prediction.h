@@ -5,10 +5,10 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/cell_grid.h"
-#include "engine/dynamics/disk.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
+#include "engine/dynamics/particle.h"
 #include "engine/physics/contact.h"
 
 namespace clatter {

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/dynamics/fetch.h"
-#include "engine/dynamics/standstill.h"
+#include "engine/dynamics/collapse.h"
+#include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
 

@@ -9,13 +9,13 @@
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/clock.h"
-#include "engine/dynamics/disk.h"
 #include "engine/dynamics/event_queue.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
+#include "engine/dynamics/particle.h"
 #include "engine/dynamics/prediction.h"
-#include "engine/dynamics/saved.h"
+#include "engine/dynamics/run_state.h"
 #include "engine/dynamics/watchdog.h"
 
 namespace clatter {

@@ -2,8 +2,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/dynamics/fetch.h"
-#include "engine/dynamics/outcome.h"
+#include "engine/dynamics/collision_rules.h"
+#include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/physics/random.h"
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/dynamics/model.h"
-#include "engine/physics/encounter.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/pair_contact.h"
 #include "engine/vec.h"
 
 namespace clatter {

@@ -6,8 +6,8 @@
 
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/field_grid.h"
+#include "engine/measure/field_map.h"
 #include "engine/measure/moment_layout.h"
-#include "engine/publish/snapshot.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "engine/physics/encounter.h"
 #include "engine/physics/fall_time.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/pair_contact.h"
 
 namespace clatter {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "engine/physics/encounter.h"
+#include "engine/physics/pair_contact.h"
 
 namespace clatter {
 

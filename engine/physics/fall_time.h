@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/physics/encounter.h"
+#include "engine/physics/pair_contact.h"
 
 namespace clatter {
 

@@ -4,7 +4,6 @@
 
 #include "engine/physics/collision.h"
 #include "engine/physics/spin.h"
-#include "engine/scene/scene.h"
 #include "engine/vec.h"
 
 namespace clatter {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/measure/live_profile.h"
 #include "engine/measure/profile.h"
-#include "engine/publish/encounter.h"
+#include "engine/publish/collision_lookahead.h"
+#include "engine/publish/live_profile.h"
 #include "engine/publish/snapshot.h"
 
 namespace clatter {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "engine/dynamics/memory.h"
-#include "engine/dynamics/start.h"
 #include "engine/error.h"
+#include "engine/initial/start_state.h"
 #include "engine/publish/publish.h"
 
 namespace clatter {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "engine/checkpoint/archive.h"
-#include "engine/measure/flight_recorder.h"
-#include "engine/measure/live_field.h"
-#include "engine/measure/spin_angles.h"
+#include "engine/publish/flight_recorder.h"
+#include "engine/publish/live_field.h"
+#include "engine/publish/spin_angles.h"
 
 namespace clatter {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/measure/moving_sum.h"
+#include "engine/publish/moving_sum.h"
 
 namespace clatter {
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <optional>
 
-#include "engine/measure/live_profile.h"
 #include "engine/measure/totals.h"
 #include "engine/publish/command.h"
 #include "engine/publish/frame.h"
+#include "engine/publish/live_profile.h"
 #include "engine/publish/scheduled_run.h"
 
 namespace clatter {

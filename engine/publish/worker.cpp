@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "engine/dynamics/refit.h"
 #include "engine/error.h"
+#include "engine/initial/adapt_to_scene.h"
+#include "engine/physics/temperature.h"
 #include "engine/publish/pace.h"
 #include "engine/publish/watched_run.h"
-#include "engine/temperature.h"
 
 namespace clatter {
 

@@ -9,7 +9,7 @@
 #include "engine/publish/command.h"
 #include "engine/publish/command_queue.h"
 #include "engine/publish/frame.h"
-#include "engine/publish/latest.h"
+#include "engine/publish/triple_buffer.h"
 
 namespace clatter {
 

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/physics/lattice.h"
+#include "engine/physics/state.h"
 #include "engine/physics/wall_motion.h"
-#include "engine/state.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -276,6 +277,8 @@ struct Scene {
   Vec2 clear_corner() const;
   /// The size of that part of the box, from clear_corner() on, which no wall's motion reaches.
   Vec2 clear_box() const;
+  /// The room for the start state: that part of the box, with its corner at the origin.
+  Room start_room() const { return {clear_box(), {periodic(0), periodic(1)}}; }
 };
 
 }  // namespace clatter

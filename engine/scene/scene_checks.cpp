@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/error.h"
-#include "engine/scene/lattice.h"
+#include "engine/physics/lattice.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
 
@@ -164,7 +164,7 @@ int resolve_count(const SceneInput& input, const toml::table& root, const std::s
     throw UserError(place_of(root, "disks", file), "the number of disks is missing",
                     "give exactly one of 'disks.count' and 'disks.area_fraction'");
   }
-  const int capacity = lattice_capacity(start_room(scene));
+  const int capacity = lattice_capacity(scene.start_room());
   if (*count > capacity) {
     const bool walls_move = scene.clear_box() != scene.box;
     throw UserError(place,

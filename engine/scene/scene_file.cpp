@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "engine/error.h"
+#include "engine/physics/temperature.h"
 #include "engine/read_file.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/key_reader.h"
@@ -16,7 +17,6 @@
 #include "engine/scene/schedule.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
-#include "engine/temperature.h"
 
 namespace clatter {
 

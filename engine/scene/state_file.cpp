@@ -122,7 +122,8 @@ Column Reader::column_of(const Cell& cell) const {
   }
   const auto column = static_cast<Column>(name - kNames.begin());
   if (std::ranges::find(columns_, column) != columns_.end()) {
-    throw UserError(place_of(cell), "a second column " + in_quotes(cell.text), "remove one of them");
+    throw UserError(place_of(cell), "a second column " + in_quotes(cell.text),
+                    "remove one of them");
   }
   if (column == kOmega && !scene_.spins()) {
     throw UserError(place_of(cell), "the column \"omega\" has no meaning where nothing spins",

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/physics/state.h"
 #include "engine/scene/scene.h"
-#include "engine/state.h"
 
 namespace clatter {
 

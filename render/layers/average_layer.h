@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/canvas.h"
-#include "render/program.h"
+#include "render/shader_program.h"
 
 namespace clatter {
 

@@ -8,7 +8,7 @@
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"
 #include "render/layers/swept_layer.h"
-#include "render/program.h"
+#include "render/shader_program.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/embedded_file.h"
+#include "render/embedded_files.h"
 
 namespace clatter {
 

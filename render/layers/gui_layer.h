@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/program.h"
+#include "render/shader_program.h"
 
 struct ImDrawData;
 struct ImDrawList;

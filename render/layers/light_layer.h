@@ -4,7 +4,7 @@
 
 #include "render/canvas.h"
 #include "render/layers/wall_layer.h"
-#include "render/program.h"
+#include "render/shader_program.h"
 
 namespace clatter {
 

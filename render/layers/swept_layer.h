@@ -5,7 +5,7 @@
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
 #include "render/layers/strokes.h"
-#include "render/program.h"
+#include "render/shader_program.h"
 
 namespace clatter {
 

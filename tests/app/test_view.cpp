@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/app/hands.h"
+#include "tests/app/gui_driver.h"
 
 namespace clatter {
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/dynamics/start.h"
 #include "engine/embedded_file.h"
+#include "engine/initial/start_state.h"
 #include "engine/scene/scene_file.h"
 
 int main() {

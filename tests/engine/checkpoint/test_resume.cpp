@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/checkpoint/checkpoint.h"
-#include "engine/dynamics/start.h"
 #include "engine/embedded_file.h"
 #include "engine/error.h"
+#include "engine/initial/start_state.h"
 #include "engine/scene/scene_file.h"
 #include "tests/engine/checkpoint/scratch_folder.h"
 #include "tests/engine/support/gas.h"

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/dynamics/start.h"
+#include "engine/initial/start_state.h"
 #include "engine/publish/scheduled_run.h"
 
 namespace clatter::testing {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/dynamics/start.h"
+#include "engine/initial/start_state.h"
 #include "engine/measure/measurement.h"
 #include "engine/scene/scene_file.h"
 #include "tests/engine/measure/scenes.h"

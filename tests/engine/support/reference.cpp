@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/dynamics/outcome.h"
+#include "engine/dynamics/collision_rules.h"
 #include "engine/physics/contact.h"
 #include "engine/physics/random.h"
 

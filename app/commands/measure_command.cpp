@@ -1,0 +1,267 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/results/csv_tables.h"
+#include "app/results/hdf5_file.h"
+#include "app/results/result_json.h"
+#include "app/results/vtk_files.h"
+#include "app/runs/accuracy_goal.h"
+#include "app/runs/ensemble.h"
+#include "app/runs/run.h"
+#include "app/system/interrupt.h"
+#include "app/system/process_usage.h"
+#include "app/system/write_file.h"
+#include "engine/error.h"
+#include "engine/measure/measurement.h"
+#include "engine/physics/theory.h"
+#include "engine/scene/state_file.h"
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+namespace {
+
+struct MeasureOptions {
+  CommonOptions common;
+  CheckpointOptions checkpoints;
+  AccuracyGoal accuracy;
+  int replicas = 1;
+  std::string out;         // result file; empty: stdout
+  std::string csv;         // folder for tables; empty: none
+  std::string vtk;         // folder for maps; empty: none
+  std::string hdf5;        // file for all of it; empty: none
+  std::string save_state;  // file for the state at the end; empty: none
+};
+
+// Samples of a series: some GB of result file.
+constexpr double kMostSamples = 1e7;
+
+// Where t_c makes nearly all collisions elastic, it may be as long as the time between those of a
+// gas of this density and temperature, so that the gas does not dissipate any more; or short, and
+// grains at rest bounce for ever within it, on which the run spends its time.
+void advise_on_contact_time(const Scene& scene, const Measured& measured) {
+  constexpr double kMostElastic = 0.9;
+  constexpr double kLong = 0.1;    // of the time between collisions
+  constexpr double kShort = 1e-3;  // likewise: short against it
+  const auto elastic = static_cast<double>(measured.elasticised + measured.elasticised_wall);
+  const auto all = static_cast<double>(measured.disk_disk + measured.disk_wall);
+  if (!scene.contact_time || elastic <= kMostElastic * all) return;
+  std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
+               100.0 * elastic / all);
+  const double rate = enskog_rate(scene.area_fraction(), measured.temperature.mean);
+  if (*scene.contact_time * rate > kLong) {
+    std::fprintf(stderr,
+                 "for the gas collides as often; a smaller one, say %.1g, would let it dissipate\n",
+                 kShort / rate);
+  } else {
+    std::fprintf(stderr,
+                 "as of grains that rest on each other; a larger one, say %s, would run faster\n",
+                 number_text(10.0 * *scene.contact_time).c_str());
+  }
+}
+
+// Sees to it, before a long run, that its results can be written.
+void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
+  const std::string& checkpoint = options.checkpoints.file;
+  std::vector<Output> outputs = {
+      {"--out", options.out},
+      {"--csv", options.csv},
+      {"--vtk", options.vtk},
+      {"--hdf5", options.hdf5},
+      {"--save-state", options.save_state},
+      {"--checkpoint", checkpoint},
+      {"--checkpoint", checkpoint.empty() ? "" : checkpoint + ".previous"}};
+  const auto add_files = [&](const char* flag, const std::filesystem::path& folder,
+                             const auto& names) {
+    if (folder.empty()) return;
+    for (const auto& name : names) outputs.push_back({flag, folder / name});
+  };
+  add_files("--csv", options.csv, kTableNames);
+  add_files("--vtk", options.vtk, vtk_names());
+  require_distinct(outputs);
+  if (!options.vtk.empty() && spec.fields.empty()) {
+    throw UserError({"--vtk", 0, 0}, "the scene asks for no fields",
+                    "--set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
+  }
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
+  if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
+  if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
+  if (!options.csv.empty()) make_folder(options.csv, "--csv");
+  if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
+}
+
+nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene, Run& run,
+                               const Measured& measured, const Performance& performance) {
+  auto json = result_json(scene, run.seed(), run.simulation(), measured, performance);
+  const AccuracyGoal& goal = options.accuracy;
+  if (goal.asked_for() && measured.duration > 0.0) {
+    json["accuracy"] = {{"of", goal.of},
+                        {"asked", goal.relative},
+                        {"reached", relative_error(estimate_for(goal, measured))}};
+  }
+  return json;
+}
+
+void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
+                   const Measured& measured) {
+  if (options.out.empty()) {
+    print(result.dump(1) + "\n");
+  } else {
+    write_file(options.out, result.dump(1) + "\n");
+  }
+  if (!options.csv.empty()) write_tables(options.csv, measured);
+  if (!options.vtk.empty()) {
+    write_vtk(options.vtk, measured,
+              result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
+                  ", state hash " + result.at("state_hash").get<std::string>());
+  }
+  if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured);
+}
+
+void require_bounded_samples(const Measure& spec, double end) {
+  if (end / spec.series_interval > kMostSamples) {
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMostSamples));
+  }
+  if (spec.estimator == Estimator::Snapshot &&
+      (end - spec.burn_in) / spec.interval > kMostSamples) {
+    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
+                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
+  }
+}
+
+// Seeds alone differ, so that nothing else can be asked of a single run.
+int measure_replicas(const MeasureOptions& options, const Scene& scene, double end) {
+  if (!scene.changes.empty()) {
+    throw UserError({"--replicas", 0, 0}, "the scene's laws change",
+                    "measure it seed by seed, or take out [[change]]");
+  }
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
+  catch_interrupts();
+  const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end};
+  Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
+  const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
+  const std::string text = result.dump(1) + "\n";
+  if (options.out.empty()) {
+    print(text);
+  } else {
+    write_file(options.out, text);
+  }
+  const bool all = result.at("results").size() == static_cast<std::size_t>(options.replicas);
+  return all ? kOk : kInterrupted;
+}
+
+// A run that was killed between its last checkpoint and its results is at its end, and has only
+// these to give.
+bool goes_on_to(double end, const Resumed& resumed, const CommonOptions& options) {
+  if (end != resumed.time()) return end > resumed.time();
+  return !resumed.checkpoint.measurement.empty() &&
+         changed_laws(resumed, options.seed.value_or(resumed.checkpoint.seed)).empty();
+}
+
+int measure(const MeasureOptions& options) {
+  Scene scene = load(options.common, options.checkpoints.start_file());
+  const Measure& spec = scene.measure;
+  const double end = options.common.until.value_or(spec.burn_in + spec.duration);
+  if (!(end > spec.burn_in)) {
+    throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
+                    "go beyond measure.burn_in = " + number_text(spec.burn_in));
+  }
+  std::optional<Resumed> resumed = resume(options.checkpoints, scene);
+  if (resumed && !goes_on_to(end, *resumed, options.common)) {
+    throw UserError({"--until", 0, 0},
+                    "the checkpoint is at t = " + number_text(resumed->time()) +
+                        ", and the run ends at " + number_text(end),
+                    "go beyond that");
+  }
+  require_bounded_samples(spec, end);
+  if (options.replicas > 1) return measure_replicas(options, scene, end);
+  prepare_outputs(options, spec);
+  catch_interrupts();
+
+  const double cpu_before = cpu_seconds();
+  Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
+  Measurement& measurement = run.measure(end);
+  const std::uint64_t collisions_before = run.simulation().counts().disk_disk;
+  if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
+  {
+    Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
+    if (options.accuracy.asked_for()) {
+      run_to_goal(options.accuracy, run, measurement, end, progress);
+    } else {
+      run.until(end, progress);
+    }
+  }
+  run.put_aside();
+  const Measured measured = measurement.result();
+  const Performance performance{cpu_seconds() - cpu_before,
+                                run.simulation().counts().disk_disk - collisions_before,
+                                peak_memory_bytes()};
+  write_results(options, json_of(options, scene, run, measured, performance), measured);
+  if (!options.common.quiet) {
+    advise_on_contact_time(scene, measured);
+    if (options.accuracy.asked_for()) tell_accuracy(options.accuracy, measured);
+    warn_of_drift(options.accuracy, measured);
+  }
+  if (!options.save_state.empty()) {
+    write_file(options.save_state, state_to_csv(run.simulation().state()));
+  }
+  const int code = run.end();
+  if (measured.residuals) require_closed(*measured.residuals);
+  return code;
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<MeasureOptions>();
+  CLI::App* command = program.add_subcommand(
+      "measure", "Run a scene without pictures and write what its [measure] block asks for");
+  add_common_flags(*command, options->common);
+  add_checkpoint_flags(*command, options->checkpoints);
+  add_accuracy_flags(*command, options->accuracy);
+  command->add_option("--out", options->out, "Result file (default: stdout)")
+      ->type_name("FILE.json");
+  command
+      ->add_option(
+          "--csv", options->csv,
+          "Folder for tables of series, profiles and maps; those of an earlier run are replaced")
+      ->type_name("DIR");
+  command
+      ->add_option(
+          "--vtk", options->vtk,
+          "Folder for maps of the fields, as ParaView opens them: fields.vti, averages "
+          "over the whole time and residuals, and series.pvd, the averages' course; those of an "
+          "earlier run are replaced")
+      ->type_name("DIR");
+  command
+      ->add_option("--hdf5", options->hdf5,
+                   "File for all results, series, profiles and maps of the fields in one")
+      ->type_name("FILE.h5");
+  command
+      ->add_option("--save-state", options->save_state,
+                   "Write the disks at the end, from which a scene may start: "
+                   "--set 'disks.start={layout=\"file\",file=\"FILE.csv\"}'")
+      ->type_name("FILE.csv");
+  CLI::Option* replicas =
+      command
+          ->add_option("--replicas", options->replicas,
+                       "Measure so many runs, of the seed and those that follow it, on all "
+                       "processors at once; the result has means over them, and all of theirs")
+          ->check(CLI::Range(1, 100'000))
+          ->type_name("N");
+  for (const char* other :
+       {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5", "--save-state"}) {
+    replicas->excludes(command->get_option(other));
+  }
+  command->callback([options, &exit_code] { exit_code = measure(*options); });
+}
+
+}  // namespace clatter

@@ -1,0 +1,329 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "app/commands/commands.h"
+#include "app/commands/flag_checks.h"
+#include "app/runs/film.h"
+#include "app/runs/run.h"
+#include "app/system/interrupt.h"
+#include "app/system/write_file.h"
+#include "engine/error.h"
+#include "engine/scene/text.h"
+#include "render/context/context.h"
+#include "render/output/frame_sink.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Size kLeastSize = {16, 16};
+
+// Presets of size and rate.
+enum class Quality { Low, Medium, High };
+
+struct Preset {
+  const char* size;
+  double fps;
+};
+
+Preset preset_of(Quality quality) {
+  switch (quality) {
+    case Quality::Low:
+      return {"854x480", 15.0};
+    case Quality::Medium:
+      return {"1280x720", 30.0};
+    case Quality::High:
+      return {"1920x1080", 60.0};
+  }
+  return {};
+}
+
+struct RenderOptions {
+  CommonOptions common;
+  CheckpointOptions checkpoints;
+  std::string out;
+  std::optional<Quality> quality;   // absent: medium
+  std::optional<std::string> size;  // absent: that of the quality
+  std::optional<double> fps;        // likewise
+  std::optional<double> from;       // absent: 0, or the time of the checkpoint
+  std::optional<double> to;
+  std::optional<double> speed;
+  std::optional<std::string> frames;  // absent: all
+  std::optional<int> supersample;     // absent: 1
+  std::optional<double> shutter;      // absent: 0
+  bool no_overlay = false;
+  bool transparent = false;
+  bool overwrite = false;
+  Backend backend = Backend::Auto;
+
+  bool one_picture() const { return std::filesystem::path(out).extension() == ".png"; }
+};
+
+FrameRange parse_frames(const std::string& text) {
+  FrameRange range;
+  char after;
+  const int read = std::sscanf(text.c_str(), "%ld:%ld%c", &range.begin, &range.end, &after);
+  if (read == 1 && text.ends_with(':')) range.end = std::numeric_limits<long>::max();
+  if ((read == 2 || (read == 1 && text.ends_with(':'))) && range.begin >= 0 &&
+      range.begin < range.end) {
+    return range;
+  }
+  throw UserError({"--frames", 0, 0}, "'" + text + "' is no range of frames",
+                  "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");
+}
+
+// The film has `from`, `speed` and `fps`; its end is asked for, or as it was.
+long count_frames(const FrameTimes& times, const std::optional<double>& to) {
+  constexpr double kFilmSeconds = 20.0;
+  constexpr double kMostFrames = 1e7;
+  const double span = to ? *to - times.from : kFilmSeconds * times.speed;
+  const double frames = std::max(1.0, std::round(span * times.fps / times.speed));
+  if (frames <= kMostFrames) return static_cast<long>(frames);
+  throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
+                  "choose a larger --speed, or an earlier --to");
+}
+
+// The run is at `start`, 0 or the time of a checkpoint, and the film begins there or at --from.
+FilmState new_film(const RenderOptions& options, const View& view, double start) {
+  constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
+  const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
+  FilmState film;
+  film.size = parse_size(options.size.value_or(preset.size), kLeastSize);
+  film.samples = options.supersample.value_or(1);
+  film.shutter = options.shutter.value_or(0.0);
+  film.transparent = options.transparent;
+  film.overlay = view.overlay && !options.no_overlay;
+  film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
+                options.fps.value_or(preset.fps), 1};
+  if (film.times.from < start) {
+    throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
+                    "give a time after that, or leave --from out");
+  }
+  const std::optional<double> to = options.to ? options.to : options.common.until;
+  if (to && *to < film.times.from) {
+    throw UserError(
+        {"--to", 0, 0}, "the film would end before it begins",
+        "give a time after " + number_text(film.times.from) + ", that of --from or --resume");
+  }
+  if (!options.one_picture()) {
+    film.times.count = count_frames(film.times, to);
+  } else if (!options.from || to) {
+    film.times.from = to.value_or(film.times.from + kPictureSeconds * film.times.speed);
+  }
+  return film;
+}
+
+// Films have no transparency.
+void require_pictures(const RenderOptions& options) {
+  const auto extension = std::filesystem::path(options.out).extension();
+  if (!options.transparent || extension.empty() || extension == ".png") return;
+  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be without a background",
+                  "write to a FILE.png or to a folder, or leave --transparent out");
+}
+
+[[noreturn]] void refuse_change(const char* flag, const std::string& before) {
+  throw UserError({flag, 0, 0}, "the film that goes on has " + before,
+                  "leave the flag out, or begin another film by --from");
+}
+
+template <class T, class Text>
+void keep(const std::optional<T>& asked, const T& before, const char* flag, const Text& text) {
+  if (asked && !(*asked == before)) refuse_change(flag, text(before));
+}
+
+// A film goes on as it began, but that it may end at another time.
+FilmState continued_film(const RenderOptions& options, FilmState film) {
+  const FrameTimes& times = film.times;
+  const auto size_text = [](Size size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+  };
+  std::optional<Size> size;
+  std::optional<double> fps = options.fps;
+  if (options.quality) {
+    size = parse_size(preset_of(*options.quality).size, kLeastSize);
+    if (!fps) fps = preset_of(*options.quality).fps;
+  }
+  if (options.size) size = parse_size(*options.size, kLeastSize);
+  keep(size, film.size, "--size", size_text);
+  keep(fps, times.fps, "--fps", number_text);
+  keep(options.speed, times.speed, "--speed", number_text);
+  keep(options.supersample, film.samples, "--supersample", [](int n) { return std::to_string(n); });
+  keep(options.shutter, film.shutter, "--shutter", number_text);
+  if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
+  if (options.no_overlay && film.overlay) refuse_change("--no-overlay", "an overlay");
+  const std::optional<double> to = options.to ? options.to : options.common.until;
+  if (to) film.times.count = count_frames(times, to);
+  if (film.times.count < film.next) {
+    throw UserError({"--to", 0, 0},
+                    "the film is at t = " + number_text(film.times.of(film.next - 1)),
+                    "give a time after that, or leave --to out");
+  }
+  return film;
+}
+
+// The film that a run is to make: that of its checkpoint, unless another beginning is asked for.
+FilmState film_asked_for(const RenderOptions& options, const View& view,
+                         const std::optional<Resumed>& resumed) {
+  if (!resumed) return new_film(options, view, 0.0);
+  const std::optional<FilmState> film = film_of(*resumed);
+  const bool goes_on =
+      film && !options.one_picture() && options.from.value_or(film->times.from) == film->times.from;
+  if (!goes_on) return new_film(options, view, resumed->time());
+  require_same_view(*resumed);
+  return continued_film(options, *film);
+}
+
+FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film) {
+  if (!options.frames) return {0, film.times.count};
+  FrameRange frames = parse_frames(*options.frames);
+  if (frames.begin >= film.times.count) {
+    throw UserError({"--frames", 0, 0},
+                    "the film has " + std::to_string(film.times.count) + " frames",
+                    "begin before, or give a later --to");
+  }
+  frames.end = std::min(frames.end, film.times.count);
+  if (film.next > frames.end) {
+    throw UserError({"--frames", 0, 0},
+                    "the checkpoint is at frame " + std::to_string(film.next) + " already",
+                    "give an earlier checkpoint, or leave --resume out");
+  }
+  return frames;
+}
+
+SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::uint64_t seed,
+                         const FilmState& film, const FrameRange& frames) {
+  SinkOptions sink;
+  sink.size = film.size;
+  sink.fps = film.times.fps;
+  sink.texts = {{"Title", scene.title},
+                {"Software", "clatter " CLATTER_VERSION},
+                {"Seed", std::to_string(seed)},
+                {"Scene", scene_to_toml(scene)}};
+  sink.threads = options.common.threads;
+  sink.overwrite = options.overwrite;
+  sink.begin = frames.begin;
+  if (options.frames) sink.end = frames.end;
+  sink.next = std::max(film.next, frames.begin);
+  sink.goes_on = film.begin == frames.begin && film.next >= frames.begin;
+  return sink;
+}
+
+void require_few_windows(const View& view, double last) {
+  constexpr double kMostWindows = 1e7;
+  if (!view.shows_averages() || last / view.window <= kMostWindows) return;
+  throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
+                  "choose at least " + number_text(last / kMostWindows));
+}
+
+// Whether there is anything in the sink. Where that cannot be written, the run is kept all the
+// same.
+bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progress& progress) {
+  try {
+    const long next = film.draw(frames, sink, progress);
+    if (next <= frames.begin) return false;
+    sink.finish(next == frames.end ? Ending::Whole : Ending::Cut);
+    return true;
+  } catch (const RunError& error) {
+    throw RunError(error.what() + run.rescue());
+  }
+}
+
+int render(const RenderOptions& options) {
+  Scene scene = load(options.common, options.checkpoints.start_file());
+  std::optional<Resumed> resumed = resume(options.checkpoints, scene);
+  const FilmState film = film_asked_for(options, scene.view, resumed);
+  const FrameRange frames = frames_asked_for(options, film);
+  View view = scene.view;
+  view.overlay = film.overlay;
+  require_few_windows(view, film.times.last());
+  const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
+  require_distinct(outputs);
+  require_folder_of(options.out, "--out");
+  require_pictures(options);
+  catch_interrupts();
+
+  Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
+  const auto context = open_context(options.backend);
+  const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
+  Film filming(run, scene, view, film, context->gl());
+  bool drawn = false;
+  {
+    Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
+                      film.times.of(frames.end - 1));
+    drawn = draw(filming, frames, *sink, run, progress);
+  }
+  run.put_aside();
+  if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
+  return run.end();
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
+  add_common_flags(*command, options->common);
+  add_checkpoint_flags(*command, options->checkpoints);
+  command
+      ->add_option(
+          "--out", options->out,
+          "FILE.mp4, .webm, .gif or, without loss, .mkv (film), FILE.png (one picture), or DIR "
+          "(a picture a frame)")
+      ->required();
+  command
+      ->add_option("-q,--quality", options->quality,
+                   "-ql: 854x480, 15 frames a second; -qm: 1280x720, 30; -qh: 1920x1080, 60 "
+                   "(default: m)")
+      ->transform(
+          one_of<Quality>({{"l", Quality::Low}, {"m", Quality::Medium}, {"h", Quality::High}}))
+      ->type_name("l|m|h");
+  command->add_option("--size", options->size, "Picture size in pixels (default: the quality's)")
+      ->type_name("WIDTHxHEIGHT");
+  command->add_option("--fps", options->fps, "Frames per second of film (default: the quality's)")
+      ->check(number_between(1.0, 1000.0));
+  command
+      ->add_option("--from", options->from,
+                   "Simulation time of the first frame, or of the one picture (default: 0, or that "
+                   "of the checkpoint)")
+      ->check(non_negative_number());
+  command
+      ->add_option(
+          "--to", options->to,
+          "Simulation time of the film's end, or of the one picture (default: 20 s of film; a "
+          "picture 10 s into it)")
+      ->check(non_negative_number());
+  command
+      ->add_option("--speed", options->speed,
+                   "Simulation time per second of film (default: the scene's view.speed)")
+      ->check(positive_number());
+  command
+      ->add_option("--supersample", options->supersample,
+                   "Draw all but the overlay so many times larger, and average in linear light "
+                   "(default: 1)")
+      ->check(CLI::Range(1, 4));
+  command
+      ->add_option("--shutter", options->shutter,
+                   "Blur disks by their motion: share of the time between frames for which the "
+                   "shutter is open before each (default: 0)")
+      ->check(number_between(0.0, 1.0));
+  command->add_flag("--no-overlay", options->no_overlay,
+                    "Draw no title, time, colour bar, scale bar");
+  command->add_flag("--transparent", options->transparent,
+                    "Leave the background out, of a PNG picture or of a folder of them");
+  command->add_flag("--overwrite", options->overwrite,
+                    "Replace frames that a folder holds already, or a film that was cut");
+  command
+      ->add_option(
+          "--frames", options->frames,
+          "Draw only these frames of the film, numbered from 0: what several machines make "
+          "is one film")
+      ->type_name("FIRST:END");
+  add_backend_flag(*command, options->backend);
+  command->callback([options, &exit_code] { exit_code = render(*options); });
+}
+
+}  // namespace clatter

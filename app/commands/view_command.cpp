@@ -1,0 +1,55 @@
+#include <CLI/CLI.hpp>
+
+#include "app/commands/commands.h"
+#include "app/commands/flag_checks.h"
+#include "app/view/window.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+namespace {
+
+struct ViewOptions {
+  CommonOptions common;
+  std::string size = "1280x800";
+  Backend backend = Backend::Auto;
+  std::string script_log;
+};
+
+int view(const ViewOptions& options) {
+  if (options.backend == Backend::Egl || options.backend == Backend::Osmesa) {
+    throw UserError({"--backend", 0, 0}, "there OpenGL draws off screen, without a window",
+                    "write glfw, or let `clatter render` film the scene");
+  }
+  WindowOptions window;
+  window.scene = load(options.common);
+  window.seed = options.common.seed.value_or(1);
+  window.until = options.common.until;
+  window.script_log = options.script_log;
+  window.size = parse_size(options.size, {320, 240});
+  show_window(window);
+  return kOk;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<ViewOptions>();
+  options->common.scene = "vibrated";
+  CLI::App* command = program.add_subcommand("view", "Explore a scene in a window");
+  add_scene_flags(*command, options->common);
+  command->get_option("scene")->required(false)->capture_default_str();
+  command->add_option("--size", options->size, "Extent of the window")->capture_default_str();
+  command
+      ->add_option("--until", options->common.until,
+                   "Simulation time at which the gas halts, until it is played on")
+      ->check(positive_number());
+  add_backend_flag(*command, options->backend);
+  command
+      ->add_option("--script-log", options->script_log,
+                   "Tell what the window does, a JSON object per line")
+      ->type_name("FILE");
+  command->callback([options, &exit_code] { exit_code = view(*options); });
+}
+
+}  // namespace clatter

@@ -1,0 +1,86 @@
+#include "app/results/csv_tables.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+
+#include "app/system/write_file.h"
+#include "engine/scene/scene_keys.h"
+#include "engine/scene/unit.h"
+
+namespace clatter {
+
+[[gnu::format(printf, 2, 3)]] static void append(std::string& text, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+static std::string series_table(const Measured& measured) {
+  const std::vector<double>& spin = measured.series_spin_temperature;
+  std::string table = std::string("# units, ") + kUnits + "; time: t, temperature: m a^2/t^2";
+  table += spin.empty() ? "\n" : ", spin_temperature: m a^2/t^2\n";
+  table += spin.empty() ? "time,temperature\n" : "time,temperature,spin_temperature\n";
+  for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
+    append(table, "%.17g,%.17g", measured.series_time[k], measured.series_temperature[k]);
+    if (!spin.empty()) append(table, ",%.17g", spin[k]);
+    table += '\n';
+  }
+  return table;
+}
+
+static std::string profile_table(const Profile& profile) {
+  const std::string axis(name_of(profile.axis, kAxes));
+  std::string units = std::string("# units, ") + kUnits + "; " + axis + ": a";
+  std::string header = axis + "_low," + axis + "_high";
+  for (const Field field : profile.fields) {
+    const std::string name(name_of(field, kHeatmaps));
+    units += ", " + name + ": " + unit_of(field);
+    header += "," + name + "," + name + "_error";
+  }
+  std::string table = units + "\n" + header + "\n";
+  for (std::size_t i = 0; i + 1 < profile.edges.size(); ++i) {
+    append(table, "%.17g,%.17g", profile.edges[i], profile.edges[i + 1]);
+    for (const auto& column : profile.values) {
+      append(table, ",%.17g,%.17g", column[i].mean, column[i].standard_error);
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+// A line for each cell, which its middle tells.
+static std::string maps_table(const FieldMaps& maps) {
+  std::string units = std::string("# units, ") + kUnits + "; x: a, y: a";
+  std::string header = "x,y";
+  for (const FieldMap& map : maps.maps) {
+    const std::string name(name_of(map.field, kHeatmaps));
+    units += ", " + name + ": " + unit_of(map.field);
+    header += "," + name;
+  }
+  std::string table = units + "\n" + header + "\n";
+  const auto [columns, rows] = maps.maps.front().cells;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      append(table, "%.17g,%.17g", (i + 0.5) * maps.cell.x(), (j + 0.5) * maps.cell.y());
+      const auto cell = static_cast<std::size_t>(j * columns + i);
+      for (const FieldMap& map : maps.maps) append(table, ",%.17g", map.values[cell]);
+      table += '\n';
+    }
+  }
+  return table;
+}
+
+void write_tables(const std::filesystem::path& folder, const Measured& measured) {
+  const auto [series, profile, maps] = kTableNames;
+  // Of what this run has not, an earlier one's table would pass for it.
+  for (const char* name : kTableNames) std::filesystem::remove(folder / name);
+  write_file(folder / series, series_table(measured));
+  if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
+  if (measured.maps) write_file(folder / maps, maps_table(*measured.maps));
+}
+
+}  // namespace clatter

@@ -1,0 +1,220 @@
+#include "app/results/hdf5_file.h"
+
+#include <H5Cpp.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/system/write_file.h"
+#include "engine/error.h"
+#include "engine/scene/scene_keys.h"
+#include "engine/scene/unit.h"
+
+namespace clatter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Shape = std::vector<hsize_t>;
+
+H5::StrType text_type() {
+  H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
+  type.setCset(H5T_CSET_UTF8);
+  return type;
+}
+
+// True and false as h5py and pandas know them.
+H5::EnumType flag_type() {
+  H5::EnumType type(H5::PredType::NATIVE_INT8);
+  std::int8_t value = 0;
+  type.insert("FALSE", &value);
+  value = 1;
+  type.insert("TRUE", &value);
+  return type;
+}
+
+H5::DataSpace space_of(const Shape& shape) {
+  return H5::DataSpace(static_cast<int>(shape.size()), shape.data());
+}
+
+template <class T>
+void write_value(const H5::H5Object& object, const std::string& name, const H5::DataType& type,
+                 const T& value) {
+  object.createAttribute(name, type, H5::DataSpace()).write(type, &value);
+}
+
+void write_text(const H5::H5Object& object, const std::string& name, const std::string& text) {
+  write_value(object, name, text_type(), text.c_str());
+}
+
+template <class T>
+void write_list(const H5::H5Object& object, const std::string& name, const H5::DataType& type,
+                const std::vector<T>& values) {
+  const H5::Attribute attribute = object.createAttribute(name, type, space_of({values.size()}));
+  if (!values.empty()) attribute.write(type, values.data());
+}
+
+void write_list(const H5::H5Object& object, const std::string& name, const Json& list) {
+  const auto all = [&](auto&& is) { return std::ranges::all_of(list, is); };
+  if (all([](const Json& item) { return item.is_number_integer(); })) {
+    write_list(object, name, H5::PredType::NATIVE_INT64, list.get<std::vector<std::int64_t>>());
+  } else if (all([](const Json& item) { return item.is_number(); })) {
+    write_list(object, name, H5::PredType::NATIVE_DOUBLE, list.get<std::vector<double>>());
+  } else if (all([](const Json& item) { return item.is_string(); })) {
+    std::vector<const char*> texts;
+    for (const Json& item : list) texts.push_back(item.get_ref<const std::string&>().c_str());
+    write_list(object, name, text_type(), texts);
+  } else {
+    write_text(object, name, list.dump());
+  }
+}
+
+// Members that are objects become groups, all others attributes.
+void write_object(const H5::Group& group, const Json& object) {
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_object()) {
+      write_object(group.createGroup(name), value);
+    } else if (value.is_array()) {
+      write_list(group, name, value);
+    } else if (value.is_string()) {
+      write_text(group, name, value.get_ref<const std::string&>());
+    } else if (value.is_boolean()) {
+      write_value(group, name, flag_type(), static_cast<std::int8_t>(value.get<bool>()));
+    } else if (value.is_number_unsigned()) {
+      write_value(group, name, H5::PredType::NATIVE_UINT64, value.get<std::uint64_t>());
+    } else if (value.is_number_integer()) {
+      write_value(group, name, H5::PredType::NATIVE_INT64, value.get<std::int64_t>());
+    } else {
+      // What is not finite, JSON may have as null.
+      const double number =
+          value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+      write_value(group, name, H5::PredType::NATIVE_DOUBLE, number);
+    }
+  }
+}
+
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values, const Shape& shape) {
+  const H5::DataSet dataset =
+      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape));
+  if (!values.empty()) dataset.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+  write_text(dataset, "units", unit);
+}
+
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values) {
+  write_dataset(group, name, unit, values, {values.size()});
+}
+
+void write_series(const H5::Group& group, const Measured& measured) {
+  write_dataset(group, "time", "t", measured.series_time);
+  const char* unit = unit_of(Field::Temperature);
+  write_dataset(group, "translational", unit, measured.series_temperature);
+  if (measured.series_spin_temperature.empty()) return;
+  write_dataset(group, "spin", unit, measured.series_spin_temperature);
+}
+
+void write_profile(const H5::Group& group, const Profile& profile) {
+  write_text(group, "axis", std::string(name_of(profile.axis, kAxes)));
+  write_dataset(group, "edges", "a", profile.edges);
+  const H5::Group errors = group.createGroup("standard_error");
+  for (std::size_t f = 0; f < profile.fields.size(); ++f) {
+    std::vector<double> means, widths;
+    for (const Estimate& estimate : profile.values[f]) {
+      means.push_back(estimate.mean);
+      widths.push_back(estimate.standard_error);
+    }
+    const std::string name(name_of(profile.fields[f], kHeatmaps));
+    write_dataset(group, name, unit_of(profile.fields[f]), means);
+    write_dataset(errors, name, unit_of(profile.fields[f]), widths);
+  }
+}
+
+// The edges of a grid's cells along both axes.
+void write_edges(const H5::Group& group, const FieldMaps& maps) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const int cells = maps.maps.front().cells[axis];
+    const double length = cells * maps.cell[axis];
+    std::vector<double> edges;
+    for (int i = 0; i <= cells; ++i) edges.push_back(length * i / cells);  // as those of profiles
+    write_dataset(group, axis == 0 ? "x_edges" : "y_edges", "a", edges);
+  }
+}
+
+Shape shape_of(const FieldMap& map) {
+  return {static_cast<hsize_t>(map.cells[1]), static_cast<hsize_t>(map.cells[0])};
+}
+
+void write_maps(const H5::Group& group, const FieldMaps& maps) {
+  write_edges(group, maps);
+  write_dataset(group, "time", "t", {maps.begin, maps.end});
+  for (const FieldMap& map : maps.maps) {
+    write_dataset(group, std::string(name_of(map.field, kHeatmaps)), unit_of(map.field), map.values,
+                  shape_of(map));
+  }
+}
+
+void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& parts) {
+  write_edges(group, parts.front());
+  std::vector<double> times;
+  for (const FieldMaps& part : parts) times.insert(times.end(), {part.begin, part.end});
+  write_dataset(group, "time", "t", times, {parts.size(), 2});
+  for (std::size_t f = 0; f < parts.front().maps.size(); ++f) {
+    const FieldMap& map = parts.front().maps[f];
+    std::vector<double> values;
+    for (const FieldMaps& part : parts) {
+      values.insert(values.end(), part.maps[f].values.begin(), part.maps[f].values.end());
+    }
+    Shape shape = shape_of(map);
+    shape.insert(shape.begin(), parts.size());
+    write_dataset(group, std::string(name_of(map.field, kHeatmaps)), unit_of(map.field), values,
+                  shape);
+  }
+}
+
+void write_all(const H5::H5File& file, const Json& result, const Measured& measured) {
+  Json rest = result;
+  rest.erase("temperature_series");
+  rest.erase("profile");
+  write_text(file.openGroup("/"), "units", kUnits);
+  write_object(file.openGroup("/"), rest);
+  write_series(file.createGroup("temperature_series"), measured);
+  if (measured.profile) write_profile(file.createGroup("profile"), *measured.profile);
+  if (!measured.maps) return;
+  write_maps(file.createGroup("maps"), *measured.maps);
+  if (measured.map_series.empty()) return;
+  write_map_series(file.createGroup("map_series"), measured.map_series);
+}
+
+// The bytes of the file. It is made in memory, so that it comes whole under its name or not at all.
+std::string image_of(const Json& result, const Measured& measured) {
+  constexpr std::size_t kGrowth = std::size_t{1} << 20;
+  H5::FileAccPropList in_memory;
+  in_memory.setCore(kGrowth, false);
+  H5::H5File file("measurement", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
+  write_all(file, result, measured);
+  file.flush(H5F_SCOPE_GLOBAL);
+  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
+  std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (H5Fget_file_image(file.getId(), image.data(), image.size()) != size || size <= 0) {
+    throw H5::FileIException("H5Fget_file_image", "no image");
+  }
+  return image;
+}
+
+}  // namespace
+
+void write_hdf5(const std::filesystem::path& path, const Json& result, const Measured& measured) {
+  try {
+    H5::Exception::dontPrint();
+    write_file(path, image_of(result, measured));
+  } catch (const H5::Exception& error) {
+    throw RunError("cannot make " + path.string() + ": " + error.getDetailMsg());
+  }
+}
+
+}  // namespace clatter

@@ -1,0 +1,118 @@
+#include "app/results/result_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/results/theory_json.h"
+#include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+using Json = nlohmann::ordered_json;
+
+static Json estimate_json(const Estimate& estimate) {
+  return {{"mean", estimate.mean}, {"standard_error", estimate.standard_error}};
+}
+
+std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measured) {
+  std::vector<std::pair<std::string, Estimate>> estimates;
+  const auto add = [&](const std::string& name, const std::optional<Estimate>& estimate) {
+    if (estimate) estimates.emplace_back(name, *estimate);
+  };
+  add("temperature", measured.temperature);
+  add("temperature_x", measured.temperature_x);
+  add("temperature_y", measured.temperature_y);
+  add("spin_temperature", measured.spin_temperature);
+  add("kurtosis_excess_x", measured.kurtosis_excess_x);
+  add("kurtosis_excess_y", measured.kurtosis_excess_y);
+  add("collision_rate", measured.collision_rate);
+  add("energy.walls_in", measured.walls_in);
+  add("energy.bulk_in", measured.bulk_in);
+  add("energy.gravity_in", measured.gravity_in);
+  add("energy.dissipated", measured.dissipated);
+  for (int side = 0; side < 4; ++side) {
+    add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
+  }
+  add("pressure.virial", measured.compressibility);
+  return estimates;
+}
+
+Json::json_pointer estimate_pointer(std::string name) {
+  std::ranges::replace(name, '.', '/');
+  return Json::json_pointer("/" + name);
+}
+
+static Json profile_json(const Profile& profile) {
+  Json json{{"axis", name_of(profile.axis, kAxes)}, {"edges", profile.edges}};
+  Json errors = Json::object();
+  for (const Field field : profile.fields) {
+    const std::string name(name_of(field, kHeatmaps));
+    for (const Estimate& e : profile.at(field)) {
+      // A column that was never visited has no temperature: null.
+      json[name].push_back(std::isfinite(e.mean) ? Json(e.mean) : Json(nullptr));
+      errors[name].push_back(e.standard_error);
+    }
+  }
+  json["standard_error"] = errors;
+  return json;
+}
+
+// The largest of Eqs. (4.1)-(4.3), of momentum that of its components.
+static Json balance_json(const Residuals& residuals) {
+  const Conserved<2> largest = residuals.largest();
+  return {
+      {"mass", largest[0]}, {"momentum", std::max(largest[1], largest[2])}, {"energy", largest[3]}};
+}
+
+Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,
+                 const Measured& measured, const Performance& performance) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(simulation.state_hash()));
+  Json json;
+  json["schema"] = 1;
+  json["scene"] = Json::parse(scene_to_json(scene));
+  json["seed"] = seed;
+  json["program"] = "clatter " CLATTER_VERSION;
+  json["state_hash"] = hash;
+  json["time"] = {{"burn_in", measured.burn_in}, {"measured", measured.duration}};
+  json["events"] = {{"disk_disk", measured.disk_disk}, {"disk_wall", measured.disk_wall}};
+  if (scene.bulk_drive) json["events"]["kicks"] = measured.kicks;
+  if (scene.contact_time) json["events"]["elasticised"] = measured.elasticised;
+  // A run that was interrupted in its burn-in has no averages, and nor have no disks.
+  const bool averaged = measured.duration > 0.0;
+  if (averaged) {
+    for (const auto& [name, estimate] : estimates_of(measured)) {
+      json[estimate_pointer(name)] = estimate_json(estimate);
+    }
+    json["energy"]["ledger_residual"] = measured.ledger_residual;
+  }
+  json["temperature_series"] = {{"time", measured.series_time},
+                                {"translational", measured.series_temperature}};
+  if (scene.spins()) json["temperature_series"]["spin"] = measured.series_spin_temperature;
+  json["theory"] = theory_json(scene);
+  if (measured.profile) json["profile"] = profile_json(*measured.profile);
+  if (measured.residuals) json["balance"] = balance_json(*measured.residuals);
+  json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
+                    {"clock_steps_back", simulation.checks().clock_steps_back}};
+  if (averaged) json["checks"]["temperature_drift"] = measured.temperature.drift;
+  if (scene.contact_time) {
+    const double collisions = std::max<double>(1.0, static_cast<double>(measured.disk_disk));
+    json["checks"]["elasticised_share"] = static_cast<double>(measured.elasticised) / collisions;
+  }
+  if (measured.undissipated_share) {
+    json["checks"]["undissipated_share"] = *measured.undissipated_share;
+  }
+  const double collisions = static_cast<double>(performance.collisions);
+  json["performance"] = {
+      {"cpu_seconds", performance.cpu_seconds},
+      {"collisions_per_second",
+       performance.cpu_seconds > 0.0 ? collisions / performance.cpu_seconds : 0.0},
+      {"peak_memory_bytes", performance.peak_memory_bytes}};
+  return json;
+}
+
+}  // namespace clatter

@@ -1,0 +1,90 @@
+#include "app/results/theory_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace clatter {
+
+using Json = nlohmann::ordered_json;
+
+std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
+  const auto &left = scene.walls[kLeft], &right = scene.walls[kRight];
+  const auto vibrates = [](const std::optional<Wall>& wall) {
+    return wall && (wall->kind == WallKind::Driven || wall->kind == WallKind::Static);
+  };
+  const bool alike = vibrates(left) && vibrates(right) && left->restitution == right->restitution &&
+                     left->drive_speed == right->drive_speed;
+  const bool falls = scene.gravity && scene.gravity->norm() > 0.0;
+  if (!alike || !scene.periodic(1) || scene.disks.count == 0 || scene.spins() || falls ||
+      scene.bulk_drive) {
+    return std::nullopt;
+  }
+  return VibratedGas{static_cast<double>(scene.disks.count),
+                     scene.box.x(),
+                     scene.box.y(),
+                     scene.disks.restitution,
+                     left->restitution,
+                     left->drive_speed};
+}
+
+// Eqs. (3.6)-(3.14).
+static void add_vibrated(Json& json, const VibratedGas& gas, double start_temperature) {
+  json["psi"] = gas.psi();
+  json["epsilon_effective"] = gas.epsilon_effective();
+  // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
+  if (gas.drive_speed == 0.0) {
+    const double rate = gas.haff_rate_corrected(start_temperature);
+    json["haff_rate"] = rate;
+    if (rate < 0.0) json["divergence_time"] = divergence_time(rate);
+    return;
+  }
+  const auto add = [&](const char* name, double temperature) {
+    if (std::isfinite(temperature)) json[name] = temperature;
+  };
+  add("temperature_simple", gas.temperature_simple());
+  add("temperature_refined", gas.temperature_refined());
+  add("temperature_corrected", gas.temperature_corrected());
+}
+
+// Whether nothing makes one place another than the next.
+static bool is_homogeneous_gas(const Scene& scene) {
+  return scene.periodic(0) && scene.periodic(1) && scene.disks.count > 1 && !scene.gravity;
+}
+
+// Smooth disks, and rough ones where friction has no limit, so that beta is constant.
+static void add_homogeneous(Json& json, const Scene& scene) {
+  const Disks& disks = scene.disks;
+  const double phi = scene.area_fraction();
+  json["compressibility"] = compressibility(phi, disks.restitution);
+  const bool rough = scene.spins();
+  const bool constant_beta = !rough || std::isinf(disks.roughness.friction_in_force());
+  const double beta = rough ? disks.roughness.tangential_restitution_in_force() : -1.0;
+  const RoughGas gas{disks.restitution, beta, disks.inertia};
+  if (!scene.bulk_drive) {
+    if (!rough) {
+      json["haff_rate"] = haff_rate_periodic(phi, disks.restitution, scene.disks.start.temperature);
+    } else if (constant_beta) {
+      json["temperature_ratio"] = gas.cooling_ratio();
+    }
+    return;
+  }
+  const BulkDrive& drive = *scene.bulk_drive;
+  const double power = bulk_drive_power(disks.count, drive.kick_speed, drive.interval);
+  json["bulk_drive_power"] = power;
+  if (!constant_beta || !(power > 0.0) || drive.kick_spin > 0.0) return;
+  const double temperature = gas.driven_temperature(phi, power);
+  if (!std::isfinite(temperature)) return;  // nothing dissipates
+  json["temperature_driven"] = temperature;
+  if (rough) json["temperature_ratio"] = gas.driven_ratio();
+}
+
+Json theory_json(const Scene& scene) {
+  Json json{{"chi", contact_correlation(scene.area_fraction())}};
+  if (const auto gas = vibrated_gas(scene)) {
+    add_vibrated(json, *gas, scene.disks.start.temperature);
+  }
+  if (is_homogeneous_gas(scene)) add_homogeneous(json, scene);
+  return json;
+}
+
+}  // namespace clatter

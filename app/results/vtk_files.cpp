@@ -1,0 +1,173 @@
+#include "app/results/vtk_files.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "app/system/write_file.h"
+#include "engine/scene/scene_keys.h"
+#include "engine/scene/text.h"
+#include "engine/scene/unit.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr const char* kFieldsFile = "fields.vti";
+constexpr const char* kSeriesFile = "series.pvd";
+
+// How VTK stores a field with as many components in the plane: what lies off it is 0.
+struct Shape {
+  std::vector<const char*> names;   // of all components
+  std::vector<std::size_t> places;  // of those in the plane
+};
+
+// A vector, or a symmetric tensor, whose measured components are xx, yy, xy.
+Shape shape_of(std::size_t components) {
+  if (components == 1) return {{""}, {0}};
+  if (components == 2) return {{"X", "Y", "Z"}, {0, 1}};
+  return {{"XX", "YY", "ZZ", "XY", "YZ", "XZ"}, {0, 1, 3}};
+}
+
+// A field with all its components.
+struct DataArray {
+  std::string name;
+  std::vector<const FieldMap*> components;
+};
+
+std::vector<DataArray> arrays_of(const FieldMaps& maps) {
+  std::vector<DataArray> arrays;
+  for (const FieldMap& map : maps.maps) {
+    // Residuals of momentum are no vector: each is relative to a sum of its own.
+    const std::string name(is_residual(map.field) ? name_of(map.field, kHeatmaps)
+                                                  : name_of(map.field, kProfiles));
+    auto array = std::ranges::find(arrays, name, &DataArray::name);
+    if (array == arrays.end()) array = arrays.insert(array, {name, {}});
+    array->components.push_back(&map);
+  }
+  return arrays;
+}
+
+// A block of appended data: its length in bytes, then all components cell by cell.
+void append_values(std::string& data, const DataArray& array) {
+  const Shape shape = shape_of(array.components.size());
+  const std::size_t stride = shape.names.size();
+  const std::size_t cells = array.components.front()->values.size();
+  std::vector<double> values(cells * stride);
+  for (std::size_t k = 0; k < array.components.size(); ++k) {
+    for (std::size_t i = 0; i < cells; ++i) {
+      values[i * stride + shape.places[k]] = array.components[k]->values[i];
+    }
+  }
+  const std::uint64_t bytes = values.size() * sizeof(double);
+  data.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+  data.append(reinterpret_cast<const char*>(values.data()), bytes);
+}
+
+std::string attributes_of(const DataArray& array) {
+  const Shape shape = shape_of(array.components.size());
+  std::string text = "Name=\"" + array.name + "\"";
+  if (shape.names.size() == 1) return text;
+  text += " NumberOfComponents=\"" + std::to_string(shape.names.size()) + "\"";
+  for (std::size_t k = 0; k < shape.names.size(); ++k) {
+    text += " ComponentName" + std::to_string(k) + "=\"" + shape.names[k] + "\"";
+  }
+  return text;
+}
+
+std::string head(const std::string& type, const std::string& origin) {
+  const bool little = std::endian::native == std::endian::little;
+  return "<?xml version=\"1.0\"?>\n<!-- " + origin + "; units, " + kUnits + " -->\n" +
+         "<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" +
+         (little ? "LittleEndian" : "BigEndian") + "\" header_type=\"UInt64\">\n";
+}
+
+// The values stand raw behind the XML, as VTK's own writer may put them: exact, NaN included.
+std::string image_data(const FieldMaps& maps, const std::string& origin) {
+  const auto [columns, rows] = maps.maps.front().cells;
+  const std::string extent =
+      "\"0 " + std::to_string(columns) + " 0 " + std::to_string(rows) + " 0 0\"";
+  std::string data;
+  std::string xml = head("ImageData", origin) + "  <ImageData WholeExtent=" + extent +
+                    " Origin=\"0 0 0\" Spacing=\"" + number_text(maps.cell.x()) + " " +
+                    number_text(maps.cell.y()) + " 1\">\n" +
+                    "    <FieldData>\n"
+                    "      <DataArray type=\"Float64\" Name=\"time\" NumberOfTuples=\"2\" "
+                    "format=\"ascii\">" +
+                    number_text(maps.begin) + " " + number_text(maps.end) +
+                    "</DataArray>\n    </FieldData>\n"
+                    "    <Piece Extent=" +
+                    extent + ">\n      <CellData>\n";
+  for (const DataArray& array : arrays_of(maps)) {
+    xml += "        <DataArray type=\"Float64\" " + attributes_of(array) +
+           " format=\"appended\" offset=\"" + std::to_string(data.size()) +
+           "\">\n          <InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">" +
+           unit_of(array.components.front()->field) + "</InformationKey>\n        </DataArray>\n";
+    append_values(data, array);
+  }
+  return xml +
+         "      </CellData>\n    </Piece>\n  </ImageData>\n"
+         "  <AppendedData encoding=\"raw\">_" +
+         data + "</AppendedData>\n</VTKFile>\n";
+}
+
+std::string part_name(std::size_t part) {
+  char name[32];
+  std::snprintf(name, sizeof name, "series_%02zu.vti", part);
+  return name;
+}
+
+void write_series(const std::filesystem::path& folder, const std::vector<FieldMaps>& series,
+                  const std::string& origin) {
+  std::string collection = head("Collection", origin) + "  <Collection>\n";
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    write_file(folder / part_name(k), image_data(series[k], origin));
+    collection += "    <DataSet timestep=\"" +
+                  number_text(0.5 * (series[k].begin + series[k].end)) + "\" file=\"" +
+                  part_name(k) + "\"/>\n";
+  }
+  write_file(folder / kSeriesFile, collection + "  </Collection>\n</VTKFile>\n");
+}
+
+// The parts that a series in a folder has, from number `first` on.
+std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& folder,
+                                                std::size_t first) {
+  std::ifstream stream(folder / kSeriesFile);
+  const std::string list(std::istreambuf_iterator<char>(stream), {});
+  std::vector<std::filesystem::path> parts;
+  for (std::size_t k = first; k < PartSums::kMostParts; ++k) {
+    if (list.find("file=\"" + part_name(k) + "\"") != std::string::npos) {
+      parts.push_back(folder / part_name(k));
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<std::string> vtk_names() {
+  std::vector<std::string> names = {kFieldsFile, kSeriesFile};
+  for (std::size_t k = 0; k < PartSums::kMostParts; ++k) names.push_back(part_name(k));
+  return names;
+}
+
+void write_vtk(const std::filesystem::path& folder, const Measured& measured,
+               const std::string& origin) {
+  if (!measured.maps) return;
+  // ParaView opens series_*.vti as one: those of a longer series would pass for this one's.
+  std::vector<std::filesystem::path> stale = parts_listed(folder, measured.map_series.size());
+  write_file(folder / kFieldsFile, image_data(*measured.maps, origin));
+  if (!measured.map_series.empty()) {
+    write_series(folder, measured.map_series, origin);
+  } else if (!stale.empty()) {
+    stale.insert(stale.begin(), folder / kSeriesFile);
+  }
+  std::error_code ignored;
+  for (const std::filesystem::path& file : stale) std::filesystem::remove(file, ignored);
+}
+
+}  // namespace clatter

@@ -1,0 +1,110 @@
+#include "app/runs/accuracy_goal.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "app/commands/flag_checks.h"
+#include "app/results/result_json.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal) {
+  CLI::Option* accuracy =
+      command
+          .add_option(
+              "--accuracy", goal.relative,
+              "End once the standard error of the temperature is that share of it, e.g. 1% or "
+              "0.01; at --until, or else at the scene's end, at the latest")
+          ->transform(share())
+          ->type_name("SHARE");
+  command
+      .add_option("--accuracy-of", goal.of,
+                  "Of which mean of the result --accuracy speaks, e.g. pressure.left or "
+                  "energy.dissipated")
+      ->type_name("NAME")
+      ->needs(accuracy)
+      ->capture_default_str();
+}
+
+Estimate estimate_for(const AccuracyGoal& goal, const Measured& measured) {
+  std::string names;
+  for (const auto& [name, estimate] : estimates_of(measured)) {
+    if (name == goal.of) return estimate;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw UserError({"--accuracy-of", 0, 0}, "the result of this scene has no mean '" + goal.of + "'",
+                  "choose one of " + names);
+}
+
+double relative_error(const Estimate& estimate) {
+  if (estimate.mean == 0.0) return std::numeric_limits<double>::infinity();
+  return estimate.cautious_error() / std::fabs(estimate.mean);
+}
+
+// The measured time after which an error that falls with the root of time is small enough.
+static double needed_time(const AccuracyGoal& goal, const Measured& measured) {
+  const double excess = relative_error(estimate_for(goal, measured)) / goal.relative;
+  return measured.duration * excess * excess;
+}
+
+static std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
+  return text;
+}
+
+// The time of the first look at the error from a time on: each is about a sixteenth later than the
+// last.
+static double look_from(const Measurement& measurement, double from) {
+  double windows = 256.0;
+  const auto time = [&] { return measurement.averages_start() + windows * measurement.window(); };
+  while (time() < from) windows += std::floor(windows / 16.0);
+  return time();
+}
+
+void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement& measurement, double end,
+                 Progress& progress) {
+  // A run that goes on may have been put aside when it had come to a look, but not looked.
+  double look = look_from(measurement, run.simulation().time());
+  while (run.until(std::min(end, look), progress) && look < end) {
+    const Measured measured = measurement.means();
+    const double error = relative_error(estimate_for(goal, measured));
+    if (error <= goal.relative) return;
+    progress.expect(std::min(end, measurement.averages_start() + needed_time(goal, measured)),
+                    "measuring, " + goal.of + " within " + percent(error));
+    look = look_from(measurement, std::nextafter(look, end));
+  }
+}
+
+void tell_accuracy(const AccuracyGoal& goal, const Measured& measured) {
+  if (!(measured.duration > 0.0)) return;
+  const Estimate estimate = estimate_for(goal, measured);
+  const double error = relative_error(estimate);
+  std::fprintf(stderr, "note: %s = %.6g, known within %s after %g time units", goal.of.c_str(),
+               estimate.mean, percent(error).c_str(), measured.duration);
+  if (error > goal.relative) {
+    std::fprintf(stderr, "; for %s the run would end about t = %.2g: give that to --until",
+                 percent(goal.relative).c_str(), measured.burn_in + needed_time(goal, measured));
+  }
+  std::fputs("\n", stderr);
+}
+
+void warn_of_drift(const AccuracyGoal& goal, const Measured& measured) {
+  constexpr double kMostErrors = 3.0;
+  const auto warn = [](const std::string& name, const Estimate& estimate) {
+    if (!(std::fabs(estimate.drift) > kMostErrors)) return;
+    std::fprintf(stderr,
+                 "note: %s is not stationary: in the second half of the measured time it is %s by "
+                 "%.2g combined errors; a longer measure.burn_in may help\n",
+                 name.c_str(), estimate.drift > 0.0 ? "higher" : "lower",
+                 std::fabs(estimate.drift));
+  };
+  warn("temperature", measured.temperature);
+  if (goal.asked_for() && goal.of != "temperature") warn(goal.of, estimate_for(goal, measured));
+}
+
+}  // namespace clatter

@@ -1,0 +1,146 @@
+#include "app/runs/ensemble.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "app/results/result_json.h"
+#include "app/runs/run.h"
+#include "app/system/interrupt.h"
+#include "engine/error.h"
+#include "engine/publish/scheduled_run.h"
+
+namespace clatter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Replica {
+  Json result;
+  std::vector<std::pair<std::string, Estimate>> estimates;
+};
+
+// Hands the replicas to threads and keeps what they bring.
+class Replicas {
+ public:
+  Replicas(const Scene& scene, const Ensemble& ensemble, Progress& progress)
+      : scene_(scene),
+        ensemble_(ensemble),
+        progress_(progress),
+        done_(static_cast<std::size_t>(ensemble.replicas)),
+        times_(done_.size()),
+        failed_(done_.size()) {}
+
+  void run() {
+    const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 0; k < std::min(processors, done_.size()); ++k) {
+      threads.emplace_back([this] { work(); });
+    }
+    threads.clear();  // joins them
+    if (failure_) rethrow();
+  }
+
+  const std::vector<std::optional<Replica>>& done() const { return done_; }
+
+ private:
+  void work() {
+    while (const std::optional<std::size_t> next = take()) {
+      try {
+        measure(*next);
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        if (*next < failed_) {
+          failed_ = *next;
+          failure_ = std::current_exception();
+        }
+      }
+    }
+  }
+
+  std::optional<std::size_t> take() {
+    const std::scoped_lock lock(mutex_);
+    if (next_ == done_.size() || failure_ || interrupted()) return {};
+    return next_++;
+  }
+
+  // Replicas are taken in order, so that none before the first that fails is left out: which one it
+  // is does not depend on the threads.
+  [[noreturn]] void rethrow() const {
+    const std::string seed = "seed " + std::to_string(ensemble_.first_seed + failed_) + ": ";
+    try {
+      std::rethrow_exception(failure_);
+    } catch (const PhysicalStop& stop) {
+      throw PhysicalStop(seed + stop.what(), stop.remedy());
+    } catch (const RunError& error) {
+      throw RunError(seed + error.what());
+    }
+  }
+
+  void measure(std::size_t index) {
+    constexpr std::uint64_t kSlice = 1 << 16;  // steps between looks at interrupts
+    const std::uint64_t seed = ensemble_.first_seed + index;
+    const auto simulation = simulation_of(scene_, seed);
+    Measurement measurement(*simulation, scene_.measure, ensemble_.end);
+    while (!simulation->run_until(ensemble_.end, Simulation<2>::kNoLimit,
+                                  simulation->counts().steps() + kSlice)) {
+      if (interrupted() || !tell(index, simulation->time())) return;
+    }
+    require_no_overlap(simulation->checks());
+    const Measured measured = measurement.result();
+    if (measured.residuals) require_closed(*measured.residuals);
+    Json result = result_json(scene_, seed, *simulation, measured, {});
+    result.erase("performance");
+    const std::scoped_lock lock(mutex_);
+    done_[index] = Replica{std::move(result), estimates_of(measured)};
+  }
+
+  // Shows how far all are; whether this one is still wanted.
+  bool tell(std::size_t index, double time) {
+    const std::scoped_lock lock(mutex_);
+    times_[index] = time;
+    double sum = 0.0;
+    for (const double each : times_) sum += each;
+    progress_.update(sum);
+    return index < failed_;
+  }
+
+  const Scene& scene_;
+  Ensemble ensemble_;
+  Progress& progress_;
+  std::mutex mutex_;  // of all below
+  std::size_t next_ = 0;
+  std::vector<std::optional<Replica>> done_;
+  std::vector<double> times_;
+  std::size_t failed_;  // the first that has; the number of all: none
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
+  Replicas replicas(scene, ensemble, progress);
+  replicas.run();
+  Json json{{"schema", 1}, {"seeds", Json::array()}, {"results", Json::array()}};
+  std::vector<const Replica*> done;
+  for (const std::optional<Replica>& replica : replicas.done()) {
+    if (!replica) continue;
+    done.push_back(&*replica);
+    json["seeds"].push_back(replica->result.at("seed"));
+    json["results"].push_back(replica->result);
+  }
+  for (std::size_t k = 0; !done.empty() && k < done.front()->estimates.size(); ++k) {
+    std::vector<double> values;
+    for (const Replica* replica : done) values.push_back(replica->estimates[k].second.mean);
+    const Estimate over_replicas = independent_estimate(values);
+    json[estimate_pointer(done.front()->estimates[k].first)] = {
+        {"mean", over_replicas.mean}, {"standard_error", over_replicas.standard_error}};
+  }
+  return json;
+}
+
+}  // namespace clatter

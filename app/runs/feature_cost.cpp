@@ -1,0 +1,82 @@
+#include "app/runs/feature_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/dynamics/memory.h"
+#include "engine/measure/measurement.h"
+#include "engine/physics/theory.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+namespace {
+
+std::string yes(bool modelled) {
+  return modelled ? "yes" : "no";
+}
+
+std::string names_of(const std::vector<Field>& fields) {
+  std::string names;
+  std::string_view last;
+  for (const Field field : fields) {
+    const std::string_view name = name_of(field, kProfiles);
+    if (name != last) names += (names.empty() ? "" : ", ") + std::string(name);
+    last = name;
+  }
+  return names;
+}
+
+ScenePart fields_of(const Scene& scene) {
+  const Measure& measure = scene.measure;
+  double price = price_of(measure.estimator);
+  if (measure.fields.empty()) return {"fields", "no", 0.0, price};
+  if (std::ranges::any_of(measure.fields, is_residual)) {
+    const bool averages = !std::ranges::all_of(measure.fields, is_residual);
+    price = averages ? price + kBalancePrice - 1.0 : kBalancePrice;
+  }
+  return {"fields", names_of(measure.fields), cells_memory(measure, scene.spins()), price};
+}
+
+// A kick of a disk costs about half a collision of two; at the start's temperature.
+double kick_price(const Scene& scene) {
+  constexpr double kKick = 0.45;
+  const double rate = enskog_rate(scene.area_fraction(), scene.disks.start.temperature);
+  return 1.0 + kKick / (0.5 * rate * scene.bulk_drive->interval);
+}
+
+}  // namespace
+
+double price_of(Estimator estimator) {
+  switch (estimator) {
+    case Estimator::Exact:
+      return 1.4;
+    case Estimator::Snapshot:
+      return 1.1;
+  }
+  return std::nan("");
+}
+
+std::vector<ScenePart> parts_of(const Scene& scene) {
+  const GasMemory memory = gas_memory(scene);
+  const bool moving =
+      std::ranges::any_of(scene.walls, [](const auto& wall) { return wall && wall->moves(); });
+  return {{"disks", "yes", memory.disks, 1.0},
+          {"spins", yes(scene.spins()), memory.spins, 1.05},
+          {"gravity", yes(scene.gravity.has_value()), 0.0, 1.15},
+          {"moving walls", yes(moving), 0.0, 1.0},
+          {"bulk drive", yes(scene.bulk_drive.has_value()), 0.0,
+           scene.bulk_drive ? kick_price(scene) : std::nan("")},
+          {"t_c", yes(scene.contact_time.has_value()), memory.last_collisions, kContactTimePrice},
+          fields_of(scene)};
+}
+
+std::string price_text(double price) {
+  if (!std::isfinite(price)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "x%.3g", price);
+  return text;
+}
+
+}  // namespace clatter

@@ -1,0 +1,138 @@
+#include "app/runs/film.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "app/system/interrupt.h"
+#include "engine/checkpoint/archive.h"
+#include "engine/publish/moving_sum.h"
+#include "render/camera_path.h"
+
+namespace clatter {
+
+template <class Archive>
+static void visit(Archive& io, FrameTimes& times) {
+  auto& [from, speed, fps, count] = times;
+  io(from, speed, fps, count);
+}
+
+template <class Archive>
+static void visit(Archive& io, FilmState& state) {
+  auto& [times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown] =
+      state;
+  io(times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown);
+}
+
+std::string to_bytes(FilmState state) {
+  ArchiveWriter writer;
+  writer(state);
+  return writer.written();
+}
+
+std::optional<FilmState> film_of(const Resumed& resumed) {
+  const std::string& bytes = resumed.checkpoint.film;
+  if (bytes.empty()) return std::nullopt;
+  FilmState state;
+  ArchiveReader reader(bytes, resumed.file);
+  reader(state);
+  reader.finish();
+  return state;
+}
+
+Film::Film(Run& run, const Scene& scene, const View& view, FilmState state, const Gl& gl)
+    : run_(run),
+      scene_(scene),
+      view_(view),
+      text_{scene.title, scene.caption},
+      state_(std::move(state)),
+      canvas_(gl, state_.size),
+      renderer_(gl, state_.samples, state_.transparent) {
+  run_.scheduled().show(view_, state_.shown, state_.exposure());
+  run_.film_state = [this] { return state_now(); };
+  if (state_.ranges) renderer_.fix(*state_.ranges);
+}
+
+// A single picture is drawn anew.
+std::string Film::state_now() const {
+  if (state_.times.count == 1) return "";
+  FilmState state = state_;
+  state.shown = run_.scheduled().save_shown();
+  return to_bytes(std::move(state));
+}
+
+long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
+  const long first = std::max(state_.next, frames.begin);
+  state_.begin = frames.begin;
+  for (; state_.next < frames.end; ++state_.next) {
+    const long frame = state_.next;
+    if (!run_.until(state_.times.of(frame), progress) || !choose_ranges(progress)) return frame;
+    if (frame == first || (frame > first && frame % FrameSink::kPiece == 0)) {
+      sink.flush();
+      run_.mark();
+    }
+    // Also of frames that are not drawn: averages are the same to the last bit only where they are
+    // looked at as often.
+    const Snapshot snapshot = run_.scheduled().snapshot();
+    if (!state_.camera) state_.camera = renderer_.fit(snapshot, canvas_.size(), view_, text_);
+    if (frame < first) continue;
+    if (view_.card && state_.times.count > 1) {
+      text_.card = card_opacity(*view_.card, static_cast<double>(frame) / state_.times.fps);
+    }
+    const Camera camera = camera_at(view_.camera, snapshot, *state_.camera);
+    canvas_.bind();
+    renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
+    const Image picture = canvas_.read();
+    sink.add(state_.transparent ? with_own_colours(picture) : picture, notes());
+    progress.update(snapshot.time);
+  }
+  state_.begin.reset();
+  run_.mark();
+  return state_.next;
+}
+
+bool Film::choose_ranges(Progress& progress) {
+  if (state_.ranges || state_.times.count == 1) return true;
+  const RangeEnds ends = look_ahead();
+  if (!run_.until(run_.simulation().time(), progress)) return false;  // interrupted meanwhile
+  state_.ranges = ends;
+  renderer_.fix(ends);
+  return true;
+}
+
+// The largest of what disks show at the ends of the window's parts, and what its average shows.
+RangeEnds Film::look_ahead() const {
+  constexpr std::uint64_t kSteps = 1'000'000;  // between looks for an interrupt
+  const ScheduledRun& run = run_.scheduled();
+  ScheduledRun ahead(scene_, run.seed(), run.simulation().save());
+  ahead.show(view_, run.save_shown(), state_.exposure());
+  const double start = run.simulation().time();
+  const double window = std::min(view_.window, state_.times.last() - start);
+  RangeEnds ends;
+  try {
+    for (int part = 1; part <= kWindowParts; ++part) {
+      const double time = start + window * part / kWindowParts;
+      while (!ahead.run_until(time, Simulation<2>::kNoLimit,
+                              ahead.simulation().counts().steps() + kSteps)) {
+        if (interrupted()) return ends;
+      }
+      const double disks = ends.disks;
+      ends = range_ends(ahead.snapshot(), view_);
+      ends.disks = std::max(ends.disks, disks);
+    }
+  } catch (const PhysicalStop&) {
+    // The film will come to it by itself.
+  }
+  return ends;
+}
+
+std::vector<PngText> Film::notes() const {
+  const Simulation<2>& simulation = run_.simulation();
+  char time[32], hash[32];
+  std::snprintf(time, sizeof time, "%.17g", simulation.time());
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(simulation.state_hash()));
+  return {{"Simulation time", time}, {"State hash", hash}};
+}
+
+}  // namespace clatter

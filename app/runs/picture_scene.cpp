@@ -1,0 +1,26 @@
+#include "app/runs/picture_scene.h"
+
+#include <charconv>
+
+#include "render/output/image.h"
+
+namespace clatter {
+
+Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
+                     StartFile start_file) {
+  const auto inside = png_text(path_or_name, "Scene");
+  return inside ? parse_scene(*inside, path_or_name, overrides, start_file)
+                : load_scene(path_or_name, overrides, start_file);
+}
+
+std::optional<std::uint64_t> seed_of_picture(const std::string& path) {
+  const auto text = png_text(path, "Seed");
+  if (!text) return std::nullopt;
+  std::uint64_t seed = 0;
+  const char* end = text->data() + text->size();
+  const auto [read, error] = std::from_chars(text->data(), end, seed);
+  if (error != std::errc{} || read != end) return std::nullopt;
+  return seed;
+}
+
+}  // namespace clatter

@@ -1,0 +1,82 @@
+#include "app/runs/resume.h"
+
+#include <algorithm>
+
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
+
+namespace clatter {
+
+static std::string shown(const std::string& value) {
+  return value.empty() ? "absent" : value;
+}
+
+[[noreturn]] static void refuse(const Resumed& resumed, const KeyDifference& key,
+                                const std::string& advice) {
+  throw UserError({resumed.file},
+                  key.key + " is " + shown(key.before) + " in the checkpoint and " +
+                      shown(key.now) + " in the scene",
+                  advice);
+}
+
+// What a run cannot change: where its disks are, and which sides hold them.
+static bool is_fixed(const KeyDifference& difference) {
+  const bool wall_of_one = difference.before.empty() || difference.now.empty();
+  return difference.key == "box.size" || difference.key == "disks.count" ||
+         (wall_of_one && difference.key.starts_with("walls.") && difference.key.ends_with(".kind"));
+}
+
+double Resumed::time() const {
+  return Clock(checkpoint.saved.base).absolute(checkpoint.saved.now);
+}
+
+std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
+  if (options.resume.empty()) return std::nullopt;
+  const std::string& file = options.resume;
+  Resumed resumed{file, read_checkpoint(file), {}};
+  if (scene.disks.start.layout == Layout::File) {
+    if (scene.disks.count == 0) {
+      scene.disks.count = static_cast<int>(resumed.checkpoint.saved.flights.size());
+    }
+    scene.disks.start.temperature = resumed.checkpoint.start_temperature;
+  }
+  resumed.differences = differences(resumed.checkpoint.scene, scene_to_toml(scene), file);
+  for (const KeyDifference& key : resumed.differences) {
+    if (is_fixed(key)) refuse(resumed, key, "give the scene that the checkpoint is of");
+  }
+  return resumed;
+}
+
+void require_same_measure(const Resumed& resumed) {
+  for (const KeyDifference& key : resumed.differences) {
+    // How long it goes on is another matter.
+    if (!key.key.starts_with("measure.") || key.key == "measure.duration") continue;
+    refuse(resumed, key, "averages go on as they began only: --set " + key.key + "=" + key.before);
+  }
+}
+
+void require_same_view(const Resumed& resumed) {
+  for (const KeyDifference& key : resumed.differences) {
+    if (!key.key.starts_with("view.") || key.key == "view.speed") continue;
+    refuse(resumed, key, "a film goes on as it began; begin another one by --from");
+  }
+}
+
+std::string changed_laws(const Resumed& resumed, std::uint64_t seed) {
+  std::string keys;
+  for (const KeyDifference& difference : resumed.differences) {
+    const std::string& key = difference.key;
+    const bool law = !key.starts_with("measure.") && !key.starts_with("view.") &&
+                     !key.starts_with("disks.start.") && key.find('.') != std::string::npos;
+    if (law) keys += (keys.empty() ? "" : ", ") + key;
+  }
+  if (seed != resumed.checkpoint.seed) keys += keys.empty() ? "the seed" : ", the seed";
+  return keys;
+}
+
+bool differs(const Resumed& resumed, const std::string& key) {
+  return std::ranges::find(resumed.differences, key, &KeyDifference::key) !=
+         resumed.differences.end();
+}
+
+}  // namespace clatter

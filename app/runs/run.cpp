@@ -1,0 +1,197 @@
+#include "app/runs/run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "app/system/interrupt.h"
+#include "app/system/write_file.h"
+#include "engine/dynamics/boundary.h"
+#include "engine/scene/scene_file.h"
+
+namespace clatter {
+
+// Whether averages can go on under a model. Under another gravity they cannot, for what flights
+// contribute is booked at their end, by the gravity of that time; nor where walls move otherwise,
+// which starts flights anew; nor where spins come or go or get another inertia, for fields then
+// need other sums and cells hold another energy.
+static bool averages_go_on(const Saved<2>& saved, bool same_inertia, const Model<2>& model,
+                           const Measure& measure) {
+  const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
+  const bool same_sums = measure.fields.empty() || same_spins;
+  return same_sums && saved.gravity == model.gravity &&
+         saved.wall_motions == wall_motions<2>(model);
+}
+
+// Where a checkpoint goes that nobody asked for: beside what the command writes, where that is a
+// file or folder.
+static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene) {
+  std::filesystem::path file = std::filesystem::path(scene).stem();
+  if (!out.empty() && !is_special(out)) {
+    file = out;
+    if (!file.has_filename()) file = file.parent_path();
+  }
+  return file.replace_extension(".checkpoint");
+}
+
+static void require_checkpoint_place(const CheckpointOptions& options) {
+  if (options.file.empty()) return;
+  require_writable_file(options.file, "--checkpoint");
+  if (std::filesystem::exists(options.file) && !is_checkpoint(options.file)) {
+    throw UserError({"--checkpoint", 0, 0}, options.file + " is there and is no checkpoint",
+                    "give another name");
+  }
+}
+
+Run::Run(const std::string& command, const Scene& scene, const CommonOptions& options,
+         const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
+         const std::string& out)
+    : command_(command),
+      scene_(scene),
+      quiet_(options.quiet),
+      options_(checkpoints),
+      file_(options_.file.empty() ? checkpoint_beside(out, options.scene)
+                                  : std::filesystem::path(options_.file)),
+      resumed_(std::move(resumed)),
+      seed_(options.seed.value_or(resumed_ ? resumed_->checkpoint.seed : 1)) {
+  require_checkpoint_place(options_);
+  if (!resumed_) {
+    run_.emplace(scene, seed_);
+    return;
+  }
+  Saved<2>& saved = resumed_->checkpoint.saved;
+  run_.emplace(scene, seed_, saved);
+  averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
+                    averages_go_on(saved, !differs(*resumed_, "disks.inertia"),
+                                   simulation().model(), scene.measure);
+  saved = {};  // some memory
+  const std::string laws = changed_laws(*resumed_, seed_);
+  if (!laws.empty() && !quiet_) {
+    std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
+                 laws.c_str());
+  }
+}
+
+Measurement& Run::measure(double end) {
+  measure_end_ = end;
+  run_->on_change = [this](Simulation<2>& next) { measure_on(next); };
+  if (!averages_go_on_) {
+    measurement_.emplace(simulation(), scene_.measure, end);
+    if (resumed_) tell_new_averages();
+    return *measurement_;
+  }
+  require_same_measure(*resumed_);
+  std::string& saved = resumed_->checkpoint.measurement;
+  measurement_.emplace(simulation(), scene_.measure, ArchiveReader(saved, resumed_->file));
+  saved.clear();
+  return *measurement_;
+}
+
+void Run::measure_on(Simulation<2>& next) {
+  const bool same_inertia = simulation().model().inertia == next.model().inertia;
+  if (averages_go_on(simulation().save(), same_inertia, next.model(), scene_.measure)) {
+    const std::string saved = measurement_->save();
+    measurement_.emplace(next, scene_.measure, ArchiveReader(saved, command_));
+  } else {
+    measurement_.emplace(next, scene_.measure, measure_end_);
+    tell_new_averages();
+  }
+}
+
+void Run::tell_new_averages() const {
+  if (quiet_) return;
+  std::fprintf(stderr, "clatter: averages start anew at t = %g\n",
+               std::max(run_->simulation().time(), scene_.measure.burn_in));
+}
+
+bool Run::until(double time, Progress& progress) {
+  constexpr std::chrono::milliseconds kSlice{100};
+  std::uint64_t slice = 1024;  // steps, found while running
+  ended_early_ = true;
+  try {
+    for (bool arrived = false; !arrived; progress.update(simulation().time())) {
+      if (interrupted()) return false;
+      const auto began = Clock::now();
+      arrived =
+          run_->run_until(time, Simulation<2>::kNoLimit, simulation().counts().steps() + slice);
+      slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
+      const std::chrono::duration<double> since_written = Clock::now() - last_written_;
+      if (!options_.file.empty() && since_written.count() >= options_.every) write();
+    }
+  } catch (const PhysicalStop& stop) {
+    stop_ = stop;
+    return false;
+  }
+  // Also where an interrupt came meanwhile: a run that has arrived has nothing to go on with.
+  ended_early_ = false;
+  return true;
+}
+
+Checkpoint Run::checkpoint() {
+  return {.program = "clatter " CLATTER_VERSION,
+          .command = command_,
+          .scene = scene_to_toml(scene_),
+          .start_temperature = scene_.disks.start.temperature,
+          .seed = seed_,
+          .saved = simulation().save(),
+          .measurement = measurement_ ? measurement_->save() : "",
+          .film = film_state ? film_state() : ""};
+}
+
+void Run::mark() {
+  marked_ = checkpoint();
+}
+
+// A run does not fail for a checkpoint on the way: the next may succeed.
+void Run::write() {
+  try {
+    if (marked_) {
+      write_checkpoint(file_, *marked_);
+    } else {
+      Checkpoint now = checkpoint();
+      write_checkpoint(file_, now);
+    }
+    failure_.clear();
+  } catch (const RunError& error) {
+    failure_ = error.what();
+  }
+  last_written_ = Clock::now();
+}
+
+std::string Run::rescue() {
+  write();
+  return failure_.empty() ? "; go on with --resume " + file_.string() : "";
+}
+
+void Run::put_aside() {
+  if (!ended_early_ && options_.file.empty()) return;
+  write();
+  if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
+    std::fprintf(stderr, "clatter: interrupted at t = %g; go on with --resume %s\n",
+                 simulation().time(), file_.c_str());
+  }
+}
+
+void require_no_overlap(const RunChecks& checks) {
+  constexpr double kRounding = 1e-9;  // diameters
+  if (checks.deepest_overlap <= kRounding) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", checks.deepest_overlap);
+  throw PhysicalStop(std::string("disks overlapped by ") + text +
+                     " diameters: events were lost; please report this scene and seed");
+}
+
+int Run::end() {
+  if (stop_) {
+    const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
+    throw PhysicalStop(stop_->what() + (failure_.empty()
+                                            ? "; go on with --resume " + file_.string() + remedy
+                                            : "; no checkpoint is left: " + failure_));
+  }
+  require_no_overlap(simulation().checks());
+  // Also of a run that was interrupted: its exit code would say that all there is has been saved.
+  if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
+  return ended_early_ ? kInterrupted : kOk;
+}
+
+}  // namespace clatter

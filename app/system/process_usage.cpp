@@ -1,0 +1,34 @@
+#include "app/system/process_usage.h"
+
+#include <malloc.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <fstream>
+
+namespace clatter {
+
+// Not getrusage(), which shares the time out between program and system by ticks: what takes less
+// than one may then seem to take nothing.
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+double heap_bytes() {
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd);
+}
+
+void restart_peak_memory() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+}  // namespace clatter

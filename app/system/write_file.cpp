@@ -1,0 +1,93 @@
+#include "app/system/write_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "engine/error.h"
+
+namespace clatter {
+
+[[noreturn]] static void throw_unwritable(const std::filesystem::path& path) {
+  throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+}
+
+static bool write_into(const std::filesystem::path& path, std::string_view text) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  return file && std::fclose(file) == 0 && written;
+}
+
+bool is_special(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_other(path, ignored);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  if (is_special(path)) {
+    if (!write_into(path, text)) throw_unwritable(path);
+    return;
+  }
+  const std::filesystem::path part = path.string() + ".part";
+  if (write_into(part, text) && std::rename(part.c_str(), path.c_str()) == 0) return;
+  const int error = errno;
+  std::remove(part.c_str());
+  errno = error;
+  throw_unwritable(path);
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw_unwritable("stdout");
+  }
+}
+
+void require_folder_of(const std::filesystem::path& path, const char* flag) {
+  if (path.empty()) throw UserError({flag, 0, 0}, "the name is empty", "name a file or folder");
+  // "frames/" names the folder frames.
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
+  if (std::filesystem::is_directory(folder)) return;
+  throw UserError({flag, 0, 0}, "there is no folder " + folder.string(),
+                  "make it first, or name a file elsewhere");
+}
+
+void require_writable_file(const std::filesystem::path& path, const char* flag) {
+  require_folder_of(path, flag);
+  if (!path.has_filename() || std::filesystem::is_directory(path)) {
+    throw UserError({flag, 0, 0}, path.string() + " is a folder", "name a file in it");
+  }
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(path);
+}
+
+void make_folder(const std::filesystem::path& folder, const char* flag) {
+  require_folder_of(folder, flag);
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
+}
+
+// One name of a place, however it is written.
+static std::filesystem::path whole_name(const std::filesystem::path& path) {
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+}
+
+void require_distinct(std::span<const Output> outputs) {
+  std::map<std::filesystem::path, const char*> flags;
+  for (const auto& [flag, path] : outputs) {
+    if (path.empty() || is_special(path)) continue;
+    const auto [other, first] = flags.emplace(whole_name(path), flag);
+    if (first) continue;
+    throw UserError({flag, 0, 0}, path.string() + " is what " + other->second + " writes",
+                    "give each a name of its own");
+  }
+}
+
+}  // namespace clatter

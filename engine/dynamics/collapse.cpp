@@ -1,0 +1,129 @@
+#include "engine/dynamics/collapse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/physics/pair_contact.h"
+#include "engine/scene/scene.h"
+
+namespace clatter {
+
+static std::string rounded(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", number);
+  return text;
+}
+
+static std::string partner_name(std::uint32_t partner) {
+  if (partner < kWall) return "disk " + std::to_string(partner);
+  return std::string("the ") + kSideNames[partner - kWall] + " wall";
+}
+
+template <int D>
+static bool gains(const Model<D>& model) {
+  return std::ranges::any_of(model.walls,
+                             [](const auto& wall) { return wall && wall->restitution > 1.0; });
+}
+
+// Walls with restitution > 1 heat without bound: disks have become so fast that in what used to be
+// the time between collisions they would cross the box a thousand times.
+template <int D>
+static bool diverges(const Model<D>& model, const Watchdog& watchdog, double temperature) {
+  const double flight = std::sqrt(temperature) * watchdog.mean_collision_time();
+  return gains(model) && flight > 1e3 * model.box.maxCoeff();
+}
+
+// Long against the rounding of times, short against the mean collision time; a run that has a t_c
+// already needs a longer one.
+template <int D>
+static double helpful_contact_time(const Model<D>& model, const Watchdog& watchdog) {
+  constexpr double kShare = 1e-3;  // of the mean collision time
+  return std::max(kShare * watchdog.mean_collision_time(), 10.0 * model.contact_time.value_or(0.0));
+}
+
+// Whether no collision can take energy from the gas.
+template <int D>
+static bool is_lossless(const Model<D>& model) {
+  bool lossless = model.restitution == 1.0 && !model.roughness.any();
+  for (const auto& wall : model.walls) {
+    if (!wall) continue;
+    lossless = lossless && wall->kind != WallKind::Thermal && wall->restitution == 1.0 &&
+               !wall->roughness.any();
+  }
+  return lossless;
+}
+
+// About the greatest speed that a wall's drive or its motion gives to a disk at rest: exactly for
+// driven walls and the saw-tooth.
+template <int D>
+static double drive_of(const Model<D>& model) {
+  double drive = 0.0;
+  for (const auto& wall : model.walls) {
+    if (wall) drive = std::max({drive, wall->drive_speed, 2.0 * wall->stroke * wall->frequency});
+  }
+  return drive;
+}
+
+// Speeds that disks reach without walls: by falling across the box, and by a kick.
+template <int D>
+static double free_speed(const Model<D>& model) {
+  const double fall = std::sqrt(2.0 * model.gravity.cwiseAbs().dot(model.box));
+  return std::max(fall, model.bulk_drive ? model.bulk_drive->kick_speed : 0.0);
+}
+
+// Where walls multiply speeds, beyond 1e60 products of them would soon be no ordinary numbers any
+// more. Where they only add to them and nothing is lost, speeds grow as exp(t), at the price of as
+// many collisions, and another e-folding takes a million beyond this.
+template <int D>
+double fastest_speed(const Model<D>& model, double start_speed) {
+  constexpr double kFastest = 1e60;
+  constexpr double kMostGrowth = 1e6;
+  if (gains(model)) return kFastest;
+  const double drive = drive_of(model);
+  if (!(drive > 0.0 && is_lossless(model))) return kNever;
+  return kMostGrowth * std::max({drive, start_speed, free_speed(model)});
+}
+
+template <int D>
+PhysicalStop divergence(const Model<D>& model, double time, double temperature) {
+  return PhysicalStop(
+      "the temperature diverges at t = " + rounded(time) + ", having reached " +
+      rounded(temperature) + ", a speed of " + rounded(std::sqrt(2.0 * temperature)) +
+      (gains(model) ? "; walls with restitution > 1 give more than the gas loses"
+                    : "; walls give ever more, and nothing loses energy: disks or walls "
+                      "need a restitution below 1"));
+}
+
+// Whether a partner is a wall that emits disks without any speed, which no t_c changes.
+template <int D>
+static bool is_cold_wall(const Model<D>& model, std::uint32_t partner) {
+  return partner >= kWall && model.walls[partner - kWall]->kind == WallKind::Thermal;
+}
+
+template <int D>
+PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
+                        double temperature) {
+  if (diverges<D>(model, watchdog, temperature)) return divergence<D>(model, time, temperature);
+  const auto [disk, partner] = watchdog.busiest_pair();
+  const std::string what = "time stands still at t = " + rounded(time) + ": disk " +
+                           std::to_string(disk) + " and " + partner_name(partner) +
+                           " collide without end";
+  if (is_cold_wall<D>(model, partner)) {
+    return PhysicalStop(what + "; a wall of temperature 0 lets no disk go, give it some");
+  }
+  const double helpful = helpful_contact_time<D>(model, watchdog);
+  if (helpful == 0.0) {
+    return PhysicalStop(what + " since the start; a collapse.contact_time would carry on");
+  }
+  const std::string contact_time = rounded(helpful);
+  return PhysicalStop(what + " (inelastic collapse, or rest); collapse.contact_time = " +
+                          contact_time + " or more would carry on",
+                      "collapse.contact_time=" + contact_time);
+}
+
+template double fastest_speed<2>(const Model<2>&, double);
+template PhysicalStop divergence<2>(const Model<2>&, double, double);
+template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double);
+
+}  // namespace clatter

@@ -1,0 +1,95 @@
+#include "engine/dynamics/collision_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/physics/contact.h"
+#include "engine/physics/random.h"
+#include "engine/physics/walls.h"
+
+namespace clatter {
+
+static ContactLaw contact_law(double restitution, const Roughness& roughness) {
+  return {restitution, roughness.friction_in_force(), roughness.tangential_restitution_in_force()};
+}
+
+template <int D>
+PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>& v,
+                            const Spin<D>& spin, bool elastic) {
+  const ContactLaw law = contact_law(model.restitution, model.roughness);
+  if (!elastic) return {rough_impulse<D>(x, v, spin, law, model.inertia, model.diameter)};
+  return {{collision_impulse<D>(x, v, 1.0)},
+          true,
+          dissipated_energy<D>(x, v, spin, law, model.inertia, model.diameter)};
+}
+
+template <int D>
+static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& arrival) {
+  const double temperature = model.walls[side]->temperature;
+  Random random(model.seed, Stream::ThermalWall, arrival.disk, arrival.flight);
+  const double uniform = random.uniform();
+  std::array<double, D - 1> normals;
+  for (double& normal : normals) normal = random.normal();
+  Departure<D> departure;
+  departure.velocity =
+      emit<D>(side / 2, Boundary<D>::inward(side), temperature, uniform, normals.data());
+  if (model.spins) {
+    std::array<double, Spin<D>::SizeAtCompileTime> spin_normals;
+    for (double& normal : spin_normals) normal = random.normal();
+    departure.spin = emit_spin<D>(temperature, model.inertia, model.diameter, spin_normals.data());
+  }
+  return departure;
+}
+
+// Where a wall presses upon a disk that rests on it, or that it holds without any restitution, the
+// TC model has nothing left to reflect. So that the contact does not return for ever at one time,
+// the disk leaves fast enough to stay away for half of t_c, or of the time that a swinging wall
+// presses.
+template <int D>
+static double least_rebound(const Model<D>& model, int side, const WallState& wall,
+                            double approach) {
+  const Wall& spec = *model.walls[side];
+  const double rounding = kApproachRounding * (approach + 2.0 * std::fabs(wall.velocity));
+  if (spec.restitution > 0.0 && approach > rounding) return 0.0;
+  const double pressing = wall.acceleration - Boundary<D>::inward(side) * model.gravity[side / 2];
+  double away = 0.5 * *model.contact_time;
+  if (spec.kind == WallKind::Sinusoidal && spec.frequency > 0.0) {
+    away = std::min(away, 0.5 / (2.0 * std::numbers::pi * spec.frequency));
+  }
+  return std::max(0.0, 0.5 * pressing * away);
+}
+
+template <int D>
+Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
+                          const Arrival<D>& arrival, bool elastic) {
+  const Wall& spec = *model.walls[side];
+  if (spec.kind == WallKind::Thermal) return emitted<D>(model, side, arrival);
+  const int axis = side / 2;
+  const double inward = Boundary<D>::inward(side);
+  ContactLaw law = contact_law(spec.restitution, spec.roughness);
+  if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
+  Departure<D> departure;
+  departure.velocity =
+      spec.moves()
+          ? reflect_moving<D>(arrival.velocity, axis, inward, law.restitution, wall.velocity)
+          : reflect<D>(arrival.velocity, axis, inward, law.restitution, spec.drive_speed);
+  if (elastic) {
+    const double approach = std::fabs(inward * arrival.velocity[axis] - wall.velocity);
+    const double least = wall.velocity + least_rebound<D>(model, side, wall, approach);
+    departure.velocity[axis] = inward * std::max(inward * departure.velocity[axis], least);
+  }
+  const Impulse<D> friction = wall_friction<D>(arrival.velocity, departure.velocity, arrival.spin,
+                                               axis, inward, law, model.inertia, model.diameter);
+  departure.velocity += friction.momentum;
+  departure.spin = arrival.spin + friction.spin;
+  return departure;
+}
+
+template PairOutcome<2> pair_outcome<2>(const Model<2>&, const Vec<2>&, const Vec<2>&,
+                                        const Spin<2>&, bool);
+template Departure<2> wall_outcome<2>(const Model<2>&, int, const WallState&, const Arrival<2>&,
+                                      bool);
+
+}  // namespace clatter

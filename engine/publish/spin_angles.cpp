@@ -1,0 +1,53 @@
+#include "engine/publish/spin_angles.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace clatter {
+
+SpinAngles::SpinAngles(Simulation<2>& simulation)
+    : simulation_(simulation), turned_(simulation.disks().size(), {0.0, simulation.base_time()}) {
+  simulation.add_observer(*this);
+}
+
+// Other laws leave the spins there are, but for those that bring or take all of them.
+SpinAngles::SpinAngles(Simulation<2>& simulation, SpinAngles&& before)
+    : simulation_(simulation), turned_(std::move(before.turned_)) {
+  simulation.add_observer(*this);
+}
+
+void SpinAngles::on_collision(const PairCollision<2>& collision) {
+  for (const DiskChange<2>& disk : collision.disks) turn(disk, collision.time);
+}
+
+void SpinAngles::on_wall(const WallCollision<2>& collision) {
+  turn(collision.disk, collision.time);
+}
+
+void SpinAngles::on_kick(const Kick<2>& kick) {
+  turn(kick.disk, kick.time);
+}
+
+void SpinAngles::on_base_moved(double shift) {
+  for (Turned& turned : turned_) turned.time -= shift;
+}
+
+std::vector<double> SpinAngles::angles() const {
+  std::vector<double> angles;
+  angles.reserve(turned_.size());
+  for (std::size_t i = 0; i < turned_.size(); ++i) {
+    const auto& [angle, time] = turned_[i];
+    const double now = angle + simulation_.spins()[i][0] * (simulation_.base_time() - time);
+    angles.push_back(std::remainder(now, 2.0 * std::numbers::pi));
+  }
+  return angles;
+}
+
+void SpinAngles::turn(const DiskChange<2>& change, double time) {
+  Turned& turned = turned_[change.disk];
+  turned.angle += change.spin[0] * (time - turned.time);
+  turned.time = time;
+}
+
+}  // namespace clatter

@@ -1,0 +1,338 @@
+// What takes or returns vectors is inlined, so how they would be passed does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/particle.h"
+#include "engine/physics/contact_kernel.h"
+#include "engine/physics/flight.h"
+#include "engine/physics/pair_contact.h"
+#include "engine/physics/random.h"
+
+using namespace clatter;
+
+namespace {
+
+struct Pair {
+  Flight<2> a, b;
+  Vec2 shift;
+};
+
+const Vec2 kNone = Vec2::Zero();
+const Vec2 kGravities[] = {kNone, {0.3, -0.7}};
+
+double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, double diameter = 1.0,
+                 const Vec2& gravity = kNone) {
+  const auto formula =
+      gravity == kNone ? encounter_time<2, false, double> : encounter_time<2, true, double>;
+  return formula(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time, shift.data(),
+                 diameter, gravity.data());
+}
+
+// Two disks of a box of 10 x 8, a few collision times old and one image apart at most.
+Pair random_pair(std::uint32_t number) {
+  Random random(11, Stream::Placement, number, 0);
+  const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
+  Pair pair;
+  for (Flight<2>* flight : {&pair.a, &pair.b}) {
+    flight->r = {10.0 * random.uniform(), 8.0 * random.uniform()};
+    flight->v = {random.normal(), random.normal()};
+    flight->time = random.below(4) == 0 ? 0.0 : 3.0 * random.uniform();
+  }
+  pair.shift = {10.0 * image(), 8.0 * image()};
+  return pair;
+}
+
+double later_start(const Pair& p) {
+  return std::max(p.a.time, p.b.time);
+}
+
+double distance(const Pair& p, double time, const Vec2& gravity = kNone) {
+  return (p.a.at(time, gravity) - p.b.at(time, gravity) + p.shift).norm();
+}
+
+std::uint64_t bits(double x) {
+  return std::bit_cast<std::uint64_t>(x);
+}
+
+}  // namespace
+
+TEST_CASE("encounter: the same bits whoever asks") {
+  int different = 0, meetings = 0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Pair p = random_pair(i);
+    for (const Vec2& gravity : kGravities) {
+      const double one = encounter(p.a, p.b, p.shift, 1.0, gravity);
+      const double other = encounter(p.b, p.a, -p.shift, 1.0, gravity);
+      different += bits(one) != bits(other);
+      meetings += std::isfinite(one);
+    }
+  }
+  CHECK(different == 0);
+  CHECK(meetings > 3000);
+}
+
+// Distances are below 50 here, so the rounding of positions is below 1e-14 and that of a distance
+// at contact some times as much.
+TEST_CASE("encounter: disks are one diameter apart at contact, and farther before") {
+  for (const Vec2& gravity : kGravities) {
+    double worst = 0.0, missed = 0.0;
+    for (std::uint32_t i = 0; i < 100000; ++i) {
+      const Pair p = random_pair(i);
+      const double time = encounter(p.a, p.b, p.shift, 1.0, gravity);
+      const double start = later_start(p);
+      // Later, disks that fall are so far from where they started that rounding says nothing.
+      if (!std::isfinite(time) || (gravity != kNone && time > 20.0)) continue;
+      REQUIRE(time > start);
+      worst = std::max(worst, std::fabs(distance(p, time, gravity) - 1.0));
+      for (int k = 0; k < 8; ++k) {
+        const double before = start + k / 8.0 * (time - start);
+        missed = std::max(missed, 1.0 - distance(p, before, gravity));
+      }
+    }
+    CHECK(worst < (gravity == kNone ? 1e-13 : 1e-12));
+    CHECK(missed < (gravity == kNone ? 1e-13 : 1e-12));
+  }
+}
+
+TEST_CASE("encounter: disks that never meet stay apart, and touching ones are told") {
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Pair p = random_pair(i);
+    const double time = encounter(p.a, p.b, p.shift);
+    if (std::isfinite(time)) continue;
+    const double start = later_start(p);
+    const Vec2 x = p.a.at(start, kNone) - p.b.at(start, kNone) + p.shift;
+    const Vec2 g = p.a.v - p.b.v;
+    if (time == kTouching) {
+      REQUIRE(x.norm() <= 1.0);
+      continue;
+    }
+    const double closest = start - std::min(0.0, x.dot(g)) / g.squaredNorm();
+    REQUIRE((x.dot(g) >= 0.0 || distance(p, closest) > 1.0 - 1e-13));
+  }
+}
+
+TEST_CASE("encounter: a grazing pass is met, a near miss is not") {
+  const Flight<2> still;
+  for (const double below : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+    Pair p{.a = {{-5.0, 1.0 - below}, {1.0, 0.0}, 0.0, 0}, .b = still, .shift = Vec2::Zero()};
+    const double time = encounter(p.a, p.b, p.shift);
+    REQUIRE(std::isfinite(time));
+    CHECK(std::fabs(distance(p, time) - 1.0) < 1e-14);
+    p.a.r.y() = 1.0 + below;
+    CHECK(encounter(p.a, p.b, p.shift) == kNever);
+  }
+}
+
+// The bound is a few times the rounding of the start, 1000 * 1.1e-16: what the discriminant
+// (x.g)^2 - g^2 (x^2 - a^2) leaves is 100 times as much.
+TEST_CASE("encounter: a start from far away costs no more than its rounding") {
+  double worst = 0.0;
+  int meetings = 0;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    Random random(12, Stream::Placement, i, 0);
+    const double angle = 7.0 * random.uniform();
+    const Vec2 from = {std::cos(angle), std::sin(angle)};
+    Pair p;
+    p.a.v = {random.normal(), random.normal()};
+    p.b.v = p.a.v + from * (0.1 + random.uniform());
+    p.a.r = 1000.0 * from + Vec2(-from.y(), from.x()) * (2.0 * random.uniform() - 1.0);
+    p.shift = Vec2::Zero();
+    const double time = encounter(p.a, p.b, p.shift);
+    if (time == kNever) continue;
+    ++meetings;
+    // Along the line of approach alone: the positions themselves grow large on the way.
+    const Vec2 x = p.a.r + (p.a.v - p.b.v) * time;
+    worst = std::max(worst, std::fabs(x.norm() - 1.0));
+  }
+  CHECK(meetings > 99000);
+  CHECK(worst < 2e-12);
+}
+
+TEST_CASE("encounter: powers of two scale lengths and velocities without a bit's change") {
+  int different = 0;
+  for (const int length : {-40, -3, 40}) {
+    for (const int speed : {-30, 5, 30}) {
+      const double l = std::ldexp(1.0, length), s = std::ldexp(1.0, speed);
+      for (std::uint32_t i = 0; i < 10000; ++i) {
+        const Pair p = random_pair(i);
+        Pair q = p;
+        for (Flight<2>* flight : {&q.a, &q.b}) {
+          flight->r *= l;
+          flight->v *= s;
+          flight->time *= l / s;
+        }
+        q.shift *= l;
+        different +=
+            bits(encounter(q.a, q.b, q.shift, l)) != bits(encounter(p.a, p.b, p.shift) * (l / s));
+      }
+    }
+  }
+  CHECK(different == 0);
+}
+
+namespace {
+
+// A disk and others that it may meet, and what encounter_time says of each.
+struct Crowd {
+  Vec2 box{10.0, 8.0};
+  std::vector<Disk<2>> disks;  // the last is the one that asks
+  Candidates<2> candidates;
+  std::vector<double> times;  // [candidates.size]
+
+  Crowd(std::uint32_t number, int size, const Vec2& gravity) {
+    Random random(13, Stream::Placement, number, 0);
+    const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
+    for (int i = 0; i <= size; ++i) {
+      Disk<2> disk;
+      disk.flight = random_pair(1000 * number + static_cast<std::uint32_t>(i)).a;
+      disk.image = {image(), image()};
+      disks.push_back(disk);
+    }
+    candidates.size = size;
+    candidates.wrapped = random.below(2) == 0;
+    for (int i = 0; i < size; ++i) {
+      const Disk<2>& disk = disks[static_cast<std::size_t>(i)];
+      candidates.disks[i] = static_cast<std::uint32_t>(i);
+      Vec2 shift = disk.image - disks.back().image;
+      for (int k = 0; k < 2; ++k) {
+        candidates.wraps[k][i] = image();
+        if (candidates.wrapped) shift[k] -= candidates.wraps[k][i];
+      }
+      times.push_back(
+          encounter(disks.back().flight, disk.flight, shift.cwiseProduct(box), 1.0, gravity));
+    }
+  }
+};
+
+// Of all candidates, and at once of the first half of them.
+using Answers = std::array<FirstContact, 2>;
+
+template <bool kFalling, bool kShifted>
+[[gnu::always_inline]] inline Answers ask(const Crowd& crowd, const Vec2& gravity) {
+  std::array<Candidates<2>, 2> candidates = {crowd.candidates, crowd.candidates};
+  candidates[1].size /= 2;
+  const auto self = static_cast<std::uint32_t>(crowd.disks.size() - 1);
+  return first_contacts<2, kFalling, kShifted, 2>(crowd.disks.front().flight.r.data(), {self, self},
+                                                  candidates, crowd.box.data(), 1.0,
+                                                  gravity.data());
+}
+
+template <bool kFalling, bool kShifted>
+Answers ask_baseline(const Crowd& crowd, const Vec2& gravity) {
+  return ask<kFalling, kShifted>(crowd, gravity);
+}
+
+#if defined(__x86_64__)
+template <bool kFalling, bool kShifted>
+[[gnu::target("avx2")]] Answers ask_avx2(const Crowd& crowd, const Vec2& gravity) {
+  return ask<kFalling, kShifted>(crowd, gravity);
+}
+#endif
+
+bool same(const FirstContact& a, const FirstContact& b) {
+  return bits(a.time) == bits(b.time) && a.told_apart == b.told_apart &&
+         (!a.told_apart || a.time == kNever || a.candidate == b.candidate);
+}
+
+// What the kernel says with any instruction set that the processor has.
+template <bool kFalling, bool kShifted>
+Answers ask_any(const Crowd& crowd, const Vec2& gravity) {
+  const Answers answers = ask_baseline<kFalling, kShifted>(crowd, gravity);
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) {
+    const Answers others = ask_avx2<kFalling, kShifted>(crowd, gravity);
+    REQUIRE(same(answers[0], others[0]));
+    REQUIRE(same(answers[1], others[1]));
+  }
+#endif
+  return answers;
+}
+
+Answers first_of(const Crowd& crowd, const Vec2& gravity) {
+  return gravity == kNone ? ask_any<false, true>(crowd, gravity)
+                          : ask_any<true, true>(crowd, gravity);
+}
+
+Answers first_within_box(const Crowd& crowd, const Vec2& gravity) {
+  return gravity == kNone ? ask_any<false, false>(crowd, gravity)
+                          : ask_any<true, false>(crowd, gravity);
+}
+
+}  // namespace
+
+TEST_CASE("contact kernel: the first encounter_time, to the bit, of every number of candidates") {
+  constexpr std::uint32_t kRepeats = 1600;
+  int different = 0, others = 0, met = 0, touching = 0;
+  for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
+    for (std::uint32_t repeat = 0; repeat < kRepeats; ++repeat) {
+      const Vec2& gravity = kGravities[repeat % 2];
+      const Crowd crowd(kRepeats * static_cast<std::uint32_t>(size) + repeat, size, gravity);
+      const Answers answers = first_of(crowd, gravity);
+      for (const int asked : {size, size / 2}) {
+        const FirstContact& first = answers[asked == size ? 0 : 1];
+        const auto earliest = std::min_element(crowd.times.begin(), crowd.times.begin() + asked);
+        const double expected = asked > 0 ? *earliest : kNever;
+        different += bits(first.time) != bits(expected);
+        touching += first.time == kTouching;
+        REQUIRE(first.told_apart == (expected != kTouching));
+        if (!std::isfinite(expected)) continue;
+        ++met;
+        others += first.candidate != earliest - crowd.times.begin();
+      }
+    }
+  }
+  CHECK(different == 0);
+  CHECK(others == 0);
+  CHECK(met > 3000);
+  CHECK(touching > 150);
+}
+
+TEST_CASE("contact kernel: where all frames are that of the box, the shorter way says the same") {
+  int met = 0;
+  for (std::uint32_t number = 0; number < 4000; ++number) {
+    const Vec2& gravity = kGravities[number % 2];
+    const int size = 1 + static_cast<int>(number % Candidates<2>::kCapacity);
+    Crowd crowd(number, size, gravity);
+    crowd.candidates.wrapped = false;
+    for (Disk<2>& disk : crowd.disks) disk.image.setZero();
+    const FirstContact first = first_within_box(crowd, gravity)[0];
+    REQUIRE(same(first, first_of(crowd, gravity)[0]));
+    met += std::isfinite(first.time);
+
+    // One whose frame is off the box: any of them, or the one who asks.
+    Disk<2>& off = crowd.disks[number % crowd.disks.size()];
+    off.image[number / 2 % 2] = number % 3 == 0 ? 1.0 : -1.0;
+    REQUIRE(!first_within_box(crowd, gravity)[0].told_apart);
+  }
+  CHECK(met > 500);
+}
+
+TEST_CASE(
+    "contact kernel: disks that share the first time are not told apart, later ones do not "
+    "matter") {
+  int first_shared = 0, later_shared = 0;
+  for (std::uint32_t number = 0; number < 2000; ++number) {
+    Crowd crowd(number, 12, kNone);
+    const FirstContact alone = first_of(crowd, kNone)[0];
+    if (!std::isfinite(alone.time)) continue;
+    const int copied = static_cast<int>(number % 12);
+    const int copy = static_cast<int>(number / 12 % 12);
+    if (copy == copied || copy == alone.candidate) continue;
+    crowd.candidates.disks[copy] = crowd.candidates.disks[copied];
+    for (auto& wraps : crowd.candidates.wraps) wraps[copy] = wraps[copied];
+    const FirstContact first = first_of(crowd, kNone)[0];
+    REQUIRE(bits(first.time) == bits(alone.time));
+    REQUIRE(first.told_apart == (copied != alone.candidate));
+    (copied == alone.candidate ? first_shared : later_shared) += 1;
+  }
+  CHECK(first_shared > 20);
+  CHECK(later_shared > 200);
+}

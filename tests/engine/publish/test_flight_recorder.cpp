@@ -1,0 +1,115 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/publish/flight_recorder.h"
+#include "engine/publish/publish.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+// Walls along x, gravity, kicks.
+Scene falling_gas() {
+  Scene scene = gas(10.0, 8.0, 40, 0.9);
+  wall_in(scene, 0, {.kind = WallKind::Thermal, .temperature = 1.0});
+  scene.gravity = Vec2(0.0, -0.7);
+  scene.bulk_drive = BulkDrive{.interval = 0.4, .kick_speed = 0.3};
+  return scene;
+}
+
+// How far two places lie from each other across periodic borders.
+double distance(const Vec2& a, const Vec2& b, const Snapshot& snapshot) {
+  Vec2 off = a - b;
+  for (const int axis : {0, 1}) {
+    if (!snapshot.walls[2 * axis]) off[axis] = std::remainder(off[axis], snapshot.box[axis]);
+  }
+  return off.norm();
+}
+
+// That each disk has one path, without gaps, from `reach` ago to where it is; returns the pieces.
+std::size_t check_paths(const FlightRecorder& recorder, const Simulation<2>& simulation,
+                        double reach) {
+  CHECK(recorder.reach() == doctest::Approx(reach).epsilon(1e-12));
+  const Snapshot snapshot = snapshot_of(simulation);
+  const std::vector<FlightPiece> pieces = recorder.pieces();
+  for (std::uint32_t i = 0; i < snapshot.positions.size(); ++i) {
+    double time = -recorder.reach();
+    std::optional<Vec2> place;
+    for (const FlightPiece& piece : pieces) {
+      if (piece.disk != i) continue;
+      REQUIRE(piece.from < piece.to);
+      REQUIRE(std::fabs(piece.from - time) < 1e-12);
+      if (place) REQUIRE(distance(*place, piece.position, snapshot) < 1e-10);
+      time = piece.to;
+      place = piece.at(piece.to);
+    }
+    REQUIRE(time == 0.0);
+    REQUIRE(distance(*place, snapshot.positions[i], snapshot) < 1e-10);
+  }
+  return pieces.size();
+}
+
+}  // namespace
+
+TEST_CASE("FlightRecorder: the pieces of a disk are its path, without gaps") {
+  const auto simulation = simulation_of(falling_gas(), 5);
+  FlightRecorder recorder(*simulation, 1.5);
+  CHECK(recorder.pieces().empty());
+  simulation->run_until(0.25);
+  check_paths(recorder, *simulation, 0.25);
+  for (double time = 3.0; time < 60.0; time += 0.37) {
+    simulation->run_until(time);
+    CHECK(check_paths(recorder, *simulation, 1.5) > 4 * 40);
+  }
+}
+
+TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
+  const auto plain = simulation_of(falling_gas(), 6), recorded = simulation_of(falling_gas(), 6);
+  FlightRecorder recorder(*recorded, 0.5);
+  for (const double time : {1.0, 2.5, 20.0}) {
+    plain->run_until(time);
+    recorded->run_until(time);
+    recorder.pieces();
+    CHECK(recorded->state_hash() == plain->state_hash());
+  }
+}
+
+TEST_CASE("FlightRecorder: paths go on across other laws and another span") {
+  Scene scene = falling_gas();
+  const auto before = simulation_of(scene, 7);
+  FlightRecorder first(*before, 1.0);
+  before->run_until(4.0);
+  scene.gravity = Vec2(0.5, 0.9);
+  Simulation<2> after(model_of(scene, 7), before->save());
+  FlightRecorder second(after, 2.0, std::move(first));
+  check_paths(second, after, 1.0);
+  after.run_until(4.3);
+  check_paths(second, after, 1.3);
+  after.run_until(9.0);
+  check_paths(second, after, 2.0);
+}
+
+TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {
+  const Scene scene = falling_gas();
+  const auto simulation = simulation_of(scene, 8);
+  FlightRecorder recorder(*simulation, 1.0);
+  simulation->run_until(4.0);
+  ArchiveWriter writer;
+  writer(recorder);
+
+  Simulation<2> resumed(model_of(scene, 8), simulation->save());
+  FlightRecorder again(resumed, 1.0);
+  ArchiveReader reader(writer.written(), "");
+  reader(again);
+  reader.finish();
+  CHECK(check_paths(again, resumed, 1.0) == recorder.pieces().size());
+  resumed.run_until(4.5);
+  simulation->run_until(4.5);
+  CHECK(check_paths(again, resumed, 1.0) == recorder.pieces().size());
+}

@@ -1,0 +1,86 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/publish/spin_angles.h"
+#include "tests/engine/measure/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+Scene rough_gas() {
+  Scene scene = gas(9.0, 8.0, 30, 0.9);
+  scene.disks.roughness.friction = 0.5;
+  scene.disks.start.spin_temperature = 1.0;
+  wall_in(scene, 0, {.kind = WallKind::Static});
+  scene.walls[kLeft]->roughness.tangential_restitution = 0.5;
+  scene.bulk_drive = BulkDrive{.interval = 0.7, .kick_speed = 0.5, .kick_spin = 0.4};
+  return scene;
+}
+
+// Difference of two angles, whatever whole turns lie between.
+double between(double a, double b) {
+  return std::fabs(std::remainder(a - b, 2.0 * std::numbers::pi));
+}
+
+}  // namespace
+
+TEST_CASE("SpinAngles: a disk turns by its spin, summed over time") {
+  const auto simulation = simulation_of(rough_gas(), 3);
+  SpinAngles angles(*simulation);
+  std::vector<double> summed(30, 0.0);
+  // A step in which a spin changes is summed wrongly by the change times a step at most. A disk has
+  // some 80 of them here, of about 1 each.
+  constexpr double kStep = 1.0 / 16384.0;
+  for (int k = 1; k <= 16384 * 16; ++k) {
+    for (std::size_t i = 0; i < summed.size(); ++i) summed[i] += simulation->spins()[i][0] * kStep;
+    simulation->run_until(k * kStep);
+  }
+  REQUIRE(simulation->counts().collisions() > 16 * 30);
+  const std::vector<double> turned = angles.angles();
+  for (std::size_t i = 0; i < summed.size(); ++i) {
+    CHECK(std::fabs(turned[i]) <= std::numbers::pi);
+    CHECK(between(turned[i], summed[i]) < 5e-3);
+  }
+}
+
+TEST_CASE("SpinAngles: the hash is the same, and angles do not depend on when they are asked for") {
+  const auto plain = simulation_of(rough_gas(), 4), watched = simulation_of(rough_gas(), 4);
+  const auto asked = simulation_of(rough_gas(), 4);
+  SpinAngles angles(*watched), often(*asked);
+  plain->run_until(9.0);
+  watched->run_until(9.0);
+  for (int k = 1; k <= 90; ++k) {
+    asked->run_until(0.1 * k);
+    often.angles();
+  }
+  CHECK(watched->state_hash() == plain->state_hash());
+  CHECK(often.angles() == angles.angles());
+}
+
+TEST_CASE("SpinAngles: a run that goes on has its angles, from a checkpoint or under other laws") {
+  const Scene scene = rough_gas();
+  const auto simulation = simulation_of(scene, 5);
+  SpinAngles angles(*simulation);
+  simulation->run_until(6.0);
+  ArchiveWriter writer;
+  writer(angles);
+
+  Simulation<2> resumed(model_of(scene, 5), simulation->save());
+  SpinAngles read(resumed);
+  ArchiveReader reader(writer.written(), "");
+  reader(read);
+  reader.finish();
+  Simulation<2> handed(model_of(scene, 5), simulation->save());
+  SpinAngles moved(handed, SpinAngles(read));
+  CHECK(read.angles() == angles.angles());
+  CHECK(moved.angles() == angles.angles());
+  simulation->run_until(12.0);
+  resumed.run_until(12.0);
+  CHECK(read.angles() == angles.angles());
+}

@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "engine/initial/start_state.h"
+#include "engine/physics/theory.h"
+#include "tests/engine/support/gas.h"
+#include "tests/extremes/figure.h"
+#include "tests/support/statistics.h"
+#include "tests/validation/experiment.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+double temperature(const Simulation<2>& simulation) {
+  return simulation.kinetic_energy() / static_cast<double>(simulation.disks().size());
+}
+
+// What the rounding of a + b has added, exactly (Knuth 1969).
+Vec2 rounding(const Vec2& a, const Vec2& b) {
+  const Vec2 sum = a + b, b_in_sum = sum - a;
+  return (b_in_sum - b) - (a - (sum - b_in_sum));
+}
+
+/// Books the momentum that the rounding of velocities after collisions gives.
+class Roundings : public Observer<2> {
+ public:
+  Vec2 momentum = Vec2::Zero();
+  Vec2 variance = Vec2::Zero();  // of a walk of steps that are even over a unit in the last place
+
+  void on_collision(const PairCollision<2>& c) override {
+    for (const DiskChange<2>& disk : c.disks) {
+      momentum += rounding(disk.velocity, disk.gain.momentum);
+      const Vec2 after = disk.velocity + disk.gain.momentum;
+      for (int k = 0; k < 2; ++k) {
+        const double unit = std::nextafter(std::fabs(after[k]), kNever) - std::fabs(after[k]);
+        variance[k] += unit * unit / 12.0;
+      }
+    }
+  }
+};
+
+// Total momentum, rounded once at the end.
+Vec2 exact_momentum(const State<2>& state) {
+  Vec2 sum = Vec2::Zero(), rounded = Vec2::Zero();
+  for (const Vec2& v : state.velocities) {
+    rounded += rounding(sum, v);
+    sum += v;
+  }
+  return sum - rounded;
+}
+
+}  // namespace
+
+// Of 200 disks each T(4) varies by some 16 %, the ratio of means over 16000 seeds by .18 %: 2 % is
+// more than 5 standard errors from a ratio that is 1 % off.
+TEST_CASE("alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" * doctest::test_suite("slow") *
+          doctest::description("T(4) the same for both within 2 %, by 5 standard errors")) {
+  for (const double restitution : {0.0, 0.1, 0.3}) {
+    Sample shorter, longer;
+    for (std::uint64_t seed = 1000; seed < 17000; ++seed) {
+      const Scene scene = gas_of_fraction(0.5, 200, restitution);
+      const State<2> start = start_state(scene, seed);
+      for (const double contact_time : {1e-5, 1e-3}) {
+        Model<2> model = model_of(scene, seed);
+        model.contact_time = contact_time;
+        Simulation<2> simulation(model, start);
+        simulation.run_until(4.0);
+        (contact_time == 1e-5 ? shorter : longer).add(temperature(simulation));
+        REQUIRE(simulation.checks().deepest_overlap < 1e-9);
+      }
+    }
+    const double off = longer.mean() / shorter.mean() - 1.0;
+    const double error =
+        std::hypot(longer.standard_error(), shorter.standard_error()) / shorter.mean();
+    MESSAGE("alpha = ", restitution, ": T(4) = ", brief(shorter.mean()), ", with 1e-3 ",
+            brief(100.0 * off), " +- ", brief(100.0 * error), " % off");
+    CHECK(std::fabs(off) + 5.0 * error < 0.02);
+  }
+}
+
+TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
+          doctest::description("a clean stop or completion, never a hang; overlap below 1e-9")) {
+  int stops = 0, runs = 0;
+  double deepest = 0.0;
+  for (const double restitution : {0.0, 0.1, 0.3}) {
+    for (std::uint64_t seed = 930; seed < 934; ++seed) {
+      const Scene scene = gas_of_fraction(0.5, 200, restitution);
+      Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+      const std::string stop = stop_of(simulation, 1000.0);
+      if (stop.empty()) CHECK(simulation.time() == 1000.0);
+      if (!stop.empty()) CHECK(stop.find("inelastic collapse") != std::string::npos);
+      CHECK(finite_and_inside(simulation.model(), simulation.state()));
+      deepest = std::max(deepest, simulation.checks().deepest_overlap);
+      stops += !stop.empty();
+      ++runs;
+    }
+  }
+  MESSAGE(stops, " of ", runs, " stop, deepest overlap ", brief(deepest));
+  CHECK(deepest < 1e-9);
+}
+
+// While velocities are 1, each collision rounds four of their components by some 3e-17; at the end
+// they are 3e-16, and what those roundings added up to remains as a drift of the centre.
+TEST_CASE(
+    "Haff's cooling down to T = 1e-30" *
+    doctest::description("T = T_0/(1 + k t)^2, so T t^2 = T_0/k^2 below T = 1e-10 within 5 "
+                         "standard errors; the momentum is the sum of the roundings of velocities "
+                         "within 1e-10, a random walk's within 5 standard deviations")) {
+  const Scene scene = gas_of_fraction(0.1, 64, 0.9);
+  const State<2> start = start_state(scene, 951);
+  Simulation<2> simulation(model_of(scene, 951), start);
+  Roundings roundings;
+  simulation.add_observer(roundings);
+  // T swings about the law, and half of that is left when time has doubled.
+  Sample scaled;
+  double time = 1.0;
+  while (temperature(simulation) > 1e-30) {
+    time *= 8.0;
+    simulation.run_until(time);
+    const double t = temperature(simulation);
+    if (t < 1e-10) scaled.add(t * time * time);
+  }
+  const double k = haff_rate_periodic(0.1, 0.9, 1.0);
+  const Vec2 drift = exact_momentum(simulation.state());
+  const Vec2 walk = roundings.momentum.cwiseQuotient(roundings.variance.cwiseSqrt());
+  MESSAGE(
+      "T = ", brief(temperature(simulation)), " at t = ", brief(time), " after ",
+      simulation.counts().disk_disk, " collisions; T t^2 = ", brief(scaled.mean()), " +- ",
+      brief(scaled.standard_error()), ", by the law ", brief(1.0 / (k * k)), "; momentum ",
+      brief(drift.norm()), ", ", brief(drift.squaredNorm() / 128.0 / simulation.kinetic_energy()),
+      " of the energy; off by ", brief(walk.x()), " and ", brief(walk.y()), " standard deviations");
+  CHECK(std::fabs(scaled.mean() - 1.0 / (k * k)) < 5.0 * scaled.standard_error());
+  CHECK((drift - exact_momentum(start) - roundings.momentum).norm() < 1e-10 * drift.norm());
+  CHECK(walk.cwiseAbs().maxCoeff() < 5.0);
+  check_sound(simulation);
+}

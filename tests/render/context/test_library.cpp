@@ -1,0 +1,19 @@
+#include <doctest/doctest.h>
+
+#include "engine/error.h"
+#include "render/context/library.h"
+
+namespace clatter {
+
+TEST_CASE("A library or function that is missing is named, with the package that has it") {
+  CHECK_THROWS_WITH_AS(Library("libmissing.so.1", "libmissing1"),
+                       doctest::Contains("libmissing.so.1: cannot open"), RunError);
+  CHECK_THROWS_WITH_AS(Library("libmissing.so.1", "libmissing1"),
+                       doctest::Contains("apt install libmissing1"), RunError);
+  const Library library("libm.so.6", "libc6");
+  CHECK(library.function<double (*)(double)>("cos")(0.0) == 1.0);
+  CHECK_THROWS_WITH_AS(library.function<void (*)()>("no_such"), doctest::Contains("no_such"),
+                       RunError);
+}
+
+}  // namespace clatter

@@ -1,0 +1,103 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/layers/arrow_layer.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Colour kInk = {0xff, 0xff, 0xff};
+constexpr Size kSize{200, 200};
+
+Image draw(const Gl& gl, const std::vector<ArrowMap::Arrow>& arrows, double pixels) {
+  const Canvas canvas = blank_canvas(gl, kSize);
+  const ArrowMap map{Arrows::Velocity, {4.0, 4.0}, arrows};
+  // 10 pixels a unit.
+  ArrowLayer(gl).draw(map, {{{10.0, 10.0}, 20.0}, kSize}, pixels, kInk, kDarkTheme.background);
+  return canvas.read();
+}
+
+// What pixels near the ink's colour cover.
+struct Extent {
+  Vec2 low = {1e9, 1e9}, high = {-1e9, -1e9};
+  Vec2 mean = {0.0, 0.0};
+  int count = 0;
+};
+
+Extent extent_of(const Image& image) {
+  Extent extent;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      if (difference(pixel(image, x, y), kInk) > 100) continue;
+      const Vec2 place(x + 0.5, kSize.height - y - 0.5);
+      extent.low = extent.low.cwiseMin(place);
+      extent.high = extent.high.cwiseMax(place);
+      extent.mean += place;
+      ++extent.count;
+    }
+  }
+  extent.mean /= std::max(1, extent.count);
+  return extent;
+}
+
+}  // namespace
+
+TEST_CASE("An arrow is as long as its value, points along it, and has its middle at its place") {
+  const auto context = open_context(Backend::Osmesa);
+  for (int k = 0; k < 12; ++k) {
+    CAPTURE(k);
+    const double angle = k * std::numbers::pi / 6.0;
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    const Image image = draw(context->gl(), {{{8.0, 11.0}, 3.0 * along}}, 20.0);
+    const Extent extent = extent_of(image);
+    const Vec2 middle(80.0, 110.0);
+    REQUIRE(extent.count > 80);
+    // The box around a line of 60 pixels; the head, the shaft and antialiased ends add some.
+    for (int axis : {0, 1}) {
+      const double half = 30.0 * std::abs(along[axis]);
+      CHECK(std::abs(extent.low[axis] - (middle[axis] - half)) < 4.5);
+      CHECK(std::abs(extent.high[axis] - (middle[axis] + half)) < 4.5);
+    }
+    // The head weighs more than the tail.
+    CHECK((extent.mean - middle).dot(along) > 1.0);
+  }
+}
+
+TEST_CASE("Arrows end at two cells, and vanishing values have none") {
+  const auto context = open_context(Backend::Osmesa);
+  const Extent extent = extent_of(draw(context->gl(), {{{10.0, 10.0}, {1e6, 0.0}}}, 20.0));
+  CHECK(std::abs(extent.high.x() - extent.low.x() - 80.0) < 4.0);
+  CHECK(extent_of(draw(context->gl(), {{{10.0, 10.0}, {0.0, 0.0}}}, 20.0)).count == 0);
+}
+
+TEST_CASE("A short arrow keeps its form") {
+  const auto context = open_context(Backend::Osmesa);
+  const Extent small = extent_of(draw(context->gl(), {{{10.05, 10.05}, {0.2, 0.0}}}, 20.0));
+  REQUIRE(small.count > 0);
+  CHECK(small.high.x() - small.low.x() <= 4.0);
+  CHECK(small.high.y() - small.low.y() <= 3.0);
+}
+
+// A flux that is nothing but rounding would be a field of bars; tips that coincide have no
+// direction.
+TEST_CASE("Arrows shorter than half a pixel are not drawn") {
+  const auto context = open_context(Backend::Osmesa);
+  for (const double length : {0.024, 1e-7, 1e-20, 5e-324}) {  // .024: .48 pixels
+    CAPTURE(length);
+    const Image image =
+        draw(context->gl(), {{{10.0, 10.0}, {length, 0.0}}, {{4.0, 5.0}, {0.0, -length}}}, 20.0);
+    CHECK(difference(image, draw(context->gl(), {}, 20.0)) == 0);
+  }
+  const Image shown = draw(context->gl(), {{{10.0, 10.0}, {0.026, 0.0}}}, 20.0);
+  CHECK(difference(shown, draw(context->gl(), {}, 20.0)) > 0);
+  // What is no number has none either.
+  const double nan = std::nan("");
+  const Image none = draw(context->gl(), {{{10.0, 10.0}, {nan, 1.0}}}, 20.0);
+  CHECK(difference(none, draw(context->gl(), {}, 20.0)) == 0);
+}
+
+}  // namespace clatter

@@ -1,0 +1,98 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/layers/overlay.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+TEST_CASE("The overlay writes on every size of picture, and neither on the box nor at the edge") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  for (Size size : {Size{1280, 720}, {1920, 1080}, {720, 720}, {640, 360}, {360, 640}}) {
+    for (Vec2 box : {Vec2(20.0, 25.0), Vec2(60.0, 12.0), Vec2(20.0, 20.0)}) {
+      CAPTURE(size.width);
+      CAPTURE(box.x());
+      Snapshot snapshot = driven_box();
+      snapshot.box = box;
+      snapshot.arrows = ArrowMap{Arrows::HeatFlux, box / 20.0, {{0.5 * box, {1.0, 0.0}}}};
+      View view = view_with_field();
+      view.arrows = Arrows::HeatFlux;
+      const Camera camera = renderer.fit(snapshot, size, view, kText);
+      const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+      view.overlay = false;
+      const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+
+      const Projection projection{camera, size};
+      // The box with its walls.
+      const Vec2 wall = Vec2::Constant(wall_thickness(size));
+      const Vec2 low = projection.pixels({0.0, 0.0}) - wall, high = projection.pixels(box) + wall;
+      int written = 0, on_box = 0, at_edge = 0;
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          if (pixel(with, x, y) == pixel(without, x, y)) continue;
+          ++written;
+          const int up = size.height - 1 - y;
+          on_box += x > low.x() && x < high.x() && up > low.y() && up < high.y();
+          at_edge += std::min({x, y, size.width - 1 - x, size.height - 1 - y}) < 4;
+        }
+      }
+      CHECK(written > 1000);
+      CHECK(on_box == 0);
+      CHECK(at_edge == 0);
+    }
+  }
+}
+
+TEST_CASE("Colour bars for which a small picture has no room stay out of the row of figures") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{320, 240};
+  constexpr int kRow = 28;  // height of figures and scale, with their distance from the edge
+  Snapshot snapshot = driven_box();
+  View view = view_with_field();
+  const Camera camera = renderer.fit(snapshot, size, view, kText);
+  const Image two = draw(renderer, context->gl(), snapshot, camera, size, view);
+  view.field.reset();
+  snapshot.field.reset();
+  const Image one = draw(renderer, context->gl(), snapshot, camera, size, view);
+  const auto row = one.rgba.end() - 4L * size.width * kRow;
+  CHECK(std::equal(row, one.rgba.end(), two.rgba.end() - 4L * size.width * kRow));
+  CHECK(std::any_of(row, one.rgba.end(), [&](unsigned char c) { return c > 128 && c < 255; }));
+}
+
+TEST_CASE("A card covers the picture with its title, and fades out") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Snapshot snapshot = driven_box();
+  for (const Size size : {Size{1280, 720}, {360, 640}}) {
+    const Camera camera = renderer.fit(snapshot, size, View{}, kText);
+    const auto letters = [&](double card) {
+      const Canvas canvas(context->gl(), size);
+      canvas.bind();
+      OverlayText text = kText;
+      text.card = card;
+      renderer.draw(snapshot, camera, size, View{}, text);
+      const Image image = canvas.read();
+      int count = 0, beyond = 0;
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          const bool letter = difference(pixel(image, x, y), kDarkTheme.text) < 30;
+          const bool middle = std::abs(2 * y - size.height) < size.height / 2;
+          (middle ? count : beyond) += letter;
+        }
+      }
+      return std::pair(count, beyond);
+    };
+    CHECK(letters(1.0).first > letters(0.0).first + 200);
+    CHECK(letters(1.0).second < letters(0.0).second);
+  }
+  CHECK(card_opacity(3.0, 0.0) == 1.0);
+  CHECK(card_opacity(3.0, 2.5) == doctest::Approx(0.5));
+  CHECK(card_opacity(3.0, 3.0) == 0.0);
+  CHECK(card_opacity(3.0, 9.0) == 0.0);
+}
+
+}  // namespace clatter

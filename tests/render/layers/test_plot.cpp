@@ -1,0 +1,87 @@
+#include <doctest/doctest.h>
+
+#include "render/layers/plot.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+const ThemeColours kTheme = kLightTheme;
+
+// Where the points' colour is, on average, as shares of the picture from the upper left corner, and
+// how many pixels have it.
+struct Mark {
+  Vec2 place{0.0, 0.0};
+  int pixels = 0;
+};
+
+Mark mark_of(const Image& image) {
+  Mark mark;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) {
+      if (pixel(image, x, y) != kTheme.driven_wall) continue;
+      mark.place += Vec2(x, y);
+      ++mark.pixels;
+    }
+  }
+  mark.place /= std::max(1, mark.pixels);
+  return {mark.place.cwiseQuotient(Vec2(image.size.width, image.size.height)), mark.pixels};
+}
+
+Image plotted(const Gl& gl, const std::vector<PlotPanel>& panels) {
+  return plot_image(gl, {"Title", "Caption", "x", "y", panels}, {1200, 800}, kTheme);
+}
+
+PlotPanel two_points(bool first_hollow, bool second_hollow) {
+  return {"", {{1.0, 1.0, "", first_hollow}, {100.0, 100.0, "", second_hollow}}};
+}
+
+}  // namespace
+
+TEST_CASE("Points of a plot stand where their values are, and hollow ones are rings") {
+  const auto context = open_context(Backend::Osmesa);
+  const Gl& gl = context->gl();
+  const Mark low = mark_of(plotted(gl, {two_points(false, true)}));
+  const Mark high = mark_of(plotted(gl, {two_points(true, false)}));
+  CHECK(low.place.x() < high.place.x());
+  CHECK(low.place.y() > high.place.y());
+  const Mark both = mark_of(plotted(gl, {two_points(false, false)}));
+  CHECK(low.pixels > 50);
+  CHECK(both.pixels > 1.3 * low.pixels);
+}
+
+TEST_CASE("A plot has panels of the same axes, and none where there is nothing") {
+  const auto context = open_context(Backend::Osmesa);
+  const Gl& gl = context->gl();
+  const PlotPanel point{"", {{1.0, 1.0, "", false}}}, far{"", {{1e3, 1.0, "", false}}};
+  // The left panel's point is at the left of it, since the right one's axis goes on to the right.
+  const Mark beside_far = mark_of(plotted(gl, {point, far}));
+  const Mark beside_same = mark_of(plotted(gl, {point, point}));
+  CHECK(beside_far.pixels == doctest::Approx(beside_same.pixels).epsilon(0.1));
+  CHECK(beside_far.place.x() == doctest::Approx(beside_same.place.x()).epsilon(0.05));
+  CHECK(mark_of(plotted(gl, {})).pixels == 0);
+  CHECK(mark_of(plotted(gl, {{"", {{1.0, 0.0, "", false}}}})).pixels > 50);
+}
+
+TEST_CASE("Pictures are as similar as they look, and keep their look at another size") {
+  const auto context = open_context(Backend::Osmesa);
+  const Gl& gl = context->gl();
+  const Image picture = plotted(gl, {two_points(false, true)});
+  const Image other = plotted(gl, {two_points(true, false)});
+  CHECK(structural_similarity(picture, picture) == doctest::Approx(1.0));
+  const double near = structural_similarity(picture, other);
+  CHECK(near < 0.9999);
+  CHECK(near > 0.9);
+  Image dark = picture;
+  for (std::size_t k = 0; k < dark.rgba.size(); ++k) {
+    if (k % 4 != 3) dark.rgba[k] = static_cast<unsigned char>(255 - dark.rgba[k]);
+  }
+  CHECK(structural_similarity(picture, dark) < 0.3);
+  const Image half = resized(picture, {600, 400});
+  CHECK(half.rgba.size() == 4 * 600 * 400);
+  CHECK(structural_similarity(resized(half, picture.size), picture) > 0.8);
+  CHECK(difference(resized(picture, picture.size), picture) == 0);
+}
+
+}  // namespace clatter

@@ -1,0 +1,167 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/layers/disk_layer.h"
+#include "render/layers/swept_layer.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Size kSize{200, 120};
+// A world unit is a pixel.
+const Projection kProjection{{{100.0, 60.0}, 200.0}, kSize};
+
+Snapshot one_disk(double diameter) {
+  Snapshot snapshot;
+  snapshot.box = {kSize.width, kSize.height};
+  snapshot.diameter = diameter;
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = {{0.0, 0.0}};
+  snapshot.velocities = {{0.0, 0.0}};
+  return snapshot;
+}
+
+// With the path of one disk, piece after piece, seen for as long as they take.
+Snapshot on_path(double diameter, std::vector<FlightPiece> pieces) {
+  Snapshot snapshot = one_disk(diameter);
+  snapshot.exposure = -pieces.front().from;
+  snapshot.flights = std::move(pieces);
+  return snapshot;
+}
+
+Image drawn(const Gl& gl, DiskLayer& layer, const Snapshot& snapshot) {
+  const Canvas canvas = blank_canvas(gl, kSize, kClear);
+  layer.draw(snapshot, kProjection, {ColourBy::None, {}, kDarkTheme.disk});
+  return canvas.read();
+}
+
+double alpha(const Image& image, int x, int y) {
+  return pixel(image, x, y).alpha / 255.0;
+}
+
+double area(const Image& image) {
+  double sum = 0.0;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) sum += alpha(image, x, y);
+  }
+  return sum;
+}
+
+// The largest difference, of opacity or of light, from what instants of the path average to.
+double off_instants(const Gl& gl, const Snapshot& blurred) {
+  constexpr int kInstants = 400;
+  DiskLayer layer(gl);
+  std::vector<double> sums(4 * kSize.width * kSize.height, 0.0);
+  for (int k = 0; k < kInstants; ++k) {
+    const double time = blurred.exposure * ((k + 0.5) / kInstants - 1.0);
+    Snapshot instant = blurred;
+    instant.exposure = 0.0;
+    for (const FlightPiece& piece : blurred.flights) {
+      if (piece.from <= time && time < piece.to) instant.positions[0] = piece.at(time);
+    }
+    for (const int axis : {0, 1}) {
+      double& place = instant.positions[0][axis];
+      if (!instant.walls[2 * axis])
+        place -= std::floor(place / instant.box[axis]) * instant.box[axis];
+    }
+    const Image image = drawn(gl, layer, instant);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i] += i % 4 == 3 ? image.rgba[i] / 255.0 : linear_light(image.rgba[i]);
+    }
+  }
+  const Image image = drawn(gl, layer, blurred);
+  double off = 0.0;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double seen = i % 4 == 3 ? image.rgba[i] / 255.0 : linear_light(image.rgba[i]);
+    off = std::max(off, std::fabs(seen - sums[i] / kInstants));
+  }
+  return off;
+}
+
+}  // namespace
+
+TEST_CASE("Shutter: a disk at rest looks as at an instant") {
+  const auto context = open_context(Backend::Osmesa);
+  DiskLayer layer(context->gl());
+  for (const double diameter : {2.0, 3.5, 8.0, 40.0}) {
+    CAPTURE(diameter);
+    const Vec2 place(71.3, 58.2);
+    const Snapshot resting = on_path(diameter, {{0, -0.4, -0.1, place, {0.0, 0.0}, {0.0, 0.0}},
+                                                {0, -0.1, 0.0, place, {0.0, 0.0}, {0.0, 0.0}}});
+    Snapshot instant = one_disk(diameter);
+    instant.positions = {place};
+    CHECK(difference(drawn(context->gl(), layer, resting), drawn(context->gl(), layer, instant)) <=
+          (diameter < 3.0 ? 8 : 2));
+  }
+}
+
+TEST_CASE("Shutter: a moving disk keeps its area and its light") {
+  const auto context = open_context(Backend::Osmesa);
+  DiskLayer layer(context->gl());
+  for (const double diameter : {2.0, 6.0, 30.0}) {
+    for (const double length : {0.02, 0.5, 3.0, 25.0, 90.0}) {
+      for (const double angle : {0.0, 0.4, 2.6, 4.5}) {
+        // Fainter ones have too few of the 255 levels.
+        if (length > 10.0 * diameter) continue;
+        CAPTURE(diameter);
+        CAPTURE(length);
+        CAPTURE(angle);
+        const Vec2 way = 0.5 * length * Vec2(std::cos(angle), std::sin(angle));
+        const Snapshot snapshot =
+            on_path(diameter, {{0, -0.5, 0.0, Vec2(100.2, 60.4) - way, 4.0 * way, {0.0, 0.0}}});
+        const double expected = 0.25 * std::numbers::pi * diameter * diameter;
+        CHECK(area(drawn(context->gl(), layer, snapshot)) ==
+              doctest::Approx(expected).epsilon(0.01));
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "Shutter: at constant speed the opacity is the share of time in which a pixel is covered") {
+  const auto context = open_context(Backend::Osmesa);
+  DiskLayer layer(context->gl());
+  constexpr double kLength = 80.0, kRadius = 15.0;
+  const Vec2 start(60.0, 60.0);
+  const Image image =
+      drawn(context->gl(), layer,
+            on_path(2.0 * kRadius, {{0, -2.0, 0.0, start, {40.0, 0.0}, {0.0, 0.0}}}));
+  for (int y = 48; y <= 72; y += 3) {
+    for (int x = 44; x < 156; ++x) {
+      const Vec2 place = Vec2(x + 0.5, kSize.height - y - 0.5) - start;
+      const double half = std::sqrt(kRadius * kRadius - place.y() * place.y());
+      const double covered = std::min(place.x() + half, kLength) - std::max(place.x() - half, 0.0);
+      CHECK(std::fabs(alpha(image, x, y) - std::max(0.0, covered) / kLength) < 0.008);
+    }
+  }
+}
+
+TEST_CASE("Shutter: a collision shows both flights, and all is what instants average to") {
+  const auto context = open_context(Backend::Osmesa);
+  for (const double diameter : {2.0, 5.0, 30.0}) {
+    CAPTURE(diameter);
+    // Off a wall, faster than before, then on a parabola.
+    const Snapshot bounce =
+        on_path(diameter, {{0, -1.0, -0.6, {150.0, 50.0}, {80.0, 20.0}, {0.0, 0.0}},
+                           {0, -0.6, 0.0, {182.0, 58.0}, {-120.0, 90.0}, {0.0, -300.0}}});
+    CHECK(off_instants(context->gl(), bounce) < 0.012);
+    // Through a periodic box again and again.
+    Snapshot fast = on_path(diameter, {{0, -1.0, 0.0, {20.0, 30.0}, {530.0, -410.0}, {0.0, 0.0}}});
+    fast.walls = {};
+    CHECK(off_instants(context->gl(), fast) < 0.03);  // instants lie some pixels apart
+    // Across a periodic border, in steps of less than a pixel too.
+    for (const double speed : {30.0, 1.0}) {
+      Snapshot crossing =
+          on_path(diameter, {{0, -1.0, 0.0, {199.0, 119.2}, {speed, 0.5 * speed}, {0.0, 0.0}}});
+      crossing.walls = {};
+      CHECK(off_instants(context->gl(), crossing) < 0.012);
+    }
+  }
+}
+
+}  // namespace clatter

@@ -1,0 +1,54 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "render/layers/trail_layer.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Size kSize{200, 120};
+// A world unit is a pixel.
+const Projection kProjection{{{100.0, 60.0}, 200.0}, kSize};
+
+Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
+  const Canvas canvas = blank_canvas(gl, kSize, kClear);
+  TrailLayer(gl).draw(snapshot, kProjection, {ColourBy::None, {}, kDarkTheme.disk}, time);
+  return canvas.read();
+}
+
+}  // namespace
+
+TEST_CASE("Trails lie on the paths and fade out as far back as they reach") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot;
+  snapshot.box = {kSize.width, kSize.height};
+  snapshot.diameter = 20.0;
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = {{120.0, 100.0}};
+  snapshot.velocities = {{0.0, 40.0}};
+  // Along x, then up.
+  snapshot.flights = {{0, -3.0, -1.0, {40.0, 60.0}, {40.0, 0.0}, {0.0, 0.0}},
+                      {0, -1.0, 0.0, {120.0, 60.0}, {0.0, 40.0}, {0.0, 0.0}}};
+  const Image image = drawn(context->gl(), snapshot, 2.0);
+  const auto opacity = [&](int x, int up) {
+    return pixel(image, x, kSize.height - 1 - up).alpha / 255.0;
+  };
+  for (int up = 62; up < 100; up += 7) {
+    CHECK(opacity(120, up) == doctest::Approx(0.6 * (1.0 - (100 - up) / 80.0)).epsilon(0.03));
+  }
+  for (int x = 90; x < 118; x += 7) {
+    CHECK(std::fabs(opacity(x, 60) - 0.6 * (0.5 - (120 - x) / 80.0)) < 0.01);
+  }
+  // The joint is no brighter than what meets there.
+  for (int x = 117; x <= 123; ++x) {
+    for (int up = 57; up <= 61; ++up) CHECK(opacity(x, up) < 0.6 * 0.53);
+  }
+  CHECK(opacity(70, 60) == 0.0);    // longer ago
+  CHECK(opacity(120, 106) == 0.0);  // where it has not been yet
+  CHECK(opacity(128, 80) == 0.0);
+}
+
+}  // namespace clatter

@@ -1,0 +1,105 @@
+#include <doctest/doctest.h>
+#include <libdeflate.h>
+#include <stb_image.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "engine/error.h"
+#include "render/output/image.h"
+#include "tests/render/output/temporary_folder.h"
+
+namespace clatter {
+
+namespace {
+
+Image gradient(Size size) {
+  Image image{size, {}};
+  for (int i = 0; i < size.width * size.height; ++i) {
+    for (int factor : {1, 3, 7, 11}) image.rgba.push_back(static_cast<unsigned char>(factor * i));
+  }
+  return image;
+}
+
+std::vector<unsigned char> decode(const std::vector<unsigned char>& png, Size& size) {
+  int channels = 0;
+  unsigned char* pixels = stbi_load_from_memory(png.data(), static_cast<int>(png.size()),
+                                                &size.width, &size.height, &channels, 4);
+  REQUIRE(pixels);
+  CHECK(channels == 4);
+  std::vector<unsigned char> result(pixels, pixels + 4 * size.width * size.height);
+  stbi_image_free(pixels);
+  return result;
+}
+
+std::uint32_t big_endian(const unsigned char* p) {
+  return std::uint32_t{p[0]} << 24 | p[1] << 16 | p[2] << 8 | p[3];
+}
+
+// The chunks' contents by type, in order; checks every CRC.
+std::vector<std::pair<std::string, std::string>> chunks(const std::vector<unsigned char>& png) {
+  std::vector<std::pair<std::string, std::string>> result;
+  for (std::size_t at = 8; at < png.size();) {
+    const std::uint32_t length = big_endian(&png[at]);
+    const auto* type = reinterpret_cast<const char*>(&png[at + 4]);
+    CHECK(libdeflate_crc32(0, type, length + 4) == big_endian(&png[at + 8 + length]));
+    result.emplace_back(std::string(type, 4), std::string(type + 4, length));
+    at += length + 12;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("A PNG gives the same pixels back") {
+  for (Size size : {Size{1, 1}, {3, 2}, {257, 33}}) {
+    const Image image = gradient(size);
+    Size decoded;
+    CHECK(decode(encode_png(image), decoded) == image.rgba);
+    CHECK(decoded.width == size.width);
+    CHECK(decoded.height == size.height);
+  }
+}
+
+TEST_CASE("Texts are kept in a PNG, before the pixels, with right checksums") {
+  const std::vector<PngText> texts = {{"Title", "Gas ρ"}, {"Comment", ""}};
+  const auto found = chunks(encode_png(gradient({3, 2}), texts));
+  REQUIRE(found.size() == 5);
+  CHECK(found[0].first == "IHDR");
+  CHECK(found[1].first == "iTXt");
+  CHECK(found[1].second == std::string("Title\0\0\0\0\0Gas ρ", 16));
+  CHECK(found[2].first == "iTXt");
+  CHECK(found[3].first == "IDAT");
+  CHECK(found[4].first == "IEND");
+}
+
+TEST_CASE("A PNG file is there whole, or an error and nothing") {
+  const TemporaryFolder folder;
+  const Image image = gradient({16, 9});
+  write_png(folder / "a.png", image);
+  std::ifstream file(folder / "a.png", std::ios::binary);
+  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), {}};
+  CHECK(bytes == encode_png(image));
+  std::filesystem::remove(folder / "a.png");
+
+  CHECK_THROWS_WITH_AS(write_png(folder / "missing/a.png", image),
+                       doctest::Contains("No such file"), RunError);
+  std::filesystem::create_directory(folder / "taken.png");
+  CHECK_THROWS_AS(write_png(folder / "taken.png", image), RunError);
+  std::filesystem::remove(folder / "taken.png");
+  CHECK(folder.empty());
+}
+
+TEST_CASE("A text in a PNG file is found again, and only that one") {
+  const TemporaryFolder folder;
+  const Image image{{2, 2}, std::vector<unsigned char>(16, 7)};
+  const std::string scene = "title = \"ψ, iTXtScene\"\n";
+  write_png(folder / "a.png", image, std::vector<PngText>{{"Title", "t"}, {"Scene", scene}});
+  CHECK(png_text(folder / "a.png", "Scene") == scene);
+  CHECK(png_text(folder / "a.png", "Title") == "t");
+  CHECK_FALSE(png_text(folder / "a.png", "Seed"));
+  CHECK_FALSE(png_text(folder / "none.png", "Scene"));
+}
+
+}  // namespace clatter

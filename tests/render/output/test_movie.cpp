@@ -1,0 +1,271 @@
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "engine/error.h"
+#include "render/output/movie.h"
+#include "tests/render/output/temporary_folder.h"
+
+namespace clatter {
+
+namespace {
+
+SinkOptions options() {
+  return {{101, 75}, 25.0, {{"Title", "Gas ρ"}, {"Scene", "a \"comment\""}}};
+}
+
+Image frame(int number) {
+  Image image{options().size, std::vector<unsigned char>(101 * 75 * 4, 255)};
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) image.rgba[i] = 10 * number;
+  return image;
+}
+
+// What ffprobe says of the first stream: codec, size, frames counted by decoding; and the tags.
+std::string probe(const std::filesystem::path& path) {
+  const std::string command =
+      "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+      "stream=codec_name,width,height,pix_fmt,nb_read_frames,r_frame_rate:format_tags=title,"
+      "comment "
+      "-of default=nokey=0:noprint_wrappers=1 '" +
+      path.string() + "'";
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  char buffer[256];
+  while (std::fgets(buffer, sizeof buffer, pipe)) output += buffer;
+  pclose(pipe);
+  return output;
+}
+
+// Counted by decoding.
+long frames_of(const std::filesystem::path& path) {
+  const std::string facts = probe(path);
+  const auto at = facts.find("nb_read_frames=");
+  return at == std::string::npos ? -1 : std::stol(facts.substr(at + 15));
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_film(Movie& movie, int frames) {
+  for (int i = 0; i < frames; ++i) movie.add(frame(i), {});
+  movie.finish(Ending::Whole);
+}
+
+std::filesystem::path make_encoder(const std::filesystem::path& path, const std::string& script) {
+  std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("A film has its frames, its codec, even sides and its texts") {
+  const TemporaryFolder folder;
+  struct Kind {
+    const char* name;
+    const char* codec;
+    const char* size;
+  };
+  for (const Kind& kind : {Kind{"film.mp4", "codec_name=h264\n", "width=102\nheight=76\n"},
+                           Kind{"film.webm", "codec_name=vp9\n", "width=102\nheight=76\n"},
+                           Kind{"film.mkv", "codec_name=ffv1\n", "width=101\nheight=75\n"},
+                           Kind{"film.gif", "codec_name=gif\n", "width=101\nheight=75\n"}}) {
+    CAPTURE(kind.name);
+    Movie movie(folder / kind.name, options());
+    CHECK_FALSE(std::filesystem::exists(folder / kind.name));
+    write_film(movie, 20);
+    const std::string facts = probe(folder / kind.name);
+    CAPTURE(facts);
+    CHECK(facts.find(kind.codec) != std::string::npos);
+    CHECK(facts.find(kind.size) != std::string::npos);
+    CHECK(facts.find("nb_read_frames=20\n") != std::string::npos);
+    CHECK(facts.find("r_frame_rate=25/1\n") != std::string::npos);
+    const std::string extension = std::filesystem::path(kind.name).extension();
+    if (extension == ".mp4" || extension == ".webm") {
+      CHECK(facts.find("pix_fmt=yuv420p\n") != std::string::npos);
+    }
+    if (extension != ".gif") {
+      CHECK(facts.find("Gas ρ") != std::string::npos);
+      CHECK(facts.find("a \"comment\"") != std::string::npos);
+    }
+    std::filesystem::remove(folder / kind.name);
+    CHECK(folder.empty());
+  }
+}
+
+TEST_CASE("An mkv has every bit of the pictures") {
+  const TemporaryFolder folder;
+  SinkOptions small = options();
+  small.size = {3, 3};
+  Image image{small.size, {}};
+  for (int i = 0; i < 9; ++i) {
+    const auto value = static_cast<unsigned char>(28 * i);
+    image.rgba.insert(image.rgba.end(), {value, static_cast<unsigned char>(255 - value),
+                                         static_cast<unsigned char>(value / 3), 255});
+  }
+  Movie movie(folder / "film.mkv", small);
+  movie.add(image, {});
+  movie.finish(Ending::Whole);
+  const std::string command = "ffmpeg -v error -i '" + (folder / "film.mkv").string() +
+                              "' -f rawvideo -pix_fmt rgba - 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::vector<unsigned char> decoded(100);
+  decoded.resize(std::fread(decoded.data(), 1, decoded.size(), pipe));
+  pclose(pipe);
+  CHECK(decoded == image.rgba);
+}
+
+TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
+  const TemporaryFolder folder;
+  Movie movie(folder / "film.mp4", options());
+  write_film(movie, 5);
+  const std::string bytes = bytes_of(folder / "film.mp4");
+  CHECK(bytes.find("moov") < bytes.find("mdat"));
+  CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
+}
+
+TEST_CASE("Where pieces cannot be joined, they stay, and the error names them") {
+  const TemporaryFolder folder, programs;
+  const auto encoder = make_encoder(
+      programs / "encoder",
+      "case \"$*\" in *'-f concat'*) echo 'no room' >&2; exit 1 ;; esac; exec ffmpeg \"$@\"");
+  {
+    Movie movie(folder / "film.mp4", options(), encoder);
+    const std::string named =
+        "no room; what was filmed before is in " + (folder / "film.mp4.part").string();
+    CHECK_THROWS_WITH_AS(write_film(movie, FrameSink::kPiece + 20),
+                         doctest::Contains(named.c_str()), RunError);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
+  CHECK(frames_of(folder / "film.mp4.part/000000.mp4") == FrameSink::kPiece);
+  CHECK(frames_of(folder / "film.mp4.part/000060.mp4") == 20);
+}
+
+TEST_CASE("A film that was cut and taken up again is that film to the byte") {
+  const TemporaryFolder folder;
+  constexpr long kFrames = 2 * FrameSink::kPiece + 7, kCut = FrameSink::kPiece + 30;
+  for (const std::string extension : {".mp4", ".webm", ".gif", ".mkv"}) {
+    CAPTURE(extension);
+    const auto whole = folder / ("whole" + extension), cut = folder / ("cut" + extension);
+    {
+      Movie movie(whole, options());
+      write_film(movie, kFrames);
+    }
+    {
+      Movie movie(cut, options());
+      for (int i = 0; i < kCut; ++i) movie.add(frame(i), {});
+      movie.finish(Ending::Cut);
+    }
+    CHECK(frames_of(cut) == kCut);
+    SinkOptions on = options();
+    on.goes_on = true;
+    on.next = FrameSink::kPiece;
+    {
+      Movie movie(cut, on);
+      for (int i = FrameSink::kPiece; i < kFrames; ++i) movie.add(frame(i), {});
+      movie.finish(Ending::Whole);
+    }
+    CHECK(frames_of(cut) == kFrames);
+    CHECK(bytes_of(cut) == bytes_of(whole));
+    std::filesystem::remove(cut);
+    std::filesystem::remove(whole);
+    CHECK(folder.empty());
+  }
+}
+
+TEST_CASE("What there is of a film that was cut is in nobody's way, and nobody's to overwrite") {
+  const TemporaryFolder folder;
+  {
+    Movie movie(folder / "film.mp4", options());
+    movie.add(frame(0), {});
+    movie.finish(Ending::Cut);
+  }
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", options()), doctest::Contains("--resume"),
+                       UserError);
+  SinkOptions later = options();
+  later.next = 2 * FrameSink::kPiece;
+  later.goes_on = true;
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", later), doctest::Contains("000060.mp4"),
+                       UserError);
+  SinkOptions anew = options();
+  anew.overwrite = true;
+  Movie movie(folder / "film.mp4", anew);
+  write_film(movie, 3);
+  CHECK(frames_of(folder / "film.mp4") == 3);
+  CHECK_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
+}
+
+TEST_CASE("Names that look like options or protocols are names") {
+  const TemporaryFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  {
+    Movie movie("-a:b %d.gif", options());
+    CHECK_NOTHROW(write_film(movie, 2));
+  }
+  std::filesystem::current_path(before);
+  CHECK(std::filesystem::exists(folder / "-a:b %d.gif"));
+}
+
+TEST_CASE("Without an encoder there is an error that says what to install, and no file") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", options(), "no-such-encoder"),
+                       doctest::Contains("apt install ffmpeg"), RunError);
+  CHECK(folder.empty());
+}
+
+TEST_CASE("An encoder that dies is an error with its last words, and no film without a frame") {
+  const TemporaryFolder folder, programs;
+  // The second reads everything, as one does that finds the disk full at the end.
+  for (const char* script :
+       {"head -c 1000 >/dev/null; echo 'disk is full' >&2; exit 1",
+        "cat >/dev/null; echo 'disk is full' >&2; exit 1", "cat >/dev/null; kill -9 $$"}) {
+    CAPTURE(script);
+    const auto encoder = make_encoder(programs / "encoder", script);
+    const bool killed = std::string(script).find("kill") != std::string::npos;
+    {
+      Movie movie(folder / "film.mp4", options(), encoder);
+      CHECK_THROWS_WITH_AS(write_film(movie, 100),
+                           doctest::Contains(killed ? ": Killed" : "disk is full"), RunError);
+    }
+    CHECK(folder.empty());
+  }
+}
+
+TEST_CASE("An encoder that dies later leaves the pieces before, and those are named") {
+  const TemporaryFolder folder, programs;
+  const auto encoder =
+      make_encoder(programs / "encoder",
+                   "for last; do :; done\n"
+                   "case $(readlink \"${last#file:}\") in *000060*) exit 1 ;; esac\n"
+                   "exec ffmpeg \"$@\"");
+  {
+    Movie movie(folder / "film.webm", options(), encoder);
+    const std::string named = "filmed before is in " + (folder / "film.webm.part").string();
+    CHECK_THROWS_WITH_AS(write_film(movie, 100), doctest::Contains(named.c_str()), RunError);
+  }
+  CHECK(frames_of(folder / "film.webm.part/000000.webm") == FrameSink::kPiece);
+  CHECK_FALSE(std::filesystem::exists(folder / "film.webm.part/000060.webm"));
+}
+
+TEST_CASE("A film that is given up leaves nothing, even while the encoder hangs") {
+  const TemporaryFolder folder, programs;
+  const auto encoder = make_encoder(programs / "encoder",
+                                    "case \"$*\" in *rawvideo*) exec sleep 1000 ;; esac; exit 1");
+  {
+    Movie movie(folder / "film.mp4", options(), encoder);
+    for (int i = 0; i < 5; ++i) movie.add(frame(i), {});
+  }
+  CHECK(folder.empty());
+}
+
+TEST_CASE("A film into a missing folder is refused at once") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(Movie(folder / "missing/film.mp4", options()),
+                       doctest::Contains("No such file"), RunError);
+}
+
+}  // namespace clatter

@@ -1,0 +1,309 @@
+#include <doctest/doctest.h>
+
+#include "render/renderer.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+TEST_CASE("The same snapshot gives the same picture") {
+  const auto context = open_context(Backend::Osmesa);
+  const Snapshot snapshot = driven_box();
+  const Size size{640, 360};
+  const View view = view_with_field();
+  Renderer first(context->gl()), second(context->gl());
+  const Camera camera = first.fit(snapshot, size, view, kText);
+  CHECK(difference(draw(first, context->gl(), snapshot, camera, size, view),
+                   draw(second, context->gl(), snapshot, camera, size, view)) == 0);
+}
+
+TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{5.0, 5.0}};
+  snapshot.velocities = {{2.0, 0.0}};
+  View view;
+  view.overlay = false;
+  view.range = {ColourRange::Given, {0.0, 2000.0}};
+  const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
+  CHECK(difference(pixel(image, 50, 50), Colour{0x47, 0x2d, 0x7b}) <= 1);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
+}
+
+TEST_CASE("A picture has room for a wall that swings out of the box") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot = driven_box();
+  snapshot.walls[kRight] = Wall{.kind = WallKind::Sinusoidal, .stroke = 6.0, .frequency = 1.0};
+  for (Size size : {Size{1280, 720}, {360, 640}}) {
+    for (const bool overlay : {false, true}) {
+      View view;
+      view.overlay = overlay;
+      const Camera camera = renderer.fit(snapshot, size, view, kText);
+      const Projection projection{camera, size};
+      const double face = projection.pixels({23.0, 0.0}).x();
+      CHECK(projection.pixels({0.0, 0.0}).x() >= wall_thickness(size) - 0.5);
+      CHECK(face + wall_thickness(size) <= size.width + 0.5);
+      if (!overlay) continue;
+      // No text where the wall comes.
+      snapshot.wall_displacement[kRight] = -3.0;
+      const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+      view.overlay = false;
+      const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+      const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels({23.0, 25.0});
+      int written = 0;
+      for (int y = static_cast<int>(low.y()) + 1; y < high.y() - 1; ++y) {
+        for (int x = static_cast<int>(low.x()) + 1; x < high.x() + wall_thickness(size) - 1; ++x) {
+          const int down = size.height - 1 - y;
+          written += !(pixel(with, x, down) == pixel(without, x, down));
+        }
+      }
+      CHECK(written == 0);
+    }
+  }
+}
+
+TEST_CASE("Spins are coloured by their sense") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{3.0, 5.0}, {5.0, 5.0}, {7.0, 5.0}};
+  snapshot.velocities = {{9.0, 0.0}, {9.0, 0.0}, {9.0, 0.0}};
+  snapshot.spins = {2.0, 0.0, -2.0};
+  View view;
+  view.overlay = false;
+  view.colour_by = ColourBy::Spin;
+  const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
+  const Colour forward = pixel(image, 30, 50), still = pixel(image, 50, 50);
+  const Colour backward = pixel(image, 70, 50);
+  CHECK(forward.red > forward.blue + 80);
+  CHECK(backward.blue > backward.red + 80);
+  CHECK(difference(still, {still.red, still.red, still.red}) < 20);
+  // Its legend is written.
+  view.overlay = true;
+  const Image with = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
+  CHECK(
+      difference(with, draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, [&] {
+                   View v = view;
+                   v.overlay = false;
+                   return v;
+                 }())) > 50);
+}
+
+namespace {
+
+// The colour in the middle of a box that a field of one cell fills with `value`.
+Colour field_colour(Renderer& renderer, const Gl& gl, const View& view, double value,
+                    bool whole_window) {
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.field = FieldMap{*view.field, {1, 1}, {value}, whole_window};
+  return pixel(draw(renderer, gl, snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view), 50, 50);
+}
+
+View view_of(Field field) {
+  View view;
+  view.colour_by = ColourBy::None;
+  view.field = field;
+  view.overlay = false;
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
+  const auto context = open_context(Backend::Osmesa);
+  const ColourMap map = colour_map(Palette::Viridis);
+  View view = view_of(Field::Temperature);
+  const auto colours = [&] {
+    Renderer renderer(context->gl());
+    std::vector<Colour> seen;
+    seen.push_back(field_colour(renderer, context->gl(), view, 0.1, false));
+    seen.push_back(field_colour(renderer, context->gl(), view, 1.0, true));
+    seen.push_back(field_colour(renderer, context->gl(), view, 100.0, true));
+    seen.push_back(field_colour(renderer, context->gl(), view, 0.5, true));
+    return seen;
+  };
+  const Colour top = map.back(), middle = map[8];
+  CHECK(colours() == std::vector{top, top, top, top});
+  view.field_range = {ColourRange::Locked};
+  CHECK(colours() == std::vector{top, top, top, middle});  // at 1, its first whole window
+  view.field_range = {ColourRange::Given, {-1.0, 2.0}};
+  CHECK(colours()[3] == middle);
+}
+
+TEST_CASE("Ranges that are fixed follow no more, but for those that are given") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_of(Field::Temperature);
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
+  const RangeEnds ends = range_ends(snapshot, view);
+  CHECK(ends.field == 1.0);
+  CHECK(ends.disks == 0.0);
+  CHECK(ends.arrows == 0.0);
+  Renderer renderer(context->gl());
+  renderer.fix(ends);
+  const Colour top = colour_map(Palette::Viridis).back(), middle = colour_map(Palette::Viridis)[8];
+  CHECK(field_colour(renderer, context->gl(), view, 100.0, true) == top);
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
+  view.field_range = {ColourRange::Locked};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
+  view.field_range = {ColourRange::Given, {0.0, 0.5}};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == top);
+}
+
+TEST_CASE("A locked range is found anew for another field") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  View view = view_of(Field::Temperature);
+  view.field_range = {ColourRange::Locked};
+  field_colour(renderer, context->gl(), view, 100.0, true);
+  view.field = Field::Density;
+  CHECK(field_colour(renderer, context->gl(), view, 1.0, true) ==
+        colour_map(Palette::Viridis).back());
+}
+
+TEST_CASE("Magnitudes have the palette, their bright end far from zero; signed fields have two") {
+  const auto context = open_context(Backend::Osmesa);
+  const auto colour = [&](Field field, double value) {
+    Renderer renderer(context->gl());
+    View view = view_of(field);
+    view.field_palette = Palette::Inferno;
+    return field_colour(renderer, context->gl(), view, value, true);
+  };
+  CHECK(colour(Field::Density, 1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Field::StressXx, -1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Field::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
+  for (const Field field : {Field::VelocityX, Field::StressXy, Field::HeatFluxY, Field::Spin}) {
+    CHECK(colour(field, 1.0) == diverging_map().back());
+    CHECK(colour(field, -1.0) == diverging_map().front());
+  }
+}
+
+TEST_CASE("Arrows lie over the box as long as their legend says") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
+  View view;
+  view.overlay = false;
+  const auto width_of_arrow = [&] {
+    const Image image =
+        draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
+    int width = 0;
+    for (int x = 0; x < 400; ++x) width += difference(pixel(image, x, 200), kDarkTheme.text) < 100;
+    return width;
+  };
+  CHECK(width_of_arrow() == 0);  // not asked for
+  view.arrows = Arrows::Velocity;
+  // The greatest value there is fills a cell of 160 pixels.
+  CHECK(std::abs(width_of_arrow() - 160) <= 4);
+}
+
+TEST_CASE("A theme has its colours, and a background of one's own goes before them") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  snapshot.positions = {{5.0, 5.0}};
+  snapshot.velocities = {{0.0, 0.0}};
+  View view;
+  view.colour_by = ColourBy::None;
+  const auto drawn = [&] {
+    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 20.0}, {400, 400}, view);
+  };
+  for (const auto& [name, colours] : {std::pair(Theme::Dark, kDarkTheme),
+                                      {Theme::Light, kLightTheme},
+                                      {Theme::Projector, kProjectorTheme}}) {
+    view.theme = name;
+    const Image image = drawn();
+    CHECK(pixel(image, 399, 200) == colours.background);
+    CHECK(pixel(image, 200, 200) == colours.disk);
+    // Letters of the title.
+    int letters = 0;
+    for (int x = 0; x < 200; ++x) {
+      for (int y = 0; y < 40; ++y) letters += difference(pixel(image, x, y), colours.text) < 60;
+    }
+    CHECK(letters > 20);
+  }
+  view.background = Rgb{1, 2, 3};
+  CHECK(pixel(drawn(), 399, 200) == Colour{1, 2, 3});
+}
+
+TEST_CASE("A grid is drawn where it is asked for") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  View view;
+  view.overlay = false;
+  const Camera camera{{5.0, 5.0}, 20.0};
+  const Image without = draw(renderer, context->gl(), snapshot, camera, {400, 400}, view);
+  view.grid = true;
+  CHECK(difference(without, draw(renderer, context->gl(), snapshot, camera, {400, 400}, view)) >
+        20);
+}
+
+TEST_CASE("A picture of several samples a pixel looks like the one of one sample") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_with_field();
+  view.grid = true;
+  view.arrows = Arrows::Velocity;
+  Snapshot snapshot = driven_box();
+  snapshot.walls[kLeft] = Wall{.kind = WallKind::Sinusoidal, .stroke = 1.0, .frequency = 1.0};
+  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
+  for (const Size size : {Size{1280, 720}, {500, 300}, {1080, 1920}}) {
+    Renderer normal(context->gl());
+    const Camera camera = normal.fit(snapshot, size, view, kText);
+    const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
+    CHECK(structural_similarity(one, one) == 1.0);
+    for (const int samples : {2, 4}) {
+      CAPTURE(size.width);
+      CAPTURE(samples);
+      Renderer finer(context->gl(), samples);
+      const Image many = draw(finer, context->gl(), snapshot, camera, size, view);
+      CHECK(structural_similarity(one, many) >= 0.98);
+      CHECK(difference(one, many) > 10);
+      for (std::size_t i = 3; i < many.rgba.size(); i += 4) REQUIRE(many.rgba[i] == 255);
+    }
+  }
+}
+
+TEST_CASE("Blur, trails and marks look the same with several samples a pixel") {
+  const auto context = open_context(Backend::Osmesa);
+  const Size size{1280, 720};
+  View view;
+  Snapshot snapshot = driven_box();
+  for (std::uint32_t i = 0; i < snapshot.positions.size(); ++i) {
+    const Vec2 &r = snapshot.positions[i], &v = snapshot.velocities[i];
+    snapshot.angles.push_back(0.1 * i);
+    snapshot.flights.push_back({i, -1.0, 0.0, r - v, v, {0.0, 0.0}});
+  }
+  for (const bool blurred : {false, true}) {
+    CAPTURE(blurred);
+    snapshot.exposure = blurred ? 0.8 : 0.0;
+    view.trails = blurred ? std::nullopt : std::optional(1.0);
+    Renderer normal(context->gl()), finer(context->gl(), 4);
+    const Camera camera = normal.fit(snapshot, size, view, kText);
+    const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
+    const Image many = draw(finer, context->gl(), snapshot, camera, size, view);
+    CHECK(structural_similarity(one, many) >= 0.98);
+    CHECK(difference(one, many) > 10);
+  }
+}
+
+TEST_CASE("An empty box is drawn too") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot;
+  snapshot.box = {10.0, 10.0};
+  const Size size{320, 200};
+  CHECK_NOTHROW(draw(renderer, context->gl(), snapshot, renderer.fit(snapshot, size, View{}, kText),
+                     size, View{}));
+}
+
+}  // namespace clatter

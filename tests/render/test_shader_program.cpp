@@ -1,0 +1,16 @@
+#include <doctest/doctest.h>
+
+#include "engine/error.h"
+#include "render/context/context.h"
+#include "render/shader_program.h"
+
+namespace clatter {
+
+TEST_CASE("A mistake in a shader is told with file and line") {
+  const auto context = open_context(Backend::Osmesa);
+  const char* source = "#version 330 core\nvoid main() {\n  nonsense;\n}\n";
+  CHECK_THROWS_WITH_AS(compile_shader(context->gl(), GL_FRAGMENT_SHADER, "wrong.frag", source),
+                       doctest::Contains("wrong.frag:3: "), RunError);
+}
+
+}  // namespace clatter

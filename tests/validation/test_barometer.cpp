@@ -1,0 +1,266 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/initial/start_state.h"
+#include "engine/measure/cell_integrals.h"
+#include "engine/measure/fields.h"
+#include "engine/measure/totals.h"
+#include "tests/support/statistics.h"
+#include "tests/validation/experiment.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+// Elastic disks under gravity on a thermal floor, below an elastic lid: canonical equilibrium at
+// T_w, so that everything is known exactly, or by the equation of state.
+
+namespace {
+
+constexpr double kTemperature = 2.0;
+
+Scene column(double lx, double ly, int count, double gravity) {
+  Scene scene = gas(lx, ly, count, 1.0);
+  scene.walls[kBottom] = {.kind = WallKind::Thermal, .temperature = kTemperature};
+  scene.walls[kTop] = Wall{};
+  scene.gravity = Vec2(0.0, -gravity);
+  scene.disks.start.temperature = kTemperature;
+  return scene;
+}
+
+// ln rho + pi rho + g y/T is the same at all heights (second virial coefficient pi/2; the third
+// changes a density of .015 by 1e-3 of itself): the density where it is `potential`.
+double virial_density(double potential) {
+  double rho = std::exp(potential);
+  for (int step = 0; step < 50; ++step) {
+    rho -= (std::log(rho) + std::numbers::pi * rho - potential) / (1.0 / rho + std::numbers::pi);
+  }
+  return rho;
+}
+
+// Mean densities of equal layers of the given thickness, by Simpson's rule, at the constant of the
+// barometric law that gives `total` per area in all.
+std::vector<double> virial_layers(int layers, double thickness, double slope, double total) {
+  const auto layer = [&](double constant, int i) {
+    const auto at = [&](double y) { return virial_density(constant - slope * y); };
+    return (at(i * thickness) + 4.0 * at((i + 0.5) * thickness) + at((i + 1) * thickness)) / 6.0;
+  };
+  double low = -20.0, high = 0.0;
+  std::vector<double> densities(static_cast<std::size_t>(layers));
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    double sum = 0.0;
+    for (int i = 0; i < layers; ++i) {
+      densities[static_cast<std::size_t>(i)] = layer(middle, i);
+      sum += thickness * densities[static_cast<std::size_t>(i)];
+    }
+    (sum > total ? high : low) = middle;
+  }
+  return densities;
+}
+
+// A gas in layers of one diameter, watched over a window of time.
+struct Layers {
+  std::vector<double> pressure;  // -sigma_yy, mean over each layer
+  std::vector<double> weight;    // of what lies above, per width, mean over each layer
+};
+
+// The density is known in sub-layers. A disk weighs on a layer by the share of it that lies below.
+Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
+                 const CellSums& density, const MomentLayout<2>& density_layout, double width,
+                 double gravity) {
+  const std::size_t count = stress.rows.size() / static_cast<std::size_t>(stress_layout.size);
+  const std::size_t parts = density.rows.size() / count;
+  const double part = 1.0 / static_cast<double>(parts);
+  Layers layers{std::vector<double>(count), std::vector<double>(count)};
+  double above = 0.0;
+  for (std::size_t i = count; i-- > 0;) {
+    const auto averages = averages_of(stress_layout, stress, i, width);
+    layers.pressure[i] = -field_value(Field::StressYy, averages);
+    layers.weight[i] = above;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const double rho = averages_of(density_layout, density, i * parts + k, width * part).density;
+      const double weight = gravity * rho * part;
+      layers.weight[i] += weight * (static_cast<double>(k) + 0.5) * part;
+      above += weight;
+    }
+  }
+  return layers;
+}
+
+}  // namespace
+
+TEST_CASE("barometer: one disk on a thermal floor has the exponential law of height, exactly") {
+  // Height above the floor over T/g: exponential of mean 1. The lid at 40 of these is never met
+  // (e^-40). Bounces take 2.5 sqrt(T)/g on average; samples every 40 sqrt(T)/g are independent,
+  // for a bounce that long has the probability e^-200. 40 bins of equal probability.
+  constexpr int kSamples = 20000;
+  constexpr int kBins = 40;
+  constexpr double kGravity = 0.5;
+  const Scene scene = column(10.0, 160.0, 1, kGravity);
+  Simulation<2> simulation(model_of(scene, 401), start_state(scene, 401));
+  std::vector<double> counts(kBins), speeds(kBins);
+  double sum = 0.0;
+  const double interval = 40.0 * std::sqrt(kTemperature) / kGravity;
+  simulation.every(interval, interval, [&](double) {
+    const State<2> state = simulation.state();
+    const double height = (state.positions[0].y() - 0.5) * kGravity / kTemperature;
+    const double squared = state.velocities[0].squaredNorm() / (2.0 * kTemperature);
+    sum += height;
+    counts[static_cast<std::size_t>(std::min(std::exp(-height) * kBins, kBins - 1.0))] += 1.0;
+    speeds[static_cast<std::size_t>(std::min(std::exp(-squared) * kBins, kBins - 1.0))] += 1.0;
+  });
+  simulation.run_until((kSamples + 0.5) * interval);
+  const double mean = kSamples / static_cast<double>(kBins);
+  const double p = counts_p(counts, std::vector(kBins, mean));
+  const double p_speeds = counts_p(speeds, std::vector(kBins, mean));
+  const double off = standard_errors_off(sum, kSamples, 1.0, 1.0);
+  MESSAGE("heights: p = ", p, ", speeds: p = ", p_speeds, ", <y> - 1/2 = ", sum / kSamples,
+          " T/g, off by ", off, " standard errors of .7 %");
+  CHECK(p > kLeastProbability);
+  CHECK(p_speeds > kLeastProbability);
+  for (const double count : counts) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
+  for (const double count : speeds) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
+  CHECK(std::fabs(off) < 5.0);
+  CHECK(simulation.counts().disk_disk == 0);
+}
+
+TEST_CASE("barometer: averages over time of one disk are those of the law") {
+  const Scene scene = column(10.0, 160.0, 1, 0.5);
+  const Measured result = run(scene, 100.0, 400000.0, 402);
+  MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error, ", pressure ",
+          result.pressure[kBottom]->mean, " +- ", result.pressure[kBottom]->standard_error);
+  CHECK(relative_error(result.temperature) < 0.005);
+  CHECK(std::fabs(result.temperature.mean - kTemperature) <
+        5.0 * result.temperature.standard_error);
+  CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.01);
+  // The floor bears the weight, g/Lx.
+  CHECK(std::fabs(relative(*result.pressure[kBottom], 0.05)) < 1e-4);
+  check_energy_balance(result, 1);
+}
+
+TEST_CASE("barometer: a dense gas weighs upon the floor what it is, and is at T_w throughout") {
+  // 120 disks in 15 x 15 (phi = .42), g Ly = 3.75 T.
+  constexpr int kCount = 120;
+  constexpr double kGravity = 0.5;
+  const Scene scene = column(15.0, 15.0, kCount, kGravity);
+  const Measured result = run(scene, 100.0, 4000.0, 403);
+  const Estimate& floor = *result.pressure[kBottom];
+  const Estimate& lid = *result.pressure[kTop];
+  const double weight = kCount * kGravity / 15.0;
+  const double error = std::hypot(floor.standard_error, lid.standard_error);
+  MESSAGE("pressures ", floor.mean, " and ", lid.mean, ", difference ", floor.mean - lid.mean,
+          " +- ", error, ", weight per length ", weight);
+  CHECK(error < 0.02 * weight);
+  CHECK(std::fabs(floor.mean - lid.mean - weight) < 5.0 * error);
+  // The rest is the change of momentum from begin to end: variance 2 N T, 5 standard errors.
+  CHECK(std::fabs(floor.mean - lid.mean - weight) * 15.0 * result.duration <
+        5.0 * std::sqrt(2.0 * kCount * kTemperature));
+  CHECK(relative_error(result.temperature) < 0.006);
+  CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.015);
+  CHECK(std::fabs(result.walls_in->mean) < 5.0 * result.walls_in->standard_error);
+  check_energy_balance(result, kCount);
+}
+
+TEST_CASE("barometer: a thin gas has the barometric profile at one temperature") {
+  // 100 disks over 200 wide, T/g = 20: rho = .025 at the floor, 1.5 e^-8 of it at the lid. 16
+  // layers of 10; those that hold less than a disk on average are left out. The two virial
+  // coefficients of the law change a layer by up to 8 %, the next one by .3 %; the layers next to
+  // the floor hold no centres in its lowest half diameter.
+  constexpr int kLayers = 16;
+  constexpr int kWindows = 400;
+  constexpr double kGravity = 0.1;
+  constexpr double kCount = 100.0;
+  const Scene scene = column(200.0, 160.5, 100, kGravity);
+  const Model<2> model = model_of(scene, 404);
+  // Layers counted from the lowest centres at y = 1/2, by samples every 100: almost three times the
+  // time of a bounce, and there are enough collisions to mix.
+  Simulation<2> simulation(model, start_state(scene, 404));
+  std::vector<Sample> densities(kLayers), temperatures(kLayers);
+  for (int window = -20; window < kWindows; ++window) {
+    simulation.run_until(100.0 * (window + 21));
+    if (window < 0) continue;
+    const State<2> state = simulation.state();
+    std::vector<double> counts(kLayers);
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      const auto layer = static_cast<std::size_t>((state.positions[i].y() - 0.5) / 10.0);
+      counts[layer] += 1.0;
+      temperatures[layer].add(0.5 * state.velocities[i].squaredNorm());
+    }
+    for (std::size_t k = 0; k < kLayers; ++k) densities[k].add(counts[k] / (200.0 * 10.0));
+  }
+  const auto expected = virial_layers(kLayers, 10.0, kGravity / kTemperature, kCount / 200.0);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Sample &density = densities[k], &temperature = temperatures[k];
+    MESSAGE("layer ", k, ": rho = ", density.mean(), " +- ", density.standard_error(), ", law ",
+            expected[k], "; T = ", temperature.mean(), " +- ", temperature.standard_error());
+    CHECK(std::fabs(density.mean() - expected[k]) < 5.0 * density.standard_error());
+    CHECK(std::fabs(temperature.mean() - kTemperature) < 5.0 * temperature.standard_error());
+  }
+}
+
+TEST_CASE("barometer: the stress of every layer carries the weight above it") {
+  // dp/dy = -rho g. 160 disks over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04 below
+  // the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum forgets
+  // itself within some collisions, the column its swinging. Densities in sub-layers of 1/16, which
+  // miss the weight within a layer by some 1e-4 of it where contacts with the floor order the gas.
+  constexpr int kLayers = 40;
+  constexpr int kParts = 16;
+  constexpr int kWindows = 150;
+  constexpr double kSpan = 100.0;
+  constexpr double kWidth = 20.0;
+  constexpr double kGravity = 0.2;
+  const Scene scene = column(kWidth, kLayers, 160, kGravity);
+  Simulation<2> simulation(model_of(scene, 405), start_state(scene, 405));
+  const Field stress = Field::StressYy, density = Field::Density;
+  CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false));
+  CellIntegrals<2> densities(simulation, {1, kParts * kLayers},
+                             moment_layout<2>({&density, 1}, false));
+  Totals<2> totals(simulation);
+  simulation.add_observer(stresses);
+  simulation.add_observer(densities);
+  simulation.add_observer(totals);
+  // Of each layer: what its pressure exceeds that on the lid and the weight above by, and the same
+  // from layer to layer.
+  std::vector<Sample> excesses(kLayers), steps(kLayers), pressures(kLayers), weights(kLayers);
+  for (int window = 0; window < kWindows; ++window) {
+    simulation.run_until(simulation.time() + kSpan);
+    totals.close_window();
+    stresses.close_window();
+    densities.close_window();
+    simulation.run_until(simulation.time() + kSpan);
+    const double lid = totals.close_window().wall_impulse[kTop] / (kSpan * kWidth);
+    const Layers layers = layers_of(stresses.close_window(), stresses.layout(),
+                                    densities.close_window(), densities.layout(), kWidth, kGravity);
+    double below = 0.0;
+    for (std::size_t i = 0; i < kLayers; ++i) {
+      const double excess = layers.pressure[i] - layers.weight[i] - lid;
+      excesses[i].add(excess);
+      if (i > 0) steps[i].add(excess - below);
+      pressures[i].add(layers.pressure[i]);
+      weights[i].add(layers.weight[i]);
+      below = excess;
+    }
+  }
+  // A step is about the disks of two layers: every other has its own.
+  double chi_squared = 0.0, least = 1.0, most = 0.0;
+  for (std::size_t i = 0; i < kLayers; ++i) {
+    CAPTURE(i);
+    CHECK(std::fabs(excesses[i].mean()) < 5.0 * excesses[i].standard_error());
+    if (i == 0) continue;
+    const double error = steps[i].standard_error();
+    CHECK(std::fabs(steps[i].mean()) < 5.0 * error);
+    if (i % 2 == 1) chi_squared += std::pow(steps[i].mean() / error, 2);
+    const double precision = error / (weights[i - 1].mean() - weights[i].mean());
+    least = std::min(least, precision);
+    most = std::max(most, precision);
+  }
+  const double p = chi_squared_p(chi_squared, kLayers / 2);
+  MESSAGE("-sigma_yy from ", pressures.front().mean(), " to ", pressures.back().mean(),
+          "; dp/dy = -rho g in every layer within ", least, " to ", most, " of it, p = ", p);
+  CHECK(p > kLeastProbability);
+  CHECK(most < 0.02);
+}

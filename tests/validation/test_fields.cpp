@@ -1,0 +1,202 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/initial/start_state.h"
+#include "engine/physics/theory.h"
+#include "tests/support/statistics.h"
+#include "tests/validation/experiment.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+const std::vector<Field> kFields = {Field::Density,      Field::VelocityX,    Field::VelocityY,
+                                    Field::TemperatureX, Field::TemperatureY, Field::StressXx,
+                                    Field::StressYy,     Field::StressXy,     Field::HeatFluxX,
+                                    Field::HeatFluxY,    Field::Dissipation};
+
+/// Probability of the columns' distances from an expected value, in their standard errors.
+double flatness_p(const std::vector<Estimate>& columns, double expected) {
+  double sum = 0.0;
+  for (const Estimate& e : columns) {
+    const double off = (e.mean - expected) / e.standard_error;
+    sum += off * off;
+  }
+  return chi_squared_p(sum, static_cast<double>(columns.size()));
+}
+
+/// Probability of two profiles' differences, where both errors are independent.
+double agreement_p(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
+  double sum = 0.0, freedom = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double error = std::hypot(a[i].standard_error, b[i].standard_error);
+    if (!std::isfinite(a[i].mean) || !std::isfinite(b[i].mean) || error == 0.0) continue;
+    sum += std::pow((a[i].mean - b[i].mean) / error, 2);
+    freedom += 1.0;
+  }
+  return chi_squared_p(sum, freedom);
+}
+
+}  // namespace
+
+TEST_CASE("fields: the vibrated gas passes on what the walls give, from wall to wall") {
+  // Cells of a quarter: in the outermost two columns no centre ever is.
+  Scene scene = vibrated_gas(0.9, 1.0);
+  scene.measure.fields = kFields;
+  scene.measure.cells = {80, 1};
+  const Measured result = run(scene, 300.0, 20000.0, 115);
+  const Profile& profile = *result.profile;
+  const double width = 0.25, height = 25.0;
+
+  // Momentum piles up nowhere: what the columns differ by is the change of what they hold, over the
+  // run's duration, far below the errors of the mean pressure itself.
+  const double pressure = 0.5 * (result.pressure[kLeft]->mean + result.pressure[kRight]->mean);
+  const std::vector<Estimate>& stress = profile.at(Field::StressXx);
+  double largest = 0.0;
+  for (const Estimate& e : stress) largest = std::max(largest, std::fabs(e.mean / pressure + 1.0));
+  const double p = flatness_p(stress, -pressure);
+  MESSAGE("sigma_xx over wall pressure is -1 within ", largest, ", p = ", p);
+  CHECK(largest < 1e-3);
+  CHECK(p > kLeastProbability);
+  CHECK(std::fabs(stress.front().mean + result.pressure[kLeft]->mean) < 1e-9 * pressure);
+
+  double dissipation = 0.0;
+  for (const Estimate& e : profile.at(Field::Dissipation)) {
+    CHECK(e.mean <= 0.0);
+    dissipation += e.mean * width * height;
+  }
+  const double balance = std::fabs(dissipation / result.walls_in->mean + 1.0);
+  MESSAGE("integral of zeta over wall power is -1 within ", balance);
+  CHECK(balance < 1e-3);
+  CHECK(dissipation == doctest::Approx(-result.dissipated.mean).epsilon(1e-9));
+
+  // Into the gas at either end.
+  const std::vector<Estimate>& q = profile.at(Field::HeatFluxX);
+  const double in = (q.front().mean - q.back().mean) * height;
+  MESSAGE("heat flux at the walls over their power is 1 within ", in / result.walls_in->mean - 1.0);
+  CHECK(in == doctest::Approx(result.walls_in->mean).epsilon(1e-9));
+  CHECK(std::fabs(q.front().mean + q.back().mean) <
+        5.0 * std::hypot(q.front().standard_error, q.back().standard_error));
+  // dq_x/dx = zeta, between the middles of neighbours and away from the walls' own columns; V = 0
+  // there but for the change of density over the run.
+  for (std::size_t i = 10; i + 11 < q.size(); i += 10) {
+    double lost = 0.5 * (profile.at(Field::Dissipation)[i].mean +
+                         profile.at(Field::Dissipation)[i + 10].mean);
+    for (std::size_t k = i + 1; k < i + 10; ++k) lost += profile.at(Field::Dissipation)[k].mean;
+    CHECK(std::fabs(q[i + 10].mean - q[i].mean - lost * width) < 2e-3 * q.front().mean);
+  }
+}
+
+TEST_CASE("fields: an elastic gas at rest conducts and dissipates nothing") {
+  Scene scene = gas_of_fraction(0.1, 200, 1.0);
+  scene.measure.fields = kFields;
+  scene.measure.cells = {10, 4};
+  const Measured result = run(scene, 50.0, 10000.0, 116);
+  const Profile& profile = *result.profile;
+  for (const Estimate& e : profile.at(Field::Dissipation)) {
+    CHECK(e.mean == 0.0);
+  }
+  const double q_x = flatness_p(profile.at(Field::HeatFluxX), 0.0);
+  const double q_y = flatness_p(profile.at(Field::HeatFluxY), 0.0);
+  const double s_xy = flatness_p(profile.at(Field::StressXy), 0.0);
+  const double equal =
+      agreement_p(profile.at(Field::TemperatureX), profile.at(Field::TemperatureY));
+  MESSAGE("p of q_x = 0: ", q_x, ", q_y = 0: ", q_y, ", sigma_xy = 0: ", s_xy,
+          ", T_x = T_y: ", equal);
+  CHECK(std::min({q_x, q_y, s_xy, equal}) > kLeastProbability);
+
+  // p = rho T (1 + 2 phi chi), T = 1 being that of all disks. Two momenta are fixed, which makes
+  // contacts rarer and softer by some 1/N of their share of the pressure, 0.1 %.
+  const double phi = 0.1;
+  const double density = 4.0 * phi / std::numbers::pi;
+  const double expected = density * (1.0 + 2.0 * phi * contact_correlation(phi));
+  for (const Field field : {Field::StressXx, Field::StressYy}) {
+    double mean = 0.0;
+    for (const Estimate& e : profile.at(field)) {
+      CHECK(std::fabs(e.mean + expected) < 5.0 * e.standard_error);
+      CHECK(e.standard_error < 0.01 * expected);
+      mean += e.mean / 10.0;
+    }
+    // Columns share the disks, so that their mean is far better known than each.
+    CHECK(std::fabs(mean / expected + 1.0) < 0.003);
+  }
+}
+
+TEST_CASE("fields: a sheared flow is taken off") {
+  // Two halves of a gas that stream against each other mix; T stays that about V, and the stress
+  // of the flow is none of the gas.
+  Scene scene = gas_of_fraction(0.1, 200, 1.0);
+  scene.measure.fields = kFields;
+  scene.measure.cells = {1, 1};
+  const std::uint64_t seed = 117;
+  State<2> start = start_state(scene, seed);
+  for (Vec2& v : start.velocities) v += Vec2(3.0, -2.0);
+  scene.measure.duration = 1000.0;
+  scene.measure.burn_in = 0.0;
+  Simulation<2> simulation(model_of(scene, seed), start);
+  Measurement measurement(simulation, scene.measure, 1000.0);
+  simulation.run_until(1000.0);
+  const Measured flowing = measurement.result();
+  const Measured still = run(scene, 0.0, 1000.0, seed);
+  for (const Field field : {Field::TemperatureX, Field::StressXx, Field::StressYy}) {
+    const Estimate &a = flowing.profile->at(field)[0], &b = still.profile->at(field)[0];
+    CHECK(std::fabs(a.mean - b.mean) < 5.0 * std::hypot(a.standard_error, b.standard_error));
+    CHECK(a.standard_error < 0.02 * std::fabs(a.mean));
+  }
+  CHECK(flowing.profile->at(Field::VelocityX)[0].mean == doctest::Approx(3.0).epsilon(1e-9));
+  CHECK(flowing.profile->at(Field::VelocityY)[0].mean == doctest::Approx(-2.0).epsilon(1e-9));
+  const Estimate& q = flowing.profile->at(Field::HeatFluxX)[0];
+  CHECK(std::fabs(q.mean) < 5.0 * q.standard_error);
+  CHECK(q.standard_error < 0.01);
+}
+
+TEST_CASE("fields: snapshots agree with the exact estimator") {
+  Scene scene = vibrated_gas(0.9, 1.0);
+  scene.measure.fields = kFields;
+  scene.measure.cells = {20, 1};
+  const Measured exact = run(scene, 300.0, 5000.0, 118);
+  scene.measure.estimator = Estimator::Snapshot;
+  scene.measure.interval = 1.7;
+  const Measured snapshot = run(scene, 300.0, 5000.0, 119);
+  double least = 1.0;
+  for (const Field field : kFields) {
+    const double p = agreement_p(exact.profile->at(field), snapshot.profile->at(field));
+    CAPTURE(static_cast<int>(field));
+    CHECK(p > kLeastProbability);
+    least = std::min(least, p);
+  }
+  MESSAGE("least p of ", kFields.size(), " fields: ", least);
+}
+
+TEST_CASE("fields: profiles along y, where gravity layers the gas") {
+  Scene scene = gas(15.0, 12.0, 60, 1.0);
+  wall_in(scene, 1, {.kind = WallKind::Thermal, .temperature = 1.0});
+  scene.gravity = Vec2(0.0, -0.3);
+  scene.measure.fields = kFields;
+  scene.measure.cells = {3, 12};
+  scene.measure.profile_axis = Axis::Y;
+  const Measured result = run(scene, 100.0, 5000.0, 120);
+  const Profile& profile = *result.profile;
+  REQUIRE(profile.edges.size() == 13);
+  CHECK(profile.edges.back() == doctest::Approx(12.0));
+  // Isothermal, and the stress carries what lies above: -sigma_yy(y) = p_top + g sum of rho above,
+  // within 1e-3, the change of momentum over the run.
+  const double p_top = result.pressure[kTop]->mean, p_bottom = result.pressure[kBottom]->mean;
+  CHECK(p_bottom - p_top == doctest::Approx(0.3 * 60.0 / 15.0).epsilon(1e-3));
+  double above = p_top;
+  for (std::size_t i = 12; i-- > 0;) {
+    CAPTURE(i);
+    const double weight = 0.3 * profile.at(Field::Density)[i].mean;
+    const double stress = profile.at(Field::StressYy)[i].mean;
+    // The mean over a cell, in which the weight is nearly uniform.
+    CHECK(std::fabs(stress + above + 0.5 * weight) < 0.02 * p_bottom);
+    above += weight;
+    for (const Field field : {Field::TemperatureX, Field::TemperatureY}) {
+      const Estimate& e = profile.at(field)[i];
+      CHECK(std::fabs(e.mean - 1.0) < 5.0 * e.standard_error);
+    }
+  }
+}
