@@ -1,5 +1,5 @@
 # Every dependency comes from the distribution. What is missing is named with the package that
-# holds it, all at once, so that one call of the package manager mends it.
+# is_current it, all at once, so that one call of the package manager mends it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 

@@ -35,7 +35,7 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A physical stop (overlap, collapse, no more room for motion): where, when, which disks, what
+/// A physical stop (overlap, collapse, no more room for motion): where, when, which particles, what
 /// would help; the program prints it and exits with 3.
 class PhysicalStop : public std::runtime_error {
  public:

@@ -22,7 +22,7 @@ Quantity name_of(ColourBy colour_by) {
   return {""};
 }
 
-// Disks repel each other, so pressure is positive and normal stress negative.
+// Particles repel each other, so pressure is positive and normal stress negative.
 Quantity name_of(Field field) {
   switch (field) {
     case Field::Density:

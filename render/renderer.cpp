@@ -139,7 +139,7 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
 
 Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
                      const OverlayText& text) {
-  // Disks stand out of a periodic border by half their diameter.
+  // Particles stand out of a periodic border by half their diameter.
   Vec2 overhang(0.0, 0.0);
   for (int axis : {0, 1}) {
     if (!snapshot.walls[2 * axis]) overhang[axis] = 0.5 * snapshot.diameter;

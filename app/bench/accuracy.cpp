@@ -16,16 +16,16 @@ namespace clatter {
 
 namespace {
 
-using Replicas = std::vector<Observed>;
+using Replicas = std::vector<RunResult>;
 
-Observed observe_one(const Setting& setting, double duration, std::uint64_t seed) {
+RunResult observe_one(const Setting& setting, double duration, std::uint64_t seed) {
   const Effort effort{.burn_in = 0.2 * duration, .duration = setting.duration * duration};
   return setting.time_step > 0.0 ? observe_stepped(setting.scene, setting.time_step, effort, seed)
                                  : observe(setting.scene, effort, seed);
 }
 
 // Settings one after the other again and again, so that all meet the same load.
-std::vector<Replicas> observe_all(const Dial& dial, double duration) {
+std::vector<Replicas> observe_all(const ParameterSweep& dial, double duration) {
   std::vector<Replicas> runs(dial.settings.size());
   for (std::uint64_t seed = 1; seed <= kAccuracyReplicas; ++seed) {
     for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -42,7 +42,7 @@ AccuracyRow row_of(const Setting& setting, const Replicas& replicas, const Repli
                   .elasticised_share = replicas.front().elasticised_share,
                   .comparison = compare(replicas, reference)};
   double events = 0.0, seconds = 0.0;
-  for (const Observed& replica : replicas) {
+  for (const RunResult& replica : replicas) {
     row.cpu_per_time = std::min(row.cpu_per_time, replica.cpu_seconds / replica.time);
     row.deepest_overlap = std::max(row.deepest_overlap, replica.deepest_overlap);
     row.bytes = std::max(row.bytes, replica.bytes);
@@ -54,7 +54,7 @@ AccuracyRow row_of(const Setting& setting, const Replicas& replicas, const Repli
 }
 
 // What the settings but the first tend to as their values go to 0, compared with the first.
-AccuracyRow limit_row(const Dial& dial, const std::vector<Replicas>& runs) {
+AccuracyRow limit_row(const ParameterSweep& dial, const std::vector<Replicas>& runs) {
   AccuracyRow row{.setting = "-> 0",
                   .value = 0.0,
                   .cpu_per_time = kNotANumber,
@@ -89,7 +89,7 @@ void mark_dominated(std::vector<AccuracyRow>& rows) {
   }
 }
 
-AccuracyTable run_dial(const Dial& dial, double duration) {
+AccuracyTable run_dial(const ParameterSweep& dial, double duration) {
   const std::vector<Replicas> runs = observe_all(dial, duration);
   AccuracyTable table{dial.name, dial.title, {}};
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -105,9 +105,9 @@ bool asked_for(const std::string& dial, const AccuracyBench& bench) {
 }
 
 // Throws where a dial is asked for that the scene has not.
-void require_known(const std::vector<Dial>& dials, const AccuracyBench& bench) {
+void require_known(const std::vector<ParameterSweep>& dials, const AccuracyBench& bench) {
   std::vector<std::string> known(std::begin(kPictureDials), std::end(kPictureDials));
-  for (const Dial& dial : dials) known.push_back(dial.name);
+  for (const ParameterSweep& dial : dials) known.push_back(dial.name);
   for (const std::string& name : bench.dials) {
     if (std::ranges::find(known, name) != known.end()) continue;
     std::string names;
@@ -133,17 +133,17 @@ void require_places(const AccuracyBench& bench) {
 int bench_accuracy(const AccuracyBench& bench) {
   require_places(bench);
   Scene scene = load_scene(bench.scene, {});
-  if (scene.disks.count < 2 || !scene.changes.empty()) {
+  if (scene.particles.count < 2 || !scene.changes.empty()) {
     throw UserError({bench.scene, 0, 0}, "errors are those of a gas whose laws stay",
                     "choose a scene of two disks or more, without [[change]]");
   }
-  require_known(dials_of(scene, 1.0), bench);
+  require_known(sweeps_of(scene, 1.0), bench);
   const Effort effort{.burn_in = 0.2 * bench.duration, .duration = bench.duration};
   const double rate = observe(scene, effort, 1).collision_rate;
 
   std::fputs(accuracy_statement(bench).c_str(), stderr);
   std::vector<AccuracyTable> tables;
-  for (const Dial& dial : dials_of(scene, 1.0 / rate)) {
+  for (const ParameterSweep& dial : sweeps_of(scene, 1.0 / rate)) {
     if (!asked_for(dial.name, bench)) continue;
     tables.push_back(run_dial(dial, bench.duration));
     print(accuracy_text(tables.back()));

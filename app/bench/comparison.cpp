@@ -8,11 +8,11 @@ namespace clatter {
 
 namespace {
 
-using Replicas = std::vector<Observed>;
+using Replicas = std::vector<RunResult>;
 
-ProfileValues mean_profile(const Replicas& replicas, ProfileValues Observed::*profile) {
+ProfileValues mean_profile(const Replicas& replicas, ProfileValues RunResult::*profile) {
   ProfileValues mean{};
-  for (const Observed& replica : replicas) {
+  for (const RunResult& replica : replicas) {
     for (std::size_t k = 0; k < mean.size(); ++k) {
       mean[k] += (replica.*profile)[k] / static_cast<double>(replicas.size());
     }
@@ -33,7 +33,7 @@ Estimate independent_mean(const std::vector<double>& values) {
 std::vector<double> values_of(const Replicas& replicas, ComparedMean quantity,
                               const ProfileValues& heat_flux) {
   std::vector<double> values;
-  for (const Observed& replica : replicas) {
+  for (const RunResult& replica : replicas) {
     double value = replica.means[quantity];
     if (quantity == kHeatFlux) {
       value = 0.0;
@@ -83,7 +83,7 @@ struct ProfileComparison {
 };
 
 ProfileComparison compare_densities(const Replicas& replicas, const Replicas& reference) {
-  const ProfileValues mean = mean_profile(reference, &Observed::density);
+  const ProfileValues mean = mean_profile(reference, &RunResult::density);
   double scale = 0.0;
   for (const double value : mean) scale += value / kProfileColumns;
   std::vector<ProfileValues> differences(replicas.size());
@@ -103,7 +103,7 @@ ProfileComparison compare_densities(const Replicas& replicas, const Replicas& re
 
 double cpu_of(const Replicas& replicas) {
   double seconds = 0.0;
-  for (const Observed& replica : replicas) seconds += replica.cpu_seconds;
+  for (const RunResult& replica : replicas) seconds += replica.cpu_seconds;
   return seconds;
 }
 
@@ -111,11 +111,11 @@ double cpu_of(const Replicas& replicas) {
 
 Estimate mean_over(const Replicas& replicas, ComparedMean quantity, const Replicas& reference) {
   return independent_mean(
-      values_of(replicas, quantity, mean_profile(reference, &Observed::heat_flux)));
+      values_of(replicas, quantity, mean_profile(reference, &RunResult::heat_flux)));
 }
 
 Comparison compare(const Replicas& replicas, const Replicas& reference) {
-  const ProfileValues heat_flux = mean_profile(reference, &Observed::heat_flux);
+  const ProfileValues heat_flux = mean_profile(reference, &RunResult::heat_flux);
   const double cpu = cpu_of(replicas);
   Comparison comparison;
   double squares = 0.0;

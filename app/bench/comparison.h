@@ -25,11 +25,11 @@ struct Comparison {
 
 /// Compares replicas, of which those of the same place in both lists have the same seed: their
 /// differences are averaged, so that what both have in common does not count as scatter.
-Comparison compare(const std::vector<Observed>& replicas, const std::vector<Observed>& reference);
+Comparison compare(const std::vector<RunResult>& replicas, const std::vector<RunResult>& reference);
 
 /// A mean of a reference's replicas; the heat flux with the sign that it has in each column.
-Estimate mean_over(const std::vector<Observed>& replicas, ComparedMean quantity,
-                   const std::vector<Observed>& reference);
+Estimate mean_over(const std::vector<RunResult>& replicas, ComparedMean quantity,
+                   const std::vector<RunResult>& reference);
 
 /// The intercept at 0 of the straight line through estimates at `places`, each weighted by its
 /// error; the points have the same mean square distance from it as their errors say.

@@ -34,7 +34,7 @@ struct EngineRate {
 // Elastic disks in a periodic square box.
 Scene scene_of(int count, double area_fraction) {
   Scene scene;
-  scene.disks.count = count;
+  scene.particles.count = count;
   scene.box.setConstant(std::sqrt(count * 0.25 * std::numbers::pi / area_fraction));
   return scene;
 }
@@ -46,18 +46,18 @@ bool has_room(int count, double area_fraction) {
 // After a number of collisions of each disk: elastic disks are in equilibrium after ten.
 EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
   constexpr int kRepetitions = 3;
-  const auto disks = static_cast<std::uint64_t>(scene.disks.count);
+  const auto disks = static_cast<std::uint64_t>(scene.particles.count);
   restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
   const auto simulation = simulation_of(scene, 1);
-  EngineRate result{scene.disks.count, scene.area_fraction(), 0.0, cpu_seconds() - setup_began,
+  EngineRate result{scene.particles.count, scene.area_fraction(), 0.0, cpu_seconds() - setup_began,
                     0.0};
   simulation->run_until(kNever, equilibration * disks / 2);
   const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, disks);
   for (int k = 0; k < kRepetitions; ++k) {
     const double began = cpu_seconds();
-    simulation->run_until(kNever, simulation->counts().disk_disk + batch);
+    simulation->run_until(kNever, simulation->counts().pair_collisions + batch);
     const double rate = 1e-6 * static_cast<double>(batch) / (cpu_seconds() - began);
     result.rate = std::max(result.rate, rate);
   }
@@ -99,10 +99,10 @@ struct Inhomogeneous {
 std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
   constexpr double kMeanAreaFraction = 0.1;
   Scene cooling = scene_of(count, kMeanAreaFraction);
-  cooling.disks.restitution = 0.6;
+  cooling.particles.restitution = 0.6;
   cooling.contact_time = 1e-6;
   Scene falling = scene_of(count, kMeanAreaFraction);
-  falling.disks.restitution = 0.9;
+  falling.particles.restitution = 0.9;
   falling.contact_time = 1e-6;
   falling.walls[kTop] = Wall{};
   falling.walls[kBottom] = Wall{.restitution = 0.9};

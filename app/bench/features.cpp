@@ -72,12 +72,12 @@ class Trial {
 
  private:
   std::uint64_t collisions() const {
-    return simulation_->counts().disk_disk + simulation_->counts().disk_wall;
+    return simulation_->counts().pair_collisions + simulation_->counts().wall_collisions;
   }
 
   void equilibrate() {
     constexpr std::uint64_t kAtFirst = 20;
-    simulation_->run_until(kNever, kAtFirst * static_cast<std::uint64_t>(scene_.disks.count));
+    simulation_->run_until(kNever, kAtFirst * static_cast<std::uint64_t>(scene_.particles.count));
   }
 
   void take_fields() {
@@ -98,7 +98,7 @@ class Trial {
     Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
                           .command = "bench",
                           .scene = scene_to_toml(scene_),
-                          .start_temperature = scene_.disks.start.temperature,
+                          .start_temperature = scene_.particles.start.temperature,
                           .seed = 1,
                           .saved = simulation_->save(),
                           .measurement = {},
@@ -113,7 +113,7 @@ class Trial {
   std::unique_ptr<Simulation<2>> simulation_;
   std::optional<CellIntegrals<2>> integrals_;
   std::optional<Balance<2>> balance_;
-  Latest<Snapshot> frames_;
+  TripleBuffer<Snapshot> frames_;
 };
 
 void add_walls(Scene& scene, Side near, const Wall& wall) {
@@ -122,11 +122,11 @@ void add_walls(Scene& scene, Side near, const Wall& wall) {
 
 // Little enough for a gas that nothing drives to stay what it was while it is timed.
 void lose_energy(Scene& scene) {
-  scene.disks.restitution = 0.999;
+  scene.particles.restitution = 0.999;
 }
 
 void shake(Scene& scene) {
-  scene.disks.restitution = 0.9;
+  scene.particles.restitution = 0.9;
   add_walls(scene, kLeft, {.kind = WallKind::Driven, .drive_speed = 1.0});
 }
 
@@ -142,12 +142,12 @@ std::vector<Feature> features() {
           {"inelastic, driven walls", shake},
           {"inelastic, moving walls",
            [](Scene& scene) {
-             scene.disks.restitution = 0.9;
+             scene.particles.restitution = 0.9;
              add_walls(scene, kLeft, {.kind = WallKind::Sawtooth, .stroke = 0.1, .frequency = 5.0});
            }},
           {"inelastic, bulk drive",
            [](Scene& scene) {
-             scene.disks.restitution = 0.9;
+             scene.particles.restitution = 0.9;
              scene.bulk_drive = BulkDrive{.interval = 0.05, .kick_speed = 0.12};
            }},
           {"walls on four sides",
@@ -162,8 +162,8 @@ std::vector<Feature> features() {
            }},
           {"rough",
            [](Scene& scene) {
-             scene.disks.roughness = {.friction = std::numeric_limits<double>::infinity(),
-                                      .tangential_restitution = 1.0};
+             scene.particles.roughness = {.friction = std::numeric_limits<double>::infinity(),
+                                          .tangential_restitution = 1.0};
            }},
           {"t_c",
            [](Scene& scene) {
@@ -188,15 +188,16 @@ double median(std::vector<double> values) {
 
 int bench_features(const std::string& json, int count) {
   Scene bare;
-  bare.disks.count = count > 0 ? count : 1000;
-  bare.box.setConstant(std::sqrt(bare.disks.count * 0.25 * std::numbers::pi / kAreaFraction));
-  const auto batch = kPerDisk * static_cast<std::uint64_t>(bare.disks.count);
+  bare.particles.count = count > 0 ? count : 1000;
+  bare.box.setConstant(std::sqrt(bare.particles.count * 0.25 * std::numbers::pi / kAreaFraction));
+  const auto batch = kPerDisk * static_cast<std::uint64_t>(bare.particles.count);
   std::fprintf(stderr,
                "%d disks, phi = %g; each %d rounds of %llu collisions, interleaved; rate: "
                "collisions with disks and walls per CPU second over those of the bare run "
                "(elastic, periodic) in the "
                "same round, median\n",
-               bare.disks.count, kAreaFraction, kRounds, static_cast<unsigned long long>(batch));
+               bare.particles.count, kAreaFraction, kRounds,
+               static_cast<unsigned long long>(batch));
 
   const std::vector<Feature> added = features();
   std::vector<std::unique_ptr<Trial>> trials;

@@ -45,7 +45,7 @@ Outcome observe(const Scene& scene, double duration, const Observation& how) {
   constexpr double kWindows = 512.0, kWindowsPerBalance = 32.0;
   const auto simulation = simulation_of(scene, 1);
   simulation->run_until(kBurnIn);
-  const auto collisions_before = static_cast<double>(simulation->counts().disk_disk);
+  const auto collisions_before = static_cast<double>(simulation->counts().pair_collisions);
   const bool samples = how.interval.has_value();
   const IntVec<2> cells(scene.measure.cells[0], scene.measure.cells[1]);
   const double window = duration / kWindows;
@@ -72,7 +72,8 @@ Outcome observe(const Scene& scene, double duration, const Observation& how) {
   simulation->run_until(kBurnIn + duration);
   Outcome outcome;
   outcome.cpu_seconds = cpu_seconds() - began;
-  outcome.collisions = static_cast<double>(simulation->counts().disk_disk) - collisions_before;
+  outcome.collisions =
+      static_cast<double>(simulation->counts().pair_collisions) - collisions_before;
   if (!how.fields.empty()) {
     const Profile profile =
         profile_of(windows, integrals.grid(), integrals.layout(), how.fields, Axis::X);

@@ -17,7 +17,7 @@ struct Setting {
 };
 
 /// Something that a person may turn towards speed or accuracy.
-struct Dial {
+struct ParameterSweep {
   std::string name;  ///< a word, for --dial
   std::string title;
   std::vector<Setting> settings;  ///< from the finest, with which the others are compared
@@ -26,6 +26,6 @@ struct Dial {
 };
 
 /// The dials that a scene has. Its gas collides every `collision_time` per disk.
-std::vector<Dial> dials_of(const Scene& scene, double collision_time);
+std::vector<ParameterSweep> sweeps_of(const Scene& scene, double collision_time);
 
 }  // namespace clatter

@@ -17,9 +17,9 @@ namespace clatter {
 namespace {
 
 constexpr Size kLarge{1920, 1080}, kMedium{1280, 720};
-constexpr int kMostSamples = 4;
+constexpr int kMaxSamples = 4;
 
-// Disks in their plain colour on a plain ground, so that a centre is that of their light.
+// Particles in their plain colour on a plain ground, so that a centre is that of their light.
 View plain_view() {
   View view;
   view.colour_by = ColourBy::None;
@@ -51,7 +51,7 @@ Drawn draw(const Gl& gl, const Snapshot& snapshot, Size size, int samples) {
   return drawn;
 }
 
-// Disks that stand apart, at all places within a pixel.
+// Particles that stand apart, at all places within a pixel.
 Snapshot apart(const Snapshot& snapshot) {
   constexpr double kSpacing = 2.5;
   Snapshot sparse = snapshot;
@@ -107,7 +107,7 @@ double centre_error(const Drawn& drawn, const Snapshot& snapshot) {
 PictureTable antialiasing(const Gl& gl, const Snapshot& snapshot) {
   PictureTable table{"antialiasing", "samples a pixel, along each axis, at 1280x720", {}};
   const Snapshot sparse = apart(snapshot);
-  const Drawn best = draw(gl, snapshot, kMedium, kMostSamples);
+  const Drawn best = draw(gl, snapshot, kMedium, kMaxSamples);
   for (const int samples : {4, 3, 2, 1}) {
     const Drawn drawn = draw(gl, snapshot, kMedium, samples);
     table.rows.push_back({std::to_string(samples), static_cast<double>(samples), drawn.cpu_seconds,
@@ -120,7 +120,7 @@ PictureTable antialiasing(const Gl& gl, const Snapshot& snapshot) {
 PictureTable sizes(const Gl& gl, const Snapshot& snapshot) {
   PictureTable table{"picture_size", "size, enlarged to 1920x1080", {}};
   const Snapshot sparse = apart(snapshot);
-  const Drawn best = draw(gl, snapshot, kLarge, kMostSamples);
+  const Drawn best = draw(gl, snapshot, kLarge, kMaxSamples);
   for (const Size size : {kLarge, kMedium, Size{854, 480}, {426, 240}, {214, 120}}) {
     const Drawn drawn = draw(gl, snapshot, size, 1);
     const double enlarged = static_cast<double>(kLarge.width) / size.width;
@@ -155,7 +155,7 @@ PictureTable frame_rates(const Gl& gl, Simulation<2>& simulation, double speed) 
     const auto count = static_cast<double>(now.positions.size());
     table.rows.push_back(
         {std::to_string(static_cast<int>(fps)), fps, fps * drawn.cpu_seconds,
-         structural_similarity(drawn.image, draw(gl, now, kMedium, kMostSamples).image),
+         structural_similarity(drawn.image, draw(gl, now, kMedium, kMaxSamples).image),
          drawn.projection.scale() * std::sqrt(squares / count)});
   }
   return table;

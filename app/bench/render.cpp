@@ -80,7 +80,7 @@ void spend(Times& times, Task task, const Gl& gl, Work work) {
 Scene scene_of(int count) {
   Scene scene;
   scene.title = "Bench";
-  scene.disks.count = count;
+  scene.particles.count = count;
   const double area = count * 0.25 * std::numbers::pi / 0.5;
   scene.box = {std::sqrt(area * 16.0 / 9.0), std::sqrt(area * 9.0 / 16.0)};
   scene.view.field = Field::Density;

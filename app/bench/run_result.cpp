@@ -47,7 +47,7 @@ Axis compared_axis(const Scene& scene) {
   return scene.walls[kLeft] || !scene.walls[kBottom] ? Axis::X : Axis::Y;
 }
 
-Observed observe(const Scene& scene, const Effort& effort, std::uint64_t seed) {
+RunResult observe(const Scene& scene, const Effort& effort, std::uint64_t seed) {
   const Axis axis = compared_axis(scene);
   const std::vector<Field> fields = fields_along(axis);
   Measure measure = scene.measure;
@@ -62,36 +62,37 @@ Observed observe(const Scene& scene, const Effort& effort, std::uint64_t seed) {
   Measurement measurement(*simulation, measure, end);
   simulation->run_until(effort.burn_in);
   const auto events = [&] {
-    return static_cast<double>(simulation->counts().disk_disk + simulation->counts().disk_wall);
+    return static_cast<double>(simulation->counts().pair_collisions +
+                               simulation->counts().wall_collisions);
   };
   const double events_before = events(), began = cpu_seconds();
   simulation->run_until(end);
-  Observed observed{.time = effort.duration,
-                    .cpu_seconds = cpu_seconds() - began,
-                    .events = events() - events_before,
-                    .bytes = heap_bytes() - bytes_before,
-                    .deepest_overlap = simulation->checks().deepest_overlap};
+  RunResult result{.time = effort.duration,
+                   .cpu_seconds = cpu_seconds() - began,
+                   .events = events() - events_before,
+                   .bytes = heap_bytes() - bytes_before,
+                   .deepest_overlap = simulation->checks().deepest_overlap};
 
   const Measured measured = measurement.result();
-  observed.collision_rate = measured.collision_rate.mean;
-  if (scene.contact_time && measured.disk_disk > 0) {
-    observed.elasticised_share =
-        static_cast<double>(measured.elasticised) / static_cast<double>(measured.disk_disk);
+  result.collision_rate = measured.collision_rate.mean;
+  if (scene.contact_time && measured.pair_collisions > 0) {
+    result.elasticised_share =
+        static_cast<double>(measured.elasticised) / static_cast<double>(measured.pair_collisions);
   }
   const auto& pressure = measured.pressure;
   const int near = 2 * static_cast<int>(axis);
-  observed.means[kTemperature] = measured.temperature.mean;
-  observed.means[kPressure] =
+  result.means[kTemperature] = measured.temperature.mean;
+  result.means[kPressure] =
       pressure[near] ? 0.5 * (pressure[near]->mean + pressure[near + 1]->mean) : kNotANumber;
-  observed.means[kStress] = mean_of(measured.profile->at(fields[1]));
-  observed.means[kDissipation] = mean_of(measured.profile->at(Field::Dissipation));
-  observed.density = compared(measured.profile->at(Field::Density));
-  observed.heat_flux = compared(measured.profile->at(fields[2]));
-  return observed;
+  result.means[kStress] = mean_of(measured.profile->at(fields[1]));
+  result.means[kDissipation] = mean_of(measured.profile->at(Field::Dissipation));
+  result.density = compared(measured.profile->at(Field::Density));
+  result.heat_flux = compared(measured.profile->at(fields[2]));
+  return result;
 }
 
-Observed observe_stepped(const Scene& scene, double step, const Effort& effort,
-                         std::uint64_t seed) {
+RunResult observe_stepped(const Scene& scene, double step, const Effort& effort,
+                          std::uint64_t seed) {
   const auto axis = static_cast<int>(compared_axis(scene));
   const int columns = scene.measure.cells[axis];
   const auto exact = simulation_of(scene, seed);
@@ -104,25 +105,25 @@ Observed observe_stepped(const Scene& scene, double step, const Effort& effort,
   const double cpu = cpu_seconds() - began;
 
   const SteppedSums& sums = stepped.sums();
-  const double area = scene.box.prod(), count = scene.disks.count;
+  const double area = scene.box.prod(), count = scene.particles.count;
   const auto collisions = static_cast<double>(sums.collisions);
-  Observed observed{.time = sums.time,
-                    .cpu_seconds = cpu,
-                    .events = collisions,
-                    .bytes = stepped.bytes(),
-                    .collision_rate = 2.0 * collisions / (count * sums.time),
-                    .deepest_overlap = sums.deepest_overlap};
-  observed.means[kTemperature] = 0.5 * sums.squares / (count * sums.time);
-  observed.means[kPressure] = sums.wall_impulse / (2.0 * scene.box[1 - axis] * sums.time);
-  observed.means[kStress] = sums.stress / (area * sums.time);
-  observed.means[kDissipation] = -sums.dissipated / (area * sums.time);
+  RunResult result{.time = sums.time,
+                   .cpu_seconds = cpu,
+                   .events = collisions,
+                   .bytes = stepped.bytes(),
+                   .collision_rate = 2.0 * collisions / (count * sums.time),
+                   .deepest_overlap = sums.deepest_overlap};
+  result.means[kTemperature] = 0.5 * sums.squares / (count * sums.time);
+  result.means[kPressure] = sums.wall_impulse / (2.0 * scene.box[1 - axis] * sums.time);
+  result.means[kStress] = sums.stress / (area * sums.time);
+  result.means[kDissipation] = -sums.dissipated / (area * sums.time);
   const double column_time = area / columns * sums.time;
   const auto profile = [&](const std::vector<double>& values) {
     return compared(values.size(), [&](std::size_t c) { return values[c] / column_time; });
   };
-  observed.density = profile(sums.disks);
-  observed.heat_flux = profile(sums.heat_carried);
-  return observed;
+  result.density = profile(sums.particles);
+  result.heat_flux = profile(sums.heat_carried);
+  return result;
 }
 
 }  // namespace clatter

@@ -21,7 +21,7 @@ using ProfileValues = std::array<double, kProfileColumns>;
 inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// What one run of a setting found, and at which cost.
-struct Observed {
+struct RunResult {
   double time = 0.0;         ///< simulated, over which means were taken
   double cpu_seconds = 0.0;  ///< in that time
   double events = 0.0;       ///< collisions with disks and walls, likewise
@@ -45,9 +45,10 @@ struct Effort {
 Axis compared_axis(const Scene& scene);
 
 /// Runs a scene by the exact engine; its [measure] says on which cells and how fields are taken.
-Observed observe(const Scene& scene, const Effort& effort, std::uint64_t seed);
+RunResult observe(const Scene& scene, const Effort& effort, std::uint64_t seed);
 
 /// Runs it by the time-stepped engine, from a state that the exact one has brought about.
-Observed observe_stepped(const Scene& scene, double step, const Effort& effort, std::uint64_t seed);
+RunResult observe_stepped(const Scene& scene, double step, const Effort& effort,
+                          std::uint64_t seed);
 
 }  // namespace clatter

@@ -29,7 +29,7 @@ bool TimeStepped::can_run(const Scene& scene) {
 TimeStepped::TimeStepped(const Scene& scene, const State<2>& state, double step, int columns)
     : axis_(walled_axis(scene)),
       box_(scene.box),
-      restitution_(scene.disks.restitution),
+      restitution_(scene.particles.restitution),
       walls_{*scene.walls[2 * axis_], *scene.walls[2 * axis_ + 1]},
       step_(step),
       positions_(state.positions),
@@ -37,13 +37,13 @@ TimeStepped::TimeStepped(const Scene& scene, const State<2>& state, double step,
       cells_{static_cast<int>(box_.x()), static_cast<int>(box_.y())},
       starts_(static_cast<std::size_t>(cells_[0] * cells_[1]) + 1),
       sorted_(positions_.size()) {
-  sums_.disks.resize(static_cast<std::size_t>(columns));
+  sums_.particles.resize(static_cast<std::size_t>(columns));
   restart_sums();
 }
 
 void TimeStepped::restart_sums() {
-  const std::vector<double> zeros(sums_.disks.size());
-  sums_ = {.disks = zeros, .heat_carried = zeros};
+  const std::vector<double> zeros(sums_.particles.size());
+  sums_ = {.particles = zeros, .heat_carried = zeros};
 }
 
 double TimeStepped::bytes() const {
@@ -164,7 +164,7 @@ void TimeStepped::bounce(std::uint32_t first, std::uint32_t second, const Vec2& 
 }
 
 int TimeStepped::column_of(double place) const {
-  const auto columns = static_cast<int>(sums_.disks.size());
+  const auto columns = static_cast<int>(sums_.particles.size());
   return std::clamp(static_cast<int>(place / box_[axis_] * columns), 0, columns - 1);
 }
 
@@ -172,7 +172,7 @@ int TimeStepped::column_of(double place) const {
 void TimeStepped::add_heat(double from, double to, double heat) {
   const auto [low, high] = std::minmax(from, to);
   if (low == high) return;
-  const double width = box_[axis_] / static_cast<double>(sums_.disks.size());
+  const double width = box_[axis_] / static_cast<double>(sums_.particles.size());
   for (int c = column_of(low); c <= column_of(high); ++c) {
     const double inside = std::min(high, (c + 1) * width) - std::max(low, c * width);
     sums_.heat_carried[c] += heat * std::max(0.0, inside) / (high - low);
@@ -186,7 +186,7 @@ void TimeStepped::observe() {
     const int column = column_of(positions_[i][axis_]);
     sums_.squares += step_ * square;
     sums_.stress -= step_ * v * v;
-    sums_.disks[column] += step_;
+    sums_.particles[column] += step_;
     sums_.heat_carried[column] += step_ * 0.5 * square * v;
   }
 }

@@ -17,7 +17,7 @@ struct SteppedSums {
   double stress = 0.0;               ///< time integral of that along the axis, times area
   double dissipated = 0.0;           ///< energy
   double deepest_overlap = 0.0;      ///< of two disks, in diameters, before it is resolved
-  std::vector<double> disks;         ///< [columns] time integral of the disks in each
+  std::vector<double> particles;     ///< [columns] time integral of the disks in each
   std::vector<double> heat_carried;  ///< [columns] likewise of the heat flux times the area
 };
 

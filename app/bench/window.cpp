@@ -55,8 +55,8 @@ double thread_cpu_seconds() {
 // The vibrated box, as much larger as it has more disks, over its temperature.
 Scene bench_scene(int count) {
   Scene scene = load_scene("vibrated");
-  scene.box *= std::sqrt(static_cast<double>(count) / scene.disks.count);
-  scene.disks.count = count;
+  scene.box *= std::sqrt(static_cast<double>(count) / scene.particles.count);
+  scene.particles.count = count;
   scene.view.field = Field::Temperature;
   return scene;
 }

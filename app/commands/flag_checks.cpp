@@ -71,12 +71,12 @@ CLI::Validator seed_number() {
 }
 
 Size parse_size(const std::string& text, Size least) {
-  constexpr int kMost = 16384;
+  constexpr int kMax = 16384;
   Size size;
   char after;
   if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &after) == 2 &&
-      size.width >= least.width && size.height >= least.height && size.width <= kMost &&
-      size.height <= kMost) {
+      size.width >= least.width && size.height >= least.height && size.width <= kMax &&
+      size.height <= kMax) {
     return size;
   }
   const auto text_of = [](int width, int height) {
@@ -84,7 +84,7 @@ Size parse_size(const std::string& text, Size least) {
   };
   throw UserError({"--size", 0, 0}, "'" + text + "' is no size that there can be",
                   "write WIDTHxHEIGHT, from " + text_of(least.width, least.height) + " to " +
-                      text_of(kMost, kMost) + ", for instance 1280x720");
+                      text_of(kMax, kMax) + ", for instance 1280x720");
 }
 
 }  // namespace clatter

@@ -39,18 +39,18 @@ struct MeasureOptions {
 };
 
 // Samples of a series: some GB of result file.
-constexpr double kMostSamples = 1e7;
+constexpr double kMaxSamples = 1e7;
 
 // Where t_c makes nearly all collisions elastic, it may be as long as the time between those of a
 // gas of this density and temperature, so that the gas does not dissipate any more; or short, and
 // grains at rest bounce for ever within it, on which the run spends its time.
 void advise_on_contact_time(const Scene& scene, const Measured& measured) {
-  constexpr double kMostElastic = 0.9;
+  constexpr double kMaxElastic = 0.9;
   constexpr double kLong = 0.1;    // of the time between collisions
   constexpr double kShort = 1e-3;  // likewise: short against it
   const auto elastic = static_cast<double>(measured.elasticised + measured.elasticised_wall);
-  const auto all = static_cast<double>(measured.disk_disk + measured.disk_wall);
-  if (!scene.contact_time || elastic <= kMostElastic * all) return;
+  const auto all = static_cast<double>(measured.pair_collisions + measured.wall_collisions);
+  if (!scene.contact_time || elastic <= kMaxElastic * all) return;
   std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
                100.0 * elastic / all);
   const double rate = enskog_rate(scene.area_fraction(), measured.temperature.mean);
@@ -124,16 +124,15 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
 }
 
 void require_bounded_samples(const Measure& spec, double end) {
-  if (end / spec.series_interval > kMostSamples) {
+  if (end / spec.series_interval > kMaxSamples) {
     throw UserError(
         {"measure.series_interval", 0, 0},
         "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
-        "choose at least " + number_text(end / kMostSamples));
+        "choose at least " + number_text(end / kMaxSamples));
   }
-  if (spec.estimator == Estimator::Snapshot &&
-      (end - spec.burn_in) / spec.interval > kMostSamples) {
+  if (spec.estimator == Estimator::Snapshot && (end - spec.burn_in) / spec.interval > kMaxSamples) {
     throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
-                    "choose at least " + number_text((end - spec.burn_in) / kMostSamples));
+                    "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
   }
 }
 
@@ -189,7 +188,7 @@ int measure(const MeasureOptions& options) {
   const double cpu_before = cpu_seconds();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   Measurement& measurement = run.measure(end);
-  const std::uint64_t collisions_before = run.simulation().counts().disk_disk;
+  const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
   {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
@@ -202,7 +201,7 @@ int measure(const MeasureOptions& options) {
   run.put_aside();
   const Measured measured = measurement.result();
   const Performance performance{cpu_seconds() - cpu_before,
-                                run.simulation().counts().disk_disk - collisions_before,
+                                run.simulation().counts().pair_collisions - collisions_before,
                                 peak_memory_bytes()};
   write_results(options, json_of(options, scene, run, measured, performance), measured);
   if (!options.common.quiet) {
@@ -248,7 +247,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--save-state", options->save_state,
                    "Write the disks at the end, from which a scene may start: "
-                   "--set 'disks.start={layout=\"file\",file=\"FILE.csv\"}'")
+                   "--set 'particles.start={layout=\"file\",file=\"FILE.csv\"}'")
       ->type_name("FILE.csv");
   CLI::Option* replicas =
       command

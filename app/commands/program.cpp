@@ -17,7 +17,7 @@ Scene load(const CommonOptions& options, StartFile start_file) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw UserError({"--set " + setting, 0, 0}, "no value is set",
-                      "write --set key=value, for instance --set disks.count=500");
+                      "write --set key=value, for instance --set particles.count=500");
     }
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
@@ -33,7 +33,7 @@ void add_scene_flags(CLI::App& command, CommonOptions& options) {
       ->type_name("SCENE");
   command
       .add_option("--set", options.settings,
-                  "Change a key of the scene, e.g. --set disks.count=500 (repeatable)")
+                  "Change a key of the scene, e.g. --set particles.count=500 (repeatable)")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -19,7 +19,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kLeastSize = {16, 16};
+constexpr Size kMinSize = {16, 16};
 
 // Presets of size and rate.
 enum class Quality { Low, Medium, High };
@@ -78,10 +78,10 @@ FrameRange parse_frames(const std::string& text) {
 // The film has `from`, `speed` and `fps`; its end is asked for, or as it was.
 long count_frames(const FrameTimes& times, const std::optional<double>& to) {
   constexpr double kFilmSeconds = 20.0;
-  constexpr double kMostFrames = 1e7;
+  constexpr double kMaxFrames = 1e7;
   const double span = to ? *to - times.from : kFilmSeconds * times.speed;
   const double frames = std::max(1.0, std::round(span * times.fps / times.speed));
-  if (frames <= kMostFrames) return static_cast<long>(frames);
+  if (frames <= kMaxFrames) return static_cast<long>(frames);
   throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
                   "choose a larger --speed, or an earlier --to");
 }
@@ -91,7 +91,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
   const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
   FilmState film;
-  film.size = parse_size(options.size.value_or(preset.size), kLeastSize);
+  film.size = parse_size(options.size.value_or(preset.size), kMinSize);
   film.samples = options.supersample.value_or(1);
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
@@ -143,10 +143,10 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   std::optional<Size> size;
   std::optional<double> fps = options.fps;
   if (options.quality) {
-    size = parse_size(preset_of(*options.quality).size, kLeastSize);
+    size = parse_size(preset_of(*options.quality).size, kMinSize);
     if (!fps) fps = preset_of(*options.quality).fps;
   }
-  if (options.size) size = parse_size(*options.size, kLeastSize);
+  if (options.size) size = parse_size(*options.size, kMinSize);
   keep(size, film.size, "--size", size_text);
   keep(fps, times.fps, "--fps", number_text);
   keep(options.speed, times.speed, "--speed", number_text);
@@ -212,10 +212,10 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
 }
 
 void require_few_windows(const View& view, double last) {
-  constexpr double kMostWindows = 1e7;
-  if (!view.shows_averages() || last / view.window <= kMostWindows) return;
+  constexpr double kMaxWindows = 1e7;
+  if (!view.shows_averages() || last / view.window <= kMaxWindows) return;
   throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
-                  "choose at least " + number_text(last / kMostWindows));
+                  "choose at least " + number_text(last / kMaxWindows));
 }
 
 // Whether there is anything in the sink. Where that cannot be written, the run is kept all the

@@ -79,7 +79,8 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   json["program"] = "clatter " CLATTER_VERSION;
   json["state_hash"] = hash;
   json["time"] = {{"burn_in", measured.burn_in}, {"measured", measured.duration}};
-  json["events"] = {{"disk_disk", measured.disk_disk}, {"disk_wall", measured.disk_wall}};
+  json["events"] = {{"disk_disk", measured.pair_collisions},
+                    {"disk_wall", measured.wall_collisions}};
   if (scene.bulk_drive) json["events"]["kicks"] = measured.kicks;
   if (scene.contact_time) json["events"]["elasticised"] = measured.elasticised;
   // A run that was interrupted in its burn-in has no averages, and nor have no disks.
@@ -100,7 +101,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
   if (averaged) json["checks"]["temperature_drift"] = measured.temperature.drift;
   if (scene.contact_time) {
-    const double collisions = std::max<double>(1.0, static_cast<double>(measured.disk_disk));
+    const double collisions = std::max<double>(1.0, static_cast<double>(measured.pair_collisions));
     json["checks"]["elasticised_share"] = static_cast<double>(measured.elasticised) / collisions;
   }
   if (measured.undissipated_share) {

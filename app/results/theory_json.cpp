@@ -15,14 +15,14 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
   const bool alike = vibrates(left) && vibrates(right) && left->restitution == right->restitution &&
                      left->drive_speed == right->drive_speed;
   const bool falls = scene.gravity && scene.gravity->norm() > 0.0;
-  if (!alike || !scene.periodic(1) || scene.disks.count == 0 || scene.spins() || falls ||
+  if (!alike || !scene.periodic(1) || scene.particles.count == 0 || scene.spins() || falls ||
       scene.bulk_drive) {
     return std::nullopt;
   }
-  return VibratedGas{static_cast<double>(scene.disks.count),
+  return VibratedGas{static_cast<double>(scene.particles.count),
                      scene.box.x(),
                      scene.box.y(),
-                     scene.disks.restitution,
+                     scene.particles.restitution,
                      left->restitution,
                      left->drive_speed};
 }
@@ -48,28 +48,29 @@ static void add_vibrated(Json& json, const VibratedGas& gas, double start_temper
 
 // Whether nothing makes one place another than the next.
 static bool is_homogeneous_gas(const Scene& scene) {
-  return scene.periodic(0) && scene.periodic(1) && scene.disks.count > 1 && !scene.gravity;
+  return scene.periodic(0) && scene.periodic(1) && scene.particles.count > 1 && !scene.gravity;
 }
 
-// Smooth disks, and rough ones where friction has no limit, so that beta is constant.
+// Smooth particles, and rough ones where friction has no limit, so that beta is constant.
 static void add_homogeneous(Json& json, const Scene& scene) {
-  const Disks& disks = scene.disks;
+  const Particles& particles = scene.particles;
   const double phi = scene.area_fraction();
-  json["compressibility"] = compressibility(phi, disks.restitution);
+  json["compressibility"] = compressibility(phi, particles.restitution);
   const bool rough = scene.spins();
-  const bool constant_beta = !rough || std::isinf(disks.roughness.friction_in_force());
-  const double beta = rough ? disks.roughness.tangential_restitution_in_force() : -1.0;
-  const RoughGas gas{disks.restitution, beta, disks.inertia};
+  const bool constant_beta = !rough || std::isinf(particles.roughness.friction_in_force());
+  const double beta = rough ? particles.roughness.tangential_restitution_in_force() : -1.0;
+  const RoughGas gas{particles.restitution, beta, particles.inertia};
   if (!scene.bulk_drive) {
     if (!rough) {
-      json["haff_rate"] = haff_rate_periodic(phi, disks.restitution, scene.disks.start.temperature);
+      json["haff_rate"] =
+          haff_rate_periodic(phi, particles.restitution, scene.particles.start.temperature);
     } else if (constant_beta) {
       json["temperature_ratio"] = gas.cooling_ratio();
     }
     return;
   }
   const BulkDrive& drive = *scene.bulk_drive;
-  const double power = bulk_drive_power(disks.count, drive.kick_speed, drive.interval);
+  const double power = bulk_drive_power(particles.count, drive.kick_speed, drive.interval);
   json["bulk_drive_power"] = power;
   if (!constant_beta || !(power > 0.0) || drive.kick_spin > 0.0) return;
   const double temperature = gas.driven_temperature(phi, power);
@@ -81,7 +82,7 @@ static void add_homogeneous(Json& json, const Scene& scene) {
 Json theory_json(const Scene& scene) {
   Json json{{"chi", contact_correlation(scene.area_fraction())}};
   if (const auto gas = vibrated_gas(scene)) {
-    add_vibrated(json, *gas, scene.disks.start.temperature);
+    add_vibrated(json, *gas, scene.particles.start.temperature);
   }
   if (is_homogeneous_gas(scene)) add_homogeneous(json, scene);
   return json;

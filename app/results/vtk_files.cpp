@@ -139,7 +139,7 @@ std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& fol
   std::ifstream stream(folder / kSeriesFile);
   const std::string list(std::istreambuf_iterator<char>(stream), {});
   std::vector<std::filesystem::path> parts;
-  for (std::size_t k = first; k < PartSums::kMostParts; ++k) {
+  for (std::size_t k = first; k < PartSums::kMaxParts; ++k) {
     if (list.find("file=\"" + part_name(k) + "\"") != std::string::npos) {
       parts.push_back(folder / part_name(k));
     }
@@ -151,7 +151,7 @@ std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& fol
 
 std::vector<std::string> vtk_names() {
   std::vector<std::string> names = {kFieldsFile, kSeriesFile};
-  for (std::size_t k = 0; k < PartSums::kMostParts; ++k) names.push_back(part_name(k));
+  for (std::size_t k = 0; k < PartSums::kMaxParts; ++k) names.push_back(part_name(k));
   return names;
 }
 

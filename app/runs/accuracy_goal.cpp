@@ -94,9 +94,9 @@ void tell_accuracy(const AccuracyGoal& goal, const Measured& measured) {
 }
 
 void warn_of_drift(const AccuracyGoal& goal, const Measured& measured) {
-  constexpr double kMostErrors = 3.0;
+  constexpr double kMaxErrors = 3.0;
   const auto warn = [](const std::string& name, const Estimate& estimate) {
-    if (!(std::fabs(estimate.drift) > kMostErrors)) return;
+    if (!(std::fabs(estimate.drift) > kMaxErrors)) return;
     std::fprintf(stderr,
                  "note: %s is not stationary: in the second half of the measured time it is %s by "
                  "%.2g combined errors; a longer measure.burn_in may help\n",

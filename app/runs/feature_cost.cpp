@@ -28,27 +28,27 @@ std::string names_of(const std::vector<Field>& fields) {
   return names;
 }
 
-ScenePart fields_of(const Scene& scene) {
+FeatureCost fields_of(const Scene& scene) {
   const Measure& measure = scene.measure;
-  double price = price_of(measure.estimator);
+  double price = cost_of(measure.estimator);
   if (measure.fields.empty()) return {"fields", "no", 0.0, price};
   if (std::ranges::any_of(measure.fields, is_residual)) {
     const bool averages = !std::ranges::all_of(measure.fields, is_residual);
-    price = averages ? price + kBalancePrice - 1.0 : kBalancePrice;
+    price = averages ? price + kBalanceCost - 1.0 : kBalanceCost;
   }
   return {"fields", names_of(measure.fields), cells_memory(measure, scene.spins()), price};
 }
 
 // A kick of a disk costs about half a collision of two; at the start's temperature.
-double kick_price(const Scene& scene) {
+double kick_cost(const Scene& scene) {
   constexpr double kKick = 0.45;
-  const double rate = enskog_rate(scene.area_fraction(), scene.disks.start.temperature);
+  const double rate = enskog_rate(scene.area_fraction(), scene.particles.start.temperature);
   return 1.0 + kKick / (0.5 * rate * scene.bulk_drive->interval);
 }
 
 }  // namespace
 
-double price_of(Estimator estimator) {
+double cost_of(Estimator estimator) {
   switch (estimator) {
     case Estimator::Exact:
       return 1.4;
@@ -58,21 +58,21 @@ double price_of(Estimator estimator) {
   return std::nan("");
 }
 
-std::vector<ScenePart> parts_of(const Scene& scene) {
+std::vector<FeatureCost> feature_costs(const Scene& scene) {
   const GasMemory memory = gas_memory(scene);
   const bool moving =
       std::ranges::any_of(scene.walls, [](const auto& wall) { return wall && wall->moves(); });
-  return {{"disks", "yes", memory.disks, 1.0},
+  return {{"disks", "yes", memory.particles, 1.0},
           {"spins", yes(scene.spins()), memory.spins, 1.05},
           {"gravity", yes(scene.gravity.has_value()), 0.0, 1.15},
           {"moving walls", yes(moving), 0.0, 1.0},
           {"bulk drive", yes(scene.bulk_drive.has_value()), 0.0,
-           scene.bulk_drive ? kick_price(scene) : std::nan("")},
-          {"t_c", yes(scene.contact_time.has_value()), memory.last_collisions, kContactTimePrice},
+           scene.bulk_drive ? kick_cost(scene) : std::nan("")},
+          {"t_c", yes(scene.contact_time.has_value()), memory.last_collisions, kContactTimeCost},
           fields_of(scene)};
 }
 
-std::string price_text(double price) {
+std::string cost_text(double price) {
   if (!std::isfinite(price)) return "-";
   char text[32];
   std::snprintf(text, sizeof text, "x%.3g", price);

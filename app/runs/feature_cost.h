@@ -11,7 +11,7 @@ namespace clatter {
 // 1000 disks at phi = 0.3.
 
 /// Something that a scene may have the program model.
-struct ScenePart {
+struct FeatureCost {
   const char* name;
   std::string extent;  ///< "no", "yes", or what of it
   double bytes;        ///< in all
@@ -19,16 +19,16 @@ struct ScenePart {
 };
 
 /// All that a scene may have, and what of it this one has.
-std::vector<ScenePart> parts_of(const Scene& scene);
+std::vector<FeatureCost> feature_costs(const Scene& scene);
 
 /// Of the averages of fields, by how disks count in them.
-double price_of(Estimator estimator);
+double cost_of(Estimator estimator);
 /// Of balances.
-inline constexpr double kBalancePrice = 2.0;
+inline constexpr double kBalanceCost = 2.0;
 /// Of a contact time.
-inline constexpr double kContactTimePrice = 1.0;
+inline constexpr double kContactTimeCost = 1.0;
 
 /// "x1.4", or "-" for NaN.
-std::string price_text(double price);
+std::string cost_text(double price);
 
 }  // namespace clatter

@@ -22,7 +22,7 @@ static std::string shown(const std::string& value) {
 // What a run cannot change: where its disks are, and which sides hold them.
 static bool is_fixed(const KeyDifference& difference) {
   const bool wall_of_one = difference.before.empty() || difference.now.empty();
-  return difference.key == "box.size" || difference.key == "disks.count" ||
+  return difference.key == "box.size" || difference.key == "particles.count" ||
          (wall_of_one && difference.key.starts_with("walls.") && difference.key.ends_with(".kind"));
 }
 
@@ -34,11 +34,11 @@ std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
   if (options.resume.empty()) return std::nullopt;
   const std::string& file = options.resume;
   Resumed resumed{file, read_checkpoint(file), {}};
-  if (scene.disks.start.layout == Layout::File) {
-    if (scene.disks.count == 0) {
-      scene.disks.count = static_cast<int>(resumed.checkpoint.saved.flights.size());
+  if (scene.particles.start.layout == Layout::File) {
+    if (scene.particles.count == 0) {
+      scene.particles.count = static_cast<int>(resumed.checkpoint.saved.flights.size());
     }
-    scene.disks.start.temperature = resumed.checkpoint.start_temperature;
+    scene.particles.start.temperature = resumed.checkpoint.start_temperature;
   }
   resumed.differences = differences(resumed.checkpoint.scene, scene_to_toml(scene), file);
   for (const KeyDifference& key : resumed.differences) {
@@ -67,7 +67,7 @@ std::string changed_laws(const Resumed& resumed, std::uint64_t seed) {
   for (const KeyDifference& difference : resumed.differences) {
     const std::string& key = difference.key;
     const bool law = !key.starts_with("measure.") && !key.starts_with("view.") &&
-                     !key.starts_with("disks.start.") && key.find('.') != std::string::npos;
+                     !key.starts_with("particles.start.") && key.find('.') != std::string::npos;
     if (law) keys += (keys.empty() ? "" : ", ") + key;
   }
   if (seed != resumed.checkpoint.seed) keys += keys.empty() ? "the seed" : ", the seed";

@@ -15,7 +15,7 @@ namespace clatter {
 // contribute is booked at their end, by the gravity of that time; nor where walls move otherwise,
 // which starts flights anew; nor where spins come or go or get another inertia, for fields then
 // need other sums and cells hold another energy.
-static bool averages_go_on(const Saved<2>& saved, bool same_inertia, const Model<2>& model,
+static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Model<2>& model,
                            const Measure& measure) {
   const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
   const bool same_sums = measure.fields.empty() || same_spins;
@@ -59,10 +59,10 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
     run_.emplace(scene, seed_);
     return;
   }
-  Saved<2>& saved = resumed_->checkpoint.saved;
+  RunState<2>& saved = resumed_->checkpoint.saved;
   run_.emplace(scene, seed_, saved);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
-                    averages_go_on(saved, !differs(*resumed_, "disks.inertia"),
+                    averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
   saved = {};  // some memory
   const std::string laws = changed_laws(*resumed_, seed_);
@@ -131,7 +131,7 @@ Checkpoint Run::checkpoint() {
   return {.program = "clatter " CLATTER_VERSION,
           .command = command_,
           .scene = scene_to_toml(scene_),
-          .start_temperature = scene_.disks.start.temperature,
+          .start_temperature = scene_.particles.start.temperature,
           .seed = seed_,
           .saved = simulation().save(),
           .measurement = measurement_ ? measurement_->save() : "",

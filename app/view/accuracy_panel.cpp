@@ -10,8 +10,8 @@
 
 namespace clatter {
 
-static void tell_price(double price) {
-  ImGui::TextDisabled("CPU time %s", price_text(price).c_str());
+static void show_cost(double price) {
+  ImGui::TextDisabled("CPU time %s", cost_text(price).c_str());
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("The engine's with it over that without it, measured for 1000 disks");
   }
@@ -48,7 +48,7 @@ static void contact_time(Session& session, Controls& controls) {
                   .format = "%.1e"},
                  *time, session.opened().contact_time.value_or(kUsual));
   }
-  tell_price(kContactTimePrice);
+  show_cost(kContactTimeCost);
   if (!on) return;
   // Also before there is an error, lest the panel jump at each change of laws.
   const auto& error = session.frame().contact_time_error;
@@ -60,7 +60,7 @@ static void contact_time(Session& session, Controls& controls) {
 static bool choose_estimator(Controls& controls, View& view, const View& usual) {
   std::vector<std::string> words;
   for (const auto& [name, estimator] : kEstimators) {
-    words.push_back(std::string(name) + "  " + price_text(price_of(estimator)));
+    words.push_back(std::string(name) + "  " + cost_text(cost_of(estimator)));
   }
   int chosen = static_cast<int>(view.estimator);
   bool changed = controls.choice(
@@ -91,7 +91,7 @@ static void averages(Session& session, Controls& controls) {
   if (view.field && is_residual(*view.field)) {
     ImGui::TextUnformatted("Balances");
     ImGui::SameLine();
-    tell_price(kBalancePrice);
+    show_cost(kBalanceCost);
   }
   if (view.arrows || (view.field && !is_residual(*view.field))) {
     changed |= choose_estimator(controls, view, usual);

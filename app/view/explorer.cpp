@@ -32,7 +32,7 @@ Explorer::Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker,
       log_(log),
       session_(worker, log),
       controls_(session_, log),
-      stage_(gl),
+      viewport_(gl),
       gallery_(gl),
       gui_(gl) {}
 
@@ -46,7 +46,7 @@ void Explorer::begin() {
   constexpr float kTextSize = 14.0f;
   float scale = 1.0f;
   glfwGetWindowContentScale(window_, &scale, nullptr);
-  const float size = std::round((shown_.lecture ? kLectureLetters : 1.0f) * kTextSize * scale);
+  const float size = std::round((panels_.lecture ? kLectureLetters : 1.0f) * kTextSize * scale);
   if (size != text_size_) {
     text_size_ = size;
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -62,7 +62,7 @@ void Explorer::begin() {
 void Explorer::draw() {
   begin();
   if (session_.update()) {
-    stage_.redraw();
+    viewport_.redraw();
     history_.add(session_.frame());
   }
   if (title_ != session_.opened().title) {
@@ -71,9 +71,9 @@ void Explorer::draw() {
   }
   watch_film();
   use_keys();
-  session_.show_profile(shown_.plots ? profiled_by(profiled()) : Profiled::Nothing);
+  session_.show_profile(panels_.plots ? profiled_by(profiled()) : Profiled::Nothing);
   panels();
-  stage();
+  viewport();
   ImGui::Render();
 
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
@@ -81,10 +81,10 @@ void Explorer::draw() {
   const Size size{static_cast<int>((area_.high.x - area_.low.x) * scale_),
                   static_cast<int>((area_.high.y - area_.low.y) * scale_)};
   if (size.width > 0 && size.height > 0 && session_.frame().scene) {
-    if (std::exchange(drawn_views_, session_.views()) != session_.views()) stage_.redraw();
-    stage_.draw(session_.frame(), shown_view(), size, shown_.lecture ? kLectureLetters : 1.0);
-    stage_.show(static_cast<int>(area_.low.x * scale_),
-                static_cast<int>((whole.y - area_.high.y) * scale_));
+    if (std::exchange(drawn_views_, session_.views()) != session_.views()) viewport_.redraw();
+    viewport_.draw(session_.frame(), shown_view(), size, panels_.lecture ? kLectureLetters : 1.0);
+    viewport_.show(static_cast<int>(area_.low.x * scale_),
+                   static_cast<int>((whole.y - area_.high.y) * scale_));
   }
   gl.Viewport(0, 0, static_cast<int>(whole.x * scale_), static_cast<int>(whole.y * scale_));
   gl.Enable(GL_BLEND);
@@ -95,10 +95,10 @@ void Explorer::draw() {
 void Explorer::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
-  if (shown_.panels && !shown_.lecture) side_panels();
+  if (panels_.panels && !panels_.lecture) side_panels();
   // The gallery has its own.
-  if (shown_.lesson && !shown_.gallery) {
-    area_.high.y -= lesson_strip(session_.scene(), area_, controls_, shown_.lesson);
+  if (panels_.lesson && !panels_.gallery) {
+    area_.high.y -= lesson_strip(session_.scene(), area_, controls_, panels_.lesson);
   }
 }
 
@@ -111,7 +111,7 @@ void Explorer::side_panels() {
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(whole.x, top));
   ImGui::Begin("top", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
-  top_bar(session_, controls_, shown_);
+  top_bar(session_, controls_, panels_);
   ImGui::End();
   ImGui::PopStyleVar();
 
@@ -119,7 +119,7 @@ void Explorer::side_panels() {
       std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
   left_panel(top, width);
   area_ = {ImVec2(width, top), whole};
-  if (shown_.plots && session_.frame().scene) {
+  if (panels_.plots && session_.frame().scene) {
     plots_drawer(top, width);
     area_.high.x -= width;
   }
@@ -175,26 +175,26 @@ void Explorer::plots_drawer(float top, float width) {
   ImGui::End();
 }
 
-void Explorer::stage() {
+void Explorer::viewport() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const Frame& frame = session_.frame();
-  if (shown_.gallery != told_gallery_ && shown_.gallery) log_.event("gallery", {{"open", true}});
-  told_gallery_ = shown_.gallery;
-  if (shown_.gallery) {
+  if (panels_.gallery != told_gallery_ && panels_.gallery) log_.event("gallery", {{"open", true}});
+  told_gallery_ = panels_.gallery;
+  if (panels_.gallery) {
     const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y);
     if (chosen) open_gallery_scene(*chosen);
   }
-  if (shown_.help) help_window(whole.x, whole.y);
+  if (panels_.help) help_window(whole.x, whole.y);
   if (!frame.scene) return;
   use_stage();
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || shown_.gallery) shown_.hint = false;
-  if (!told(session_, area_) && shown_.hint && !shown_.help && !shown_.lecture) hint(area_);
-  log_.widget("stage", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
+  if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
+  if (!told(session_, area_) && panels_.hint && !panels_.help && !panels_.lecture) hint(area_);
+  log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }
 
-// What the mouse does on the stage, and what is marked there.
+// What the mouse does on the viewport, and what is marked there.
 void Explorer::use_stage() {
   const Frame& frame = session_.frame();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -202,11 +202,11 @@ void Explorer::use_stage() {
                     mouse.y < area_.high.y && !ImGui::GetIO().WantCaptureMouse;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect(area_.low, area_.high);
-  if (stage_.drawn()) {
-    const auto resized = wall_grip_.use(stage_, frame, area_.low, scale_, over);
-    wall_grip_.mark(list, stage_, frame, area_.low, scale_);
+  if (viewport_.drawn()) {
+    const auto resized = wall_grip_.use(viewport_, frame, area_.low, scale_, over);
+    wall_grip_.mark(list, viewport_, frame, area_.low, scale_);
     for (const Side side : {kLeft, kRight, kBottom, kTop}) {
-      const auto& [low, high] = WallGrip::handle(stage_, frame, area_.low, scale_, side);
+      const auto& [low, high] = WallGrip::handle(viewport_, frame, area_.low, scale_, side);
       log_.widget(std::string("wall.") + kSideNames[side], low.x, low.y, high.x - low.x,
                   high.y - low.y);
     }
@@ -215,30 +215,30 @@ void Explorer::use_stage() {
                     {{"box.size", value_text(resized->box)}}, resized->shift);
     }
   }
-  if (over && !wall_grip_.active()) stage_.use_mouse(frame, area_.low, scale_);
-  stage_.mark(list, frame, area_.low, scale_);
+  if (over && !wall_grip_.active()) viewport_.use_mouse(frame, area_.low, scale_);
+  viewport_.mark(list, frame, area_.low, scale_);
   list.PopClipRect();
-  session_.pick(stage_.picked());
-  if (const auto place = stage_.picked_place(frame, area_.low, scale_)) {
-    disk_note(frame, *stage_.picked(), stage_.follows(), *place, area_);
+  session_.pick(viewport_.picked());
+  if (const auto place = viewport_.picked_place(frame, area_.low, scale_)) {
+    disk_note(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
   }
 }
 
 void Explorer::lecture(bool on) {
-  if (on) shown_.lesson = false;
-  shown_.lecture = on;
-  stage_.redraw();
+  if (on) panels_.lesson = false;
+  panels_.lecture = on;
+  viewport_.redraw();
 }
 
 // The view that is on screen: in a lecture it is for a projector, whatever the scene's theme is.
 View Explorer::shown_view() const {
   View view = session_.view();
-  if (shown_.lecture) view.theme = Theme::Projector;
+  if (panels_.lecture) view.theme = Theme::Projector;
   return view;
 }
 
 void Explorer::open_gallery_scene(const EmbeddedFile& scene) {
-  shown_.gallery = false;
+  panels_.gallery = false;
   open(load_gallery_scene(scene), session_.frame().seed);
 }
 

@@ -20,7 +20,7 @@ struct GLFWwindow;
 
 namespace clatter {
 
-/// What the window shows and does: the stage, the panels around it, the keys.
+/// What the window shows and does: the viewport, the panels around it, the keys.
 class Explorer {
  public:
   Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker, ScriptLog& log);
@@ -47,7 +47,7 @@ class Explorer {
   void left_panel(float top, float width);
   void plots_drawer(float top, float width);
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
-  void stage();
+  void viewport();
   void use_stage();
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
@@ -67,20 +67,20 @@ class Explorer {
   ScriptLog& log_;
   Session session_;
   Controls controls_;
-  Stage stage_;
+  Viewport viewport_;
   WallGrip wall_grip_;
   Gallery gallery_;
   History history_;
   int profiled_ = 0;  // of kProfileNames
   std::optional<FilmJob> film_;
   GuiLayer gui_;
-  Shown shown_;
+  PanelVisibility panels_;
   std::string title_;                 // of the window; empty: the program's
   std::uint64_t drawn_views_ = 0;     // of Session::views()
   bool told_gallery_ = false;         // whether the script log knows that it is open
   float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none
   float scale_ = 1.0f;                // pixels per unit of the window
-  Area area_;                         // of the stage
+  Area area_;                         // of the viewport
   std::array<int, 4> windowed_ = {};  // place and extent before full screen
 };
 

@@ -42,7 +42,7 @@ static std::string free_name(const std::string& extension) {
 Scene Explorer::recorded_beside(const std::string& file) const {
   Scene scene = session_.recorded();
   scene.view.theme = shown_view().theme;
-  Start& start = scene.disks.start;
+  Start& start = scene.particles.start;
   if (start.layout == Layout::File && start.file.empty()) {
     start.file = std::filesystem::path(file).replace_extension(".csv");
     write_file(start.file, state_to_csv(start.state));
@@ -51,7 +51,7 @@ Scene Explorer::recorded_beside(const std::string& file) const {
 }
 
 void Explorer::screenshot() {
-  if (!stage_.drawn()) return;
+  if (!viewport_.drawn()) return;
   try {
     const std::string name = free_name(".png");
     const Scene scene = recorded_beside(name);
@@ -59,7 +59,7 @@ void Explorer::screenshot() {
                                         {"Software", "clatter " CLATTER_VERSION},
                                         {"Seed", std::to_string(session_.frame().seed)},
                                         {"Scene", scene_to_toml(scene)}};
-    write_png(name, stage_.picture(), texts);
+    write_png(name, viewport_.picture(), texts);
     log_.event("screenshot", {{"file", name}});
     session_.tell("Screenshot: " + name);
   } catch (const std::exception& error) {

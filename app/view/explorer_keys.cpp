@@ -25,7 +25,7 @@ void Explorer::use_function_key(const KeyPress& press) {
     case GLFW_KEY_ESCAPE:
       return close_something();
     case GLFW_KEY_F1:
-      shown_.help = !shown_.help;
+      panels_.help = !panels_.help;
       return;
     case GLFW_KEY_F2:
       return screenshot();
@@ -40,7 +40,7 @@ void Explorer::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
   switch (press.key) {
     case GLFW_KEY_TAB:
-      shown_.panels = !shown_.panels;
+      panels_.panels = !panels_.panels;
       return;
     case GLFW_KEY_SPACE:
       return session_.play(!session_.frame().plays);
@@ -51,24 +51,24 @@ void Explorer::use_key(const KeyPress& press) {
   }
   switch (press.letter()) {
     case 'f':
-      return stage_.fit();
+      return viewport_.fit();
     case 'g':
-      shown_.gallery = !shown_.gallery;
+      panels_.gallery = !panels_.gallery;
       return;
     case 'h':
-      shown_.help = !shown_.help;
+      panels_.help = !panels_.help;
       return;
     case 'l':
-      return lecture(!shown_.lecture);
+      return lecture(!panels_.lecture);
     case 'm':
       return fix_range();
     case 'p':
-      shown_.plots = !shown_.plots;
+      panels_.plots = !panels_.plots;
       return;
     case 'r':
       return press.shift ? session_.restart_with_new_seed() : session_.restart();
     case 't':
-      shown_.lesson = !shown_.lesson;
+      panels_.lesson = !panels_.lesson;
       return;
     default:
       return;
@@ -104,13 +104,13 @@ void Explorer::use_signs() {
 }
 
 void Explorer::close_something() {
-  for (bool* open : {&shown_.gallery, &shown_.help, &shown_.plots}) {
+  for (bool* open : {&panels_.gallery, &panels_.help, &panels_.plots}) {
     if (!*open) continue;
     *open = false;
     return;
   }
-  if (shown_.lecture) return lecture(false);
-  stage_.let_go();
+  if (panels_.lecture) return lecture(false);
+  viewport_.let_go();
 }
 
 // A range of round numbers up to twice the thermal speed, or again one that follows.

@@ -8,30 +8,30 @@
 
 namespace clatter {
 
-// Disks start and stop being rough; the coefficients are those of a middling rough disk.
+// Particles start and stop being rough; the coefficients are those of a middling rough disk.
 static void roughness(Session& session, Controls& controls) {
-  const Roughness& rough = session.scene().disks.roughness;
-  const Roughness& usual = session.opened().disks.roughness;
+  const Roughness& rough = session.scene().particles.roughness;
+  const Roughness& usual = session.opened().particles.roughness;
   bool any = rough.any();
   if (controls.toggle("rough", "Rough disks",
                       "Collisions turn slip into spin, Walton's model, Eq. (2.8)", any)) {
     const auto keys = [](bool on) {
-      return std::vector<Override>{{"disks.friction", on ? "0.5" : "0.0"},
-                                   {"disks.tangential_restitution", on ? "0.5" : "-1.0"}};
+      return std::vector<Override>{{"particles.friction", on ? "0.5" : "0.0"},
+                                   {"particles.tangential_restitution", on ? "0.5" : "-1.0"}};
     };
     controls.set(keys(!any), keys(any));
   }
   if (!any) return;
   // An infinite friction cannot be on a slider; from its right end on slides do not matter.
-  constexpr double kMostFriction = 2.0;
-  controls.law({.key = "disks.friction",
+  constexpr double kMaxFriction = 2.0;
+  controls.law({.key = "particles.friction",
                 .name = "Friction",
                 .symbol = "μ",
                 .help = "Coulomb's: the largest tangential over normal impulse, Eq. (2.8)",
-                .high = kMostFriction},
-               std::min(rough.friction_in_force(), kMostFriction),
-               std::min(usual.any() ? usual.friction_in_force() : 0.5, kMostFriction));
-  controls.law({.key = "disks.tangential_restitution",
+                .high = kMaxFriction},
+               std::min(rough.friction_in_force(), kMaxFriction),
+               std::min(usual.any() ? usual.friction_in_force() : 0.5, kMaxFriction));
+  controls.law({.key = "particles.tangential_restitution",
                 .name = "Tangential",
                 .symbol = "β₀",
                 .help = "Tangential restitution of rolling contacts: -1 keeps the slip, 1 reverses "
@@ -44,25 +44,25 @@ static void roughness(Session& session, Controls& controls) {
 void gas_panel(Session& session, Controls& controls) {
   if (!group("Gas")) return;
   const Scene& scene = session.scene();
-  if (session.opened().disks.start.layout != Layout::File) {
+  if (session.opened().particles.start.layout != Layout::File) {
     const int most = std::min(lattice_capacity(scene.start_room()), 100'000);
-    controls.whole({.key = "disks.count",
+    controls.whole({.key = "particles.count",
                     .name = "Disks",
                     .symbol = "N",
-                    .help = "Disks go, or come at random places where there is room",
+                    .help = "Particles go, or come at random places where there is room",
                     .low = 1.0,
                     .high = static_cast<double>(most),
                     .logarithmic = true,
                     .format = "%.0f"},
-                   scene.disks.count, session.opened().disks.count);
+                   scene.particles.count, session.opened().particles.count);
   }
   ImGui::TextDisabled("Area fraction φ = %.3f", scene.area_fraction());
-  controls.law({.key = "disks.restitution",
+  controls.law({.key = "particles.restitution",
                 .name = "Restitution",
                 .symbol = "α",
                 .help = "Share of the normal velocity that a collision of two disks keeps; "
                         "1: elastic, Eq. (2.5)"},
-               scene.disks.restitution, session.opened().disks.restitution);
+               scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);
   ImGui::Spacing();
 }

@@ -60,8 +60,8 @@ void History::add(const Frame& frame) {
   last_ = frame.tally;
   // The first few dozen pictures show single collisions: a sample needs some.
   spacing_ = std::max(spacing_, frame.speed / 10.0);
-  constexpr std::size_t kMost = 1200;
-  if (samples_.size() > kMost) thin_out();
+  constexpr std::size_t kMax = 1200;
+  if (samples_.size() > kMax) thin_out();
 }
 
 // Every two become one, and so will those to come.

@@ -48,12 +48,12 @@ bool told(const Session& session, const Area& area) {
   return true;
 }
 
-static void tell_encounter(const char* which, const Encounter& encounter) {
-  if (encounter.partner) {
-    ImGui::TextDisabled("%s t = %.4f, disk %u", which, encounter.time, *encounter.partner);
+static void show_collision(const char* which, const ParticleCollision& collision) {
+  if (collision.partner) {
+    ImGui::TextDisabled("%s t = %.4f, disk %u", which, collision.time, *collision.partner);
   } else {
-    ImGui::TextDisabled("%s t = %.4f, %s wall", which, encounter.time,
-                        kSideNames[static_cast<std::size_t>(encounter.side)]);
+    ImGui::TextDisabled("%s t = %.4f, %s wall", which, collision.time,
+                        kSideNames[static_cast<std::size_t>(collision.side)]);
   }
 }
 
@@ -74,8 +74,8 @@ void disk_note(const Frame& frame, std::size_t disk, bool follows, ImVec2 place,
   ImGui::TextDisabled("velocity %.3f, %.3f", v.x(), v.y());
   ImGui::TextDisabled("speed %.3f", v.norm());
   if (!gas.spins.empty()) ImGui::TextDisabled("spin %.3f", gas.spins[disk]);
-  if (frame.last_encounter) tell_encounter("last hit", *frame.last_encounter);
-  if (frame.next_encounter) tell_encounter("next hit", *frame.next_encounter);
+  if (frame.last_collision) show_collision("last hit", *frame.last_collision);
+  if (frame.next_collision) show_collision("next hit", *frame.next_collision);
   ImGui::TextDisabled(follows ? "followed; Esc lets go" : "double-click to follow");
   end_note();
 }

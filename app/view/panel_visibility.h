@@ -3,7 +3,7 @@
 namespace clatter {
 
 /// What of the window is open.
-struct Shown {
+struct PanelVisibility {
   bool panels = true;
   bool plots = false;
   bool gallery = false;

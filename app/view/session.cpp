@@ -31,7 +31,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"box", {frame.snapshot.box.x(), frame.snapshot.box.y()}},
                          {"disks", frame.snapshot.positions.size()},
                          {"flights", frame.snapshot.flights.size()},
-                         {"restitution", frame.scene->disks.restitution}};
+                         {"restitution", frame.scene->particles.restitution}};
   if (frame.state_hash) {
     char hash[17];
     std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(*frame.state_hash));
@@ -79,7 +79,7 @@ void Session::answered(const Frame& now) {
   seen_ = now.scene;
   wishes_ = false;
   scene_ = *now.scene;
-  scene_.disks.start = opened_.disks.start;
+  scene_.particles.start = opened_.particles.start;
 }
 
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
@@ -220,7 +220,7 @@ void Session::set_view(const View& view) {
 void Session::pick(std::optional<std::size_t> disk) {
   if (std::exchange(picked_, disk) == disk) return;
   command::Pick pick;
-  if (disk) pick.disk = static_cast<std::uint32_t>(*disk);
+  if (disk) pick.particle = static_cast<std::uint32_t>(*disk);
   send(pick);
 }
 

@@ -13,11 +13,11 @@ namespace clatter {
 // The gas of a scene after a few seconds on screen, but no longer than a few thousand events take.
 static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
   constexpr double kSeconds = 3.0;
-  constexpr std::uint64_t kMostSteps = 20'000;
+  constexpr std::uint64_t kMaxSteps = 20'000;
   const Scene scene = load_gallery_scene(file);
   ScheduledRun run(scene, 1);
   run.show(scene.view);
-  run.run_until(kSeconds * scene.view.speed, Simulation<2>::kNoLimit, kMostSteps);
+  run.run_until(kSeconds * scene.view.speed, Simulation<2>::kNoLimit, kMaxSteps);
   return run.snapshot();
 }
 

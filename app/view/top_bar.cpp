@@ -116,7 +116,7 @@ void figures(const Frame& frame) {
 
 }  // namespace
 
-void top_bar(Session& session, Controls& controls, Shown& shown) {
+void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
   const Frame& frame = session.frame();
   const std::string title = session.scene().title.empty() ? "Untitled" : session.scene().title;
   if (controls.button("gallery", ("≡  " + title + "##gallery").c_str(), "The gallery (G)")) {

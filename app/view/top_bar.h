@@ -7,6 +7,6 @@
 namespace clatter {
 
 /// The slim bar above all: scene, play and steps, speed, time, health, and what is to be open.
-void top_bar(Session& session, Controls& controls, Shown& shown);
+void top_bar(Session& session, Controls& controls, PanelVisibility& shown);
 
 }  // namespace clatter

@@ -67,7 +67,7 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
   const int most = static_cast<int>(colours.size()) - 1;
   int chosen = std::min(index_of(view.colour_by, kColourings), most);
   const int usual = std::min(index_of(session.opened().view.colour_by, kColourings), most);
-  const bool changed = controls.choice("view.colour_by", "Disks coloured by",
+  const bool changed = controls.choice("view.colour_by", "Particles coloured by",
                                        "What a disk's colour shows", colours, chosen, usual);
   view.colour_by = kColourings[static_cast<std::size_t>(chosen)].value;
   return changed;

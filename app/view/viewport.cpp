@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-void Stage::draw(const Frame& frame, const View& view, Size size, double letters) {
+void Viewport::draw(const Frame& frame, const View& view, Size size, double letters) {
   if (!canvas_ || canvas_->size().width != size.width || canvas_->size().height != size.height) {
     canvas_.emplace(*gl_, size);
     stale_ = true;
@@ -28,43 +28,43 @@ void Stage::draw(const Frame& frame, const View& view, Size size, double letters
   renderer_.draw(frame.snapshot, camera_, size, view, text);
 }
 
-void Stage::show(int x, int y) const {
+void Viewport::show(int x, int y) const {
   if (canvas_) canvas_->show(x, y);
 }
 
-void Stage::fit() {
+void Viewport::fit() {
   fits_ = true;
   follows_ = false;
   stale_ = true;
 }
 
-bool Stage::let_go() {
+bool Viewport::let_go() {
   const bool had = picked_.has_value();
   picked_.reset();
   follows_ = false;
   return had;
 }
 
-Vec2 Stage::world(ImVec2 mouse, ImVec2 corner, float scale) const {
+Vec2 Viewport::world(ImVec2 mouse, ImVec2 corner, float scale) const {
   const Size size = canvas_->size();
   const Vec2 pixel((mouse.x - corner.x) * scale, size.height - (mouse.y - corner.y) * scale);
   return camera_.centre +
          (pixel - 0.5 * Vec2(size.width, size.height)) / Projection{camera_, size}.scale();
 }
 
-ImVec2 Stage::place(const Vec2& world, ImVec2 corner, float scale) const {
+ImVec2 Viewport::place(const Vec2& world, ImVec2 corner, float scale) const {
   const Vec2 pixel = Projection{camera_, canvas_->size()}.pixels(world);
   return {corner.x + static_cast<float>(pixel.x()) / scale,
           corner.y + static_cast<float>(canvas_->size().height - pixel.y()) / scale};
 }
 
-std::optional<ImVec2> Stage::picked_place(const Frame& frame, ImVec2 corner, float scale) const {
+std::optional<ImVec2> Viewport::picked_place(const Frame& frame, ImVec2 corner, float scale) const {
   const auto& positions = frame.snapshot.positions;
   if (!canvas_ || !picked_ || *picked_ >= positions.size()) return std::nullopt;
   return place(positions[*picked_], corner, scale);
 }
 
-std::optional<std::size_t> Stage::disk_at(const Frame& frame, const Vec2& point) const {
+std::optional<std::size_t> Viewport::disk_at(const Frame& frame, const Vec2& point) const {
   const auto& positions = frame.snapshot.positions;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if ((positions[i] - point).norm() < 0.5 * frame.snapshot.diameter) return i;
@@ -72,7 +72,7 @@ std::optional<std::size_t> Stage::disk_at(const Frame& frame, const Vec2& point)
   return std::nullopt;
 }
 
-void Stage::use_mouse(const Frame& frame, ImVec2 corner, float scale) {
+void Viewport::use_mouse(const Frame& frame, ImVec2 corner, float scale) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!canvas_) return;
   if (io.MouseWheel != 0.0f) {
@@ -101,7 +101,7 @@ void Stage::use_mouse(const Frame& frame, ImVec2 corner, float scale) {
   }
 }
 
-void Stage::mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const {
+void Viewport::mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const {
   if (!canvas_) return;
   const auto& positions = frame.snapshot.positions;
   const float radius = static_cast<float>(0.5 * frame.snapshot.diameter *

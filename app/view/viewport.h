@@ -11,9 +11,9 @@
 namespace clatter {
 
 /// Where the gas is drawn, as films draw it, and what a person does there with the mouse.
-class Stage {
+class Viewport {
  public:
-  explicit Stage(const Gl& gl) : gl_(&gl), renderer_(gl) {}
+  explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
 
   /// Draws a frame into a picture of its own, of `size` pixels, with letters so many times as large
   /// as in films, if anything has changed.
@@ -23,7 +23,7 @@ class Stage {
   /// The picture as it is.
   Image picture() const { return canvas_->read(); }
 
-  /// Pans, zooms, picks a disk, where the mouse is over the stage, whose upper left corner is at
+  /// Pans, zooms, picks a disk, where the mouse is over the viewport, whose upper left corner is at
   /// `corner` in units of the window, each `scale` pixels.
   void use_mouse(const Frame& frame, ImVec2 corner, float scale);
   /// Marks the picked disk and a pair that has just collided.

@@ -17,10 +17,10 @@ static bool is_low(Side side) {
   return side % 2 == 0;
 }
 
-Area WallGrip::handle(const Stage& stage, const Frame& frame, ImVec2 corner, float scale,
+Area WallGrip::handle(const Viewport& viewport, const Frame& frame, ImVec2 corner, float scale,
                       Side side) {
-  const ImVec2 low = stage.place(Vec2(0.0, 0.0), corner, scale);
-  const ImVec2 high = stage.place(frame.snapshot.box, corner, scale);
+  const ImVec2 low = viewport.place(Vec2(0.0, 0.0), corner, scale);
+  const ImVec2 high = viewport.place(frame.snapshot.box, corner, scale);
   const float depth = 1.2f * ImGui::GetFontSize();
   Area area{ImVec2(low.x, high.y), ImVec2(high.x, low.y)};
   switch (side) {
@@ -40,23 +40,23 @@ Area WallGrip::handle(const Stage& stage, const Frame& frame, ImVec2 corner, flo
   return area;
 }
 
-static std::optional<Side> wall_at(const Stage& stage, const Frame& frame, ImVec2 corner,
+static std::optional<Side> wall_at(const Viewport& viewport, const Frame& frame, ImVec2 corner,
                                    float scale) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   for (const Side side : {kLeft, kRight, kBottom, kTop}) {
     if (!frame.snapshot.walls[side]) continue;
-    const auto& [low, high] = WallGrip::handle(stage, frame, corner, scale, side);
+    const auto& [low, high] = WallGrip::handle(viewport, frame, corner, scale, side);
     if (mouse.x > low.x && mouse.x < high.x && mouse.y > low.y && mouse.y < high.y) return side;
   }
   return std::nullopt;
 }
 
-std::optional<WallGrip::Resized> WallGrip::use(const Stage& stage, const Frame& frame,
+std::optional<WallGrip::Resized> WallGrip::use(const Viewport& viewport, const Frame& frame,
                                                ImVec2 corner, float scale, bool over) {
   constexpr double kShortest = 4.0;
   const Vec2& box = frame.snapshot.box;
   if (!held_) {
-    side_ = over ? wall_at(stage, frame, corner, scale) : std::nullopt;
+    side_ = over ? wall_at(viewport, frame, corner, scale) : std::nullopt;
     if (side_) length_ = box[axis_of(*side_)];
     held_ = side_ && ImGui::IsMouseClicked(0);
   }
@@ -64,7 +64,7 @@ std::optional<WallGrip::Resized> WallGrip::use(const Stage& stage, const Frame& 
   const int axis = axis_of(*side_);
   ImGui::SetMouseCursor(axis == 0 ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
   if (!held_) return std::nullopt;
-  const double mouse = stage.world(ImGui::GetIO().MousePos, corner, scale)[axis];
+  const double mouse = viewport.world(ImGui::GetIO().MousePos, corner, scale)[axis];
   const double length = is_low(*side_) ? box[axis] - mouse : mouse;
   length_ = std::max(kShortest, 0.1 * std::round(10.0 * length));
   if (!ImGui::IsMouseReleased(0)) return std::nullopt;
@@ -76,13 +76,13 @@ std::optional<WallGrip::Resized> WallGrip::use(const Stage& stage, const Frame& 
   return resized;
 }
 
-void WallGrip::mark(ImDrawList& list, const Stage& stage, const Frame& frame, ImVec2 corner,
+void WallGrip::mark(ImDrawList& list, const Viewport& viewport, const Frame& frame, ImVec2 corner,
                     float scale) const {
   if (!side_) return;
   const int axis = axis_of(*side_);
   Vec2 from(0.0, 0.0), to = frame.snapshot.box;
   from[axis] = to[axis] = is_low(*side_) ? to[axis] - length_ : length_;
-  const ImVec2 a = stage.place(from, corner, scale), b = stage.place(to, corner, scale);
+  const ImVec2 a = viewport.place(from, corner, scale), b = viewport.place(to, corner, scale);
   list.AddLine(a, b, packed(accent_colour()), 0.2f * ImGui::GetFontSize());
   if (!held_) return;
   char text[32];

@@ -72,7 +72,7 @@ std::string read_whole(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ignored)) refuse(file, "there is no such file");
   if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
   if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
-  return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a disk");
+  return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a particle");
 }
 
 // The body is that of another version, of which only the beginning is known.

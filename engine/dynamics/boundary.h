@@ -15,7 +15,7 @@ template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 
 /// Where the walls of a run are, at times on its moving base. Places are those of the centres of
-/// disks that touch.
+/// particles that touch.
 template <int D>
 class Boundary {
  public:
@@ -27,7 +27,7 @@ class Boundary {
 
   /// Displacement into the box, velocity and acceleration of a wall along its inward normal.
   WallState wall(int side, double time) const;
-  /// Coordinate along the wall's axis of a disk that touches it, as the contact times have it.
+  /// Coordinate along the wall's axis of a particle that touches it, as the contact times have it.
   double touching_place(int side, double time) const;
   /// Time at which a flight that is under way at `now` touches a wall, or kNever.
   double contact_time(int side, const Flight<D>& flight, double now) const;

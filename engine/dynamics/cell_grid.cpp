@@ -10,7 +10,7 @@ namespace clatter {
 
 // Cells less the overhangs of both neighbours are wider than a diameter by more than any rounding
 // of positions.
-static constexpr double kLeastWidth = 1.01;
+static constexpr double kMinWidth = 1.01;
 static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Cells along each axis: as near to cubes as the box allows, shortest edge first, so that a narrow
@@ -26,7 +26,7 @@ static IntVec<D> choose_counts(const Model<D>& model, double cells) {
   for (int k = 0; k < D; ++k) {
     const double length = model.box[axes[k]];
     const double edge =
-        std::max(std::pow(volume / cells, 1.0 / (D - k)), kLeastWidth * model.diameter);
+        std::max(std::pow(volume / cells, 1.0 / (D - k)), kMinWidth * model.diameter);
     const double count = std::max(1.0, std::floor(length / edge));
     counts[axes[k]] = static_cast<int>(count);
     cells = std::max(1.0, cells / count);
@@ -41,7 +41,7 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
   for (int axis = 0; axis < D; ++axis) {
     const int count = counts_[axis];
     widths_[axis] = model.box[axis] / count;
-    overhangs_[axis] = 0.5 * std::max(0.0, widths_[axis] - kLeastWidth * model.diameter);
+    overhangs_[axis] = 0.5 * std::max(0.0, widths_[axis] - kMinWidth * model.diameter);
     for (int cell = 0; cell < count; ++cell) {
       borders_[axis].push_back(cell * widths_[axis] - overhangs_[axis]);
       borders_[axis].push_back((cell + 1) * widths_[axis] + overhangs_[axis]);
@@ -54,7 +54,9 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
     }
     if (model.periodic(axis)) {
       // From beyond the low border the box lies a length above, from beyond the high one below.
-      const auto wrap = [&](unsigned bits) { return Neighbour{bits} << (kDiskBits + 2 * axis); };
+      const auto wrap = [&](unsigned bits) {
+        return Neighbour{bits} << (kParticleBits + 2 * axis);
+      };
       places.front() = {places[static_cast<std::size_t>(count)].index, wrap(0b01)};
       places.back() = {places[1].index, wrap(0b11)};
     } else {
@@ -79,30 +81,30 @@ IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
 }
 
 template <int D>
-void CellGrid<D>::insert(std::uint32_t disk, const IntVec<D>& cell) {
+void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell) {
   visit_lists<D - 1>(about(cell), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, disk | wrap); });
+                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, particle | wrap); });
 }
 
 template <int D>
-void CellGrid<D>::remove(std::uint32_t disk, const IntVec<D>& cell) {
+void CellGrid<D>::remove(std::uint32_t particle, const IntVec<D>& cell) {
   visit_lists<D - 1>(about(cell), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, disk | wrap); });
+                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, particle | wrap); });
 }
 
 template <int D>
-void CellGrid<D>::move(std::uint32_t disk, const IntVec<D>& cell, int axis, int step) {
+void CellGrid<D>::move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step) {
   const int next = cell[axis] + step;
   if (next < 0 || next == counts_[axis]) {
     // Round a border, it is seen otherwise from everywhere.
-    remove(disk, cell);
-    insert(disk, neighbour(cell, axis, step));
+    remove(particle, cell);
+    insert(particle, neighbour(cell, axis, step));
     return;
   }
   visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, disk | wrap); });
+                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, particle | wrap); });
   visit_lists<D - 1>(row(cell, axis, next + step), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, disk | wrap); });
+                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, particle | wrap); });
 }
 
 template <int D>
@@ -116,7 +118,7 @@ void CellGrid<D>::put_on(std::uint32_t at, Neighbour neighbour) {
   }
   List& list = lists_[at];
   list.neighbours[list.count++] = neighbour;
-  list.wraps = list.wraps || neighbour != disk_of(neighbour);
+  list.wraps = list.wraps || neighbour != particle_of(neighbour);
 }
 
 // Where a neighbour stands on a list; 0 where it does not. Looks at all places at once, for where

@@ -11,25 +11,26 @@
 
 namespace clatter {
 
-/// Cells that say which disks are near: two disks that touch belong to the same cell or to
-/// neighbouring ones. A disk belongs to its cell until it is beyond the cell's border by an
+/// Cells that say which particles are near: two particles that touch belong to the same cell or to
+/// neighbouring ones. A particle belongs to its cell until it is beyond the cell's border by an
 /// overhang, as wide as that allows, so that those who rattle about a border do not cross it.
 ///
-/// Each cell lists the disks of itself and of all cells about it, for a disk looks for partners far
-/// more often than it changes cells: who looks reads one list, and who enters a cell is taken off
-/// one row of lists and put on another.
+/// Each cell lists the particles of itself and of all cells about it, for a particle looks for
+/// partners far more often than it changes cells: who looks reads one list, and who enters a cell
+/// is taken off one row of lists and put on another.
 template <int D>
 class CellGrid {
  public:
   /// An empty grid over the box, of about so many cells, each wider than a diameter.
   CellGrid(const Model<D>& model, double cells);
 
-  /// Puts a disk into a cell.
-  void insert(std::uint32_t disk, const IntVec<D>& cell);
-  /// Takes a disk out of the cell it was put into.
-  void remove(std::uint32_t disk, const IntVec<D>& cell);
-  /// Moves a disk from its cell to the neighbour along an axis, on the side of `step` = +1 or -1.
-  void move(std::uint32_t disk, const IntVec<D>& cell, int axis, int step);
+  /// Puts a particle into a cell.
+  void insert(std::uint32_t particle, const IntVec<D>& cell);
+  /// Takes a particle out of the cell it was put into.
+  void remove(std::uint32_t particle, const IntVec<D>& cell);
+  /// Moves a particle from its cell to the neighbour along an axis, on the side of `step` = +1 or
+  /// -1.
+  void move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step);
 
   /// Number of cells along each axis.
   const IntVec<D>& counts() const { return counts_; }
@@ -42,24 +43,24 @@ class CellGrid {
     if (cell[axis] < 0 || cell[axis] == counts_[axis]) cell[axis] -= step * counts_[axis];
     return cell;
   }
-  /// Place along an axis where a disk leaves cell number `cell`, above it or below; infinitely far
-  /// off where the box ends at a wall, for there is no cell beyond.
+  /// Place along an axis where a particle leaves cell number `cell`, above it or below; infinitely
+  /// far off where the box ends at a wall, for there is no cell beyond.
   double border(int axis, int cell, bool upper) const {
     return borders_[axis][static_cast<std::size_t>(2 * cell + upper)];
   }
-  /// Least distance of a disk in cell number `cell` from the lower or upper end of the box.
+  /// Least distance of a particle in cell number `cell` from the lower or upper end of the box.
   double distance_from_end(int axis, int cell, bool upper) const {
     const int cells = upper ? counts_[axis] - 1 - cell : cell;
     return cells * widths_[axis] - overhangs_[axis];
   }
 
-  /// A disk that is near: its number below, and above for each axis, in two bits, by how many box
-  /// lengths it lies round the periodic borders (-1, 0 or +1). A disk comes up several times, seen
-  /// round different borders, where the box is only one or two cells wide.
+  /// A particle that is near: its number below, and above for each axis, in two bits, by how many
+  /// box lengths it lies round the periodic borders (-1, 0 or +1). A particle comes up several
+  /// times, seen round different borders, where the box is only one or two cells wide.
   using Neighbour = std::uint32_t;
-  static constexpr int kDiskBits = 32 - 2 * D;
-  static_assert(kMostDisks < std::uint32_t{1} << kDiskBits);  // the last number is kNobody's
-  static std::uint32_t disk_of(Neighbour neighbour) { return neighbour & kDiskMask; }
+  static constexpr int kParticleBits = 32 - 2 * D;
+  static_assert(kMaxParticles < std::uint32_t{1} << kParticleBits);  // the last number is kNobody's
+  static std::uint32_t particle_of(Neighbour neighbour) { return neighbour & kParticleMask; }
   static int wrap_of(Neighbour neighbour, int axis) {
     // Two bits with their sign.
     return static_cast<std::int32_t>(neighbour << (2 * (D - 1 - axis))) >> 30;
@@ -75,7 +76,7 @@ class CellGrid {
 
     List() { neighbours.fill(kNobody); }
   };
-  static constexpr Neighbour kDiskMask = (Neighbour{1} << kDiskBits) - 1;
+  static constexpr Neighbour kParticleMask = (Neighbour{1} << kParticleBits) - 1;
   static constexpr Neighbour kNobody = ~Neighbour{0};
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
@@ -87,8 +88,8 @@ class CellGrid {
   }
   /// How many are near a cell.
   std::size_t count_near(const IntVec<D>& cell) const;
-  /// Calls visit(disk, wrap) for each disk near a cell; `wrap` are the box lengths by which it lies
-  /// round the periodic borders.
+  /// Calls visit(particle, wrap) for each particle near a cell; `wrap` are the box lengths by which
+  /// it lies round the periodic borders.
   template <typename Visit>
   void visit(const IntVec<D>& cell, const Visit& visit) const;
 
@@ -148,7 +149,7 @@ void CellGrid<D>::visit(const IntVec<D>& cell, const Visit& visit) const {
     for (std::uint32_t k = 0; k < list->count; ++k) {
       Vec<D> wrap;
       for (int axis = 0; axis < D; ++axis) wrap[axis] = wrap_of(list->neighbours[k], axis);
-      visit(disk_of(list->neighbours[k]), wrap);
+      visit(particle_of(list->neighbours[k]), wrap);
     }
   }
 }
@@ -166,8 +167,8 @@ typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, in
   return block;
 }
 
-// Calls visit(list, wrap) for the list of each cell of a block; `wrap` is how a disk within the box
-// is seen from there.
+// Calls visit(list, wrap) for the list of each cell of a block; `wrap` is how a particle within the
+// box is seen from there.
 template <int D>
 template <int Axis, typename Visit>
 [[gnu::always_inline]] inline void CellGrid<D>::visit_lists(const Block& block, std::uint32_t index,

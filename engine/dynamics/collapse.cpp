@@ -16,7 +16,7 @@ static std::string rounded(double number) {
 }
 
 static std::string partner_name(std::uint32_t partner) {
-  if (partner < kWall) return "disk " + std::to_string(partner);
+  if (partner < kWall) return "particle " + std::to_string(partner);
   return std::string("the ") + kSideNames[partner - kWall] + " wall";
 }
 
@@ -26,8 +26,8 @@ static bool gains(const Model<D>& model) {
                              [](const auto& wall) { return wall && wall->restitution > 1.0; });
 }
 
-// Walls with restitution > 1 heat without bound: disks have become so fast that in what used to be
-// the time between collisions they would cross the box a thousand times.
+// Walls with restitution > 1 heat without bound: particles have become so fast that in what used to
+// be the time between collisions they would cross the box a thousand times.
 template <int D>
 static bool diverges(const Model<D>& model, const Watchdog& watchdog, double temperature) {
   const double flight = std::sqrt(temperature) * watchdog.mean_collision_time();
@@ -54,8 +54,8 @@ static bool is_lossless(const Model<D>& model) {
   return lossless;
 }
 
-// About the greatest speed that a wall's drive or its motion gives to a disk at rest: exactly for
-// driven walls and the saw-tooth.
+// About the greatest speed that a wall's drive or its motion gives to a particle at rest: exactly
+// for driven walls and the saw-tooth.
 template <int D>
 static double drive_of(const Model<D>& model) {
   double drive = 0.0;
@@ -65,7 +65,7 @@ static double drive_of(const Model<D>& model) {
   return drive;
 }
 
-// Speeds that disks reach without walls: by falling across the box, and by a kick.
+// Speeds that particles reach without walls: by falling across the box, and by a kick.
 template <int D>
 static double free_speed(const Model<D>& model) {
   const double fall = std::sqrt(2.0 * model.gravity.cwiseAbs().dot(model.box));
@@ -78,11 +78,11 @@ static double free_speed(const Model<D>& model) {
 template <int D>
 double fastest_speed(const Model<D>& model, double start_speed) {
   constexpr double kFastest = 1e60;
-  constexpr double kMostGrowth = 1e6;
+  constexpr double kMaxGrowth = 1e6;
   if (gains(model)) return kFastest;
   const double drive = drive_of(model);
   if (!(drive > 0.0 && is_lossless(model))) return kNever;
-  return kMostGrowth * std::max({drive, start_speed, free_speed(model)});
+  return kMaxGrowth * std::max({drive, start_speed, free_speed(model)});
 }
 
 template <int D>
@@ -91,11 +91,11 @@ PhysicalStop divergence(const Model<D>& model, double time, double temperature) 
       "the temperature diverges at t = " + rounded(time) + ", having reached " +
       rounded(temperature) + ", a speed of " + rounded(std::sqrt(2.0 * temperature)) +
       (gains(model) ? "; walls with restitution > 1 give more than the gas loses"
-                    : "; walls give ever more, and nothing loses energy: disks or walls "
+                    : "; walls give ever more, and nothing loses energy: particles or walls "
                       "need a restitution below 1"));
 }
 
-// Whether a partner is a wall that emits disks without any speed, which no t_c changes.
+// Whether a partner is a wall that emits particles without any speed, which no t_c changes.
 template <int D>
 static bool is_cold_wall(const Model<D>& model, std::uint32_t partner) {
   return partner >= kWall && model.walls[partner - kWall]->kind == WallKind::Thermal;
@@ -105,12 +105,12 @@ template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature) {
   if (diverges<D>(model, watchdog, temperature)) return divergence<D>(model, time, temperature);
-  const auto [disk, partner] = watchdog.busiest_pair();
-  const std::string what = "time stands still at t = " + rounded(time) + ": disk " +
-                           std::to_string(disk) + " and " + partner_name(partner) +
+  const auto [particle, partner] = watchdog.busiest_pair();
+  const std::string what = "time stands still at t = " + rounded(time) + ": particle " +
+                           std::to_string(particle) + " and " + partner_name(partner) +
                            " collide without end";
   if (is_cold_wall<D>(model, partner)) {
-    return PhysicalStop(what + "; a wall of temperature 0 lets no disk go, give it some");
+    return PhysicalStop(what + "; a wall of temperature 0 lets no particle go, give it some");
   }
   const double helpful = helpful_contact_time<D>(model, watchdog);
   if (helpful == 0.0) {

@@ -11,8 +11,9 @@ template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature);
 
-/// The speed beyond which a disk shows that walls heat the gas without bound; kNever where they do
-/// not, or what disks lose may balance it. Of a run that began with disks as fast as `start_speed`.
+/// The speed beyond which a particle shows that walls heat the gas without bound; kNever where they
+/// do not, or what particles lose may balance it. Of a run that began with particles as fast as
+/// `start_speed`.
 template <int D>
 double fastest_speed(const Model<D>& model, double start_speed);
 

@@ -28,7 +28,7 @@ PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>
 template <int D>
 static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& arrival) {
   const double temperature = model.walls[side]->temperature;
-  Random random(model.seed, Stream::ThermalWall, arrival.disk, arrival.flight);
+  Random random(model.seed, Stream::ThermalWall, arrival.particle, arrival.flight);
   const double uniform = random.uniform();
   std::array<double, D - 1> normals;
   for (double& normal : normals) normal = random.normal();
@@ -43,10 +43,10 @@ static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& a
   return departure;
 }
 
-// Where a wall presses upon a disk that rests on it, or that it holds without any restitution, the
-// TC model has nothing left to reflect. So that the contact does not return for ever at one time,
-// the disk leaves fast enough to stay away for half of t_c, or of the time that a swinging wall
-// presses.
+// Where a wall presses upon a particle that rests on it, or that it holds without any restitution,
+// the TC model has nothing left to reflect. So that the contact does not return for ever at one
+// time, the particle leaves fast enough to stay away for half of t_c, or of the time that a
+// swinging wall presses.
 template <int D>
 static double least_rebound(const Model<D>& model, int side, const WallState& wall,
                             double approach) {

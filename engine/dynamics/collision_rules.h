@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-/// What a collision does to two disks.
+/// What a collision does to two particles.
 template <int D>
 struct PairOutcome {
   Impulse<D> gain;            ///< of the first
@@ -17,30 +17,30 @@ struct PairOutcome {
   double undissipated = 0.0;  ///< energy that they would have lost otherwise
 };
 
-/// Outcome for two disks that touch: x = r_1 - r_2, v = v_1 - v_2, spin = omega_1 + omega_2.
+/// Outcome for two particles that touch: x = r_1 - r_2, v = v_1 - v_2, spin = omega_1 + omega_2.
 /// `elastic`: by the TC model, section 4, nothing dissipates.
 template <int D>
 PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>& v,
                             const Spin<D>& spin, bool elastic);
 
-/// How a disk comes to a wall.
+/// How a particle comes to a wall.
 template <int D>
 struct Arrival {
   Vec<D> velocity = Vec<D>::Zero();
   Spin<D> spin = Spin<D>::Zero();
-  std::uint32_t disk = 0;
+  std::uint32_t particle = 0;
   std::uint32_t flight = 0;  ///< number of the flight that ends here
 };
 
-/// How a disk leaves a wall.
+/// How a particle leaves a wall.
 template <int D>
 struct Departure {
   Vec<D> velocity = Vec<D>::Zero();
   Spin<D> spin = Spin<D>::Zero();
 };
 
-/// Departure of a disk that touches a wall, whose state is that of the same time. `elastic`: by the
-/// TC model, section 4, alpha_w becomes at least 1 and beta_w -1; the drive stays.
+/// Departure of a particle that touches a wall, whose state is that of the same time. `elastic`: by
+/// the TC model, section 4, alpha_w becomes at least 1 and beta_w -1; the drive stays.
 template <int D>
 Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
                           const Arrival<D>& arrival, bool elastic);

@@ -6,11 +6,11 @@
 namespace clatter {
 
 /// What stands for a partner where an event has none: a wall (kWall + side) or a border of the
-/// disk's cell (kCellBorder + side). Disk numbers lie below.
+/// particle's cell (kCellBorder + side). Particle numbers lie below.
 inline constexpr std::uint32_t kWall = 0xffffffe0u;
 inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
 
-/// Which border of its cell a disk crosses: the axis, and the step across it, +1 or -1.
+/// Which border of its cell a particle crosses: the axis, and the step across it, +1 or -1.
 struct Crossing {
   int axis;
   int step;
@@ -20,21 +20,21 @@ inline Crossing crossing_of(std::uint32_t border) {
   return {side / 2, side % 2 ? 1 : -1};
 }
 
-/// An entry of the event queue: something that a disk does at a time.
+/// An entry of the event queue: something that a particle does at a time.
 struct Event {
   double time = 0.0;  ///< on the moving base
-  std::uint32_t disk = 0;
-  std::uint32_t partner = 0;  ///< a disk, kWall + side, or kCellBorder + side
+  std::uint32_t particle = 0;
+  std::uint32_t partner = 0;  ///< a particle, kWall + side, or kCellBorder + side
 };
 
-/// Total order of events: by time; ties by kind (disks, walls, cell borders), then by disks, a pair
-/// counting the same from either side.
+/// Total order of events: by time; ties by kind (particles, walls, cell borders), then by
+/// particles, a pair counting the same from either side.
 inline bool before(const Event& a, const Event& b) {
   if (a.time != b.time) return a.time < b.time;
   const auto rank = [](const Event& e) {
     const int kind = e.partner < kWall ? 0 : e.partner < kCellBorder ? 1 : 2;
-    const bool swap = kind == 0 && e.partner < e.disk;
-    return std::tuple(kind, swap ? e.partner : e.disk, swap ? e.disk : e.partner);
+    const bool swap = kind == 0 && e.partner < e.particle;
+    return std::tuple(kind, swap ? e.partner : e.particle, swap ? e.particle : e.partner);
   };
   return rank(a) < rank(b);
 }

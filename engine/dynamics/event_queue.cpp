@@ -96,7 +96,7 @@ void EventQueue::sort_current() {
   }
 }
 
-// The bucket at hand holds a few events; where a few hot disks among many cold ones crowd it,
+// The bucket at hand holds a few events; where a few hot particles among many cold ones crowd it,
 // the calendar is laid out anew before the crowding has cost more than that does.
 void EventQueue::push_current(Event event) {
   current_.push_back(event);

@@ -13,8 +13,8 @@ namespace clatter {
 
 /// The calendar: a ladder queue. Events of the far future lie unsorted in rows, the row at hand is
 /// spread over buckets, and the bucket at hand is sorted; an event moves down once per rung,
-/// so push and pop cost O(1) at any number of disks. Events are never taken out early: the caller
-/// says which are still live, and the others are dropped as they come up.
+/// so push and pop cost O(1) at any number of particles. Events are never taken out early: the
+/// caller says which are still live, and the others are dropped as they come up.
 class EventQueue {
  public:
   EventQueue() = default;
@@ -36,7 +36,7 @@ class EventQueue {
   void pop() { current_.pop_back(); }
 
   /// Calls `visit` with each event of the bucket that comes `ahead` buckets after the one at hand,
-  /// so that the caller can fetch what they will need; but for events pushed since the bucket at
+  /// so that the caller can prefetch what they will need; but for events pushed since the bucket at
   /// hand came up.
   template <typename Visit>
   void look_ahead(std::size_t ahead, const Visit& visit) const;
@@ -46,11 +46,12 @@ class EventQueue {
 
  private:
   // Measured best from N = 10^3 to 10^6: the fewer the buckets of the row at hand, the more of the
-  // second cache they leave to the disks, but the more events lie in rows and are moved once more.
+  // second cache they leave to the particles, but the more events lie in rows and are moved once
+  // more.
   static constexpr unsigned kRowShift = 9;  // log2 of the buckets per row
   // The bits of a bucket's number that say which of its row it is.
   static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;
-  // So many that a gas of 10^6 disks plans little beyond them.
+  // So many that a gas of 10^6 particles plans little beyond them.
   static constexpr std::int64_t kRows = 2048;
   // Rows grow by chunks from a common store, so that memory follows what is planned and not what
   // each row once held.

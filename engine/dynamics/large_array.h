@@ -8,8 +8,8 @@
 
 namespace clatter {
 
-/// Allocates large arrays on huge pages where the system has them: disks are visited in no order,
-/// and with small pages most visits at N >= 10^5 would also miss the table of pages.
+/// Allocates large arrays on huge pages where the system has them: particles are visited in no
+/// order, and with small pages most visits at N >= 10^5 would also miss the table of pages.
 template <typename T>
 struct LargeArrayAllocator {
   using value_type = T;

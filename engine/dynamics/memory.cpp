@@ -17,15 +17,15 @@
 
 namespace clatter {
 
-// Besides the disk and its plan: the list of one cell, of up to four and what continues them where
-// disks lie in clusters (Simulation::fit_cells), and two entries of the event queue with room to
-// grow.
-static constexpr double kBytesPerDisk =
-    sizeof(Disk<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::List) + 4 * sizeof(Event);
+// Besides the particle and its plan: the list of one cell, of up to four and what continues them
+// where particles lie in clusters (Simulation::fit_cells), and two entries of the event queue with
+// room to grow.
+static constexpr double kBytesPerParticle =
+    sizeof(Particle<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::List) + 4 * sizeof(Event);
 
 GasMemory gas_memory(const Scene& scene) {
-  const double count = scene.disks.count;
-  return {count * kBytesPerDisk, scene.spins() ? count * sizeof(Spin<2>) : 0.0,
+  const double count = scene.particles.count;
+  return {count * kBytesPerParticle, scene.spins() ? count * sizeof(Spin<2>) : 0.0,
           scene.contact_time ? count * sizeof(double) : 0.0};
 }
 
@@ -33,15 +33,15 @@ void require_memory(const Scene& scene) {
   const double there =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const double needed = gas_memory(scene).total();
-  if (needed <= there && scene.disks.count <= static_cast<int>(kMostDisks)) return;
-  const double fitting = std::floor(scene.disks.count * (there / needed));
+  if (needed <= there && scene.particles.count <= static_cast<int>(kMaxParticles)) return;
+  const double fitting = std::floor(scene.particles.count * (there / needed));
   const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
-  const std::string reason = needed <= there ? " disks are more than can be numbered"
-                                             : " disks take about " + gigabytes(needed) +
+  const std::string reason = needed <= there ? " particles are more than can be numbered"
+                                             : " particles take about " + gigabytes(needed) +
                                                    " GB, and this machine has " + gigabytes(there);
-  throw UserError(
-      {"disks.count", 0, 0}, std::to_string(scene.disks.count) + reason,
-      "choose at most " + std::to_string(static_cast<int>(std::min<double>(kMostDisks, fitting))));
+  throw UserError({"particles.count", 0, 0}, std::to_string(scene.particles.count) + reason,
+                  "choose at most " +
+                      std::to_string(static_cast<int>(std::min<double>(kMaxParticles, fitting))));
 }
 
 }  // namespace clatter

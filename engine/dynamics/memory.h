@@ -4,15 +4,15 @@
 
 namespace clatter {
 
-/// Bytes that the simulation of a scene takes: those of its disks, of their spins, and of their
+/// Bytes that the simulation of a scene takes: those of its particles, of their spins, and of their
 /// last collisions, which t_c needs.
 struct GasMemory {
-  double disks = 0.0;
+  double particles = 0.0;
   double spins = 0.0;
   double last_collisions = 0.0;
 
   /// Of all three.
-  double total() const { return disks + spins + last_collisions; }
+  double total() const { return particles + spins + last_collisions; }
 };
 
 /// What the scene's simulation will take.

@@ -6,9 +6,9 @@ Model<2> model_of(const Scene& scene, std::uint64_t seed) {
   Model<2> model;
   model.box = scene.box;
   model.walls = scene.walls;
-  model.restitution = scene.disks.restitution;
-  model.roughness = scene.disks.roughness;
-  model.inertia = scene.disks.inertia;
+  model.restitution = scene.particles.restitution;
+  model.roughness = scene.particles.roughness;
+  model.inertia = scene.particles.inertia;
   model.spins = scene.spins();
   model.gravity = scene.gravity.value_or(Vec2::Zero());
   model.bulk_drive = scene.bulk_drive;

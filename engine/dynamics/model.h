@@ -17,21 +17,21 @@ struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
   std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
   double diameter = 1.0;
-  double restitution = 1.0;         ///< alpha of disk-disk collisions
-  Roughness roughness;              ///< of the disks
-  double inertia = 0.5;             ///< q = 4I/(m a^2)
-  bool spins = false;               ///< whether disks or walls are rough, so that spins are carried
-  Vec<D> gravity = Vec<D>::Zero();  ///< acceleration of every disk
+  double restitution = 1.0;  ///< alpha of disk-disk collisions
+  Roughness roughness;       ///< of the particles
+  double inertia = 0.5;      ///< q = 4I/(m a^2)
+  bool spins = false;        ///< whether particles or walls are rough, so that spins are carried
+  Vec<D> gravity = Vec<D>::Zero();      ///< acceleration of every particle
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
   std::uint64_t seed = 1;               ///< of every random number of the run
 
-  /// Whether there is gravity, so that disks fly along parabolas.
-  bool falls() const { return (gravity.array() != 0.0).any(); }
+  /// Whether there is gravity, so that particles fly along parabolas.
+  bool has_gravity() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
   /// The whole box lengths by which a position lies outside the box, along periodic axes.
-  Vec<D> boxes_off(const Vec<D>& position) const {
+  Vec<D> image_index(const Vec<D>& position) const {
     Vec<D> boxes = Vec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {
       const bool inside = position[axis] >= 0.0 && position[axis] < box[axis];
@@ -40,8 +40,8 @@ struct Model {
     }
     return boxes;
   }
-  /// Where the centres of disks that touch a wall lie: `end` 0 is the near wall of the axis, 1 the
-  /// far.
+  /// Where the centres of particles that touch a wall lie: `end` 0 is the near wall of the axis, 1
+  /// the far.
   double wall_plane(int axis, int end) const {
     return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;
   }

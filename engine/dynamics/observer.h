@@ -10,10 +10,10 @@
 
 namespace clatter {
 
-/// What one disk brings to an event and gains in it.
+/// What one particle brings to an event and gains in it.
 template <int D>
-struct DiskChange {
-  std::uint32_t disk = 0;
+struct ParticleChange {
+  std::uint32_t particle = 0;
   Flight<D> before;                  ///< flight that ends here
   Vec<D> position = Vec<D>::Zero();  ///< centre, in the frame of that flight
   Vec<D> velocity = Vec<D>::Zero();  ///< just before
@@ -22,42 +22,43 @@ struct DiskChange {
   double energy = 0.0;               ///< kinetic energy that it gains, of motion and of spin
 };
 
-/// A collision of two disks, the lower number first.
+/// A collision of two particles, the lower number first.
 template <int D>
 struct PairCollision {
   double time = 0.0;  ///< on the moving base
-  std::array<DiskChange<D>, 2> disks;
+  std::array<ParticleChange<D>, 2> particles;
   Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 at the image that touches
   bool elasticised = false;            ///< whether the TC model took the dissipation away
   double undissipated = 0.0;           ///< energy that it would have dissipated otherwise
 };
 
-/// A collision of a disk with a wall.
+/// A collision of a particle with a wall.
 template <int D>
 struct WallCollision {
   double time = 0.0;  ///< on the moving base
   int side = 0;       ///< the Side
-  DiskChange<D> disk;
+  ParticleChange<D> particle;
 };
 
-/// Bulk driving's kick of one disk; all disks are kicked at the same time, one after the other.
+/// Bulk driving's kick of one particle; all particles are kicked at the same time, one after the
+/// other.
 template <int D>
 struct Kick {
   double time = 0.0;  ///< on the moving base
-  DiskChange<D> disk;
+  ParticleChange<D> particle;
 };
 
-/// Something that watches the events of a run; it cannot change it. A disk's flights follow each
-/// other without gaps, so what is integrated along them is exact.
+/// Something that watches the events of a run; it cannot change it. A particle's flights follow
+/// each other without gaps, so what is integrated along them is exact.
 template <int D>
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// Two disks have collided; the simulation still holds the flights before.
+  /// Two particles have collided; the simulation still holds the flights before.
   virtual void on_collision(const PairCollision<D>&) {}
-  /// A disk has hit a wall; likewise.
+  /// A particle has hit a wall; likewise.
   virtual void on_wall(const WallCollision<D>&) {}
-  /// A disk has been kicked; likewise.
+  /// A particle has been kicked; likewise.
   virtual void on_kick(const Kick<D>&) {}
   /// All times on the moving base have become smaller by `shift`.
   virtual void on_base_moved(double /*shift*/) {}

@@ -4,10 +4,10 @@
 
 namespace clatter {
 
-/// A disk's stored state: it changes only in the disk's own physical events, and in 2D it fills one
-/// cache line. Contact kernels read it as a row of doubles, see Candidates.
+/// A particle's stored state: it changes only in the particle's own physical events, and in 2D it
+/// fills one cache line. Contact kernels read it as a row of doubles, see Candidates.
 template <int D>
-struct alignas(64) Disk {
+struct alignas(64) Particle {
   Flight<D> flight;               ///< since its last physical event
   Vec<D> image = Vec<D>::Zero();  ///< whole box lengths by which its cell lies off flight's frame
 };

@@ -12,22 +12,22 @@
 
 namespace clatter {
 
-// Disks are what contact kernels read as rows of doubles.
-static_assert(sizeof(Disk<2>) == kRowLength<2> * sizeof(double));
-static_assert(offsetof(Disk<2>, flight) == 0 && offsetof(Flight<2>, v) == 2 * sizeof(double) &&
+// Particles are what contact kernels read as rows of doubles.
+static_assert(sizeof(Particle<2>) == kRowLength<2> * sizeof(double));
+static_assert(offsetof(Particle<2>, flight) == 0 && offsetof(Flight<2>, v) == 2 * sizeof(double) &&
               offsetof(Flight<2>, time) == 4 * sizeof(double) &&
-              offsetof(Disk<2>, image) == 6 * sizeof(double));
+              offsetof(Particle<2>, image) == 6 * sizeof(double));
 static_assert(Candidates<2>::kCapacity >= CellGrid<2>::List::kCapacity);
 
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
-                          const LargeArray<Disk<D>>& disks, const CellGrid<D>& grid)
+                          const LargeArray<Particle<D>>& particles, const CellGrid<D>& grid)
     : model_(model),
       boundary_(boundary),
-      disks_(disks),
+      particles_(particles),
       grid_(grid),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
-      planners_(model.falls() ? widest_planners<true>() : widest_planners<false>()) {
+      planners_(model.has_gravity() ? widest_planners<true>() : widest_planners<false>()) {
   // Farther than the wall comes, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
     reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
@@ -44,25 +44,25 @@ static bool image_before(const IntVec<D>& a, const IntVec<D>& b, bool swap) {
 }
 
 template <int D>
-void Prediction<D>::offer(double time, std::uint32_t disk, std::uint32_t partner,
+void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t partner,
                           const IntVec<D>& image, Plan<D>& plan) const {
   if (time > plan.time || time == kNever) return;
   if (time == plan.time) {
     const bool first =
         partner < plan.partner ||
-        (partner == plan.partner && image_before<D>(image, plan.image, partner < disk));
+        (partner == plan.partner && image_before<D>(image, plan.image, partner < particle));
     if (!first) return;
   }
   plan.time = time;
   plan.partner = partner;
-  plan.partner_flight = partner < kWall ? disks_[partner].flight.number : 0;
+  plan.partner_flight = partner < kWall ? particles_[partner].flight.number : 0;
   plan.image = image;
 }
 
-// Box lengths to add to a disk's r minus a candidate's.
+// Box lengths to add to a particle's r minus a candidate's.
 template <int D>
-Vec<D> Prediction<D>::image_of(std::uint32_t disk, const Candidates<D>& near, int i) const {
-  Vec<D> image = disks_[near.disks[i]].image - disks_[disk].image;
+Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i) const {
+  Vec<D> image = particles_[near.particles[i]].image - particles_[particle].image;
   if (near.wrapped) {
     for (int k = 0; k < D; ++k) image[k] -= near.wraps[k][i];
   }
@@ -72,27 +72,28 @@ Vec<D> Prediction<D>::image_of(std::uint32_t disk, const Candidates<D>& near, in
 // The contact with one candidate, at its known time, or at one still to be found if that is
 // kTouching.
 template <int D>
-void Prediction<D>::offer_disk(std::uint32_t disk, const Candidates<D>& near, int i, double time,
-                               Plan<D>& plan) const {
-  const Vec<D> image = image_of(disk, near, i);
+void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& near, int i,
+                                   double time, Plan<D>& plan) const {
+  const Vec<D> image = image_of(particle, near, i);
   if (time == kTouching) {
     const Vec<D> shift = image.cwiseProduct(model_.box);
-    time = contact_time<D>(disks_[disk].flight, disks_[near.disks[i]].flight, shift,
+    time = contact_time<D>(particles_[particle].flight, particles_[near.particles[i]].flight, shift,
                            model_.diameter, model_.gravity);
   }
-  offer(time, disk, near.disks[i], image.template cast<int>(), plan);
+  offer(time, particle, near.particles[i], image.template cast<int>(), plan);
 }
 
 template <int D>
-void Prediction<D>::weigh_each(std::uint32_t disk, const Candidates<D>& near, Plan<D>& plan) const {
-  for (int i = 0; i < near.size; ++i) offer_disk(disk, near, i, kTouching, plan);
+void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near,
+                               Plan<D>& plan) const {
+  for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
 }
 
 // Tells apart the numbers of those on a list and their ways round the periodic borders.
 template <int D>
 static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
   for (int i = 0; i < near.size; ++i) {
-    near.disks[i] = CellGrid<D>::disk_of(list.neighbours[i]);
+    near.particles[i] = CellGrid<D>::particle_of(list.neighbours[i]);
     for (int k = 0; k < D; ++k) near.wraps[k][i] = CellGrid<D>::wrap_of(list.neighbours[i], k);
   }
 }
@@ -101,18 +102,19 @@ static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) 
 template <int D>
 [[gnu::always_inline]] static inline void take(const typename CellGrid<D>::List& list,
                                                Candidates<D>& near) {
-  static_assert(sizeof near.disks >= sizeof list);
-  std::memcpy(near.disks, &list, sizeof list);
+  static_assert(sizeof near.particles >= sizeof list);
+  std::memcpy(near.particles, &list, sizeof list);
   near.size = static_cast<int>(list.count);
   near.wrapped = list.wraps;
 }
 
 template <int D>
-template <bool kFalling, bool kShifted, std::size_t kDisks>
-std::array<FirstContact, kDisks> Prediction<D>::first_of(
-    const std::array<std::uint32_t, kDisks>& disks, std::array<Candidates<D>, kDisks>& near) const {
-  return first_contacts<D, kFalling, kShifted>(reinterpret_cast<const double*>(disks_.data()),
-                                               disks, near, model_.box.data(), model_.diameter,
+template <bool kFalling, bool kShifted, std::size_t kParticles>
+std::array<FirstContact, kParticles> Prediction<D>::first_of(
+    const std::array<std::uint32_t, kParticles>& particles,
+    std::array<Candidates<D>, kParticles>& near) const {
+  return first_contacts<D, kFalling, kShifted>(reinterpret_cast<const double*>(particles_.data()),
+                                               particles, near, model_.box.data(), model_.diameter,
                                                model_.gravity.data());
 }
 
@@ -120,56 +122,56 @@ std::array<FirstContact, kDisks> Prediction<D>::first_of(
 // has crossed one in its flight, and who comes first is told apart: mostly. Otherwise returns
 // false.
 template <int D>
-template <bool kFalling, std::size_t kDisks>
-bool Prediction<D>::look_at_plain_lists(const Requests<kDisks>& requests) const {
-  std::array<std::uint32_t, kDisks> disks;
-  std::array<Candidates<D>, kDisks> near;
-  for (std::size_t k = 0; k < kDisks; ++k) {
+template <bool kFalling, std::size_t kParticles>
+bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
+  std::array<std::uint32_t, kParticles> particles;
+  std::array<Candidates<D>, kParticles> near;
+  for (std::size_t k = 0; k < kParticles; ++k) {
     const auto& list = grid_.near(requests[k].plan->cell);
     if (list.wraps || list.next != CellGrid<D>::kNone) return false;
-    disks[k] = requests[k].disk;
+    particles[k] = requests[k].particle;
     take<D>(list, near[k]);
   }
-  const auto first = first_of<kFalling, false>(disks, near);
-  bool told_apart = true;
-  for (std::size_t k = 0; k < kDisks; ++k) {
+  const auto first = first_of<kFalling, false>(particles, near);
+  bool unique = true;
+  for (std::size_t k = 0; k < kParticles; ++k) {
     Plan<D>& plan = *requests[k].plan;
     // Whether there is a contact cannot be foreseen: without one, what is set says so all the same.
     plan.time = first[k].time;
-    plan.partner = near[k].disks[first[k].candidate];
-    plan.partner_flight = disks_[plan.partner].flight.number;
+    plan.partner = near[k].particles[first[k].candidate];
+    plan.partner_flight = particles_[plan.partner].flight.number;
     plan.image.setZero();
-    told_apart = told_apart && first[k].told_apart;
+    unique = unique && first[k].unique;
   }
-  return told_apart;
+  return unique;
 }
 
 template <int D>
 template <bool kFalling>
 void Prediction<D>::look_at_lists(const Request& request) const {
-  const auto& [disk, plan] = request;
+  const auto& [particle, plan] = request;
   plan->time = kNever;
   std::array<Candidates<D>, 1> nears;
   Candidates<D>& near = nears[0];
   for (const auto* list = &grid_.near(plan->cell); list; list = grid_.next(*list)) {
     take<D>(*list, near);
     if (near.wrapped) unwrap<D>(*list, near);
-    const FirstContact first = first_of<kFalling, true, 1>({disk}, nears)[0];
-    if (!first.told_apart) {
-      weigh_each(disk, near, *plan);
+    const FirstContact first = first_of<kFalling, true, 1>({particle}, nears)[0];
+    if (!first.unique) {
+      weigh_each(particle, near, *plan);
     } else if (first.time <= plan->time) {
-      offer_disk(disk, near, first.candidate, first.time, *plan);
+      offer_particle(particle, near, first.candidate, first.time, *plan);
     }
   }
 }
 
 template <int D>
-void Prediction<D>::look_at_walls(std::uint32_t disk, double now, Plan<D>& plan) const {
+void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& plan) const {
   for (int axis = 0; axis < D; ++axis) {
     if (model_.periodic(axis)) continue;
     for (const int side : {2 * axis, 2 * axis + 1}) {
       if (grid_.distance_from_end(axis, plan.cell[axis], side % 2) > reach_[side]) continue;
-      offer(boundary_.contact_time(side, disks_[disk].flight, now), disk,
+      offer(boundary_.contact_time(side, particles_[particle].flight, now), particle,
             kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }
   }
@@ -184,12 +186,12 @@ void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& pla
   plan.time = std::min(plan.time, time);
 }
 
-// A disk on a parabola may leave through the border by which it came. It is looked at from where it
-// is now: a crossing, unlike a contact, need not be a function of the stored state alone.
+// A particle on a parabola may leave through the border by which it came. It is looked at from
+// where it is now: a crossing, unlike a contact, need not be a function of the stored state alone.
 template <int D>
-void Prediction<D>::look_at_border_falling(std::uint32_t disk, double now, int axis,
+void Prediction<D>::look_at_border_falling(std::uint32_t particle, double now, int axis,
                                            Plan<D>& plan) const {
-  const Disk<D>& self = disks_[disk];
+  const Particle<D>& self = particles_[particle];
   const double a = model_.gravity[axis];
   const double since = now - self.flight.time;
   const double r = self.flight.r[axis] + (self.flight.v[axis] + a * (0.5 * since)) * since -
@@ -197,7 +199,7 @@ void Prediction<D>::look_at_border_falling(std::uint32_t disk, double now, int a
   const double v = self.flight.v[axis] + a * since;
   const double lower = grid_.border(axis, plan.cell[axis], false);
   const double upper = grid_.border(axis, plan.cell[axis], true);
-  const WayOut out = way_out(r - lower, upper - r, v, a);
+  const WayOut out = exit_time(r - lower, upper - r, v, a);
   double time = now + out.time;
   // Who turns just beyond a border returns later, be it by the least time that there is.
   if (time == now && (v < 0.0) == out.upper) [[unlikely]]
@@ -209,8 +211,8 @@ void Prediction<D>::look_at_border_falling(std::uint32_t disk, double now, int a
 // foreseen.
 template <int D>
 template <bool kFalling>
-void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& plan) const {
-  const Disk<D>& self = disks_[disk];
+void Prediction<D>::look_at_borders(std::uint32_t particle, double now, Plan<D>& plan) const {
+  const Particle<D>& self = particles_[particle];
   std::array<bool, D> upper;
   Vec<D> place;
   for (int axis = 0; axis < D; ++axis) {
@@ -218,11 +220,11 @@ void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& pla
     place[axis] = grid_.border(axis, plan.cell[axis], upper[axis]);
   }
   const Vec<D> way = place + self.image.cwiseProduct(model_.box) - self.flight.r;
-  // v + 0.0 is no negative zero: a disk at rest comes to the border above it at infinity.
+  // v + 0.0 is no negative zero: a particle at rest comes to the border above it at infinity.
   const Vec<D> time = self.flight.time + way.array() / (self.flight.v.array() + 0.0);
   for (int axis = 0; axis < D; ++axis) {
     if (kFalling && model_.gravity[axis] != 0.0) {
-      look_at_border_falling(disk, now, axis, plan);
+      look_at_border_falling(particle, now, axis, plan);
     } else {
       offer_border(std::max(now, time[axis]), axis, upper[axis], plan);
     }
@@ -230,8 +232,8 @@ void Prediction<D>::look_at_borders(std::uint32_t disk, double now, Plan<D>& pla
 }
 
 template <int D>
-template <bool kFalling, bool kPlain, std::size_t kDisks>
-void Prediction<D>::make_plans(const Requests<kDisks>& requests, double now) const {
+template <bool kFalling, bool kPlain, std::size_t kParticles>
+void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now) const {
   if constexpr (kPlain) {
     if (!look_at_plain_lists<kFalling>(requests)) [[unlikely]] {
       for (const Request& request : requests) planners_.any(*this, {request}, now);
@@ -240,22 +242,22 @@ void Prediction<D>::make_plans(const Requests<kDisks>& requests, double now) con
   } else {
     for (const Request& request : requests) look_at_lists<kFalling>(request);
   }
-  for (const auto& [disk, plan] : requests) look_at_borders<kFalling>(disk, now, *plan);
+  for (const auto& [particle, plan] : requests) look_at_borders<kFalling>(particle, now, *plan);
   if (!walled_) return;
-  for (const auto& [disk, plan] : requests) look_at_walls(disk, now, *plan);
+  for (const auto& [particle, plan] : requests) look_at_walls(particle, now, *plan);
 }
 
 template <int D>
-template <bool kFalling, bool kPlain, std::size_t kDisks>
-void Prediction<D>::plan_baseline(const Prediction& prediction, const Requests<kDisks>& requests,
-                                  double now) {
+template <bool kFalling, bool kPlain, std::size_t kParticles>
+void Prediction<D>::plan_baseline(const Prediction& prediction,
+                                  const Requests<kParticles>& requests, double now) {
   prediction.make_plans<kFalling, kPlain>(requests, now);
 }
 
 #if defined(__x86_64__)
 template <int D>
-template <bool kFalling, bool kPlain, std::size_t kDisks>
-void Prediction<D>::plan_avx2(const Prediction& prediction, const Requests<kDisks>& requests,
+template <bool kFalling, bool kPlain, std::size_t kParticles>
+void Prediction<D>::plan_avx2(const Prediction& prediction, const Requests<kParticles>& requests,
                               double now) {
   prediction.make_plans<kFalling, kPlain>(requests, now);
 }

@@ -13,23 +13,24 @@ namespace clatter {
 
 /// How many events of each kind have happened.
 struct EventCounts {
-  std::uint64_t disk_disk = 0;
-  std::uint64_t disk_wall = 0;
-  std::uint64_t kicks = 0;             ///< of bulk driving, each of all disks
+  std::uint64_t pair_collisions = 0;
+  std::uint64_t wall_collisions = 0;
+  std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
   std::uint64_t elasticised = 0;       ///< disk-disk collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< likewise with walls
   std::uint64_t cell_crossings = 0;
   std::uint64_t stale = 0;  ///< predictions found out of date because the partner met another first
 
-  /// Collisions with disks and with walls.
-  std::uint64_t collisions() const { return disk_disk + disk_wall; }
+  /// Collisions with particles and with walls.
+  std::uint64_t collisions() const { return pair_collisions + wall_collisions; }
   /// All that takes the loop some work.
   std::uint64_t steps() const { return collisions() + kicks + cell_crossings + stale; }
 };
 
 /// What a run checks of itself at every event.
 struct RunChecks {
-  /// Of colliding disks at contact, or of a disk and the wall it hits, as a share of the diameter.
+  /// Of colliding particles at contact, or of a particle and the wall it hits, as a share of the
+  /// diameter.
   double deepest_overlap = 0.0;
   /// Largest time by which an event came before the one processed last: 0 but for the rounding with
   /// which a move of the base may exchange events that coincide.
@@ -39,7 +40,7 @@ struct RunChecks {
 /// A run between two events: with its model, all that its future depends on. It may go on under
 /// other laws, too.
 template <int D>
-struct Saved {
+struct RunState {
   Vec<D> gravity = Vec<D>::Zero();  ///< of the flights
   /// Of the walls that the flights are under way between; phases at simulation time 0.
   std::array<WallMotion, 2 * D> wall_motions;
@@ -49,8 +50,8 @@ struct Saved {
   std::vector<Spin<D>> spins;           ///< [N], or empty: all 0
   std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
   std::uint64_t until_base_moves = 0;   ///< physical events left
-  double mean_collision_time = 0.0;     ///< of a disk, see Watchdog; 0: not known
-  double start_speed = 0.0;             ///< of the fastest disk at the run's start
+  double mean_collision_time = 0.0;     ///< of a particle, see Watchdog; 0: not known
+  double start_speed = 0.0;             ///< of the fastest particle at the run's start
   double kick_interval = 0.0;           ///< of bulk driving; 0: none
   double kick_origin = 0.0;             ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
@@ -63,9 +64,9 @@ struct Saved {
 /// Passes over all members, in order.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
-  auto& [disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale] =
-      counts;
-  io(disk_disk, disk_wall, kicks, elasticised, elasticised_wall, cell_crossings, stale);
+  auto& [pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings,
+         stale] = counts;
+  io(pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings, stale);
 }
 
 /// Likewise.
@@ -100,10 +101,10 @@ void visit(Archive& io, Flight<D>& flight) {
 
 /// Likewise.
 template <class Archive, int D>
-void visit(Archive& io, Saved<D>& saved) {
+void visit(Archive& io, RunState<D>& state) {
   auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
          mean_collision_time, start_speed, kick_interval, kick_origin, kicks_since_origin, counts,
-         checks] = saved;
+         checks] = state;
   io(gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
      mean_collision_time, start_speed, kick_interval, kick_origin, kicks_since_origin, counts,
      checks);

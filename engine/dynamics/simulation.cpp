@@ -13,29 +13,29 @@
 
 namespace clatter {
 
-// The base moves after this many physical events per disk: rarely enough to cost little (each move
-// plans every disk anew), often enough that times stay below some ten mean free times. See also
-// renew_flight().
+// The base moves after this many physical events per particle: rarely enough to cost little (each
+// move plans every particle anew), often enough that times stay below some ten mean free times. See
+// also renew_flight().
 static constexpr std::uint64_t kEventsPerBase = 32;
-static constexpr std::uint64_t kLeastEventsPerBase = 64;
+static constexpr std::uint64_t kMinEventsPerBase = 64;
 // Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
-static constexpr double kCellsPerDisk = 1.0;
-// Measured, from how many disks on it pays to fetch ahead: the next plans, for all no longer fits
-// the second cache of 1 MB; lists too; and the many disks on these, which can be waited for all at
-// once.
-static constexpr std::size_t kFetchPlansFrom = 4000;
-static constexpr std::size_t kFetchListsFrom = 16000;
-static constexpr std::size_t kFetchNeighboursFrom = 40000;
+static constexpr double kCellsPerParticle = 1.0;
+// Measured, from how many particles on it pays to prefetch ahead: the next plans, for all no longer
+// fits the second cache of 1 MB; lists too; and the many particles on these, which can be waited
+// for all at once.
+static constexpr std::size_t kPrefetchPlansFrom = 4000;
+static constexpr std::size_t kPrefetchListsFrom = 16000;
+static constexpr std::size_t kPrefetchNeighboursFrom = 40000;
 
-// Whether collisions can take energy from the gas, walls give it ever more, or disks come to rest
-// on walls: where time may come to a standstill.
+// Whether collisions can take energy from the gas, walls give it ever more, or particles come to
+// rest on walls: where time may come to a standstill.
 template <int D>
-static bool may_stand_still(const Model<D>& model) {
+static bool may_collapse(const Model<D>& model) {
   bool may = model.restitution < 1.0 || model.roughness.any();
   for (const auto& wall : model.walls) {
     if (!wall) continue;
     const bool holds = wall->kind == WallKind::Thermal && wall->temperature == 0.0;
-    may = may || model.falls() || holds || wall->moves() || wall->restitution != 1.0 ||
+    may = may || model.has_gravity() || holds || wall->moves() || wall->restitution != 1.0 ||
           wall->roughness.any();
   }
   return may;
@@ -48,14 +48,14 @@ static double kick_interval(const Model<D>& model) {
 }
 
 template <int D>
-static Saved<D> fresh(const Model<D>& model, State<D> state, double start_time) {
-  Saved<D> saved;
+static RunState<D> fresh(const Model<D>& model, State<D> state, double start_time) {
+  RunState<D> saved;
   saved.gravity = model.gravity;
   saved.wall_motions = wall_motions<D>(model);
   saved.base = {start_time, 0.0};
   saved.kick_interval = kick_interval<D>(model);
   saved.kick_origin = start_time;
-  saved.until_base_moves = std::max<std::uint64_t>(kLeastEventsPerBase, state.positions.size());
+  saved.until_base_moves = std::max<std::uint64_t>(kMinEventsPerBase, state.positions.size());
   saved.flights.reserve(state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
@@ -71,18 +71,18 @@ Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_ti
     : Simulation(model, fresh<D>(model, std::move(state), start_time)) {}
 
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
+Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
     : model_(model),
       clock_(saved.base),
       boundary_(model_, clock_),
       now_(saved.now),
-      disks_(saved.flights.size()),
+      particles_(saved.flights.size()),
       spins_(saved.spins.begin(), saved.spins.end()),
       last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
-      plans_(disks_.size()),
-      cells_per_disk_(kCellsPerDisk),
-      grid_(model_, cells_per_disk_ * static_cast<double>(disks_.size())),
-      prediction_(model_, boundary_, disks_, grid_),
+      plans_(particles_.size()),
+      cells_per_particle_(kCellsPerParticle),
+      grid_(model_, cells_per_particle_ * static_cast<double>(particles_.size())),
+      prediction_(model_, boundary_, particles_, grid_),
       until_base_moves_(saved.until_base_moves),
       start_speed_(saved.start_speed),
       fastest_(fastest_speed<D>(model_, start_speed_)),
@@ -90,21 +90,21 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
       kicks_since_origin_(saved.kicks_since_origin),
       counts_(saved.counts),
       checks_(saved.checks) {
-  spins_.resize(model_.spins ? disks_.size() : 0, Spin<D>::Zero());
-  last_collisions_.resize(model_.contact_time ? disks_.size() : 0, -kNever);
-  if (may_stand_still(model_)) {
-    watchdog_.emplace(disks_.size(), now_, saved.mean_collision_time);
+  spins_.resize(model_.spins ? particles_.size() : 0, Spin<D>::Zero());
+  last_collisions_.resize(model_.contact_time ? particles_.size() : 0, -kNever);
+  if (may_collapse(model_)) {
+    watchdog_.emplace(particles_.size(), now_, saved.mean_collision_time);
   }
   if (saved.kick_interval != kick_interval<D>(model_)) {
     kick_origin_ = time();
     kicks_since_origin_ = 0;
   }
   // What is sought along a flight begins at its start: not before other laws hold.
-  const bool fly_anew =
+  const bool restart_flights =
       saved.gravity != model_.gravity || saved.wall_motions != wall_motions<D>(model_);
-  for (std::size_t i = 0; i < disks_.size(); ++i) {
-    Flight<D>& flight = disks_[i].flight = saved.flights[i];
-    if (fly_anew) {
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    Flight<D>& flight = particles_[i].flight = saved.flights[i];
+    if (restart_flights) {
       flight = {flight.at(now_, saved.gravity), flight.velocity_at(now_, saved.gravity), now_,
                 flight.number};
     }
@@ -118,7 +118,7 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", overlap);
     throw PhysicalStop(
-        std::string("disks overlap each other or a wall at the start, the deepest by ") + text +
+        std::string("particles overlap each other or a wall at the start, the deepest by ") + text +
         " diameters; move them apart");
   }
   plan_all();
@@ -126,44 +126,46 @@ Simulation<D>::Simulation(const Model<D>& model, Saved<D> saved)
 
 template <int D>
 void Simulation<D>::fill_cells() {
-  for (std::uint32_t i = 0; i < disks_.size(); ++i) {
-    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
-    disks_[i].image = model_.boxes_off(r);
-    plans_[i].cell = grid_.cell_at(r - disks_[i].image.cwiseProduct(model_.box));
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
+    particles_[i].image = model_.image_index(r);
+    plans_[i].cell = grid_.cell_at(r - particles_[i].image.cwiseProduct(model_.box));
     grid_.insert(i, plans_[i].cell);
   }
 }
 
-// Cells made for the mean density have long lists where disks lie in clusters: there they become
-// finer, up to so many for each disk that memory allows. Where disks are found does not depend on
-// it.
+// Cells made for the mean density have long lists where particles lie in clusters: there they
+// become finer, up to so many for each particle that memory allows. Where particles are found does
+// not depend on it.
 template <int D>
 void Simulation<D>::fit_cells() {
-  // Others near a disk; for points evenly spread: 9 in 2D. Between even and crowded, cells stay.
+  // Others near a particle; for points evenly spread: 9 in 2D. Between even and crowded, cells
+  // stay.
   constexpr double kEven = 9.5, kCrowded = 10.5, kWanted = 5.5;
-  constexpr double kMost = 4.0;         // cells for each disk
+  constexpr double kMax = 4.0;          // cells for each particle
   constexpr double kWorthwhile = 1.25;  // ratio of numbers of cells
-  if (disks_.empty()) return;
-  const double count = static_cast<double>(disks_.size());
-  double near = -count;  // a disk is near itself
+  if (particles_.empty()) return;
+  const double count = static_cast<double>(particles_.size());
+  double near = -count;  // a particle is near itself
   for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
   const double cells = grid_.counts().template cast<double>().prod();
   const double crowding = near * cells / (count * count);  // in cells for the mean density
-  const bool fine = crowding > (cells_per_disk_ > kCellsPerDisk ? kEven : kCrowded);
-  const double per_disk = fine ? std::min(crowding / kWanted, kMost) : kCellsPerDisk;
-  if (std::max(per_disk, cells_per_disk_) < kWorthwhile * std::min(per_disk, cells_per_disk_)) {
+  const bool fine = crowding > (cells_per_particle_ > kCellsPerParticle ? kEven : kCrowded);
+  const double per_particle = fine ? std::min(crowding / kWanted, kMax) : kCellsPerParticle;
+  if (std::max(per_particle, cells_per_particle_) <
+      kWorthwhile * std::min(per_particle, cells_per_particle_)) {
     return;
   }
-  cells_per_disk_ = per_disk;
-  grid_ = CellGrid<D>(model_, per_disk * count);
+  cells_per_particle_ = per_particle;
+  grid_ = CellGrid<D>(model_, per_particle * count);
   fill_cells();
 }
 
 template <int D>
 void Simulation<D>::plan_all() {
   std::vector<Event> events;
-  events.reserve(disks_.size());
-  for (std::uint32_t i = 0; i < disks_.size(); ++i) {
+  events.reserve(particles_.size());
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
     prediction_.plan({i, &plans_[i]}, now_);
     const Plan<D>& plan = plans_[i];
     if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
@@ -176,12 +178,13 @@ void Simulation<D>::plan_all() {
 template <int D>
 void Simulation<D>::move_base() {
   const double shift = now_;
-  for (Disk<D>& disk : disks_) disk.flight.time -= shift;
+  for (Particle<D>& particle : particles_) particle.flight.time -= shift;
   for (double& time : last_collisions_) time -= shift;
   clock_.advance(shift);
   boundary_.move_base(clock_);
   now_ = 0.0;
-  until_base_moves_ = std::max<std::uint64_t>(kLeastEventsPerBase, kEventsPerBase * disks_.size());
+  until_base_moves_ =
+      std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * particles_.size());
   fit_cells();
   plan_all();
   if (watchdog_) watchdog_->on_base_moved(shift);
@@ -189,31 +192,31 @@ void Simulation<D>::move_base() {
 }
 
 template <int D>
-bool Simulation<D>::holds(const Event& event) const {
-  const Plan<D>& plan = plans_[event.disk];
+bool Simulation<D>::is_current(const Event& event) const {
+  const Plan<D>& plan = plans_[event.particle];
   return (plan.time == event.time) & (plan.partner == event.partner);
 }
 
 template <int D>
 typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t collisions,
                                                     std::uint64_t steps) {
-  const auto live = [this](const Event& event) { return holds(event); };
-  const bool fetch = disks_.size() >= kFetchPlansFrom;
+  const auto live = [this](const Event& event) { return is_current(event); };
+  const bool prefetch = particles_.size() >= kPrefetchPlansFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
     const Event* next = queue_.top(live);
     if (!next || next->time > stop) return Halt::Time;
     const Event event = *next;
     queue_.pop();
-    if (fetch && queue_.bucket() != fetched_bucket_) fetch_ahead();
+    if (prefetch && queue_.bucket() != prefetched_bucket_) prefetch_ahead();
     const std::uint64_t before = counts_.collisions();
     process(event);
     const bool stands_still = watchdog_ && counts_.collisions() != before &&
-                              watchdog_->sees_standstill(now_, event.disk, event.partner);
-    const bool diverges = event.partner >= kWall && is_too_fast(event.disk);
+                              watchdog_->sees_collapse(now_, event.particle, event.partner);
+    const bool diverges = event.partner >= kWall && is_too_fast(event.particle);
     const bool base_moves = until_base_moves_ == 0;
     if (base_moves) move_base();
     if (diverges) stop_at_divergence();
-    if (stands_still) stop_at_standstill();
+    if (stands_still) stop_at_collapse();
     if (base_moves) return Halt::BaseMoved;
   }
   return Halt::Limit;
@@ -222,7 +225,7 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
 // After an event at a wall, where alone speeds grow without bound.
 template <int D>
 bool Simulation<D>::is_too_fast(std::uint32_t number) const {
-  return fastest_ < kNever && disks_[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
+  return fastest_ < kNever && particles_[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
 }
 
 template <int D>
@@ -280,15 +283,15 @@ void Simulation<D>::process(Event event) {
   checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
   now_ = std::max(now_, event.time);
   if (event.partner >= kCellBorder) {
-    enter_next_cell(event.disk);
+    enter_next_cell(event.particle);
   } else if (event.partner >= kWall) {
-    hit_wall(event.disk, static_cast<int>(event.partner - kWall));
-  } else if (plans_[event.disk].partner_flight != disks_[event.partner].flight.number) {
+    hit_wall(event.particle, static_cast<int>(event.partner - kWall));
+  } else if (plans_[event.particle].partner_flight != particles_[event.partner].flight.number) {
     ++counts_.stale;
-    prediction_.plan({event.disk, &plans_[event.disk]}, now_);
-    schedule(event.disk);
+    prediction_.plan({event.particle, &plans_[event.particle]}, now_);
+    schedule(event.particle);
   } else {
-    collide(event.disk, event.partner);
+    collide(event.particle, event.partner);
   }
 }
 
@@ -299,25 +302,25 @@ double Simulation<D>::next_kick() const {
 }
 
 template <int D>
-void Simulation<D>::stop_at_standstill() const {
+void Simulation<D>::stop_at_collapse() const {
   throw standstill<D>(model_, *watchdog_, time(),
-                      kinetic_energy() / static_cast<double>(disks_.size()));
+                      kinetic_energy() / static_cast<double>(particles_.size()));
 }
 
 template <int D>
 void Simulation<D>::stop_at_divergence() const {
-  throw divergence<D>(model_, time(), kinetic_energy() / static_cast<double>(disks_.size()));
+  throw divergence<D>(model_, time(), kinetic_energy() / static_cast<double>(particles_.size()));
 }
 
 template <int D>
-Saved<D> Simulation<D>::save() const {
-  Saved<D> saved;
+RunState<D> Simulation<D>::save() const {
+  RunState<D> saved;
   saved.gravity = model_.gravity;
   saved.wall_motions = wall_motions<D>(model_);
   saved.base = clock_.base();
   saved.now = now_;
-  saved.flights.reserve(disks_.size());
-  for (const Disk<D>& disk : disks_) saved.flights.push_back(disk.flight);
+  saved.flights.reserve(particles_.size());
+  for (const Particle<D>& particle : particles_) saved.flights.push_back(particle.flight);
   saved.spins.assign(spins_.begin(), spins_.end());
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
   saved.until_base_moves = until_base_moves_;
@@ -334,17 +337,17 @@ Saved<D> Simulation<D>::save() const {
 template <int D>
 State<D> Simulation<D>::state() const {
   State<D> state;
-  state.positions.reserve(disks_.size());
-  state.velocities.reserve(disks_.size());
-  for (const Disk<D>& disk : disks_) {
-    Vec<D> r = disk.flight.at(now_, model_.gravity);
-    r -= model_.boxes_off(r).cwiseProduct(model_.box);
+  state.positions.reserve(particles_.size());
+  state.velocities.reserve(particles_.size());
+  for (const Particle<D>& particle : particles_) {
+    Vec<D> r = particle.flight.at(now_, model_.gravity);
+    r -= model_.image_index(r).cwiseProduct(model_.box);
     for (int axis = 0; axis < D; ++axis) {
       // What lies a rounding error below 0 comes out at the far end, which is 0 again.
       if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
     }
     state.positions.push_back(r);
-    state.velocities.push_back(disk.flight.velocity_at(now_, model_.gravity));
+    state.velocities.push_back(particle.flight.velocity_at(now_, model_.gravity));
   }
   state.spins.assign(spins_.begin(), spins_.end());
   return state;
@@ -358,8 +361,8 @@ std::uint64_t Simulation<D>::state_hash() const {
 template <int D>
 double Simulation<D>::kinetic_energy() const {
   double twice = 0.0;
-  for (const Disk<D>& disk : disks_) {
-    twice += disk.flight.velocity_at(now_, model_.gravity).squaredNorm();
+  for (const Particle<D>& particle : particles_) {
+    twice += particle.flight.velocity_at(now_, model_.gravity).squaredNorm();
   }
   return 0.5 * twice;
 }
@@ -374,13 +377,13 @@ double Simulation<D>::spin_energy() const {
 template <int D>
 double Simulation<D>::deepest_overlap() const {
   double deepest = 0.0;
-  for (std::uint32_t i = 0; i < disks_.size(); ++i) {
-    const Vec<D> r = disks_[i].flight.at(now_, model_.gravity);
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     grid_.visit(plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
       if (j <= i) return;
-      const Vec<D> image = disks_[j].image - disks_[i].image - wrap;
+      const Vec<D> image = particles_[j].image - particles_[i].image - wrap;
       const Vec<D> x =
-          r - disks_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
+          r - particles_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
       deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
     });
     for (int side = 0; side < 2 * D; ++side) {
@@ -394,47 +397,49 @@ double Simulation<D>::deepest_overlap() const {
 }
 
 // The plans of the events that come next, or in a larger gas looks farther ahead, each of which
-// finds in the cache what the one before fetched: the disks and their plans, then the lists that
-// they will look at or move between, then, in a yet larger one, the disks on these.
+// finds in the cache what the one before fetched: the particles and their plans, then the lists
+// that they will look at or move between, then, in a yet larger one, the particles on these.
 template <int D>
-void Simulation<D>::fetch_ahead() {
-  fetched_bucket_ = queue_.bucket();
-  if (disks_.size() < kFetchListsFrom) {
-    queue_.look_ahead(1, [&](const Event& event) { fetch(plans_[event.disk]); });
+void Simulation<D>::prefetch_ahead() {
+  prefetched_bucket_ = queue_.bucket();
+  if (particles_.size() < kPrefetchListsFrom) {
+    queue_.look_ahead(1, [&](const Event& event) { prefetch(plans_[event.particle]); });
     return;
   }
-  const bool neighbours = disks_.size() >= kFetchNeighboursFrom;
+  const bool neighbours = particles_.size() >= kPrefetchNeighboursFrom;
   queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
-    fetch(disks_[event.disk]);
-    fetch(plans_[event.disk]);
+    prefetch(particles_[event.particle]);
+    prefetch(plans_[event.particle]);
     if (event.partner >= kWall) return;
-    fetch(disks_[event.partner]);
-    fetch(plans_[event.partner]);
+    prefetch(particles_[event.partner]);
+    prefetch(plans_[event.partner]);
   });
   queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
-    if (!holds(event)) return;
+    if (!is_current(event)) return;
     if (event.partner >= kCellBorder) {
       const auto [axis, step] = crossing_of(event.partner);
-      grid_.visit_moved(plans_[event.disk].cell, axis, step, [](const auto& list) { fetch(list); });
+      grid_.visit_moved(plans_[event.particle].cell, axis, step,
+                        [](const auto& list) { prefetch(list); });
     }
-    visit_cells_needed(event, [this](const IntVec<D>& cell) { fetch(grid_.near(cell)); });
+    visit_cells_needed(event, [this](const IntVec<D>& cell) { prefetch(grid_.near(cell)); });
   });
   if (!neighbours) return;
   queue_.look_ahead(1, [&](const Event& event) {
-    if (!holds(event)) return;
+    if (!is_current(event)) return;
     visit_cells_needed(event, [this](const IntVec<D>& cell) {
       for (const auto neighbour : grid_.near(cell).neighbours) {
-        if (neighbour != CellGrid<D>::kNobody) fetch(disks_[CellGrid<D>::disk_of(neighbour)]);
+        if (neighbour != CellGrid<D>::kNobody)
+          prefetch(particles_[CellGrid<D>::particle_of(neighbour)]);
       }
     });
   });
 }
 
-// The cells from which the disks of an event will look for partners.
+// The cells from which the particles of an event will look for partners.
 template <int D>
 template <typename Visit>
 void Simulation<D>::visit_cells_needed(const Event& event, const Visit& visit) const {
-  const IntVec<D>& cell = plans_[event.disk].cell;
+  const IntVec<D>& cell = plans_[event.particle].cell;
   if (event.partner >= kCellBorder) {
     const auto [axis, step] = crossing_of(event.partner);
     visit(grid_.neighbour(cell, axis, step));

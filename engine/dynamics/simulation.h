@@ -20,26 +20,26 @@
 
 namespace clatter {
 
-/// Disks in a box, moved from collision to collision. A disk's stored state changes only in its own
-/// physical events, and every contact time is a function of two stored states; so the same model
-/// and start give the same bits however often and by whom the run is watched or halted.
+/// Particles in a box, moved from collision to collision. A particle's stored state changes only in
+/// its own physical events, and every contact time is a function of two stored states; so the same
+/// model and start give the same bits however often and by whom the run is watched or halted.
 template <int D>
 class Simulation {
  public:
-  /// Starts at simulation time `start_time`. Throws PhysicalStop where disks of the state overlap
-  /// each other or a wall.
+  /// Starts at simulation time `start_time`. Throws PhysicalStop where particles of the state
+  /// overlap each other or a wall.
   Simulation(const Model<D>& model, State<D> state, double start_time = 0.0);
   /// Goes on from where a run was saved, under the model's laws: bit for bit as that run would
   /// have, if they are the same; kicks at another interval are counted from now. Throws
-  /// PhysicalStop where a wall now lies within a disk.
-  Simulation(const Model<D>& model, Saved<D> saved);
+  /// PhysicalStop where a wall now lies within a particle.
+  Simulation(const Model<D>& model, RunState<D> saved);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   /// Processes every event up to and at a simulation time, timers included, and returns true; or
-  /// halts before, once `collisions` with disks and walls have happened since the start, or `steps`
-  /// of any kind (EventCounts::steps), and returns false. Throws PhysicalStop where time stands
-  /// still, or speeds diverge; the state is then sound, that of the last collision.
+  /// halts before, once `collisions` with particles and walls have happened since the start, or
+  /// `steps` of any kind (EventCounts::steps), and returns false. Throws PhysicalStop where time
+  /// stands still, or speeds diverge; the state is then sound, that of the last collision.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... once run_until() gets
@@ -48,7 +48,7 @@ class Simulation {
   void every(double start, double interval, std::function<void(double)> action,
              std::uint64_t done = 0);
   /// All that the run's future depends on, beside the model and the timers.
-  Saved<D> save() const;
+  RunState<D> save() const;
   /// Tells an observer, which outlives the simulation, of every event from now on.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
 
@@ -56,24 +56,24 @@ class Simulation {
   double time() const { return clock_.absolute(now_); }
   /// The same on the moving base, as observers see it.
   double base_time() const { return now_; }
-  /// All disks evaluated at time(), wrapped into the box; nothing is advanced.
+  /// All particles evaluated at time(), wrapped into the box; nothing is advanced.
   State<D> state() const;
   /// Hash of state(), in original order: equal for equal runs.
   std::uint64_t state_hash() const;
-  /// Kinetic energy of all disks' centres at time().
+  /// Kinetic energy of all particles' centres at time().
   double kinetic_energy() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
   /// Where a wall is at time(), relative to its resting place, along its inward normal.
   WallState wall(int side) const { return boundary_.wall(side, now_); }
-  /// Deepest overlap of any two disks or of a disk and a wall at time(), as a share of the
+  /// Deepest overlap of any two particles or of a particle and a wall at time(), as a share of the
   /// diameter; 0: none. Looks at all of them.
   double deepest_overlap() const;
 
   /// The laws of the run.
   const Model<D>& model() const { return model_; }
-  /// [N] stored states, in original order; each since the disk's last physical event.
-  const LargeArray<Disk<D>>& disks() const { return disks_; }
+  /// [N] stored states, in original order; each since the particle's last physical event.
+  const LargeArray<Particle<D>>& particles() const { return particles_; }
   /// [N] angular velocities, in original order; empty where the model carries none.
   const LargeArray<Spin<D>>& spins() const { return spins_; }
   /// Events since the start.
@@ -110,43 +110,43 @@ class Simulation {
   double next_kick() const;
   bool within_contact_time(std::uint32_t number) const;
   bool is_too_fast(std::uint32_t number) const;
-  [[noreturn]] void stop_at_standstill() const;
+  [[noreturn]] void stop_at_collapse() const;
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
   [[gnu::always_inline]] inline Motion motion_now(const Flight<D>& flight) const;
-  [[gnu::always_inline]] inline void renew_flight(Disk<D>& disk, const Vec<D>& position,
+  [[gnu::always_inline]] inline void renew_flight(Particle<D>& particle, const Vec<D>& position,
                                                   const Vec<D>& velocity);
-  [[gnu::always_inline]] inline void schedule(std::uint32_t disk);
+  [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
   void fill_cells();
   void fit_cells();
   void plan_all();
   void move_base();
-  bool holds(const Event& event) const;
-  void fetch_ahead();
+  bool is_current(const Event& event) const;
+  void prefetch_ahead();
   template <typename Visit>
   void visit_cells_needed(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
-  DiskChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
-                          const Impulse<D>& gain) const;
+  ParticleChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
+                              const Impulse<D>& gain) const;
   void add_spin(std::uint32_t number, const Spin<D>& gain);
 
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
   double now_ = 0.0;  // on the clock's base
-  LargeArray<Disk<D>> disks_;
+  LargeArray<Particle<D>> particles_;
   LargeArray<Spin<D>> spins_;           // [N], or empty
   LargeArray<double> last_collisions_;  // [N] times on the base, where there is a t_c; else empty
   LargeArray<Plan<D>> plans_;
-  double cells_per_disk_;  // asked of the grid
+  double cells_per_particle_;  // asked of the grid
   CellGrid<D> grid_;
   Prediction<D> prediction_;
   EventQueue queue_;
   std::uint64_t until_base_moves_;    // physical events left
-  double start_speed_;                // of the fastest disk at the start
+  double start_speed_;                // of the fastest particle at the start
   double fastest_;                    // beyond it speeds diverge; kNever: they cannot
   std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
-  std::int64_t fetched_bucket_ = 0;
+  std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
   std::deque<Timer> timers_;  // stay where they are while an action adds others
   double kick_origin_;        // simulation time from which kicks are counted
@@ -156,9 +156,9 @@ class Simulation {
 };
 
 template <int D>
-void Simulation<D>::schedule(std::uint32_t disk) {
-  const Plan<D>& plan = plans_[disk];
-  if (plan.time < kNever) queue_.push({plan.time, disk, plan.partner});
+void Simulation<D>::schedule(std::uint32_t particle) {
+  const Plan<D>& plan = plans_[particle];
+  if (plan.time < kNever) queue_.push({plan.time, particle, plan.partner});
 }
 
 extern template class Simulation<2>;

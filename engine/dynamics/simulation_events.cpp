@@ -7,7 +7,7 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/physics/random.h"
 
-// What events do to disks; simulation.cpp has the loop that makes them happen.
+// What events do to particles; simulation.cpp has the loop that makes them happen.
 
 namespace clatter {
 
@@ -16,7 +16,7 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
   const auto [axis, step] = crossing_of(plan.partner);
   const IntVec<D> next = grid_.neighbour(plan.cell, axis, step);
-  if (next[axis] != plan.cell[axis] + step) disks_[number].image[axis] += step;
+  if (next[axis] != plan.cell[axis] + step) particles_[number].image[axis] += step;
   grid_.move(number, plan.cell, axis, step);
   plan.cell = next;
   ++counts_.cell_crossings;
@@ -27,19 +27,21 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
 // Most gases do not fall, and then less must be waited for.
 template <int D>
 typename Simulation<D>::Motion Simulation<D>::motion_now(const Flight<D>& flight) const {
-  if (!model_.falls()) return {flight.r + flight.v * (now_ - flight.time), flight.v};
+  if (!model_.has_gravity()) return {flight.r + flight.v * (now_ - flight.time), flight.v};
   return {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
 }
 
-// Where a disk becomes fast late after the base, say one of a cold gas at a driven wall, it would
-// fly noticeably within the rounding of the times there: then the base moves at once.
+// Where a particle becomes fast late after the base, say one of a cold gas at a driven wall, it
+// would fly noticeably within the rounding of the times there: then the base moves at once.
 template <int D>
-void Simulation<D>::renew_flight(Disk<D>& disk, const Vec<D>& position, const Vec<D>& velocity) {
+void Simulation<D>::renew_flight(Particle<D>& particle, const Vec<D>& position,
+                                 const Vec<D>& velocity) {
   constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
   if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
-  const Vec<D> boxes = model_.boxes_off(position);
-  disk.flight = {position - boxes.cwiseProduct(model_.box), velocity, now_, disk.flight.number + 1};
-  disk.image -= boxes;
+  const Vec<D> boxes = model_.image_index(position);
+  particle.flight = {position - boxes.cwiseProduct(model_.box), velocity, now_,
+                     particle.flight.number + 1};
+  particle.image -= boxes;
 }
 
 template <int D>
@@ -57,13 +59,13 @@ bool Simulation<D>::within_contact_time(std::uint32_t number) const {
   return !last_collisions_.empty() && now_ - last_collisions_[number] < *model_.contact_time;
 }
 
-// What observers are told of one disk.
+// What observers are told of one particle.
 template <int D>
-DiskChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
-                                       const Vec<D>& velocity, const Impulse<D>& gain) const {
+ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
+                                           const Vec<D>& velocity, const Impulse<D>& gain) const {
   const double half_inertia = 0.125 * model_.inertia * model_.diameter * model_.diameter;
   const Spin<D> w = spin(number);
-  DiskChange<D> change{number, disks_[number].flight, position, velocity, w, gain};
+  ParticleChange<D> change{number, particles_[number].flight, position, velocity, w, gain};
   // Without the rounding of a difference of two squares.
   change.energy = 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
                   half_inertia * gain.spin.dot(gain.spin + 2.0 * w);
@@ -74,9 +76,9 @@ template <int D>
 void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   // They come while the collision is worked out, beyond which the processor does not look by
   // itself.
-  for (const std::uint32_t disk : {first, second}) fetch(grid_.near(plans_[disk].cell));
-  Disk<D>& a = disks_[first];
-  Disk<D>& b = disks_[second];
+  for (const std::uint32_t particle : {first, second}) prefetch(grid_.near(plans_[particle].cell));
+  Particle<D>& a = particles_[first];
+  Particle<D>& b = particles_[second];
   const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
   const auto [r_a, v_a] = motion_now(a.flight);
   const auto [r_b, v_b] = motion_now(b.flight);
@@ -86,8 +88,8 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   if (x.squaredNorm() < least * least) {
     checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
   }
-  // Disks that graze may recede at contact by rounding: then nothing passes between them, but the
-  // event counts, so that it is not predicted again from the same states.
+  // Particles that graze may recede at contact by rounding: then nothing passes between them, but
+  // the event counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
   if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
     outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution);
@@ -105,7 +107,7 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
         swap ? Vec<D>(-x) : x,
         outcome.elasticised,
         outcome.undissipated};
-    if (swap) std::swap(collision.disks[0], collision.disks[1]);
+    if (swap) std::swap(collision.particles[0], collision.particles[1]);
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;
@@ -113,7 +115,7 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   renew_flight(b, r_b, v_b - gain.momentum);
   add_spin(first, gain.spin);
   add_spin(second, gain.spin);
-  ++counts_.disk_disk;
+  ++counts_.pair_collisions;
   counts_.elasticised += outcome.elasticised;
   if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
   prediction_.plan({first, &plans_[first]}, {second, &plans_[second]}, now_);
@@ -123,19 +125,19 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
 
 template <int D>
 void Simulation<D>::hit_wall(std::uint32_t number, int side) {
-  Disk<D>& disk = disks_[number];
+  Particle<D>& particle = particles_[number];
   const int axis = side / 2;
-  auto [r, v] = motion_now(disk.flight);
+  auto [r, v] = motion_now(particle.flight);
   const double place = boundary_.touching_place(side, now_);
   const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
-  // A disk at a wall that stays where it is lies there to the last bit, so that a grain which comes
-  // to rest does not sink by rounding.
+  // A particle at a wall that stays where it is lies there to the last bit, so that a grain which
+  // comes to rest does not sink by rounding.
   if (!model_.walls[side]->moves()) r[axis] = place;
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
-                      {v, spin(number), number, disk.flight.number}, elastic);
+                      {v, spin(number), number, particle.flight.number}, elastic);
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
     const WallCollision<D> collision{now_, side,
@@ -143,9 +145,9 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
-  renew_flight(disk, r, departure.velocity);
+  renew_flight(particle, r, departure.velocity);
   if (!spins_.empty()) spins_[number] = departure.spin;
-  ++counts_.disk_wall;
+  ++counts_.wall_collisions;
   counts_.elasticised_wall += elastic;
   if (!last_collisions_.empty()) last_collisions_[number] = now_;
   prediction_.plan({number, &plans_[number]}, now_);
@@ -154,7 +156,7 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
 
 template <int D>
 void Simulation<D>::kick() {
-  const auto count = static_cast<std::uint32_t>(disks_.size());
+  const auto count = static_cast<std::uint32_t>(particles_.size());
   const auto kick_number = static_cast<std::uint32_t>(counts_.kicks);
   std::vector<Impulse<D>> gains(count);
   Vec<D> mean = Vec<D>::Zero();
@@ -168,10 +170,10 @@ void Simulation<D>::kick() {
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     gains[i].momentum -= mean;
-    const auto [r, v] = motion_now(disks_[i].flight);
+    const auto [r, v] = motion_now(particles_[i].flight);
     const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
-    renew_flight(disks_[i], r, v + gains[i].momentum);
+    renew_flight(particles_[i], r, v + gains[i].momentum);
     add_spin(i, gains[i].spin);
   }
   ++counts_.kicks;
@@ -183,8 +185,8 @@ template void Simulation<2>::enter_next_cell(std::uint32_t);
 template Spin<2> Simulation<2>::spin(std::uint32_t) const;
 template void Simulation<2>::add_spin(std::uint32_t, const Spin<2>&);
 template bool Simulation<2>::within_contact_time(std::uint32_t) const;
-template DiskChange<2> Simulation<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
-                                                const Impulse<2>&) const;
+template ParticleChange<2> Simulation<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
+                                                    const Impulse<2>&) const;
 template void Simulation<2>::collide(std::uint32_t, std::uint32_t);
 template void Simulation<2>::hit_wall(std::uint32_t, int);
 template void Simulation<2>::kick();

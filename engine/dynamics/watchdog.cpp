@@ -4,16 +4,16 @@
 
 namespace clatter {
 
-static constexpr double kStandstill = 1e-6;  // mean collision times
-static constexpr std::uint64_t kMostPerDisk = 1000;
-static constexpr std::uint64_t kMostPerPair = 10'000;
+static constexpr double kCollapseSpan = 1e-6;  // mean collision times
+static constexpr std::uint64_t kMaxPerParticle = 1000;
+static constexpr std::uint64_t kMaxPerPair = 10'000;
 static constexpr std::uint64_t kFirstLook = 64;  // collisions; the next ones come at twice that
 static constexpr std::size_t kWindows = 10;      // whose longest mean time counts
 
-Watchdog::Watchdog(std::size_t disks, double time, double mean_collision_time)
-    : disks_(static_cast<double>(disks)),
-      window_(std::max<std::uint64_t>(1, kMostPerDisk * disks)),
-      longest_interval_(std::min(kMostPerPair, window_)),
+Watchdog::Watchdog(std::size_t particles, double time, double mean_collision_time)
+    : particles_(static_cast<double>(particles)),
+      window_(std::max<std::uint64_t>(1, kMaxPerParticle * particles)),
+      longest_interval_(std::min(kMaxPerPair, window_)),
       look_interval_(std::min(kFirstLook, longest_interval_)),
       until_look_(look_interval_),
       look_start_(time),
@@ -27,7 +27,7 @@ void Watchdog::on_base_moved(double shift) {
 }
 
 double Watchdog::mean_of_window(double time) const {
-  return disks_ * (time - window_start_) / static_cast<double>(participations_);
+  return particles_ * (time - window_start_) / static_cast<double>(participations_);
 }
 
 double Watchdog::longest_known_mean() const {
@@ -45,14 +45,14 @@ bool Watchdog::look(double time) {
   until_look_ = look_interval_;
   collisions_ += seen;
   if (means_.empty()) longest_early_ = std::max(longest_early_, mean_of_window(time));
-  if (suspicious_ && time - still_since_ > kStandstill * still_mean_) {
+  if (suspicious_ && time - still_since_ > kCollapseSpan * still_mean_) {
     suspicious_ = false;
     pairs_.clear();
   }
   if (suspicious_) {
     still_collisions_ += seen;
   } else if (const double mean = std::max(mean_of_window(time), longest_known_mean());
-             time - look_start_ <= kStandstill * mean) {
+             time - look_start_ <= kCollapseSpan * mean) {
     suspicious_ = true;
     still_since_ = look_start_;
     still_mean_ = mean;
@@ -70,7 +70,7 @@ bool Watchdog::look(double time) {
 
 bool Watchdog::too_many() const {
   return still_collisions_ >= window_ ||
-         std::ranges::any_of(pairs_, [](const auto& pair) { return pair.second > kMostPerPair; });
+         std::ranges::any_of(pairs_, [](const auto& pair) { return pair.second > kMaxPerPair; });
 }
 
 std::pair<std::uint32_t, std::uint32_t> Watchdog::busiest_pair() const {

@@ -12,28 +12,30 @@ namespace clatter {
 
 /// Sees where collisions go on while time stands still: inelastic collapse, grains that come to
 /// rest, speeds that diverge. It compares the time that collisions take with the mean time between
-/// a disk's collisions, so it needs no unit; and it only looks on, so a run is the same with it.
+/// a particle's collisions, so it needs no unit; and it only looks on, so a run is the same with
+/// it.
 class Watchdog {
  public:
-  /// Watches a run of so many disks from a time on the moving base; of one that goes on, the mean
-  /// collision time so far is known.
-  Watchdog(std::size_t disks, double time, double mean_collision_time = 0.0);
+  /// Watches a run of so many particles from a time on the moving base; of one that goes on, the
+  /// mean collision time so far is known.
+  Watchdog(std::size_t particles, double time, double mean_collision_time = 0.0);
 
-  /// Takes note of a disk's collision with a partner, a disk or kWall + side; true where time has
-  /// stood still: 1000 N collisions, or 10^4 of one pair, within 10^-6 mean collision times.
-  bool sees_standstill(double time, std::uint32_t disk, std::uint32_t partner) {
+  /// Takes note of a particle's collision with a partner, a particle or kWall + side; true where
+  /// time has stood still: 1000 N collisions, or 10^4 of one pair, within 10^-6 mean collision
+  /// times.
+  bool sees_collapse(double time, std::uint32_t particle, std::uint32_t partner) {
     participations_ += partner < kWall ? 2 : 1;
-    if (suspicious_) ++pairs_[{disk, partner}];
+    if (suspicious_) ++pairs_[{particle, partner}];
     return --until_look_ == 0 && look(time);
   }
 
   /// All times on the base have become smaller by `shift`.
   void on_base_moved(double shift);
 
-  /// The two that met most often while time stood still, as in sees_standstill.
+  /// The two that met most often while time stood still, as in sees_collapse.
   std::pair<std::uint32_t, std::uint32_t> busiest_pair() const;
-  /// Mean time between a disk's collisions, with disks and walls, while time moved on: the longest
-  /// of late; 0: none known yet.
+  /// Mean time between a particle's collisions, with particles and walls, while time moved on: the
+  /// longest of late; 0: none known yet.
   double mean_collision_time() const { return suspicious_ ? still_mean_ : longest_known_mean(); }
 
  private:
@@ -42,7 +44,7 @@ class Watchdog {
   double longest_known_mean() const;
   bool too_many() const;
 
-  double disks_;
+  double particles_;
   std::uint64_t window_;            // collisions over which a mean time is taken
   std::uint64_t longest_interval_;  // collisions between looks, but for the first ones
   std::uint64_t look_interval_;     // before the next look
@@ -52,7 +54,7 @@ class Watchdog {
   // The window under way, and the mean times of those before.
   double window_start_;
   std::uint64_t collisions_ = 0;
-  std::uint64_t participations_ = 0;  // each collision of two disks counts for both
+  std::uint64_t participations_ = 0;  // each collision of two particles counts for both
   double longest_early_ = 0.0;        // mean times up to the looks of the first window
   std::deque<double> means_;
 

@@ -6,10 +6,10 @@
 
 namespace clatter {
 
-/// A start state for a scene from that of another: as many of its disks as the scene has and its
-/// box has room for keep their places, velocities and spins; others come in at random places, with
-/// Gaussian velocities of the same temperature and without spin. Where no room is found for them it
-/// is start_state().
-State<2> refitted(const State<2>& state, const Scene& scene, std::uint64_t seed);
+/// A start state for a scene from that of another: as many of its particles as the scene has and
+/// its box has room for keep their places, velocities and spins; others come in at random places,
+/// with Gaussian velocities of the same temperature and without spin. Where no room is found for
+/// them it is start_state().
+State<2> adapt_to_scene(const State<2>& state, const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

@@ -14,7 +14,7 @@ namespace {
 // The room cut into cells that hold one centre at most, for their diagonal is one diameter at most,
 // and the open voxels: parts of cells in which a centre may still find room. Tries go to open
 // voxels only; after as many tries as there are voxels, each is split into four and those that one
-// disk covers are dropped, so that tries keep succeeding up to the density at which the process
+// particle covers are dropped, so that tries keep succeeding up to the density at which the process
 // jams.
 class Insertion {
  public:
@@ -33,7 +33,7 @@ class Insertion {
     }
   }
 
-  // Places disks until there are `count`, or no voxel is open or can be split any more.
+  // Places particles until there are `count`, or no voxel is open or can be split any more.
   void place(std::size_t count, Random& random) {
     placed_.reserve(count);
     for (int level = 0; level < kLevels && !open_.empty(); ++level) {
@@ -46,7 +46,7 @@ class Insertion {
     }
   }
 
-  // Places a disk at a point, where there is room; before any of the others.
+  // Places a particle at a point, where there is room; before any of the others.
   bool place_first(const Vec2& point) {
     Voxel voxel;
     for (int axis = 0; axis < 2; ++axis) {
@@ -73,7 +73,8 @@ class Insertion {
   }
 
   bool place_at(const Vec2& point, const Voxel& voxel) {
-    if (any_disk_within(voxel, [&](const Vec2& centre) { return (centre - point).cwiseAbs(); })) {
+    if (any_particle_within(voxel,
+                            [&](const Vec2& centre) { return (centre - point).cwiseAbs(); })) {
       return false;
     }
     centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
@@ -91,20 +92,20 @@ class Insertion {
         const Vec2 half(0.5 * widths_[0], 0.5 * widths_[1]);
         const Vec2 middle(low_[0] + (voxel[0] + 0.5) * widths_[0],
                           low_[1] + (voxel[1] + 0.5) * widths_[1]);
-        // The corner that is farthest from a centre says whether that disk covers the voxel.
+        // The corner that is farthest from a centre says whether that particle covers the voxel.
         const auto farthest = [&](const Vec2& centre) {
           return Vec2((centre - middle).cwiseAbs() + half);
         };
-        if (!any_disk_within(voxel, farthest)) split.push_back(voxel);
+        if (!any_particle_within(voxel, farthest)) split.push_back(voxel);
       }
     }
     open_ = std::move(split);
   }
 
-  // Whether a disk about the voxel lies less than a diameter off, by the given offset of its
+  // Whether a particle about the voxel lies less than a diameter off, by the given offset of its
   // centre.
   template <typename Offset>
-  bool any_disk_within(const Voxel& voxel, const Offset& offset) const {
+  bool any_particle_within(const Voxel& voxel, const Offset& offset) const {
     const double closest = room_.diameter * room_.diameter;
     if (centres_[cell_of(voxel)] != kEmpty) return true;
     for (int dy = -2; dy <= 2; ++dy) {
@@ -113,8 +114,9 @@ class Insertion {
         const int x = wrapped((voxel[0] >> level_) + dx, 0, wrap);
         const int y = wrapped((voxel[1] >> level_) + dy, 1, wrap);
         if (x < 0 || y < 0) continue;
-        const std::uint32_t disk = centres_[static_cast<std::size_t>(y) * counts_[0] + x];
-        if (disk != kEmpty && offset(placed_[disk] + wrap).squaredNorm() < closest) return true;
+        const std::uint32_t particle = centres_[static_cast<std::size_t>(y) * counts_[0] + x];
+        if (particle != kEmpty && offset(placed_[particle] + wrap).squaredNorm() < closest)
+          return true;
       }
     }
     return false;
@@ -141,12 +143,12 @@ class Insertion {
   double widths_[2];  // of a voxel
   int level_ = 0;     // voxels are 2^-level_ of a cell
   std::vector<Vec2> placed_;
-  std::vector<std::uint32_t> centres_;  // disk in each cell, or kEmpty
+  std::vector<std::uint32_t> centres_;  // particle in each cell, or kEmpty
   std::vector<Voxel> open_;
 };
 
-// The same for a few disks in a large room, where almost every try succeeds: memory follows the
-// disks and not the room.
+// The same for a few particles in a large room, where almost every try succeeds: memory follows the
+// particles and not the room.
 class SparseInsertion {
  public:
   SparseInsertion(const Room& room, std::size_t count)
@@ -225,7 +227,7 @@ std::vector<Vec2> random_insertion(const Room& room, int count, Random& random) 
 std::vector<Vec2> random_insertion(const Room& room, int count, Random& random,
                                    const std::vector<Vec2>& wanted,
                                    std::vector<std::size_t>& kept) {
-  constexpr double kSparse = 50.0;  // squares of the diameter per disk: phi below 0.016
+  constexpr double kSparse = 50.0;  // squares of the diameter per particle: phi below 0.016
   if (room.box.prod() > kSparse * room.diameter * room.diameter * count) {
     const auto places = static_cast<std::size_t>(count);
     return filled(SparseInsertion(room, places), count, random, wanted, kept);

@@ -92,8 +92,8 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
 static std::vector<Vec2> melt(const Room& room, const std::vector<Vec2>& sites,
                               std::uint64_t seed) {
   constexpr int kRounds = 10;
-  constexpr std::uint64_t kCollisionsPerRound = 20;  // per disk
-  // At T = 1 and above phi = 0.5 these take less than 10; a lone disk never has them.
+  constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
+  // At T = 1 and above phi = 0.5 these take less than 10; a lone particle never has them.
   constexpr double kLongestRound = 100.0;
   const double count = static_cast<double>(sites.size());
   const double square_order = std::max(0.1, 3.0 / std::sqrt(count));
@@ -139,7 +139,7 @@ static std::vector<Vec2> lattice_positions(const Room& room, int count, std::uin
   return sites;
 }
 
-// Numbers disks along rows, upwards: those that are near each other then lie near each other in
+// Numbers particles along rows, upwards: those that are near each other then lie near each other in
 // memory too, which large gases gain a quarter of their speed from.
 static void number_by_rows(std::vector<Vec2>& positions) {
   constexpr double kRowHeight = 1.3;  // diameters: about that of the engine's cells
@@ -150,10 +150,10 @@ static void number_by_rows(std::vector<Vec2>& positions) {
 }
 
 State<2> start_state(const Scene& scene, std::uint64_t seed) {
-  const Start& start = scene.disks.start;
+  const Start& start = scene.particles.start;
   if (start.layout == Layout::File) return start.state;
   const Room room = scene.start_room();
-  const int count = scene.disks.count;
+  const int count = scene.particles.count;
   State<2> state;
   state.positions = start.layout == Layout::Random ? random_positions(room, count, seed)
                                                    : lattice_positions(room, count, seed);
@@ -162,8 +162,8 @@ State<2> start_state(const Scene& scene, std::uint64_t seed) {
   for (Vec2& position : state.positions) position += corner;
   state.velocities = gaussian_velocities(state.positions.size(), start.temperature, seed);
   if (scene.spins()) {
-    state.spins =
-        gaussian_spins(state.positions.size(), start.spin_temperature, scene.disks.inertia, seed);
+    state.spins = gaussian_spins(state.positions.size(), start.spin_temperature,
+                                 scene.particles.inertia, seed);
   }
   return state;
 }

@@ -7,10 +7,10 @@
 
 namespace clatter {
 
-/// The state at time 0 that a scene asks for, a pure function of scene and seed: no disks overlap,
-/// the velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature, and spins,
-/// where the scene has them, Gaussian with exactly their temperature I <omega^2>. Disks keep clear
-/// of wherever a moving wall comes. A scene with layout File has the state itself.
+/// The state at time 0 that a scene asks for, a pure function of scene and seed: no particles
+/// overlap, the velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature, and
+/// spins, where the scene has them, Gaussian with exactly their temperature I <omega^2>. Particles
+/// keep clear of wherever a moving wall comes. A scene with layout File has the state itself.
 ///
 /// A random layout is made by random insertion up to phi = 0.54, by melting a square lattice up to
 /// the density at which hard disks freeze, and is a triangular lattice with random vacancies

@@ -20,9 +20,9 @@ static void add(Booked<D>& booked, const Conserved<D>& amount) {
   booked.size += amount.cwiseAbs();
 }
 
-// What an event gives to a disk.
+// What an event gives to a particle.
 template <int D>
-static Conserved<D> given(const DiskChange<D>& change) {
+static Conserved<D> given(const ParticleChange<D>& change) {
   return conserved<D>(0.0, change.gain.momentum, change.energy);
 }
 
@@ -32,10 +32,10 @@ Balance<D>::Balance(const Simulation<D>& simulation, const IntVec<D>& cells)
       paths_(simulation.model(), cells),
       window_start_(simulation.base_time()) {
   const Vec<D>& gravity = simulation.model().gravity;
-  for (std::uint32_t i = 0; i < simulation.disks().size(); ++i) {
-    const Flight<D>& flight = simulation.disks()[i].flight;
+  for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
+    const Flight<D>& flight = simulation.particles()[i].flight;
     const IntVec<D> cell = paths_.cell_at(flight.at(window_start_, gravity));
-    disks_.push_back({cell, cell, flight.velocity_at(window_start_, gravity), spin(i)});
+    particles_.push_back({cell, cell, flight.velocity_at(window_start_, gravity), spin(i)});
   }
   clear();
 }
@@ -55,9 +55,9 @@ double Balance<D>::half_inertia() const {
 }
 
 template <int D>
-Spin<D> Balance<D>::spin(std::uint32_t disk) const {
+Spin<D> Balance<D>::spin(std::uint32_t particle) const {
   if (simulation_.spins().empty()) return Spin<D>::Zero();
-  return simulation_.spins()[disk];
+  return simulation_.spins()[particle];
 }
 
 template <int D>
@@ -66,22 +66,23 @@ Conserved<D> Balance<D>::carried(const Vec<D>& velocity, const Spin<D>& spin) co
                       0.5 * velocity.squaredNorm() + half_inertia() * spin.squaredNorm());
 }
 
-// What a disk that stays in its cell has gained since the window's start, without the rounding of a
-// difference of squares.
+// What a particle that stays in its cell has gained since the window's start, without the rounding
+// of a difference of squares.
 template <int D>
-Conserved<D> Balance<D>::gained(const Tracked& disk, const Vec<D>& velocity,
+Conserved<D> Balance<D>::gained(const Tracked& particle, const Vec<D>& velocity,
                                 const Spin<D>& spin) const {
-  const Vec<D> dp = velocity - disk.first_velocity;
-  const Spin<D> dw = spin - disk.first_spin;
+  const Vec<D> dp = velocity - particle.first_velocity;
+  const Spin<D> dw = spin - particle.first_spin;
   return conserved<D>(0.0, dp,
-                      0.5 * dp.dot(velocity + disk.first_velocity) +
-                          half_inertia() * dw.dot(spin + disk.first_spin));
+                      0.5 * dp.dot(velocity + particle.first_velocity) +
+                          half_inertia() * dw.dot(spin + particle.first_spin));
 }
 
-// A crossing at the very end is left to what comes then: a collision may have turned the disk back.
+// A crossing at the very end is left to what comes then: a collision may have turned the particle
+// back.
 template <int D>
-void Balance<D>::follow(std::uint32_t disk, const Flight<D>& flight, double end) {
-  IntVec<D>& cell = disks_[disk].cell;
+void Balance<D>::follow(std::uint32_t particle, const Flight<D>& flight, double end) {
+  IntVec<D>& cell = particles_[particle].cell;
   double time = std::max(flight.time, window_start_);
   FaceCrossing last;
   for (;;) {
@@ -95,14 +96,14 @@ void Balance<D>::follow(std::uint32_t disk, const Flight<D>& flight, double end)
     fall(cell, flight, time, next.at);
     time = next.at;
     const Vec<D> v = flight.velocity_at(time, simulation_.model().gravity);
-    pass(cell, next.axis, next.step, carried(v, spin(disk)));
+    pass(cell, next.axis, next.step, carried(v, spin(particle)));
     cell = paths_.beyond(cell, next.axis, next.step);
     last = next;
   }
   fall(cell, flight, time, end);
 }
 
-// Gravity's force and its work on a disk, the integrals of g and of g.v.
+// Gravity's force and its work on a particle, the integrals of g and of g.v.
 template <int D>
 void Balance<D>::fall(const IntVec<D>& cell, const Flight<D>& flight, double begin, double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
@@ -136,9 +137,9 @@ void Balance<D>::transport(const Vec<D>& start, const Vec<D>& branch, IntVec<D> 
 
 // Energies in full, p.v and p^2/2: at a wall that takes none they cancel.
 template <int D>
-void Balance<D>::weigh(const DiskChange<D>& change) {
+void Balance<D>::weigh(const ParticleChange<D>& change) {
   const Vec<D>& p = change.gain.momentum;
-  booked_.weights[paths_.index(disks_[change.disk].cell)] +=
+  booked_.weights[paths_.index(particles_[change.particle].cell)] +=
       conserved<D>(0.0, p.cwiseAbs(), 0.5 * p.squaredNorm() + std::fabs(p.dot(change.velocity)));
 }
 
@@ -146,13 +147,13 @@ void Balance<D>::weigh(const DiskChange<D>& change) {
 // the energy (1/2)(dE_0 - dE_1), Eq. (4.34); the rest arises at both ends, Eq. (4.32).
 template <int D>
 void Balance<D>::on_collision(const PairCollision<D>& collision) {
-  const auto& [first, second] = collision.disks;
-  for (const DiskChange<D>& disk : collision.disks) {
-    follow(disk.disk, disk.before, collision.time);
-    weigh(disk);
+  const auto& [first, second] = collision.particles;
+  for (const ParticleChange<D>& particle : collision.particles) {
+    follow(particle.particle, particle.before, collision.time);
+    weigh(particle);
   }
-  const IntVec<D>& to = disks_[first.disk].cell;
-  const IntVec<D>& from = disks_[second.disk].cell;
+  const IntVec<D>& to = particles_[first.particle].cell;
+  const IntVec<D>& from = particles_[second.particle].cell;
   transport(first.position - collision.separation, collision.separation, from, to,
             0.5 * (given<D>(first) - given<D>(second)));
   const Conserved<D> source = 0.5 * (given<D>(first) + given<D>(second));
@@ -160,28 +161,29 @@ void Balance<D>::on_collision(const PairCollision<D>& collision) {
   arise(from, source);
 }
 
-// What the wall gives comes in whole where it touches the disk, and from there along the branch.
+// What the wall gives comes in whole where it touches the particle, and from there along the
+// branch.
 template <int D>
 void Balance<D>::on_wall(const WallCollision<D>& collision) {
-  const DiskChange<D>& disk = collision.disk;
-  follow(disk.disk, disk.before, collision.time);
-  weigh(disk);
+  const ParticleChange<D>& particle = collision.particle;
+  follow(particle.particle, particle.before, collision.time);
+  weigh(particle);
   const int axis = collision.side / 2;
   const Vec<D> branch =
       0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side) * Vec<D>::Unit(axis);
-  const Vec<D> touching = disk.position - branch;
-  const IntVec<D>& to = disks_[disk.disk].cell;
+  const Vec<D> touching = particle.position - branch;
+  const IntVec<D>& to = particles_[particle.particle].cell;
   IntVec<D> from = to;
   from[axis] = paths_.cell_at(touching)[axis];
-  arise(from, given<D>(disk));
-  transport(touching, branch, from, to, given<D>(disk));
+  arise(from, given<D>(particle));
+  transport(touching, branch, from, to, given<D>(particle));
 }
 
 template <int D>
 void Balance<D>::on_kick(const Kick<D>& kick) {
-  follow(kick.disk.disk, kick.disk.before, kick.time);
-  weigh(kick.disk);
-  arise(disks_[kick.disk.disk].cell, given<D>(kick.disk));
+  follow(kick.particle.particle, kick.particle.before, kick.time);
+  weigh(kick.particle);
+  arise(particles_[kick.particle.particle].cell, given<D>(kick.particle));
 }
 
 template <int D>
@@ -189,9 +191,9 @@ void Balance<D>::on_base_moved(double shift) {
   window_start_ -= shift;
 }
 
-// What the cells gained, from the disks' states, from which the next window starts. Under gravity a
-// share of what disks carry counts into the sizes: beside it rounding is 1e-7, also where gravity
-// hardly changes a velocity and nothing else is booked.
+// What the cells gained, from the particles' states, from which the next window starts. Under
+// gravity a share of what particles carry counts into the sizes: beside it rounding is 1e-7, also
+// where gravity hardly changes a velocity and nothing else is booked.
 template <int D>
 Imbalances<D> Balance<D>::take_changes(double now) {
   const Vec<D>& gravity = simulation_.model().gravity;
@@ -199,26 +201,26 @@ Imbalances<D> Balance<D>::take_changes(double now) {
   Imbalances<D> taken;
   taken.gaps.assign(booked_.sources.size(), Conserved<D>::Zero());
   taken.sizes = taken.gaps;
-  for (std::uint32_t i = 0; i < disks_.size(); ++i) {
-    const Flight<D>& flight = simulation_.disks()[i].flight;
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    const Flight<D>& flight = simulation_.particles()[i].flight;
     const Vec<D> v = flight.velocity_at(now, gravity);
-    Tracked& disk = disks_[i];
-    // The cell to which it was followed decides where rounding would; a disk that is elsewhere was
-    // followed wrongly, which must show.
+    Tracked& particle = particles_[i];
+    // The cell to which it was followed decides where rounding would; a particle that is elsewhere
+    // was followed wrongly, which must show.
     const Vec<D> r = flight.at(now, gravity);
-    if (!paths_.holds(disk.cell, r)) disk.cell = paths_.cell_at(r);
-    const std::size_t to = paths_.index(disk.cell), from = paths_.index(disk.first_cell);
+    if (!paths_.is_current(particle.cell, r)) particle.cell = paths_.cell_at(r);
+    const std::size_t to = paths_.index(particle.cell), from = paths_.index(particle.first_cell);
     const Conserved<D> last = carried(v, spin(i));
-    const Conserved<D> first = carried(disk.first_velocity, disk.first_spin);
+    const Conserved<D> first = carried(particle.first_velocity, particle.first_spin);
     if (to == from) {
-      taken.gaps[to] += gained(disk, v, spin(i));
+      taken.gaps[to] += gained(particle, v, spin(i));
     } else {
       taken.gaps[to] += last;
       taken.gaps[from] -= first;
     }
     taken.sizes[to] += share * last.cwiseAbs();
     taken.sizes[from] += share * first.cwiseAbs();
-    disk = {disk.cell, disk.cell, v, spin(i)};
+    particle = {particle.cell, particle.cell, v, spin(i)};
   }
   return taken;
 }
@@ -242,7 +244,8 @@ Booked<D> Balance<D>::booked_at(std::size_t index) const {
 template <int D>
 BalanceWindow<D> Balance<D>::close_window() {
   const double now = simulation_.base_time();
-  for (std::uint32_t i = 0; i < disks_.size(); ++i) follow(i, simulation_.disks()[i].flight, now);
+  for (std::uint32_t i = 0; i < particles_.size(); ++i)
+    follow(i, simulation_.particles()[i].flight, now);
   BalanceWindow<D> window;
   window.imbalances = take_changes(now);
   window_start_ = now;

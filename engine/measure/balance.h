@@ -32,13 +32,13 @@ void visit(Archive& io, Booked<D>& sum) {
 /// All that was booked in one window of time; [cells] each, cell (i, j) at i + j cells.x().
 template <int D>
 struct Bookings {
-  /// What passed in the direction of each axis through the cells' upper faces across it: disks, and
-  /// what collisions carry along their branch.
+  /// What passed in the direction of each axis through the cells' upper faces across it: particles,
+  /// and what collisions carry along their branch.
   std::array<std::vector<Booked<D>>, D> faces;
   /// What arose in the cells: dissipation, gravity, kicks, and what came in through walls.
   std::vector<Booked<D>> sources;
-  /// Sizes of what changed the motion of the disks inside, in events and by gravity: what the faces
-  /// and sources brought, before any of it cancelled.
+  /// Sizes of what changed the motion of the particles inside, in events and by gravity: what the
+  /// faces and sources brought, before any of it cancelled.
   std::vector<Conserved<D>> weights;
 };
 
@@ -55,8 +55,8 @@ template <int D>
 struct Imbalances {
   std::vector<Conserved<D>> gaps;  ///< change of what the cell holds - booked
   /// Sum of the sizes of all that was booked at the cell: through its faces, as its sources, and
-  /// the weights; and, under gravity, 1e-9 of what its disks carry at both ends of the window, to
-  /// the rounding of which the change is known.
+  /// the weights; and, under gravity, 1e-9 of what its particles carry at both ends of the window,
+  /// to the rounding of which the change is known.
   std::vector<Conserved<D>> sizes;
 
   /// A cell's gaps over their sizes, of either sign. Where there is no gap, 0; where nothing was
@@ -83,7 +83,7 @@ struct BalanceWindow {
 };
 
 /// Closes the balance equations (4.1)-(4.3) on a grid of equal cells over the whole box, section 6,
-/// "Exact closure": what the cells hold, from the disks' states at a window's two ends, against
+/// "Exact closure": what the cells hold, from the particles' states at a window's two ends, against
 /// what was booked at faces and as sources in between.
 template <int D>
 class Balance : public Observer<D> {
@@ -105,12 +105,12 @@ class Balance : public Observer<D> {
   /// What a checkpoint keeps, of a simulation that goes on at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [simulation, paths, disks, window_start, booked] = *this;
-    io(disks, window_start, booked);
+    auto& [simulation, paths, particles, window_start, booked] = *this;
+    io(particles, window_start, booked);
   }
 
  private:
-  /// A disk as far as it has been followed, and what it was at the window's start.
+  /// A particle as far as it has been followed, and what it was at the window's start.
   struct Tracked {
     IntVec<D> cell;
     IntVec<D> first_cell;
@@ -125,12 +125,12 @@ class Balance : public Observer<D> {
   };
 
   double half_inertia() const;
-  Spin<D> spin(std::uint32_t disk) const;
+  Spin<D> spin(std::uint32_t particle) const;
   Conserved<D> carried(const Vec<D>& velocity, const Spin<D>& spin) const;
-  Conserved<D> gained(const Tracked& disk, const Vec<D>& velocity, const Spin<D>& spin) const;
-  void follow(std::uint32_t disk, const Flight<D>& flight, double end);
+  Conserved<D> gained(const Tracked& particle, const Vec<D>& velocity, const Spin<D>& spin) const;
+  void follow(std::uint32_t particle, const Flight<D>& flight, double end);
   void fall(const IntVec<D>& cell, const Flight<D>& flight, double begin, double end);
-  void weigh(const DiskChange<D>& change);
+  void weigh(const ParticleChange<D>& change);
   void transport(const Vec<D>& start, const Vec<D>& branch, IntVec<D> from, const IntVec<D>& to,
                  const Conserved<D>& amount);
   void pass(const IntVec<D>& cell, int axis, int step, const Conserved<D>& amount);
@@ -141,7 +141,7 @@ class Balance : public Observer<D> {
 
   const Simulation<D>& simulation_;
   CellPath<D> paths_;
-  std::vector<Tracked> disks_;  // [N]
+  std::vector<Tracked> particles_;  // [N]
   double window_start_;
   Bookings<D> booked_;
 };

@@ -49,9 +49,9 @@ void CellIntegrals<D>::spread(const Vec<D>& from, const Vec<D>& along, Visit&& v
   grid_.cut(from, along, visit);
 }
 
-// What a disk adds to the kinetic sums per time, averaged over a time in which its velocity changes
-// by `change` at a constant rate and is `v` half-way: then the mean of v_k v_l is that of the
-// middle plus change_k change_l / 12, and that of three factors follows in the same way.
+// What a particle adds to the kinetic sums per time, averaged over a time in which its velocity
+// changes by `change` at a constant rate and is `v` half-way: then the mean of v_k v_l is that of
+// the middle plus change_k change_l / 12, and that of three factors follows in the same way.
 template <int D>
 typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Vec<D>& v, const Vec<D>& change,
                                                             const Spin<D>& spin) const {
@@ -138,8 +138,8 @@ typename CellIntegrals<D>::Crossing CellIntegrals<D>::next_crossing(
 }
 
 template <int D>
-void CellIntegrals<D>::end_flight(const DiskChange<D>& disk, double time) {
-  if (estimator_ == Estimator::Exact) add_flight(disk.before, disk.spin, time);
+void CellIntegrals<D>::end_flight(const ParticleChange<D>& particle, double time) {
+  if (estimator_ == Estimator::Exact) add_flight(particle.before, particle.spin, time);
 }
 
 // Momentum and energy that go over a branch vector, Eqs. (4.22)-(4.24), (4.34).
@@ -171,7 +171,7 @@ void CellIntegrals<D>::add_dissipation(const Vec<D>& place, double energy) {
 
 template <int D>
 void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
-  const auto& [a, b] = collision.disks;
+  const auto& [a, b] = collision.particles;
   end_flight(a, collision.time);
   end_flight(b, collision.time);
   // The partner at the image that touches.
@@ -189,17 +189,17 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
 // dissipation.
 template <int D>
 void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
-  const DiskChange<D>& disk = collision.disk;
-  end_flight(disk, collision.time);
+  const ParticleChange<D>& particle = collision.particle;
+  end_flight(particle, collision.time);
   Vec<D> branch = Vec<D>::Zero();
   branch[collision.side / 2] =
       0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side);
-  add_transfer(disk.position - branch, branch, disk.gain.momentum, disk.energy);
+  add_transfer(particle.position - branch, branch, particle.gain.momentum, particle.energy);
 }
 
 template <int D>
 void CellIntegrals<D>::on_kick(const Kick<D>& kick) {
-  end_flight(kick.disk, kick.time);
+  end_flight(kick.particle, kick.time);
 }
 
 template <int D>
@@ -226,9 +226,9 @@ CellSums CellIntegrals<D>::close_window() {
   const double span = now - window_start_;
   if (estimator_ == Estimator::Exact) {
     const LargeArray<Spin<D>>& spins = simulation_.spins();
-    for (std::size_t i = 0; i < simulation_.disks().size(); ++i) {
-      add_flight(simulation_.disks()[i].flight, spins.empty() ? Spin<D>(Spin<D>::Zero()) : spins[i],
-                 now);
+    for (std::size_t i = 0; i < simulation_.particles().size(); ++i) {
+      add_flight(simulation_.particles()[i].flight,
+                 spins.empty() ? Spin<D>(Spin<D>::Zero()) : spins[i], now);
     }
     sums_.kinetic_weight = span;
   }

@@ -13,8 +13,8 @@
 namespace clatter {
 
 /// What a grid has summed up over a window of time, Eqs. (4.4)-(4.34) before the division by time
-/// and area. With box cells a kinetic sum of disks in a cell is an integral over time, and one over
-/// events has the share of the branch vector that lies in the cell as its weight.
+/// and area. With box cells a kinetic sum of particles in a cell is an integral over time, and one
+/// over events has the share of the branch vector that lies in the cell as its weight.
 struct CellSums {
   double time = 0.0;  ///< the window's length, by which sums over events are to be divided
   /// What kinetic sums are to be divided by: that length too, or the number of samples.
@@ -32,7 +32,7 @@ void visit(Archive& io, CellSums& sums) {
   io(time, kinetic_weight, rows);
 }
 
-/// How disks and collisions are spread over cells.
+/// How particles and collisions are spread over cells.
 struct Coarsening {
   Estimator estimator = Estimator::Exact;
   std::optional<double> gaussian_width;  ///< absent: box cells
@@ -40,9 +40,9 @@ struct Coarsening {
 
 /// Sums up what fields need on a grid of equal cells over the whole box. Exact: each free flight is
 /// cut at the cell borders and counts the time spent in each cell, times 1, v_k, v_k v_l and so on
-/// (the track-length estimator). Snapshot: disks count where they are whenever sample() is called.
-/// Collisions count at once, along the branch vector from disk 2, or from the contact point on a
-/// wall, to disk 1.
+/// (the track-length estimator). Snapshot: particles count where they are whenever sample() is
+/// called. Collisions count at once, along the branch vector from particle 2, or from the contact
+/// point on a wall, to particle 1.
 template <int D>
 class CellIntegrals : public Observer<D> {
  public:
@@ -56,7 +56,7 @@ class CellIntegrals : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
-  /// Counts every disk where it is at the simulation's time; of the snapshot estimator.
+  /// Counts every particle where it is at the simulation's time; of the snapshot estimator.
   void sample();
 
   /// The sums since the last call, or since the start.
@@ -75,7 +75,7 @@ class CellIntegrals : public Observer<D> {
   }
 
  private:
-  /// A row of kinetic sums, per disk.
+  /// A row of kinetic sums, per particle.
   using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + Spin<D>::SizeAtCompileTime>;
   /// A flight's way out of a cell.
   struct Crossing {
@@ -89,7 +89,7 @@ class CellIntegrals : public Observer<D> {
   void add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin, double end);
   Crossing next_crossing(const Flight<D>& flight, const typename FieldGrid<D>::Cell& cell,
                          double time) const;
-  void end_flight(const DiskChange<D>& disk, double time);
+  void end_flight(const ParticleChange<D>& particle, double time);
   void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
                     double energy);
   void add_dissipation(const Vec<D>& place, double energy);
@@ -103,7 +103,7 @@ class CellIntegrals : public Observer<D> {
   FieldGrid<D> grid_;
   MomentLayout<D> layout_;
   Estimator estimator_;
-  bool lossless_;  // whether no collision of disks dissipates
+  bool lossless_;  // whether no collision of particles dissipates
   std::optional<GaussianKernel<D>> gaussian_;
   double window_start_;
   CellSums sums_;

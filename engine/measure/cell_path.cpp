@@ -52,7 +52,7 @@ IntVec<D> CellPath<D>::cell_at(const Vec<D>& place) const {
 
 // Whole box lengths from a cell to the image of it that a place lies in.
 template <int D>
-double CellPath<D>::boxes_off(int axis, int cell, double place) const {
+double CellPath<D>::image_index(int axis, int cell, double place) const {
   if (!model_.periodic(axis)) return 0.0;
   return std::round((place - (cell + 0.5) * widths_[axis]) / model_.box[axis]);
 }
@@ -60,7 +60,7 @@ double CellPath<D>::boxes_off(int axis, int cell, double place) const {
 // The image of a place that lies at a cell.
 template <int D>
 double CellPath<D>::near(int axis, int cell, double place) const {
-  return place - model_.box[axis] * boxes_off(axis, cell, place);
+  return place - model_.box[axis] * image_index(axis, cell, place);
 }
 
 template <int D>
@@ -75,7 +75,7 @@ bool CellPath<D>::has_face(int axis, int cell, int step) const {
 }
 
 template <int D>
-bool CellPath<D>::holds(const IntVec<D>& cell, const Vec<D>& place) const {
+bool CellPath<D>::is_current(const IntVec<D>& cell, const Vec<D>& place) const {
   for (int axis = 0; axis < D; ++axis) {
     const double at = near(axis, cell[axis], place[axis]);
     for (const int step : {-1, 1}) {
@@ -93,7 +93,8 @@ IntVec<D> CellPath<D>::beyond(IntVec<D> cell, int axis, int step) const {
 }
 
 // Along each axis a straight flight has one face ahead, a parabola may return to the one behind. A
-// disk beyond a face by rounding crosses it at once if it flies outwards, and not if it flies back.
+// particle beyond a face by rounding crosses it at once if it flies outwards, and not if it flies
+// back.
 template <int D>
 FaceCrossing CellPath<D>::next_crossing(const Flight<D>& flight, const IntVec<D>& cell,
                                         double time) const {
@@ -122,7 +123,7 @@ std::vector<FaceCrossing> CellPath<D>::along(const Vec<D>& start, const Vec<D>& 
   for (int axis = 0; axis < D; ++axis) {
     if (cells_[axis] == 1) continue;
     const double at = near(axis, from[axis], start[axis]);
-    const double boxes = boxes_off(axis, to[axis], at + branch[axis]);
+    const double boxes = image_index(axis, to[axis], at + branch[axis]);
     const int steps = to[axis] + static_cast<int>(boxes) * cells_[axis] - from[axis];
     const int step = steps < 0 ? -1 : 1;
     for (int k = 0; k < std::abs(steps); ++k) {

@@ -17,12 +17,13 @@ struct FaceCrossing {
   int step = 0;  ///< +1 or -1 along the axis
 };
 
-/// Paths of disks and of branch vectors through equal box cells over the whole box. Along a walled
-/// axis the edge cells take what lies beyond; along a periodic one the cells go round, and a single
-/// one has no faces, for what leaves it is in it again.
+/// Paths of particles and of branch vectors through equal box cells over the whole box. Along a
+/// walled axis the edge cells take what lies beyond; along a periodic one the cells go round, and a
+/// single one has no faces, for what leaves it is in it again.
 ///
-/// A disk's cell is never told from its place alone, which near a face is a matter of rounding: it
-/// is carried from face to face, and every path starts, and a branch ends, in the cell it is told.
+/// A particle's cell is never told from its place alone, which near a face is a matter of rounding:
+/// it is carried from face to face, and every path starts, and a branch ends, in the cell it is
+/// told.
 template <int D>
 class CellPath {
  public:
@@ -38,7 +39,7 @@ class CellPath {
   /// The cell that a place lies in, at any image.
   IntVec<D> cell_at(const Vec<D>& place) const;
   /// Whether a place lies in a cell, at any image and to within rounding.
-  bool holds(const IntVec<D>& cell, const Vec<D>& place) const;
+  bool is_current(const IntVec<D>& cell, const Vec<D>& place) const;
   /// The cell beyond a face.
   IntVec<D> beyond(IntVec<D> cell, int axis, int step) const;
 
@@ -51,7 +52,7 @@ class CellPath {
 
  private:
   bool has_face(int axis, int cell, int step) const;
-  double boxes_off(int axis, int cell, double place) const;
+  double image_index(int axis, int cell, double place) const;
   double near(int axis, int cell, double place) const;
   double face(int axis, int cell, int step) const;
 

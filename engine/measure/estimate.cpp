@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-static constexpr std::size_t kLeastBlocks = 32;
+static constexpr std::size_t kMinBlocks = 32;
 
 static double mean_of(std::span<const double> series) {
   if (series.empty()) return 0.0;
@@ -25,7 +25,7 @@ Estimate independent_estimate(std::span<const double> values) {
 // values.
 static std::vector<double> error_levels(std::vector<double> series) {
   std::vector<double> errors;
-  while (series.size() >= 2 && (errors.empty() || series.size() >= kLeastBlocks)) {
+  while (series.size() >= 2 && (errors.empty() || series.size() >= kMinBlocks)) {
     errors.push_back(independent_estimate(series).standard_error);
     for (std::size_t k = 0; k < series.size() / 2; ++k) {
       series[k] = 0.5 * (series[2 * k] + series[2 * k + 1]);
@@ -52,8 +52,8 @@ double blocked_error(std::vector<double> series) {
 
 static double drift_of(double mean, const std::vector<double>& series) {
   constexpr double kRounding = 1e-9;  // of the mean: no scatter, but digits that are lost
-  constexpr std::size_t kLeastValues = 512;
-  if (series.size() < kLeastValues) return 0.0;
+  constexpr std::size_t kMinValues = 512;
+  if (series.size() < kMinValues) return 0.0;
   const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);
   const auto half = [](auto begin, auto end) {
     const std::vector<double> values(begin, end);

@@ -19,16 +19,16 @@ FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<2>& grid,
   return map;
 }
 
-std::size_t PartSums::most_parts(std::size_t bytes) {
-  const std::size_t parts = kMostBytes / std::max<std::size_t>(1, bytes);
-  return std::clamp<std::size_t>(parts, 2, kMostParts) / 2 * 2;
+std::size_t PartSums::max_parts(std::size_t bytes) {
+  const std::size_t parts = kMaxBytes / std::max<std::size_t>(1, bytes);
+  return std::clamp<std::size_t>(parts, 2, kMaxParts) / 2 * 2;
 }
 
 void PartSums::add(CellSums window) {
   if (windows_ % windows_per_part_ != 0) {
     parts_.back() += window;
   } else {
-    if (parts_.size() == most_parts(window.rows.size() * sizeof(double))) join_neighbours();
+    if (parts_.size() == max_parts(window.rows.size() * sizeof(double))) join_neighbours();
     parts_.push_back(std::move(window));
   }
   ++windows_;

@@ -29,12 +29,12 @@ FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<2>& grid,
 /// long from there on.
 class PartSums {
  public:
-  /// Parts there are at most; fewer, but at least 2, where they would take more than kMostBytes.
-  static constexpr std::size_t kMostParts = 64;
-  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  /// Parts there are at most; fewer, but at least 2, where they would take more than kMaxBytes.
+  static constexpr std::size_t kMaxParts = 64;
+  static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
   /// How many there may be where each takes so many bytes; even, so that all have a neighbour.
-  static std::size_t most_parts(std::size_t bytes);
+  static std::size_t max_parts(std::size_t bytes);
 
   /// Adds a window of time; all have the same length and grid.
   void add(CellSums window);

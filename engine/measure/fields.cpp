@@ -12,15 +12,15 @@ constexpr int kX = 0, kY = 1;
 template <class S>
 using Cell = CellAverages<2, S>;
 
-// Disks at a wall whose centres come to a cell's border to the bit seem to visit the cell for as
-// long as rounding has it: V would be a ratio of roundings.
+// Particles at a wall whose centres come to a cell's border to the bit seem to visit the cell for
+// as long as rounding has it: V would be a ratio of roundings.
 template <class S>
 bool visited(const Cell<S>& cell) {
-  constexpr double kRounding = 1e-12;  // disks per a^2
+  constexpr double kRounding = 1e-12;  // particles per a^2
   return value_of(cell.density) > kRounding;
 }
 
-// V = p/(m rho). Where no disk ever was nothing flows.
+// V = p/(m rho). Where no particle ever was nothing flows.
 template <class S>
 S velocity(const Cell<S>& cell, int k) {
   return visited(cell) ? cell.momentum[k] / cell.density : S(0.0);
@@ -65,13 +65,13 @@ S no_value() {
   return S(std::numeric_limits<double>::quiet_NaN());
 }
 
-// What disks that come by carry: unknown where none does.
+// What particles that come by carry: unknown where none does.
 template <class S>
 S of_visitors(const Cell<S>& cell, S value) {
   return visited(cell) ? value : no_value<S>();
 }
 
-// The whole of what disks and collisions carry: all collisional where no disk comes by.
+// The whole of what particles and collisions carry: all collisional where no particle comes by.
 template <class S>
 S total(const Cell<S>& cell, S kinetic, S collisional) {
   if (visited(cell)) return kinetic + collisional;

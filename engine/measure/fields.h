@@ -24,7 +24,7 @@ struct CellAverages {
   S spin_energy{};           ///< sum I omega^2 / 2
   Tensor transfer{};         ///< of momentum l along k in collisions, per time
   Vector energy_transfer{};  ///< of energy, likewise
-  S dissipation{};           ///< energy that collisions of disks gave, per time
+  S dissipation{};           ///< energy that collisions of particles gave, per time
 
   /// E = sum (v^2 + I omega^2)/2.
   S energy() const {
@@ -43,8 +43,9 @@ CellAverages<2, double> averages_of(const MomentLayout<2>& layout, const CellSum
                                     std::size_t cell, double area);
 
 /// Value of a field, Sec. 4; NaN where it has none: velocities, temperatures, spins and the kinetic
-/// parts of stress and heat flux where no disk ever was, and the whole stress and heat flux where
-/// no collision passed anything on either. T_rot = I <omega^2>. Residuals follow from no averages.
+/// parts of stress and heat flux where no particle ever was, and the whole stress and heat flux
+/// where no collision passed anything on either. T_rot = I <omega^2>. Residuals follow from no
+/// averages.
 template <class S>
 S field_value(Field field, const CellAverages<2, S>& cell);
 

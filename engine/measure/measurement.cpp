@@ -8,14 +8,14 @@ namespace clatter {
 
 // Enough windows for the blocking to see correlations; more where the scene asks for a finer
 // series.
-static constexpr double kLeastWindows = 512.0;
-static constexpr double kMostWindows = 8192.0;
+static constexpr double kMinWindows = 512.0;
+static constexpr double kMaxWindows = 8192.0;
 // Balances close over longer ones: beside what little a weak gravity books in a short time, the
-// rounding of what a disk carries would show.
+// rounding of what a particle carries would show.
 static constexpr std::size_t kWindowsPerBalance = 32;
 
 static double windows_in(double span, double series_interval) {
-  return std::clamp(std::ceil(span / series_interval), kLeastWindows, kMostWindows);
+  return std::clamp(std::ceil(span / series_interval), kMinWindows, kMaxWindows);
 }
 
 double cells_memory(const Measure& measure, bool spins) {
@@ -26,7 +26,7 @@ double cells_memory(const Measure& measure, bool spins) {
   if (!averages.empty()) {
     const double row = moment_layout<2>(averages, spins).size * sizeof(double);
     const auto parts =
-        static_cast<double>(PartSums::most_parts(static_cast<std::size_t>(cells * row)));
+        static_cast<double>(PartSums::max_parts(static_cast<std::size_t>(cells * row)));
     const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
     const int columns = measure.cells[measure.profile_axis == Axis::X ? 0 : 1];
     // Beside the parts the window under way and the one that is closed, or the parts' sum.
@@ -107,7 +107,7 @@ void Measurement::observe() {
 }
 
 void Measurement::sample(double time) {
-  const auto count = static_cast<double>(simulation_.disks().size());
+  const auto count = static_cast<double>(simulation_.particles().size());
   series_time_.push_back(time);
   series_temperature_.push_back(count > 0.0 ? simulation_.kinetic_energy() / count : 0.0);
   if (!simulation_.spins().empty()) {
@@ -204,7 +204,7 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<2>>& windows, int
 
 Measured Measurement::means() const {
   const Model<2>& model = simulation_.model();
-  const auto count = static_cast<double>(simulation_.disks().size());
+  const auto count = static_cast<double>(simulation_.particles().size());
   Measured measured;
   measured.burn_in = averages_start_;
   measured.series_time = series_time_;
@@ -218,8 +218,8 @@ Measured Measurement::means() const {
   measured.duration = static_cast<double>(windows_.size()) * window_;
   const EventCounts& counts = simulation_.counts();
   const EventCounts& at_start = started_ ? counts_at_start_ : counts;
-  measured.disk_disk = counts.disk_disk - at_start.disk_disk;
-  measured.disk_wall = counts.disk_wall - at_start.disk_wall;
+  measured.pair_collisions = counts.pair_collisions - at_start.pair_collisions;
+  measured.wall_collisions = counts.wall_collisions - at_start.wall_collisions;
   measured.kicks = counts.kicks - at_start.kicks;
   measured.elasticised = counts.elasticised - at_start.elasticised;
   measured.elasticised_wall = counts.elasticised_wall - at_start.elasticised_wall;
@@ -237,7 +237,7 @@ Measured Measurement::means() const {
   if (model.bulk_drive) {
     measured.bulk_in = estimate([](const auto& w) { return w.bulk_in / w.duration; });
   }
-  if (model.falls()) {
+  if (model.has_gravity()) {
     measured.gravity_in = estimate([](const auto& w) { return w.gravity_in / w.duration; });
   }
   if (model.contact_time) {
@@ -272,7 +272,7 @@ Measured Measurement::result() {
   const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
   if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
   Measured measured = means();
-  if (windows_.empty() || simulation_.disks().empty()) return measured;
+  if (windows_.empty() || simulation_.particles().empty()) return measured;
   if (balance_) {
     if (windows_.size() % kWindowsPerBalance != 0) close_balance();
     measured.residuals = residuals_;

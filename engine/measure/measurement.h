@@ -20,23 +20,23 @@ namespace clatter {
 /// What a run measured, over the time after the burn-in. Parts that the scene does not have are
 /// absent.
 struct Measured {
-  double burn_in = 0.0;         ///< simulation time at which averages start
-  double duration = 0.0;        ///< time averaged over
-  std::uint64_t disk_disk = 0;  ///< collisions in that time
-  std::uint64_t disk_wall = 0;
-  std::uint64_t kicks = 0;             ///< of bulk driving, each of all disks
+  double burn_in = 0.0;               ///< simulation time at which averages start
+  double duration = 0.0;              ///< time averaged over
+  std::uint64_t pair_collisions = 0;  ///< collisions in that time
+  std::uint64_t wall_collisions = 0;
+  std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
   std::uint64_t elasticised = 0;       ///< disk-disk collisions that t_c made elastic
   std::uint64_t elasticised_wall = 0;  ///< likewise with walls
   Estimate temperature, temperature_x, temperature_y;
   std::optional<Estimate> spin_temperature;       ///< T_rot = I <omega^2>, where spins are carried
   Estimate kurtosis_excess_x, kurtosis_excess_y;  ///< <v^4>/(3 <v^2>^2) - 1
-  Estimate collision_rate;  ///< disk-disk collisions per disk and time; each counts for both
+  Estimate collision_rate;  ///< disk-disk collisions per particle and time; each counts for both
   std::optional<Estimate> walls_in;    ///< energy per time that the walls give
   std::optional<Estimate> bulk_in;     ///< likewise the kicks of bulk driving
   std::optional<Estimate> gravity_in;  ///< likewise gravity
   Estimate dissipated;                 ///< energy per time lost in disk-disk collisions, > 0
-  /// What elasticised collisions of disks did not dissipate, over what all did: an estimate of the
-  /// error that t_c makes. Where there is a t_c and something dissipates.
+  /// What elasticised collisions of particles did not dissipate, over what all did: an estimate of
+  /// the error that t_c makes. Where there is a t_c and something dissipates.
   std::optional<double> undissipated_share;
   double ledger_residual = 0.0;                     ///< see Totals::ledger_residual
   std::array<std::optional<Estimate>, 4> pressure;  ///< on each Side: momentum per time and length
@@ -51,7 +51,7 @@ struct Measured {
 };
 
 /// Memory that the cells of fields and balances take in a measurement, about and at most, in bytes;
-/// `spins`: whether the disks spin. 0 where no fields are asked for.
+/// `spins`: whether the particles spin. 0 where no fields are asked for.
 double cells_memory(const Measure& measure, bool spins);
 
 /// Observes a simulation as the scene's [measure] block asks.

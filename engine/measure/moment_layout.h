@@ -9,13 +9,13 @@ namespace clatter {
 
 /// Which sums of chapter 4 a grid keeps, and where each stands in the row of numbers that a cell
 /// has: what the fields asked for do not need is not stored. In rising order come the kinetic sums,
-/// over disks and time; the sums over events that spread along a branch vector; and the one that
-/// stays at its ends.
+/// over particles and time; the sums over events that spread along a branch vector; and the one
+/// that stays at its ends.
 template <int D>
 struct MomentLayout {
   static constexpr int kAbsent = -1;
 
-  int count = 0;                  ///< 1: the number of disks, always kept
+  int count = 0;                  ///< 1: the number of particles, always kept
   int velocity = kAbsent;         ///< D: sum v_k
   int squares = kAbsent;          ///< D: sum v_k^2
   int shears = kAbsent;           ///< D(D-1)/2: sum v_k v_l, k < l
@@ -30,7 +30,7 @@ struct MomentLayout {
   int size = 1;                   ///< numbers in a row
 };
 
-/// The sums that these fields need; `spins`: whether the disks spin, and so carry energy.
+/// The sums that these fields need; `spins`: whether the particles spin, and so carry energy.
 template <int D>
 MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins);
 

@@ -39,9 +39,9 @@ std::vector<double> Residuals::map(Field residual) const {
 }
 
 void require_closed(const Residuals& residuals) {
-  constexpr double kMostRounding = 1e-6;
+  constexpr double kMaxRounding = 1e-6;
   const double largest = residuals.largest().maxCoeff();
-  if (largest <= kMostRounding) return;
+  if (largest <= kMaxRounding) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", largest);
   throw RunError(std::string("the balance equations do not close: residuals are as large as ") +

@@ -13,12 +13,13 @@ Totals<D>::Totals(const Simulation<D>& simulation)
   take_stock();
 }
 
-// Kinetic energy that the disks had at the start of their flights: it changes by events only, the
-// work of gravity on a flight being booked when that ends.
+// Kinetic energy that the particles had at the start of their flights: it changes by events only,
+// the work of gravity on a flight being booked when that ends.
 template <int D>
 double Totals<D>::energy_of_starts() const {
   double twice = 0.0;
-  for (const Disk<D>& disk : simulation_.disks()) twice += disk.flight.v.squaredNorm();
+  for (const Particle<D>& particle : simulation_.particles())
+    twice += particle.flight.v.squaredNorm();
   return 0.5 * twice + simulation_.spin_energy();
 }
 
@@ -27,19 +28,19 @@ void Totals<D>::take_stock() {
   squares_.setZero();
   momentum_.setZero();
   spin_squares_ = 0.0;
-  for (const Disk<D>& disk : simulation_.disks()) {
-    const Vec<D> v = disk.flight.velocity_at(integrated_to_, simulation_.model().gravity);
+  for (const Particle<D>& particle : simulation_.particles()) {
+    const Vec<D> v = particle.flight.velocity_at(integrated_to_, simulation_.model().gravity);
     squares_ += v.cwiseAbs2();
     momentum_ += v;
   }
   for (const Spin<D>& spin : simulation_.spins()) spin_squares_ += spin.squaredNorm();
 }
 
-// Between events sum v_k^2 is a parabola in time, for all disks share the acceleration.
+// Between events sum v_k^2 is a parabola in time, for all particles share the acceleration.
 template <int D>
 void Totals<D>::integrate_to(double time) {
   const double dt = time - integrated_to_;
-  const double count = static_cast<double>(simulation_.disks().size());
+  const double count = static_cast<double>(simulation_.particles().size());
   const Vec<D>& gravity = simulation_.model().gravity;
   const Vec<D> slope = gravity.cwiseProduct(momentum_);
   const Vec<D> curvature = count * gravity.cwiseAbs2();
@@ -56,45 +57,45 @@ void Totals<D>::book(double gained) {
   booked_sizes_ += std::fabs(gained);
 }
 
-// An event ends the disk's flight and changes its velocity and spin.
+// An event ends the particle's flight and changes its velocity and spin.
 template <int D>
-void Totals<D>::change(const DiskChange<D>& disk, double time) {
+void Totals<D>::change(const ParticleChange<D>& particle, double time) {
   integrate_to(time);
-  const Impulse<D>& gain = disk.gain;
-  squares_ += gain.momentum.cwiseProduct(gain.momentum + 2.0 * disk.velocity);
+  const Impulse<D>& gain = particle.gain;
+  squares_ += gain.momentum.cwiseProduct(gain.momentum + 2.0 * particle.velocity);
   momentum_ += gain.momentum;
-  spin_squares_ += gain.spin.dot(gain.spin + 2.0 * disk.spin);
-  const double work = simulation_.model().gravity.dot(disk.position - disk.before.r);
+  spin_squares_ += gain.spin.dot(gain.spin + 2.0 * particle.spin);
+  const double work = simulation_.model().gravity.dot(particle.position - particle.before.r);
   window_.gravity_in += work;
   book(work);
 }
 
 template <int D>
 void Totals<D>::on_collision(const PairCollision<D>& collision) {
-  for (const DiskChange<D>& disk : collision.disks) change(disk, collision.time);
+  for (const ParticleChange<D>& particle : collision.particles) change(particle, collision.time);
   window_.collisions += 1.0;
   window_.elasticised += collision.elasticised;
-  const double gained = collision.disks[0].energy + collision.disks[1].energy;
+  const double gained = collision.particles[0].energy + collision.particles[1].energy;
   book(gained);
   window_.dissipated -= gained;
   window_.undissipated += collision.undissipated;
-  window_.virial += collision.disks[0].gain.momentum.dot(collision.separation);
+  window_.virial += collision.particles[0].gain.momentum.dot(collision.separation);
 }
 
 template <int D>
 void Totals<D>::on_wall(const WallCollision<D>& collision) {
-  change(collision.disk, collision.time);
-  book(collision.disk.energy);
-  window_.walls_in += collision.disk.energy;
+  change(collision.particle, collision.time);
+  book(collision.particle.energy);
+  window_.walls_in += collision.particle.energy;
   window_.wall_impulse[collision.side] +=
-      std::fabs(collision.disk.gain.momentum[collision.side / 2]);
+      std::fabs(collision.particle.gain.momentum[collision.side / 2]);
 }
 
 template <int D>
 void Totals<D>::on_kick(const Kick<D>& kick) {
-  change(kick.disk, kick.time);
-  book(kick.disk.energy);
-  window_.bulk_in += kick.disk.energy;
+  change(kick.particle, kick.time);
+  book(kick.particle.energy);
+  window_.bulk_in += kick.particle.energy;
 }
 
 template <int D>
@@ -108,10 +109,10 @@ WindowTotals<D> Totals<D>::close_window() {
   const Model<D>& model = simulation_.model();
   const double now = simulation_.base_time();
   integrate_to(now);
-  const double count = static_cast<double>(simulation_.disks().size());
+  const double count = static_cast<double>(simulation_.particles().size());
   window_.duration = now - window_start_;
-  for (const Disk<D>& disk : simulation_.disks()) {
-    const Vec<D> squares = disk.flight.velocity_at(now, model.gravity).cwiseAbs2();
+  for (const Particle<D>& particle : simulation_.particles()) {
+    const Vec<D> squares = particle.flight.velocity_at(now, model.gravity).cwiseAbs2();
     window_.second_moment += squares / count;
     window_.fourth_moment += squares.cwiseAbs2() / count;
   }

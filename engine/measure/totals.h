@@ -14,7 +14,7 @@ template <int D>
 struct WindowTotals {
   double duration = 0.0;
   Vec<D> temperature = Vec<D>::Zero();    ///< T_x, T_y: exact time averages of m <v_k^2>
-  Vec<D> second_moment = Vec<D>::Zero();  ///< <v_k^2> over the disks at the window's end
+  Vec<D> second_moment = Vec<D>::Zero();  ///< <v_k^2> over the particles at the window's end
   Vec<D> fourth_moment = Vec<D>::Zero();  ///< <v_k^4> there
   double collisions = 0.0;                ///< disk-disk
   double elasticised = 0.0;               ///< of these, made elastic by the TC model
@@ -22,7 +22,7 @@ struct WindowTotals {
   double walls_in = 0.0;                  ///< energy that the walls gave
   double bulk_in = 0.0;                   ///< energy that kicks gave
   double gravity_in = 0.0;                ///< work of gravity on the flights that ended
-  double dissipated = 0.0;                ///< energy lost between disks, > 0
+  double dissipated = 0.0;                ///< energy lost between particles, > 0
   double undissipated = 0.0;              ///< energy that the TC model kept from dissipating
   double virial = 0.0;                    ///< sum of impulse.separation over disk-disk collisions
   std::array<double, 2 * D> wall_impulse{};  ///< momentum that each wall took up, along its normal
@@ -63,7 +63,7 @@ class Totals : public Observer<D> {
   void visit(Archive& io);
 
  private:
-  void change(const DiskChange<D>& disk, double time);
+  void change(const ParticleChange<D>& particle, double time);
   void integrate_to(double time);
   double energy_of_starts() const;
   void take_stock();

@@ -5,8 +5,8 @@
 
 namespace clatter {
 
-/// Momentum that disk 1 gains in a collision of smooth disks, Eq. (2.4) with beta = -1:
-/// -(1 + alpha)/2 (n.g) n, for x = r_1 - r_2 at contact and g = v_1 - v_2; disk 2 gains its
+/// Momentum that particle 1 gains in a collision of smooth particles, Eq. (2.4) with beta = -1:
+/// -(1 + alpha)/2 (n.g) n, for x = r_1 - r_2 at contact and g = v_1 - v_2; particle 2 gains its
 /// negative. Dividing by x.x instead of a^2 keeps elastic collisions elastic to rounding whatever
 /// the rounding of x.
 template <int D>
@@ -14,8 +14,8 @@ Vec<D> collision_impulse(const Vec<D>& x, const Vec<D>& g, double restitution) {
   return x * (-0.5 * (1.0 + restitution) * x.dot(g) / x.squaredNorm());
 }
 
-/// Energy that a collision of smooth disks loses, (m/4) (1 - alpha^2) g_n^2, section 2; x and g as
-/// in collision_impulse.
+/// Energy that a collision of smooth particles loses, (m/4) (1 - alpha^2) g_n^2, section 2; x and g
+/// as in collision_impulse.
 template <int D>
 double dissipated_energy(const Vec<D>& x, const Vec<D>& g, double restitution) {
   const double approach = x.dot(g);
@@ -32,16 +32,16 @@ struct ContactLaw {
   bool rough() const { return friction > 0.0 && tangential_restitution > -1.0; }
 };
 
-/// What a disk gains in a touch.
+/// What a particle gains in a touch.
 template <int D>
 struct Impulse {
-  Vec<D> momentum = Vec<D>::Zero();  ///< of a disk of mass 1; its partner gains the negative
-  Spin<D> spin = Spin<D>::Zero();    ///< angular velocity; a partner disk gains the same
+  Vec<D> momentum = Vec<D>::Zero();  ///< of a particle of mass 1; its partner gains the negative
+  Spin<D> spin = Spin<D>::Zero();    ///< angular velocity; a partner particle gains the same
 };
 
 /// 1 + beta with the beta in force, Eq. (2.8): min(1 + beta_0, mu ((1+q)/q) |g_n' - g_n|/|g_t|),
-/// where `normal_change` = |g_n' - g_n| is (1 + alpha)|g_n| of two disks and |v_n' - v_n| of a disk
-/// at a wall, and `slip` = |g_t|. The sum keeps the digits that beta near -1 has lost.
+/// where `normal_change` = |g_n' - g_n| is (1 + alpha)|g_n| of two particles and |v_n' - v_n| of a
+/// particle at a wall, and `slip` = |g_t|. The sum keeps the digits that beta near -1 has lost.
 inline double slip_reversal(const ContactLaw& law, double inertia, double normal_change,
                             double slip) {
   const double full = 1.0 + law.tangential_restitution;
@@ -59,7 +59,7 @@ Vec<D> surface_slip(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spin, doubl
   return g - n.dot(g) * n;
 }
 
-/// What friction gives to disk 1 of two, Eqs. (2.5), (2.8): the momentum -eta g_t and the spin
+/// What friction gives to particle 1 of two, Eqs. (2.5), (2.8): the momentum -eta g_t and the spin
 /// (2 eta/(q a)) n x g_t with eta = q (1 + beta)/(2 (1 + q)); a wall, of infinite mass, gives twice
 /// that. Arguments as in surface_slip and slip_reversal.
 template <int D>
@@ -72,9 +72,9 @@ Impulse<D> friction_impulse(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spi
   return {-0.5 * inertia * share * g_t, share / diameter * cross<D>(n, g_t)};
 }
 
-/// What disk 1 gains in a collision of rough disks, Eqs. (2.4), (2.5), (2.8), for x = r_1 - r_2 at
-/// contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a. The
-/// normal part, and all of it where the law is not rough, has the bits of collision_impulse.
+/// What particle 1 gains in a collision of rough particles, Eqs. (2.4), (2.5), (2.8), for x = r_1 -
+/// r_2 at contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a.
+/// The normal part, and all of it where the law is not rough, has the bits of collision_impulse.
 template <int D>
 Impulse<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
                          const ContactLaw& law, double inertia, double diameter) {
@@ -85,7 +85,7 @@ Impulse<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
   return {normal + friction.momentum, friction.spin};
 }
 
-/// Energy that a collision of rough disks loses, (m/4) [(1 - alpha^2) g_n^2 + (q/(1+q)) (1 -
+/// Energy that a collision of rough particles loses, (m/4) [(1 - alpha^2) g_n^2 + (q/(1+q)) (1 -
 /// beta^2) g_t^2], section 2, with the beta in force; arguments as in rough_impulse.
 template <int D>
 double dissipated_energy(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,

@@ -12,16 +12,16 @@ namespace clatter {
 /// velocities, a few units in the last place of each.
 inline constexpr double kApproachRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
-/// Time at which the disks of two flights touch, or kNever; see encounter_time. `shift` is added to
-/// a.r - b.r and selects the periodic image. Disks that touch already collide at once, but only if
-/// they approach faster than the rounding of their velocities: otherwise the rounding left by a
-/// collision would be another one, for ever.
+/// Time at which the particles of two flights touch, or kNever; see pair_contact_time. `shift` is
+/// added to a.r - b.r and selects the periodic image. Particles that touch already collide at once,
+/// but only if they approach faster than the rounding of their velocities: otherwise the rounding
+/// left by a collision would be another one, for ever.
 template <int D>
 double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double diameter,
                     const Vec<D>& gravity) {
   const double time =
-      encounter_time<D, true>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time,
-                              shift.data(), diameter, gravity.data());
+      pair_contact_time<D, true>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time,
+                                 shift.data(), diameter, gravity.data());
   if (time != kTouching) return time;
   const double start = a.time > b.time ? a.time : b.time;
   const Vec<D> v_a = a.velocity_at(start, gravity);
@@ -32,8 +32,8 @@ double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift,
 }
 
 /// Time at which a flight reaches the plane at `plane` along `axis`, where `inward` (+1 or -1) is
-/// the direction of the wall's normal into the box, or kNever. A disk that already touches the wall
-/// hits it at once if it moves outwards, or rests there and gravity pulls it outwards.
+/// the direction of the wall's normal into the box, or kNever. A particle that already touches the
+/// wall hits it at once if it moves outwards, or rests there and gravity pulls it outwards.
 template <int D>
 double plane_contact_time(const Flight<D>& flight, int axis, double plane, double inward,
                           const Vec<D>& gravity) {

@@ -10,31 +10,31 @@
 
 namespace clatter {
 
-/// Doubles from one disk to the next in an array that contact kernels read: whole cache lines.
+/// Doubles from one particle to the next in an array that contact kernels read: whole cache lines.
 template <int D>
 inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
 
-/// Disks that one disk may meet. A disk is a row of kRowLength doubles: D of position, D of
-/// velocity, the time of both, one that is not read, and D whole box lengths by which the row's
-/// frame lies off the box.
+/// Particles that one particle may meet. A particle is a row of kRowLength doubles: D of position,
+/// D of velocity, the time of both, one that is not read, and D whole box lengths by which the
+/// row's frame lies off the box.
 template <int D>
 struct Candidates {
   static constexpr int kCapacity = 16;
 
   /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
   static constexpr int kMargin = 4;
-  std::uint32_t disks[kCapacity + kMargin];
+  std::uint32_t particles[kCapacity + kMargin];
   double wraps[D][kCapacity + kMargin];  ///< box lengths to subtract from each one's; if `wrapped`
   int size = 0;
   bool wrapped = false;
 };
 
-/// Which of its candidates a disk touches first.
+/// Which of its candidates a particle touches first.
 struct FirstContact {
-  double time;      ///< kNever: none, kTouching: at least one touches already
-  int candidate;    ///< whose time this is; 0 where there is none
-  bool told_apart;  ///< false: others may share the time, or touch too, and must be asked; or see
-                    ///< first_contacts
+  double time;    ///< kNever: none, kTouching: at least one touches already
+  int candidate;  ///< whose time this is; 0 where there is none
+  bool unique;    ///< false: others may share the time, or touch too, and must be asked; or see
+                  ///< first_contacts
 };
 
 /// Vectors of four numbers, in one register or in two, as the function has it for whose instruction
@@ -80,25 +80,25 @@ using Bits = std::int64_t __attribute__((vector_size(8 * kCount)));
   return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
 }
 
-// A disk and its candidates, in groups of four.
+// A particle and its candidates, in groups of four.
 template <int D>
 struct Groups {
-  static constexpr int kMost = Candidates<D>::kCapacity / kCount;
+  static constexpr int kMax = Candidates<D>::kCapacity / kCount;
   int count = 0;
-  PairApproach<Doubles> approaches[kMost];
-  Doubles times[kMost];
+  PairApproach<Doubles> approaches[kMax];
+  Doubles times[kMax];
   Bits frames;  // all bits of rows' box lengths in the last D lanes
 };
 
-// How all candidates approach a disk, see first_contacts.
+// How all candidates approach a particle, see first_contacts.
 template <int D, bool kFalling, bool kShifted>
-[[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t disk,
+[[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t particle,
                                             Candidates<D>& candidates, const double* box,
                                             double diameter, const double* gravity,
                                             Groups<D>& groups) {
   constexpr int kColumns = (3 * D + 2 + 3) / 4 * 4;
   constexpr int kImage = 2 * D + 2;
-  const double* const own = rows + static_cast<std::size_t>(disk) * kRowLength<D>;
+  const double* const own = rows + static_cast<std::size_t>(particle) * kRowLength<D>;
   Doubles r[D], v[D];
   for (int k = 0; k < D; ++k) {
     r[k] = broadcast(own[k]);
@@ -106,11 +106,12 @@ template <int D, bool kFalling, bool kShifted>
   }
   const Doubles time = broadcast(own[2 * D]);
   groups.frames = reinterpret_cast<Bits>(load(own + kImage + D - kCount));
-  for (int i = 0; i < Candidates<D>::kMargin; ++i) candidates.disks[candidates.size + i] = disk;
+  for (int i = 0; i < Candidates<D>::kMargin; ++i)
+    candidates.particles[candidates.size + i] = particle;
   for (int i = 0; i == 0 || i < candidates.size; i += kCount) {
     const double* row[kCount];
     for (int lane = 0; lane < kCount; ++lane) {
-      row[lane] = rows + static_cast<std::size_t>(candidates.disks[i + lane]) * kRowLength<D>;
+      row[lane] = rows + static_cast<std::size_t>(candidates.particles[i + lane]) * kRowLength<D>;
     }
     Doubles columns[kColumns];
     for (int k = 0; k < kColumns; k += 4) transpose(row, k, columns + k);
@@ -144,46 +145,46 @@ template <int D, bool kShifted>
       static_cast<std::uint64_t>((shared[0] | shared[1]) | (shared[2] | shared[3]));
   const double time = earliest[0];
   const bool never = time == kNever, alone = (sharing & (sharing - 1)) == 0;
-  bool told_apart = (alone | never) & (time != kTouching);
+  bool unique = (alone | never) & (time != kTouching);
   if constexpr (!kShifted) {
     std::int64_t off = 0;
     for (int k = kCount - D; k < kCount; ++k) off |= groups.frames[k];
-    told_apart &= off == 0;
+    unique &= off == 0;
   }
-  return {time, never ? 0 : std::countr_zero(sharing), told_apart};
+  return {time, never ? 0 : std::countr_zero(sharing), unique};
 }
 
 }  // namespace lanes
 
-/// For each of some disks, given by their rows, the first encounter_time with its candidates. The
-/// disk itself may be among these: it never meets itself. `rows` holds all disks, `box` are its D
-/// edge lengths; `gravity` is not read unless disks are falling. The same bits with any instruction
-/// set.
+/// For each of some particles, given by their rows, the first pair_contact_time with its
+/// candidates. The particle itself may be among these: it never meets itself. `rows` holds all
+/// particles, `box` are its D edge lengths; `gravity` is not read unless particles are falling. The
+/// same bits with any instruction set.
 ///
 /// Without kShifted, no candidate may be wrapped, and all rows are taken to lie in the frame of the
 /// box: where one does not, nobody is told apart, and the rest of the answer means nothing.
-template <int D, bool kFalling, bool kShifted, std::size_t kDisks>
-[[gnu::always_inline]] inline std::array<FirstContact, kDisks> first_contacts(
-    const double* rows, const std::array<std::uint32_t, kDisks>& disks,
-    std::array<Candidates<D>, kDisks>& candidates, const double* box, double diameter,
+template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
+[[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
+    const double* rows, const std::array<std::uint32_t, kParticles>& particles,
+    std::array<Candidates<D>, kParticles>& candidates, const double* box, double diameter,
     const double* gravity) {
   using namespace lanes;
-  Groups<D> groups[kDisks];
-  for (std::size_t k = 0; k < kDisks; ++k) {
-    approach<D, kFalling, kShifted>(rows, disks[k], candidates[k], box, diameter, gravity,
+  Groups<D> groups[kParticles];
+  for (std::size_t k = 0; k < kParticles; ++k) {
+    approach<D, kFalling, kShifted>(rows, particles[k], candidates[k], box, diameter, gravity,
                                     groups[k]);
   }
   // Apart from the above, so that the roots and quotients of all groups are under way at once.
-  Doubles earliest[kDisks];
-  for (std::size_t k = 0; k < kDisks; ++k) {
+  Doubles earliest[kParticles];
+  for (std::size_t k = 0; k < kParticles; ++k) {
     earliest[k] = broadcast(kNever);
     for (int group = 0; group < groups[k].count; ++group) {
-      groups[k].times[group] = encounter_time(groups[k].approaches[group]);
+      groups[k].times[group] = pair_contact_time(groups[k].approaches[group]);
       earliest[k] = lesser(groups[k].times[group], earliest[k]);
     }
   }
-  std::array<FirstContact, kDisks> first;
-  for (std::size_t k = 0; k < kDisks; ++k) {
+  std::array<FirstContact, kParticles> first;
+  for (std::size_t k = 0; k < kParticles; ++k) {
     first[k] = first_of<D, kShifted>(groups[k], least(earliest[k]));
   }
   return first;

@@ -34,7 +34,7 @@ struct WayOut {
 ///
 /// As fall_time(), but without branches, for neither the speed's sign nor the plane can be
 /// foreseen.
-inline WayOut way_out(double above, double below, double speed, double acceleration) {
+inline WayOut exit_time(double above, double below, double speed, double acceleration) {
   const bool upwards = acceleration > 0.0;
   const double a = std::fabs(acceleration);
   const double falling = upwards ? speed : -speed;

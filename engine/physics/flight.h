@@ -6,14 +6,15 @@
 
 namespace clatter {
 
-/// Free flight of a disk: a parabola through `r` at `time`, under the gravity that all disks share.
+/// Free flight of a particle: a parabola through `r` at `time`, under the gravity that all
+/// particles share.
 template <int D>
 struct Flight {
   Vec<D> r = Vec<D>::Zero();  ///< centre at `time`; may lie whole box lengths outside the box
   Vec<D> v = Vec<D>::Zero();  ///< velocity at `time`
   double time = 0.0;          ///< on the simulation's moving base
-  std::uint32_t number = 0;   ///< physical events that the disk had before; predictions made for an
-                              ///< earlier flight are stale
+  std::uint32_t number = 0;  ///< physical events that the particle had before; predictions made for
+                             ///< an earlier flight are stale
 
   /// The centre at a later time.
   Vec<D> at(double later, const Vec<D>& gravity) const {

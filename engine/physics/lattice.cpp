@@ -43,7 +43,7 @@ double least_distance(const Room& room, const Grid& grid) {
 
 /// The distance that sites must keep so that their rounded coordinates do not overlap: a coordinate
 /// is off by at most 2 epsilon of the box, and the minimal image of a difference by another one.
-/// So a lattice whose disks would touch exactly does not count as fitting.
+/// So a lattice whose particles would touch exactly does not count as fitting.
 double reach(const Room& room) {
   return room.diameter + 16.0 * std::numeric_limits<double>::epsilon() * room.box.maxCoeff();
 }
@@ -65,8 +65,8 @@ std::int64_t multiple(const Room& room, int axis, bool chess) {
 
 /// A multiple that no grid exceeds whose points along the axis keep this spacing.
 std::int64_t bound_on_points(const Room& room, int axis, bool chess, double spacing) {
-  constexpr double kMost = 1LL << 32;  // more than any count of disks
-  const auto points = static_cast<std::int64_t>(std::min(span(room, axis) / spacing, kMost)) + 2;
+  constexpr double kMax = 1LL << 32;  // more than any count of particles
+  const auto points = static_cast<std::int64_t>(std::min(span(room, axis) / spacing, kMax)) + 2;
   return points - points % multiple(room, axis, chess);
 }
 
@@ -120,15 +120,15 @@ std::int64_t most_sites(const Room& room, bool chess, std::int64_t n) {
 }
 
 int capacity(const Room& room, bool chess) {
-  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  constexpr std::int64_t kMax = std::numeric_limits<int>::max();
   const int along = short_axis(room);
   const std::int64_t last = bound_along(room, chess);
   const std::int64_t first = multiple(room, along, chess);
   std::int64_t most = 0;
-  for (std::int64_t n = first; n <= last && most < kMost; n += first) {
+  for (std::int64_t n = first; n <= last && most < kMax; n += first) {
     most = std::max(most, most_sites(room, chess, n));
   }
-  return static_cast<int>(std::min(most, kMost));
+  return static_cast<int>(std::min(most, kMax));
 }
 
 /// Coordinate of the i-th of n points along an axis.

@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-/// The room for disk centres along x and y: a walled side keeps centres half a diameter off each
-/// wall, a periodic one wraps.
+/// The room for particle centres along x and y: a walled side keeps centres half a diameter off
+/// each wall, a periodic one wraps.
 struct Room {
   Vec2 box = {0.0, 0.0};                        ///< Lx, Ly in the unit of the diameter
   std::array<bool, 2> periodic = {true, true};  ///< along x, y

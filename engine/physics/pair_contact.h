@@ -8,7 +8,7 @@
 namespace clatter {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Stands for the contact time of disks that touch already; what they do depends on rounding.
+/// Stands for the contact time of particles that touch already; what they do depends on rounding.
 inline constexpr double kTouching = -std::numeric_limits<double>::infinity();
 
 /// The square root of a number, or of each of a vector's.
@@ -34,8 +34,8 @@ template <int D, class Number>
   return sum;
 }
 
-/// How two disks approach each other: what their contact time follows from, see encounter_time.
-/// Number is double, or a vector of doubles for as many pairs.
+/// How two particles approach each other: what their contact time follows from, see
+/// pair_contact_time. Number is double, or a vector of doubles for as many pairs.
 template <class Number>
 struct PairApproach {
   Number start;         ///< of the later flight
@@ -46,8 +46,8 @@ struct PairApproach {
 
 /// The approach of two flights. A null `shift` is none. Without kFalling, `gravity` is not read.
 ///
-/// Disks share the acceleration of gravity, so seen from each other they move on straight lines; it
-/// enters only where they are at the later flight's start.
+/// Particles share the acceleration of gravity, so seen from each other they move on straight
+/// lines; it enters only where they are at the later flight's start.
 template <int D, bool kFalling, class Number>
 [[gnu::always_inline]] inline PairApproach<Number> approach_of(const Number* r_a, const Number* v_a,
                                                                const Number& time_a,
@@ -81,13 +81,13 @@ template <int D, bool kFalling, class Number>
           dot<D>(g, g) * (diameter * diameter) - wedge_squared};
 }
 
-/// Time at which the disks of two flights touch, kNever, or kTouching. Exchanging the flights and
-/// negating the shift gives the same bits, so it does not matter who asks or when.
+/// Time at which the particles of two flights touch, kNever, or kTouching. Exchanging the flights
+/// and negating the shift gives the same bits, so it does not matter who asks or when.
 ///
 /// Contact is the first root of |x + g t| = a. Its discriminant is taken as g^2 a^2 - |x ^ g|^2,
-/// which unlike (x.g)^2 - g^2 (x^2 - a^2) loses nothing when the disks start far apart.
+/// which unlike (x.g)^2 - g^2 (x^2 - a^2) loses nothing when the particles start far apart.
 template <class Number>
-[[gnu::always_inline]] inline Number encounter_time(const PairApproach<Number>& a) {
+[[gnu::always_inline]] inline Number pair_contact_time(const PairApproach<Number>& a) {
   const Number zero{};
   const Number root = root_of<Number>(a.discriminant > zero ? a.discriminant : zero);
   const Number time = a.gap > zero ? a.start + a.gap / (root - a.rate) : zero + kTouching;
@@ -95,14 +95,14 @@ template <class Number>
   return a.rate < zero ? met : zero + kNever;
 }
 
-/// encounter_time of the approach_of two flights.
+/// pair_contact_time of the approach_of two flights.
 template <int D, bool kFalling, class Number>
-[[gnu::always_inline]] inline Number encounter_time(const Number* r_a, const Number* v_a,
-                                                    const Number& time_a, const Number* r_b,
-                                                    const Number* v_b, const Number& time_b,
-                                                    const Number* shift, double diameter,
-                                                    const double* gravity) {
-  return encounter_time(
+[[gnu::always_inline]] inline Number pair_contact_time(const Number* r_a, const Number* v_a,
+                                                       const Number& time_a, const Number* r_b,
+                                                       const Number* v_b, const Number& time_b,
+                                                       const Number* shift, double diameter,
+                                                       const double* gravity) {
+  return pair_contact_time(
       approach_of<D, kFalling>(r_a, v_a, time_a, r_b, v_b, time_b, shift, diameter, gravity));
 }
 

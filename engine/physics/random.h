@@ -13,11 +13,11 @@ enum class Stream : std::uint32_t { Placement, Velocity, ThermalWall, Kick, Star
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
-/// The random numbers that belong to one thing (say the n-th wall hit of a disk): the same whatever
-/// was drawn for others before, so that results do not depend on the order of the work.
+/// The random numbers that belong to one thing (say the n-th wall hit of a particle): the same
+/// whatever was drawn for others before, so that results do not depend on the order of the work.
 class Random {
  public:
-  /// Numbers number `item` of `owner` (a disk) in a stream of the run with this seed.
+  /// Numbers number `item` of `owner` (a particle) in a stream of the run with this seed.
   Random(std::uint64_t seed, Stream stream, std::uint32_t owner, std::uint32_t item);
 
   /// Uniform in the open interval (0,1), 52 bits.

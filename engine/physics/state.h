@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-/// Positions, velocities and spins of all disks at one time, in original order.
+/// Positions, velocities and spins of all particles at one time, in original order.
 template <int D>
 struct State {
   std::vector<Vec<D>> positions;    ///< [N] centres inside the box
@@ -16,8 +16,8 @@ struct State {
   std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
 };
 
-/// Most disks that there can be.
-inline constexpr std::uint32_t kMostDisks = (1u << 28) - 1;
+/// Most particles that there can be.
+inline constexpr std::uint32_t kMaxParticles = (1u << 28) - 1;
 
 /// Overlaps up to this, in diameters, are the rounding of a start state's positions: runs begin
 /// with them.

@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-/// T = (m/2N) sum v^2 of a state; 0 where there are no disks.
+/// T = (m/2N) sum v^2 of a state; 0 where there are no particles.
 double temperature_of(const State<2>& state);
 
 }  // namespace clatter

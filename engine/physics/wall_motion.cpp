@@ -26,19 +26,19 @@ double peak_acceleration(const WallMotion& motion) {
   return 0.5 * motion.stroke * angular_frequency * angular_frequency;
 }
 
-// A disk that nears a wall, both as functions of the time t since the start. "Crests" are the times
-// at which the wall is innermost; the saw-tooth's are the ends of its ramps.
+// A particle that nears a wall, both as functions of the time t since the start. "Crests" are the
+// times at which the wall is innermost; the saw-tooth's are the ends of its ramps.
 struct Approach {
   WallMotion motion;    // with the phase at t = 0
-  double gap;           // between disk and wall at t = 0, >= 0
-  double height;        // of the disk above the wall's resting place at t = 0
-  double speed;         // of the disk at t = 0, inwards
-  double acceleration;  // of the disk, inwards
+  double gap;           // between particle and wall at t = 0, >= 0
+  double height;        // of the particle above the wall's resting place at t = 0
+  double speed;         // of the particle at t = 0, inwards
+  double acceleration;  // of the particle, inwards
 
   double velocity(double t) const { return speed + acceleration * t; }
   double rise(double t) const { return speed * t + 0.5 * acceleration * t * t; }
 
-  // When the disk falls to a plane; 0 if it is beyond already.
+  // When the particle falls to a plane; 0 if it is beyond already.
   double time_to(double plane) const {
     return height < plane ? 0.0 : fall_time(height - plane, speed, acceleration);
   }
@@ -49,23 +49,23 @@ struct Approach {
 
 // The gap to the saw-tooth's ramp `number`, 0 being the one at t = 0: they are one line, set back
 // by a stroke each time.
-double gap_to_ramp(const Approach& disk, double number, double t) {
-  const double ramp_rise = disk.motion.stroke * disk.motion.frequency * t;
-  return disk.gap + (disk.rise(t) - (ramp_rise - number * disk.motion.stroke));
+double gap_to_ramp(const Approach& particle, double number, double t) {
+  const double ramp_rise = particle.motion.stroke * particle.motion.frequency * t;
+  return particle.gap + (particle.rise(t) - (ramp_rise - number * particle.motion.stroke));
 }
 
 // The gap to the sinusoidal wall, from sin(x + 2y) - sin(x) = 2 cos(x + y) sin(y).
-double gap_to_wave(const Approach& disk, double t) {
-  const double half = fraction(0.5 * disk.motion.frequency * t);
-  const double wave_rise = disk.motion.stroke *
-                           std::cos(kTwoPi * fraction(disk.motion.phase + half)) *
+double gap_to_wave(const Approach& particle, double t) {
+  const double half = fraction(0.5 * particle.motion.frequency * t);
+  const double wave_rise = particle.motion.stroke *
+                           std::cos(kTwoPi * fraction(particle.motion.phase + half)) *
                            std::sin(kTwoPi * half);
-  return disk.gap + (disk.rise(t) - wave_rise);
+  return particle.gap + (particle.rise(t) - wave_rise);
 }
 
-double gap_rate(const Approach& disk, double t) {
-  return disk.velocity(t) -
-         wall_velocity(disk.motion, disk.motion.phase + disk.motion.frequency * t);
+double gap_rate(const Approach& particle, double t) {
+  return particle.velocity(t) -
+         wall_velocity(particle.motion, particle.motion.phase + particle.motion.frequency * t);
 }
 
 // Newton's method on a convex or concave gap never oversteps a root that it nears from the side
@@ -73,15 +73,15 @@ double gap_rate(const Approach& disk, double t) {
 // gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one),
 // even where the wall is grazed. Both searches end where the gap has changed its sign or the step
 // is lost in rounding; after so many steps nothing else is left.
-constexpr int kMostSteps = 200;
+constexpr int kMaxSteps = 200;
 
 // The first root of a gap that is convex and not negative at `left`: approached from there.
-double convex_contact(const Approach& disk, double left, double right) {
+double convex_contact(const Approach& particle, double left, double right) {
   double t = left;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const double rate = gap_rate(disk, t);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const double rate = gap_rate(particle, t);
     if (rate >= 0.0) return kNever;
-    const double gap = gap_to_wave(disk, t);
+    const double gap = gap_to_wave(particle, t);
     const double next = t - gap / rate;
     if (!(next > t)) return t;
     if (next > right) return kNever;
@@ -92,16 +92,16 @@ double convex_contact(const Approach& disk, double left, double right) {
 
 // The root of a gap that is concave and not negative at `left`: there is one if the gap is negative
 // at `right`, and it is approached from there.
-double concave_contact(const Approach& disk, double left, double right) {
+double concave_contact(const Approach& particle, double left, double right) {
   double t = right;
-  double gap = gap_to_wave(disk, t);
+  double gap = gap_to_wave(particle, t);
   if (gap >= 0.0) return kNever;
-  for (int step = 0; gap < 0.0 && step < kMostSteps; ++step) {
-    const double next = t - gap / gap_rate(disk, t);
+  for (int step = 0; gap < 0.0 && step < kMaxSteps; ++step) {
+    const double next = t - gap / gap_rate(particle, t);
     if (!(next < t)) return t;
     if (next <= left) return left;
     t = next;
-    gap = gap_to_wave(disk, t);
+    gap = gap_to_wave(particle, t);
   }
   return t;
 }
@@ -109,17 +109,18 @@ double concave_contact(const Approach& disk, double left, double right) {
 // The first contact with the sinusoidal wall between t and the next crest. The gap's curvature,
 // acceleration + peak_acceleration sin(2 pi phase), is positive about the crests and negative
 // between them (or has one sign always), so that there are three pieces at most.
-double contact_with_wave(const Approach& disk, double t, double crest) {
-  const double lowest = disk.time_to(-1.5 * disk.motion.stroke);  // It is hit before that.
-  const double cosine = std::clamp(-disk.acceleration / peak_acceleration(disk.motion), -1.0, 1.0);
-  const double period = 1.0 / disk.motion.frequency;
+double contact_with_wave(const Approach& particle, double t, double crest) {
+  const double lowest = particle.time_to(-1.5 * particle.motion.stroke);  // It is hit before that.
+  const double cosine =
+      std::clamp(-particle.acceleration / peak_acceleration(particle.motion), -1.0, 1.0);
+  const double period = 1.0 / particle.motion.frequency;
   const double convex_time = std::acos(cosine) / kTwoPi * period;
   bool convex = true;
   for (const double end : {crest - (period - convex_time), crest - convex_time, crest}) {
     const double right = std::min(end, lowest);
     if (right > t) {
       const double contact =
-          convex ? convex_contact(disk, t, right) : concave_contact(disk, t, right);
+          convex ? convex_contact(particle, t, right) : concave_contact(particle, t, right);
       if (contact < kNever) return contact;
       t = right;
     }
@@ -129,32 +130,33 @@ double contact_with_wave(const Approach& disk, double t, double crest) {
 }
 
 // The contact with the saw-tooth's ramp, or the line that prolongs it: a parabola has one at most.
-double contact_with_ramp(const Approach& disk, double number) {
-  return fall_time(disk.gap + number * disk.motion.stroke, gap_rate(disk, 0.0), disk.acceleration);
+double contact_with_ramp(const Approach& particle, double number) {
+  return fall_time(particle.gap + number * particle.motion.stroke, gap_rate(particle, 0.0),
+                   particle.acceleration);
 }
 
-// The search begins when the disk gets near the places where the wall goes, and proceeds from crest
-// to crest. A disk that a crest finds behind the wall has been hit; one that it leaves in front can
-// be hit only after it has fallen to the crest's height, and the search goes on there. If it stays
-// below for a period it is hit, and a parabola comes down to a height twice at most, so there are
-// few crests to look at.
+// The search begins when the particle gets near the places where the wall goes, and proceeds from
+// crest to crest. A particle that a crest finds behind the wall has been hit; one that it leaves in
+// front can be hit only after it has fallen to the crest's height, and the search goes on there. If
+// it stays below for a period it is hit, and a parabola comes down to a height twice at most, so
+// there are few crests to look at.
 //
 // Near means a stroke away from the wall's extreme places: the rounding of the height at the start
-// must not decide about disks that touch the wall there.
-double contact_with_moving(const Approach& disk) {
-  const WallMotion& motion = disk.motion;
+// must not decide about particles that touch the wall there.
+double contact_with_moving(const Approach& particle) {
+  const WallMotion& motion = particle.motion;
   const bool ramps = motion.path == WallPath::Sawtooth;
   // Periods from t = 0 to the first crest, in (0,1].
   const double lead = 1.0 - (ramps ? motion.phase : fraction(motion.phase - 0.25));
-  double t = disk.time_to(innermost_travel(motion) + motion.stroke);
+  double t = particle.time_to(innermost_travel(motion) + motion.stroke);
   for (double number = 0.0; t < kNever; ++number) {
     number = std::max(number, std::ceil(motion.frequency * t - lead));
     const double crest = (number + lead) / motion.frequency;
     const double contact =
-        ramps ? contact_with_ramp(disk, number) : contact_with_wave(disk, t, crest);
+        ramps ? contact_with_ramp(particle, number) : contact_with_wave(particle, t, crest);
     if (contact < crest) return contact;
-    const double gap = ramps ? gap_to_ramp(disk, number, crest) : gap_to_wave(disk, crest);
-    t = crest + fall_time(gap, disk.velocity(crest), disk.acceleration);
+    const double gap = ramps ? gap_to_ramp(particle, number, crest) : gap_to_wave(particle, crest);
+    t = crest + fall_time(gap, particle.velocity(crest), particle.acceleration);
     if (t == crest) return crest;
   }
   return kNever;
@@ -187,12 +189,12 @@ double moving_wall_contact(const WallMotion& motion, double start, double distan
     distance = wall.displacement;
     speed = std::max(speed, wall.velocity);
   }
-  Approach disk{motion, distance - wall.displacement, distance, speed, acceleration};
-  disk.motion.phase = fraction(motion.frequency * start + motion.phase);
+  Approach particle{motion, distance - wall.displacement, distance, speed, acceleration};
+  particle.motion.phase = fraction(motion.frequency * start + motion.phase);
   const bool at_rest = motion.stroke * motion.frequency == 0.0;
-  const double contact =
-      start + (at_rest ? fall_time(disk.gap, speed, acceleration) : contact_with_moving(disk));
-  // A disk that recedes approaches only later, be it by the least time that there is.
+  const double contact = start + (at_rest ? fall_time(particle.gap, speed, acceleration)
+                                          : contact_with_moving(particle));
+  // A particle that recedes approaches only later, be it by the least time that there is.
   return touching && contact == start ? std::nextafter(start, kNever) : contact;
 }
 

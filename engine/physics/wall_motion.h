@@ -32,13 +32,14 @@ WallState wall_state(const WallMotion& motion, double time);
 /// The largest displacement of the wall: how far it reaches into the box.
 double innermost_travel(const WallMotion& motion);
 
-/// First time >= `start` at which a disk meets the moving wall, or kNever. Its touching point lies
-/// distance + speed t + acceleration t^2/2 inwards of the wall's resting place, t = time - start.
+/// First time >= `start` at which a particle meets the moving wall, or kNever. Its touching point
+/// lies distance + speed t + acceleration t^2/2 inwards of the wall's resting place, t = time -
+/// start.
 ///
-/// A disk that touches the wall at `start` (or lies behind it by rounding) hits it at once if it
-/// approaches faster than the rounding of the speeds, or if it neither approaches nor recedes and
-/// the accelerations press the two together; otherwise its next contact is sought, which is later
-/// than `start`. The saw-tooth's jump back meets nothing.
+/// A particle that touches the wall at `start` (or lies behind it by rounding) hits it at once if
+/// it approaches faster than the rounding of the speeds, or if it neither approaches nor recedes
+/// and the accelerations press the two together; otherwise its next contact is sought, which is
+/// later than `start`. The saw-tooth's jump back meets nothing.
 double moving_wall_contact(const WallMotion& motion, double start, double distance, double speed,
                            double acceleration);
 

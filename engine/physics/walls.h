@@ -17,18 +17,18 @@ Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double dri
 }
 
 /// Velocity after a wall that moves, section 3: v_n' = -alpha_w v_n + (1 + alpha_w) u, the
-/// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A disk
-/// that the wall catches up with (0 < v_n < u) is hit from behind.
+/// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A
+/// particle that the wall catches up with (0 < v_n < u) is hit from behind.
 template <int D>
 Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, double wall_velocity) {
   v[axis] = inward * (1.0 + restitution) * wall_velocity - restitution * v[axis];
   return v;
 }
 
-/// What friction at a wall adds to a disk's momentum and spin, section 3: the momentum -2 eta_w g_t
-/// and the spin (4 eta_w/(q a)) n x g_t, with g_t of the velocity and spin before. `after` is the
-/// velocity that the smooth wall leaves: Coulomb's bound holds for the true normal impulse |v_n' -
-/// v_n| of every kind of wall.
+/// What friction at a wall adds to a particle's momentum and spin, section 3: the momentum -2 eta_w
+/// g_t and the spin (4 eta_w/(q a)) n x g_t, with g_t of the velocity and spin before. `after` is
+/// the velocity that the smooth wall leaves: Coulomb's bound holds for the true normal impulse
+/// |v_n' - v_n| of every kind of wall.
 template <int D>
 Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin, int axis,
                          double inward, const ContactLaw& law, double inertia, double diameter) {

@@ -7,24 +7,24 @@
 
 namespace clatter {
 
-/// A collision of a disk, with another or with a wall.
-struct Encounter {
+/// A collision of a particle, with another or with a wall.
+struct ParticleCollision {
   double time = 0.0;                     ///< simulation time
-  std::optional<std::uint32_t> partner;  ///< the other disk; absent: a wall
+  std::optional<std::uint32_t> partner;  ///< the other particle; absent: a wall
   int side = 0;                          ///< the Side, of a wall
 };
 
-/// Keeps the last collision of one disk.
-class EncounterWatch : public Observer<2> {
+/// Keeps the last collision of one particle.
+class CollisionWatch : public Observer<2> {
  public:
   /// Of a simulation, which outlives it; it still is to be made an observer of that. Absent: of no
-  /// disk.
-  EncounterWatch(const Simulation<2>& simulation, std::optional<std::uint32_t> disk)
-      : simulation_(simulation), disk_(disk) {}
+  /// particle.
+  CollisionWatch(const Simulation<2>& simulation, std::optional<std::uint32_t> particle)
+      : simulation_(simulation), particle_(particle) {}
 
-  /// Of another disk from now on.
-  void watch(std::optional<std::uint32_t> disk) {
-    disk_ = disk;
+  /// Of another particle from now on.
+  void watch(std::optional<std::uint32_t> particle) {
+    particle_ = particle;
     last_.reset();
   }
 
@@ -32,31 +32,31 @@ class EncounterWatch : public Observer<2> {
   void on_wall(const WallCollision<2>& collision) override;
 
   /// Absent: none so far.
-  const std::optional<Encounter>& last() const { return last_; }
+  const std::optional<ParticleCollision>& last() const { return last_; }
 
  private:
   const Simulation<2>& simulation_;
-  std::optional<std::uint32_t> disk_;
-  std::optional<Encounter> last_;
+  std::optional<std::uint32_t> particle_;
+  std::optional<ParticleCollision> last_;
 };
 
-/// A copy of a run that goes ahead of it, under the laws in force, to see what a disk meets next.
-/// Where both go on it has as much work as the run itself.
-class Scout {
+/// A copy of a run that goes ahead of it, under the laws in force, to see what a particle meets
+/// next. Where both go on it has as much work as the run itself.
+class CollisionLookahead {
  public:
   /// Sets out from where the simulation is.
-  Scout(const Simulation<2>& simulation, std::uint32_t disk);
-  Scout(const Scout&) = delete;
-  Scout& operator=(const Scout&) = delete;
+  CollisionLookahead(const Simulation<2>& simulation, std::uint32_t particle);
+  CollisionLookahead(const CollisionLookahead&) = delete;
+  CollisionLookahead& operator=(const CollisionLookahead&) = delete;
 
-  /// The disk's first collision after a time, no earlier than the last that was asked for; absent
-  /// where it is not within so many steps more, or where there is none.
-  const std::optional<Encounter>& next_after(double time, std::uint64_t most_steps);
+  /// The particle's first collision after a time, no earlier than the last that was asked for;
+  /// absent where it is not within so many steps more, or where there is none.
+  const std::optional<ParticleCollision>& next_after(double time, std::uint64_t most_steps);
 
  private:
   Simulation<2> ahead_;
-  std::uint32_t disk_;
-  EncounterWatch watch_;
+  std::uint32_t particle_;
+  CollisionWatch watch_;
   bool ended_ = false;  // time stands still before another
 };
 

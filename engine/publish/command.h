@@ -25,7 +25,7 @@ struct Play {
 struct Step {
   double duration = 0.0;
 };
-/// Goes on to the next collision of disks and halts there.
+/// Goes on to the next collision of particles and halts there.
 struct StepCollision {};
 /// Simulation time per second of real time, > 0.
 struct SetSpeed {
@@ -43,18 +43,18 @@ struct Show {
 struct ShowProfile {
   Profiled what = Profiled::Fields;
 };
-/// Frames tell the collisions of this disk from now on; absent: of none.
+/// Frames tell the collisions of this particle from now on; absent: of none.
 struct Pick {
-  std::optional<std::uint32_t> disk;
+  std::optional<std::uint32_t> particle;
 };
 /// Starts a scene, and plays it or halts there: from its beginning, or from as much of the gas
-/// that there is as fits, see refitted().
+/// that there is as fits, see adapt_to_scene().
 struct Open {
   Scene scene;
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
-  Vec2 shift = {0.0, 0.0};  ///< of the disks that are kept
+  Vec2 shift = {0.0, 0.0};  ///< of the particles that are kept
 };
 
 }  // namespace command

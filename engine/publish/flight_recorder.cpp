@@ -16,25 +16,26 @@ FlightRecorder::FlightRecorder(Simulation<2>& simulation, double span, FlightRec
       span_(span),
       since_(std::max(before.since_, simulation.base_time() - before.span_)),
       ended_(std::move(before.ended_)) {
-  const auto& flights_before = before.simulation_.disks();
-  for (std::uint32_t i = 0; i < simulation.disks().size(); ++i) {
+  const auto& flights_before = before.simulation_.particles();
+  for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
     const Flight<2>& flight = flights_before[i].flight;
-    if (flight.time == simulation.disks()[i].flight.time) continue;
+    if (flight.time == simulation.particles()[i].flight.time) continue;
     ended_.push_back({i, flight, simulation.base_time(), before.simulation_.model().gravity});
   }
   simulation.add_observer(*this);
 }
 
 void FlightRecorder::on_collision(const PairCollision<2>& collision) {
-  for (const DiskChange<2>& disk : collision.disks) end_flight(disk, collision.time);
+  for (const ParticleChange<2>& particle : collision.particles)
+    end_flight(particle, collision.time);
 }
 
 void FlightRecorder::on_wall(const WallCollision<2>& collision) {
-  end_flight(collision.disk, collision.time);
+  end_flight(collision.particle, collision.time);
 }
 
 void FlightRecorder::on_kick(const Kick<2>& kick) {
-  end_flight(kick.disk, kick.time);
+  end_flight(kick.particle, kick.time);
 }
 
 void FlightRecorder::on_base_moved(double shift) {
@@ -52,8 +53,8 @@ double FlightRecorder::reach() const {
 std::vector<FlightPiece> FlightRecorder::pieces() const {
   std::vector<FlightPiece> pieces;
   for (const Ended& flight : ended_) add_piece(pieces, flight);
-  for (std::uint32_t i = 0; i < simulation_.disks().size(); ++i) {
-    add_piece(pieces, {i, simulation_.disks()[i].flight, simulation_.base_time(),
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    add_piece(pieces, {i, simulation_.particles()[i].flight, simulation_.base_time(),
                        simulation_.model().gravity});
   }
   return pieces;
@@ -64,23 +65,23 @@ void FlightRecorder::add_piece(std::vector<FlightPiece>& pieces, const Ended& en
   const double from = std::max(ended.flight.time, now - reach());
   if (!(from < ended.end)) return;
   const Vec2 r = ended.flight.at(from, ended.gravity);
-  const Vec2 boxes = simulation_.model().boxes_off(r);
-  pieces.push_back({ended.disk, from - now, ended.end - now,
+  const Vec2 boxes = simulation_.model().image_index(r);
+  pieces.push_back({ended.particle, from - now, ended.end - now,
                     r - boxes.cwiseProduct(simulation_.model().box),
                     ended.flight.velocity_at(from, ended.gravity), ended.gravity});
 }
 
-void FlightRecorder::end_flight(const DiskChange<2>& change, double time) {
+void FlightRecorder::end_flight(const ParticleChange<2>& change, double time) {
   if (ended_.size() >= forget_at_) forget();
-  ended_.push_back({change.disk, change.before, time, simulation_.model().gravity});
+  ended_.push_back({change.particle, change.before, time, simulation_.model().gravity});
 }
 
 // Now and then only, so that each flight costs little.
 void FlightRecorder::forget() {
-  constexpr std::size_t kLeast = 1024;
+  constexpr std::size_t kMin = 1024;
   const double oldest = simulation_.base_time() - span_;
   std::erase_if(ended_, [&](const Ended& flight) { return flight.end < oldest; });
-  forget_at_ = 2 * ended_.size() + kLeast;
+  forget_at_ = 2 * ended_.size() + kMin;
 }
 
 }  // namespace clatter

@@ -8,13 +8,13 @@
 
 namespace clatter {
 
-/// Keeps the disks' flights of the last while, for pictures that show more than an instant.
+/// Keeps the particles' flights of the last while, for pictures that show more than an instant.
 class FlightRecorder : public Observer<2> {
  public:
   /// Watches a simulation from now on; its flights of a time `span` > 0 are kept.
   FlightRecorder(Simulation<2>& simulation, double span);
-  /// Goes on with what that of the simulation before has kept: this one has its disks at its time,
-  /// maybe under other laws.
+  /// Goes on with what that of the simulation before has kept: this one has its particles at its
+  /// time, maybe under other laws.
   FlightRecorder(Simulation<2>& simulation, double span, FlightRecorder&& before);
 
   void on_collision(const PairCollision<2>& collision) override;
@@ -24,7 +24,7 @@ class FlightRecorder : public Observer<2> {
 
   /// For how long it has watched, at most its span.
   double reach() const;
-  /// The flights of the last reach(): first those that have ended, then each disk's own.
+  /// The flights of the last reach(): first those that have ended, then each particle's own.
   std::vector<FlightPiece> pieces() const;
 
   /// What a checkpoint keeps, of a simulation that goes on at the same time.
@@ -35,18 +35,18 @@ class FlightRecorder : public Observer<2> {
 
  private:
   struct Ended {
-    std::uint32_t disk = 0;
+    std::uint32_t particle = 0;
     Flight<2> flight;
     double end = 0.0;  // on the moving base
     Vec2 gravity = Vec2::Zero();
 
     template <class Archive>
     void visit(Archive& io) {
-      io(disk, flight, end, gravity);
+      io(particle, flight, end, gravity);
     }
   };
 
-  void end_flight(const DiskChange<2>& change, double time);
+  void end_flight(const ParticleChange<2>& change, double time);
   void forget();
   void add_piece(std::vector<FlightPiece>& pieces, const Ended& flight) const;
 

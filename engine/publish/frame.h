@@ -21,7 +21,7 @@ struct Tally {
   double walls_in = 0.0;                     ///< energy that the walls gave
   double bulk_in = 0.0;                      ///< energy that kicks gave
   double gravity_in = 0.0;                   ///< work of gravity
-  double dissipated = 0.0;                   ///< energy lost between disks, > 0
+  double dissipated = 0.0;                   ///< energy lost between particles, > 0
   double undissipated = 0.0;                 ///< what they would have lost more without t_c
   std::uint64_t collisions = 0;              ///< disk-disk
   std::uint64_t elasticised = 0;             ///< of these, by t_c
@@ -29,7 +29,7 @@ struct Tally {
 
 /// The error that t_c makes: what it took away, over what happened.
 struct ContactTimeError {
-  double undissipated = 0.0;  ///< share of the energy that collisions of disks dissipated
+  double undissipated = 0.0;  ///< share of the energy that collisions of particles dissipated
   double elasticised = 0.0;   ///< share of these collisions
 };
 
@@ -44,9 +44,9 @@ struct Frame {
       started;                     ///< as the run was started; a start state may be in no file
   std::optional<Profile> profile;  ///< since it was asked for, or laws, averages or trails changed;
                                    ///< absent: not asked for
-  std::optional<ResidualProfile> residuals;  ///< likewise
-  std::optional<Encounter> last_encounter;   ///< of the picked disk, since it was picked
-  std::optional<Encounter> next_encounter;   ///< likewise, as far as it has been looked for
+  std::optional<ResidualProfile> residuals;         ///< likewise
+  std::optional<ParticleCollision> last_collision;  ///< of the picked particle, since it was picked
+  std::optional<ParticleCollision> next_collision;  ///< likewise, as far as it has been looked for
   std::uint64_t seed = 1;
   bool plays = false;
   double speed = 1.0;              ///< asked for, simulation time per second

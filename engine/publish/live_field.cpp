@@ -12,11 +12,11 @@
 namespace clatter {
 
 static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
-  constexpr double kMostCells = 512.0;
+  constexpr double kMaxCells = 512.0;
   IntVec<2> cells;
   for (int axis = 0; axis < 2; ++axis) {
     cells[axis] =
-        static_cast<int>(std::clamp(std::round(model.box[axis] / model.diameter), 1.0, kMostCells));
+        static_cast<int>(std::clamp(std::round(model.box[axis] / model.diameter), 1.0, kMaxCells));
   }
   return cells;
 }
@@ -165,9 +165,9 @@ static CellSums sum_of(const CellSums& sums, const IntVec<2>& cells, const IntVe
 // over cells: an arrow is the field of its block as if that were one cell.
 static ArrowMap arrow_map(Arrows arrows, const CellSums& sums, const FieldGrid<2>& grid,
                           const MomentLayout<2>& layout) {
-  constexpr int kMostArrows = 20;  // along an axis
+  constexpr int kMaxArrows = 20;  // along an axis
   const IntVec<2>& cells = grid.cells();
-  const int side = (cells.maxCoeff() + kMostArrows - 1) / kMostArrows;
+  const int side = (cells.maxCoeff() + kMaxArrows - 1) / kMaxArrows;
   const auto components = components_of(arrows);
   ArrowMap map{arrows, side * grid.widths(), {}};
   if (!(sums.time > 0.0)) return map;

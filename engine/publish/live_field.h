@@ -19,8 +19,8 @@ class LiveField {
   /// one, on cells of about one diameter (at most 512 along an axis); the window reaches back by
   /// view.window, or by up to an eighth more.
   LiveField(Simulation<2>& simulation, const View& view);
-  /// Goes on where that of the simulation before ended: this one has its disks at its time, under
-  /// other laws.
+  /// Goes on where that of the simulation before ended: this one has its particles at its time,
+  /// under other laws.
   LiveField(Simulation<2>& simulation, const View& view, LiveField&& before);
   /// Goes on where one that was saved ended: the simulation is at that time, under those laws.
   /// Throws UserError where the view is another one.

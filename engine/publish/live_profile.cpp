@@ -6,9 +6,9 @@
 namespace clatter {
 
 static IntVec<2> columns_in(const Model<2>& model) {
-  constexpr double kMostColumns = 40.0;
+  constexpr double kMaxColumns = 40.0;
   return {
-      static_cast<int>(std::clamp(std::round(model.box.x() / model.diameter), 1.0, kMostColumns)),
+      static_cast<int>(std::clamp(std::round(model.box.x() / model.diameter), 1.0, kMaxColumns)),
       1};
 }
 

@@ -19,7 +19,7 @@ Snapshot snapshot_of(const Simulation<2>& simulation) {
   for (const Spin<2>& spin : state.spins) snapshot.spins.push_back(spin[0]);
   const auto count = static_cast<double>(snapshot.positions.size());
   snapshot.temperature = count > 0.0 ? simulation.kinetic_energy() / count : 0.0;
-  snapshot.collisions = simulation.counts().disk_disk;
+  snapshot.collisions = simulation.counts().pair_collisions;
   return snapshot;
 }
 

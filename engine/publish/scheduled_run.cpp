@@ -18,7 +18,7 @@ std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t s
 ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed)
     : schedule_(scene), seed_(seed), simulation_(simulation_of(scene, seed)) {}
 
-ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed, const Saved<2>& saved)
+ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<2>& saved)
     : schedule_(scene), seed_(seed) {
   schedule_.skip_to(Clock(saved.base).absolute(saved.now));
   simulation_ = std::make_unique<Simulation<2>>(model_of(schedule_.scene(), seed), saved);
@@ -56,7 +56,7 @@ void ScheduledRun::change_laws(Schedule changed) {
   schedule_ = std::move(changed);
 }
 
-// All that watches is handed over to another simulation with the disks where they are.
+// All that watches is handed over to another simulation with the particles where they are.
 void ScheduledRun::go_on_as(std::unique_ptr<Simulation<2>> next) {
   if (on_change) on_change(*next);
   if (shown_) shown_ = std::make_unique<ViewObservers>(*next, view_, exposure_, shown_.get());

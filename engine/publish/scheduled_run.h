@@ -25,7 +25,7 @@ class ScheduledRun {
   /// From the start that the scene describes.
   ScheduledRun(const Scene& scene, std::uint64_t seed);
   /// Goes on from where a run was saved; the scene's changes up to then are in force.
-  ScheduledRun(const Scene& scene, std::uint64_t seed, const Saved<2>& saved);
+  ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<2>& saved);
 
   /// The simulation, until laws change.
   Simulation<2>& simulation() { return *simulation_; }
@@ -48,7 +48,7 @@ class ScheduledRun {
   void change(const std::vector<Override>& laws);
 
   /// From now on snapshots have all that the view shows, in pictures of a time `exposure` >= 0
-  /// each: averages, flights, the angles by which disks have turned.
+  /// each: averages, flights, the angles by which particles have turned.
   void show(const View& view, double exposure = 0.0);
   /// Likewise, going on from what save_shown() gave at this time of a run with the same scene, view
   /// and exposure; empty: anew.

@@ -24,9 +24,9 @@ struct ArrowMap {
   std::vector<Arrow> arrows;  ///< of the cells that have a value, row by row
 };
 
-/// A part of a disk's flight, between two of its events.
+/// A part of a particle's flight, between two of its events.
 struct FlightPiece {
-  std::uint32_t disk = 0;
+  std::uint32_t particle = 0;
   double from = 0.0, to = 0.0;     ///< times after the snapshot's, from < to <= 0
   Vec2 position = {0.0, 0.0};      ///< centre at `from`, wrapped into the box
   Vec2 velocity = {0.0, 0.0};      ///< at `from`
@@ -43,14 +43,14 @@ struct FlightPiece {
 struct Snapshot {
   double time = 0.0;                          ///< simulation time
   Vec2 box = {0.0, 0.0};                      ///< Lx, Ly
-  double diameter = 1.0;                      ///< of every disk
+  double diameter = 1.0;                      ///< of every particle
   std::array<std::optional<Wall>, 4> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 4> wall_displacement{};  ///< of each wall into the box at this time
   std::vector<Vec2> positions;   ///< [N] centres, wrapped into the box, in original order
   std::vector<Vec2> velocities;  ///< [N]
   std::vector<double> spins;     ///< [N] angular velocities; empty where none are carried
-  std::vector<double> angles;    ///< [N] by which disks have turned, -pi..pi; empty: not observed
-  double exposure = 0.0;         ///< time up to this one that the picture shows; 0: the instant
+  std::vector<double> angles;  ///< [N] by which particles have turned, -pi..pi; empty: not observed
+  double exposure = 0.0;       ///< time up to this one that the picture shows; 0: the instant
   std::vector<FlightPiece> flights;  ///< of that time, and of trails; empty: not observed
   std::optional<FieldMap> field;     ///< averaged over the view's window; absent: not asked for
   std::optional<ArrowMap> arrows;    ///< likewise

@@ -7,7 +7,8 @@
 namespace clatter {
 
 SpinAngles::SpinAngles(Simulation<2>& simulation)
-    : simulation_(simulation), turned_(simulation.disks().size(), {0.0, simulation.base_time()}) {
+    : simulation_(simulation),
+      turned_(simulation.particles().size(), {0.0, simulation.base_time()}) {
   simulation.add_observer(*this);
 }
 
@@ -18,15 +19,15 @@ SpinAngles::SpinAngles(Simulation<2>& simulation, SpinAngles&& before)
 }
 
 void SpinAngles::on_collision(const PairCollision<2>& collision) {
-  for (const DiskChange<2>& disk : collision.disks) turn(disk, collision.time);
+  for (const ParticleChange<2>& particle : collision.particles) turn(particle, collision.time);
 }
 
 void SpinAngles::on_wall(const WallCollision<2>& collision) {
-  turn(collision.disk, collision.time);
+  turn(collision.particle, collision.time);
 }
 
 void SpinAngles::on_kick(const Kick<2>& kick) {
-  turn(kick.disk, kick.time);
+  turn(kick.particle, kick.time);
 }
 
 void SpinAngles::on_base_moved(double shift) {
@@ -44,8 +45,8 @@ std::vector<double> SpinAngles::angles() const {
   return angles;
 }
 
-void SpinAngles::turn(const DiskChange<2>& change, double time) {
-  Turned& turned = turned_[change.disk];
+void SpinAngles::turn(const ParticleChange<2>& change, double time) {
+  Turned& turned = turned_[change.particle];
   turned.angle += change.spin[0] * (time - turned.time);
   turned.time = time;
 }

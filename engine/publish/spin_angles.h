@@ -7,13 +7,13 @@
 
 namespace clatter {
 
-/// By how much the disks have turned since it watches. A spin changes in the disk's own events
-/// only, so that the angle is exact: the sum of spin times duration over its flights.
+/// By how much the particles have turned since it watches. A spin changes in the particle's own
+/// events only, so that the angle is exact: the sum of spin times duration over its flights.
 class SpinAngles : public Observer<2> {
  public:
   /// Watches a simulation that carries spins from now on.
   explicit SpinAngles(Simulation<2>& simulation);
-  /// Goes on where that of the simulation before ended: this one has its disks at its time.
+  /// Goes on where that of the simulation before ended: this one has its particles at its time.
   SpinAngles(Simulation<2>& simulation, SpinAngles&& before);
 
   void on_collision(const PairCollision<2>& collision) override;
@@ -41,7 +41,7 @@ class SpinAngles : public Observer<2> {
     }
   };
 
-  void turn(const DiskChange<2>& change, double time);
+  void turn(const ParticleChange<2>& change, double time);
 
   const Simulation<2>& simulation_;
   std::vector<Turned> turned_;  // [N]

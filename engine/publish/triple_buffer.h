@@ -8,7 +8,7 @@ namespace clatter {
 /// Hands the newest value from one thread to another; neither ever waits. Of three slots one is the
 /// writer's, one the reader's, and the third holds what was published last.
 template <class T>
-class Latest {
+class TripleBuffer {
  public:
   /// The writer's slot, to be filled anew before each publish(): it holds some older value.
   T& back() { return slots_[back_]; }

@@ -15,7 +15,8 @@ namespace clatter {
 class ViewObservers {
  public:
   /// Watches for `view`, in pictures that each show a time `exposure` >= 0; from now on, or going
-  /// on with all that those `before` have of it, whose simulation had its disks there at its time.
+  /// on with all that those `before` have of it, whose simulation had its particles there at its
+  /// time.
   ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
                 ViewObservers* before = nullptr);
   /// Goes on where those that were saved ended: the simulation is at that time, under those laws.
@@ -38,7 +39,7 @@ class ViewObservers {
   double exposure_;
   std::optional<LiveField> field_;
   std::optional<FlightRecorder> flights_;
-  std::optional<SpinAngles> angles_;  // where disks spin
+  std::optional<SpinAngles> angles_;  // where particles spin
 };
 
 }  // namespace clatter

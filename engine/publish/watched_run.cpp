@@ -22,9 +22,9 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   tally_at_laws_ = tally_;
   simulation.add_observer(*totals_);
   simulation.add_observer(last_);
-  if (encounters_ && encounters_->last()) encounter_ = encounters_->last();
+  if (encounters_ && encounters_->last()) last_collision_ = encounters_->last();
   simulation.add_observer(encounters_.emplace(simulation, picked_));
-  scout_.reset();
+  lookahead_.reset();
   profile_.reset();
   residuals_.reset();
   const double window = run_.scene().view.window / kWindowParts;
@@ -32,12 +32,12 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window);
 }
 
-void WatchedRun::pick(std::optional<std::uint32_t> disk) {
-  if (disk && *disk >= run_.simulation().disks().size()) disk.reset();
-  picked_ = disk;
-  encounter_.reset();
-  encounters_->watch(disk);
-  scout_.reset();
+void WatchedRun::pick(std::optional<std::uint32_t> particle) {
+  if (particle && *particle >= run_.simulation().particles().size()) particle.reset();
+  picked_ = particle;
+  last_collision_.reset();
+  encounters_->watch(particle);
+  lookahead_.reset();
 }
 
 void WatchedRun::show_profile(Profiled what) {
@@ -69,17 +69,17 @@ std::optional<ContactTimeError> WatchedRun::contact_time_error() const {
 }
 
 // While the run goes on the scout takes about as many steps as it does; where it halts there is
-// time for more, for most disks collide while all the others do so a few times.
-std::optional<Encounter> WatchedRun::next_encounter(bool halted) {
+// time for more, for most particles collide while all the others do so a few times.
+std::optional<ParticleCollision> WatchedRun::next_collision(bool halted) {
   constexpr std::uint64_t kHeadStart = 5000;
   const Simulation<2>& simulation = run_.simulation();
   const std::uint64_t steps = simulation.counts().steps();
   const std::uint64_t since = steps - std::exchange(steps_told_, steps);
   if (!picked_) return std::nullopt;
-  if (!scout_) scout_.emplace(simulation, *picked_);
+  if (!lookahead_) lookahead_.emplace(simulation, *picked_);
   const std::uint64_t most =
-      halted ? 100 * (simulation.disks().size() + 100) : 2 * since + kHeadStart;
-  return scout_->next_after(simulation.time(), most);
+      halted ? 100 * (simulation.particles().size() + 100) : 2 * since + kHeadStart;
+  return lookahead_->next_after(simulation.time(), most);
 }
 
 void WatchedRun::tell(Frame& frame, bool halted) {
@@ -97,8 +97,8 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.contact_time_error = contact_time_error();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
-  frame.last_encounter = encounters_->last() ? encounters_->last() : encounter_;
-  frame.next_encounter = next_encounter(halted);
+  frame.last_collision = encounters_->last() ? encounters_->last() : last_collision_;
+  frame.next_collision = next_collision(halted);
   frame.state_hash.reset();
   if (halted) frame.state_hash = run_.simulation().state_hash();
 }

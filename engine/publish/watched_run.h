@@ -23,34 +23,34 @@ class WatchedRun {
   ScheduledRun& run() { return run_; }
   /// What frames have profiles of from now on.
   void show_profile(Profiled what);
-  /// Frames tell the collisions of this disk from now on; absent, or no disk: of none.
-  void pick(std::optional<std::uint32_t> disk);
+  /// Frames tell the collisions of this particle from now on; absent, or no particle: of none.
+  void pick(std::optional<std::uint32_t> particle);
   /// Fills in what it knows; a hash where `halted`.
   void tell(Frame& frame, bool halted);
-  /// The disks that collided last, if any have.
+  /// The particles that collided last, if any have.
   const std::optional<std::array<std::uint32_t, 2>>& partners() const { return last_.partners; }
 
  private:
   struct LastCollision : Observer<2> {
     void on_collision(const PairCollision<2>& collision) override {
-      partners = {{collision.disks[0].disk, collision.disks[1].disk}};
+      partners = {{collision.particles[0].particle, collision.particles[1].particle}};
     }
     std::optional<std::array<std::uint32_t, 2>> partners;
   };
 
   void observe(Simulation<2>& simulation);
   void close_window();
-  std::optional<Encounter> next_encounter(bool halted);
+  std::optional<ParticleCollision> next_collision(bool halted);
   std::optional<ContactTimeError> contact_time_error() const;
 
   ScheduledRun run_;
   std::optional<Totals<2>> totals_;
   LastCollision last_;
   std::optional<std::uint32_t> picked_;
-  std::optional<EncounterWatch> encounters_;  // of that disk
-  std::optional<Encounter> encounter_;        // its last before laws changed
-  std::optional<Scout> scout_;                // of that disk, once frames have told of it
-  std::uint64_t steps_told_ = 0;              // of the run, by the last frame
+  std::optional<CollisionWatch> encounters_;         // of that particle
+  std::optional<ParticleCollision> last_collision_;  // its last before laws changed
+  std::optional<CollisionLookahead> lookahead_;  // of that particle, once frames have told of it
+  std::uint64_t steps_told_ = 0;                 // of the run, by the last frame
   Profiled profiled_ = Profiled::Nothing;
   std::optional<LiveProfile> profile_;  // of that
   std::optional<LiveResiduals> residuals_;

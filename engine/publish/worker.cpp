@@ -29,7 +29,7 @@ bool supersedes(const Command& later, const Command& earlier) {
 // The work of the engine's thread.
 class Work {
  public:
-  Work(double frames_per_second, CommandQueue<Command>& commands, Latest<Frame>& frames,
+  Work(double frames_per_second, CommandQueue<Command>& commands, TripleBuffer<Frame>& frames,
        const std::function<void()>& on_publish)
       : commands_(commands),
         frames_(frames),
@@ -100,7 +100,7 @@ class Work {
   }
   void obey(const command::StepCollision&) {
     halt();
-    if (watched_) to_collision_ = gas().simulation().counts().disk_disk + 1;
+    if (watched_) to_collision_ = gas().simulation().counts().pair_collisions + 1;
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
@@ -114,19 +114,19 @@ class Work {
     if (watched_) watched_->show_profile(profiled_);
   }
   void obey(const command::Pick& asked) {
-    if (watched_) watched_->pick(asked.disk);
+    if (watched_) watched_->pick(asked.particle);
   }
   void obey(const command::Open& asked) {
     Scene scene = asked.scene;
     if (asked.keeps_gas && watched_) {
       State<2> state = gas().simulation().state();
       for (Vec2& position : state.positions) position += asked.shift;
-      state = refitted(state, scene, asked.seed);
+      state = adapt_to_scene(state, scene, asked.seed);
       const double temperature = temperature_of(state);
-      scene.disks.start = {.layout = Layout::File,
-                           .file = "",
-                           .state = std::move(state),
-                           .temperature = temperature};
+      scene.particles.start = {.layout = Layout::File,
+                               .file = "",
+                               .state = std::move(state),
+                               .temperature = temperature};
     }
     auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
     halt();
@@ -179,7 +179,7 @@ class Work {
       const double ahead = time() + pace_.speed() * frame_seconds_;
       while (to_collision_ && time() < ahead && Clock::now() < due && !commands_.pending()) {
         advance(ahead, gas().simulation().counts().collisions() + 1, due);
-        const std::uint64_t collisions = gas().simulation().counts().disk_disk;
+        const std::uint64_t collisions = gas().simulation().counts().pair_collisions;
         if (to_collision_ && collisions >= *to_collision_) halt_at_collision();
       }
     }
@@ -229,7 +229,7 @@ class Work {
   static constexpr std::uint64_t kLongestSlice = 1u << 20;
 
   CommandQueue<Command>& commands_;
-  Latest<Frame>& frames_;
+  TripleBuffer<Frame>& frames_;
   const std::function<void()>& on_publish_;
   double frame_seconds_;
   Pace pace_;
@@ -238,7 +238,7 @@ class Work {
   bool plays_ = false;
   double until_ = std::numeric_limits<double>::infinity();  // where it halts of itself
   std::optional<double> step_to_;
-  std::optional<std::uint64_t> to_collision_;  // number of the collision of disks to halt at
+  std::optional<std::uint64_t> to_collision_;  // number of the collision of particles to halt at
   std::optional<std::array<std::uint32_t, 2>> partners_;
   std::uint64_t slice_ = 256;  // steps in a row, found while running
   std::uint64_t runs_ = 0;

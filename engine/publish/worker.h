@@ -29,7 +29,7 @@ class Worker {
   /// Asks for something; at once, and done soon: between two slices of the run.
   void send(Command command) { commands_.push(std::move(command)); }
   /// The frames, to be read by one thread.
-  Latest<Frame>& frames() { return frames_; }
+  TripleBuffer<Frame>& frames() { return frames_; }
   /// Asks the thread to end, and tells whether it has within a time.
   bool stop_within(std::chrono::milliseconds time);
 
@@ -37,7 +37,7 @@ class Worker {
   void work(double frames_per_second, const std::function<void()>& on_publish);
 
   CommandQueue<Command> commands_;
-  Latest<Frame> frames_;
+  TripleBuffer<Frame> frames_;
   std::mutex mutex_;
   std::condition_variable ended_changed_;
   bool ended_ = false;

@@ -38,7 +38,7 @@ double Wall::innermost_travel() const {
 }
 
 double Scene::area_fraction() const {
-  return disks.count * std::numbers::pi / (4.0 * box.x() * box.y());
+  return particles.count * std::numbers::pi / (4.0 * box.x() * box.y());
 }
 
 Vec2 Scene::clear_corner() const {
@@ -58,7 +58,7 @@ Vec2 Scene::clear_box() const {
 }
 
 bool Scene::spins() const {
-  bool any = disks.roughness.any();
+  bool any = particles.roughness.any();
   for (const auto& wall : walls) any = any || (wall && wall->roughness.any());
   return any;
 }

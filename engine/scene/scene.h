@@ -26,7 +26,7 @@ struct Roughness {
   bool any() const;
 };
 
-/// What a wall does to the disks that touch it, Sec. 3.1.
+/// What a wall does to the particles that touch it, Sec. 3.1.
 enum class WallKind {
   Static,      ///< reflects with its restitution
   Driven,      ///< adds drive_speed to the normal velocity: the saw-tooth limit, Eqs. (2.17), (3.1)
@@ -65,7 +65,7 @@ enum Side { kLeft, kRight, kBottom, kTop };
 /// Names of the sides in scene files, indexed by Side.
 inline constexpr std::array<const char*, 4> kSideNames = {"left", "right", "bottom", "top"};
 
-/// How the disks are placed at time 0.
+/// How the particles are placed at time 0.
 enum class Layout { Random, Lattice, File };
 
 /// Positions and velocities at time 0.
@@ -78,8 +78,8 @@ struct Start {
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
 };
 
-/// The disks; their diameter and mass are the units of length and mass.
-struct Disks {
+/// The particles; their diameter and mass are the units of length and mass.
+struct Particles {
   int count = 0;             ///< N >= 0; resolved from area_fraction where the scene gives that
   double restitution = 1.0;  ///< alpha, 0..1
   Roughness roughness = {};
@@ -87,7 +87,7 @@ struct Disks {
   Start start;
 };
 
-/// Homogeneous driving: every disk is kicked at once, again and again, Sec. 3.2.
+/// Homogeneous driving: every particle is kicked at once, again and again, Sec. 3.2.
 struct BulkDrive {
   double interval = 1.0;    ///< time between kicks, > 0
   double kick_speed = 0.0;  ///< standard deviation of a kick per velocity component; mean removed
@@ -96,7 +96,7 @@ struct BulkDrive {
 
 /// A field over the box, chapter 4; what is not called kinetic or collisional is the sum of both.
 enum class Field {
-  Density,    ///< rho, disks per area
+  Density,    ///< rho, particles per area
   VelocityX,  ///< V, their mean velocity
   VelocityY,
   Temperature,  ///< T = (T_x + T_y)/2, about V
@@ -117,7 +117,7 @@ enum class Field {
   HeatFluxYKinetic,
   HeatFluxXCollisional,
   HeatFluxYCollisional,
-  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of disks give
+  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of particles give
   Spin,             ///< mean angular velocity
   SpinTemperature,  ///< T_rot = I <omega^2>
   BalanceMass,  ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked, see Imbalances
@@ -130,15 +130,15 @@ enum class Field {
 inline constexpr std::array<Field, 4> kResiduals = {Field::BalanceMass, Field::BalanceMomentumX,
                                                     Field::BalanceMomentumY, Field::BalanceEnergy};
 
-/// Whether a field is one of these, and no average over disks and collisions.
+/// Whether a field is one of these, and no average over particles and collisions.
 constexpr bool is_residual(Field field) {
   return std::ranges::find(kResiduals, field) != kResiduals.end();
 }
 
-/// How disks come to count in fields: their flights exactly, or where they are now and then.
+/// How particles come to count in fields: their flights exactly, or where they are now and then.
 enum class Estimator { Exact, Snapshot };
 
-/// Over what a disk spreads in fields, Sec. 4: the cell that it is in, or a Gaussian.
+/// Over what a particle spreads in fields, Sec. 4: the cell that it is in, or a Gaussian.
 enum class Kernel { Box, Gaussian };
 
 /// An axis of the box.
@@ -158,7 +158,7 @@ struct Measure {
   double width = 1.0;  ///< standard deviation of the Gaussian per axis, > 0
 };
 
-/// What a disk's colour shows.
+/// What a particle's colour shows.
 enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
@@ -199,7 +199,7 @@ struct ColourRange {
 struct CameraKey {
   double time = 0.0;            ///< simulation time, >= 0
   std::optional<Vec2> centre;   ///< world point in the middle; absent: that of the whole picture
-  std::optional<int> follow;    ///< number of the disk in the middle, in place of a centre
+  std::optional<int> follow;    ///< number of the particle in the middle, in place of a centre
   std::optional<double> width;  ///< world units across, > 0; absent: as the whole picture has
 };
 
@@ -207,13 +207,13 @@ struct CameraKey {
 struct View {
   ColourBy colour_by = ColourBy::Speed;
   std::optional<Field>
-      field;            ///< the heatmap below the disks; absent: none, and nothing is averaged
+      field;            ///< the heatmap below the particles; absent: none, and nothing is averaged
   double window = 5.0;  ///< averaging time of the live field, > 0
   Estimator estimator = Estimator::Exact;  ///< of the live field
   double interval = 0.1;  ///< between samples of the snapshot estimator, > 0 and at most the window
   double speed = 1.0;     ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;    ///< of the disks' magnitudes
-  ColourRange range;                     ///< of the disks' colours; locked: as first shown
+  Palette palette = Palette::Viridis;    ///< of the particles' magnitudes
+  ColourRange range;                     ///< of the particles' colours; locked: as first shown
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
   ColourRange field_range;               ///< of the heatmap's colours
   std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
@@ -221,7 +221,7 @@ struct View {
   std::optional<Rgb> background;         ///< absent: that of the theme
   bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
   bool overlay = true;            ///< time, title, colour bar, scale bar
-  std::optional<double> trails;   ///< time that disks' paths reach back, > 0; absent: none
+  std::optional<double> trails;   ///< time that particles' paths reach back, > 0; absent: none
   std::optional<double> card;     ///< seconds of film that begin with the title, > 0; absent: none
   std::vector<CameraKey> camera;  ///< in order of time; empty: the whole box, always
 
@@ -254,11 +254,12 @@ struct Change {
 /// A complete, validated description of a run: what the scene file says, resolved, nothing derived.
 struct Scene {
   std::string title;
-  std::string caption;      ///< what to watch, in a line
-  std::string goal;         ///< what there is to learn
-  std::string try_this;     ///< what to do to it in the window, and what then happens
-  Vec2 box = {20.0, 25.0};  ///< Lx, Ly in disk diameters; disks touch walls with their surface
-  Disks disks;
+  std::string caption;   ///< what to watch, in a line
+  std::string goal;      ///< what there is to learn
+  std::string try_this;  ///< what to do to it in the window, and what then happens
+  Vec2 box = {20.0,
+              25.0};  ///< Lx, Ly in particle diameters; particles touch walls with their surface
+  Particles particles;
   std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
   std::optional<Vec2> gravity;               ///< acceleration; absent: none
   std::optional<BulkDrive> bulk_drive;       ///< absent: none
@@ -267,7 +268,7 @@ struct Scene {
   View view;
   std::vector<Change> changes;  ///< in any order; those of one time come in the order given
 
-  /// Whether disks spin: they or any wall are rough.
+  /// Whether particles spin: they or any wall are rough.
   bool spins() const;
   /// Whether the box is periodic along an axis (0: x, 1: y).
   bool periodic(int axis) const { return !walls[2 * axis]; }

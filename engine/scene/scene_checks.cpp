@@ -34,15 +34,15 @@ static double top_speed(const Wall& wall) {
 static void check_speeds(const Scene& scene, const toml::table& root, const std::string& file) {
   for (int side = 0; side < 4; ++side) {
     const auto& wall = scene.walls[side];
-    if (!wall || !wall->moves() || top_speed(*wall) <= kMostSpeed) continue;
+    if (!wall || !wall->moves() || top_speed(*wall) <= kMaxSpeed) continue;
     throw UserError(
         place_of(root, wall_path(side) + ".frequency", file),
         "the wall would move at a speed of " + number_text(top_speed(*wall)),
-        "lower its stroke or its frequency: walls move at " + number_text(kMostSpeed) + " at most");
+        "lower its stroke or its frequency: walls move at " + number_text(kMaxSpeed) + " at most");
   }
 }
 
-/// Throws where moving walls leave no room for a disk between them.
+/// Throws where moving walls leave no room for a particle between them.
 static void check_room(const Scene& scene, const toml::table& root, const std::string& file) {
   for (int axis = 0; axis < 2; ++axis) {
     const double room = scene.clear_box()[axis];
@@ -62,7 +62,7 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
   if (scene.view.colour_by != ColourBy::Spin || scene.spins()) return;
   throw UserError(place_of(root, "view.colour_by", file),
                   std::string("the colour \"spin\" ") + kNotWithoutSpins.reason,
-                  "choose another, or make the disks or a wall rough");
+                  "choose another, or make the particles or a wall rough");
 }
 
 static bool of_spins(Field field) {
@@ -75,7 +75,7 @@ static void check_fields(const Scene& scene, const toml::table& root, const std:
   const auto refuse = [&](const char* path) {
     throw UserError(place_of(root, path, file),
                     std::string("a field of spins ") + kNotWithoutSpins.reason,
-                    "choose another, or make the disks or a wall rough");
+                    "choose another, or make the particles or a wall rough");
   };
   if (std::ranges::any_of(scene.measure.fields, of_spins)) refuse("measure.fields");
   if (scene.view.field && of_spins(*scene.view.field)) refuse("view.field");
@@ -88,7 +88,7 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
   if (measure.kernel == Kernel::Box) return;
   if (measure.estimator == Estimator::Exact) {
     throw UserError(place_of(root, "measure.kernel", file),
-                    "a Gaussian spreads disks where they are now and then, not flights",
+                    "a Gaussian spreads particles where they are now and then, not flights",
                     "set measure.estimator = \"snapshot\" and measure.interval, or remove it");
   }
   for (int axis = 0; axis < 2; ++axis) {
@@ -124,14 +124,15 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
 
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file) {
   for (const CameraKey& key : scene.view.camera) {
-    if (!key.follow || *key.follow < scene.disks.count) continue;
-    throw UserError(place_of(root, "view.camera", file),
-                    "there is no disk " + std::to_string(*key.follow) + " to follow",
-                    "disks are numbered from 0 to " + std::to_string(scene.disks.count - 1));
+    if (!key.follow || *key.follow < scene.particles.count) continue;
+    throw UserError(
+        place_of(root, "view.camera", file),
+        "there is no particle " + std::to_string(*key.follow) + " to follow",
+        "particles are numbered from 0 to " + std::to_string(scene.particles.count - 1));
   }
 }
 
-/// The number of disks that a scene's two keys ask for; nothing where there is neither.
+/// The number of particles that a scene's two keys ask for; nothing where there is neither.
 static std::optional<double> asked_count(const SceneInput& input) {
   if (input.count) return *input.count;
   if (!input.area_fraction) return std::nullopt;
@@ -140,36 +141,37 @@ static std::optional<double> asked_count(const SceneInput& input) {
 }
 
 static int count_of_file(const SceneInput& input, const Place& place) {
-  const Start& start = input.scene.disks.start;
+  const Start& start = input.scene.particles.start;
   const auto count = static_cast<int>(start.state.positions.size());
   const auto asked = asked_count(input);
   if (!asked || *asked == count) return count;
   throw UserError(place,
-                  "this asks for " + number_text(*asked) + " disks, and " + start.file + " has " +
-                      std::to_string(count),
+                  "this asks for " + number_text(*asked) + " particles, and " + start.file +
+                      " has " + std::to_string(count),
                   "remove the key, or choose the file that you mean");
 }
 
 int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file) {
   const Scene& scene = input.scene;
-  const Place place = place_of(root, input.count ? "disks.count" : "disks.area_fraction", file);
+  const Place place =
+      place_of(root, input.count ? "particles.count" : "particles.area_fraction", file);
   if (input.count && input.area_fraction) {
-    throw UserError(place_of(root, "disks.area_fraction", file),
-                    "both 'disks.count' and 'disks.area_fraction' are given",
-                    "give exactly one of 'disks.count' and 'disks.area_fraction'");
+    throw UserError(place_of(root, "particles.area_fraction", file),
+                    "both 'particles.count' and 'particles.area_fraction' are given",
+                    "give exactly one of 'particles.count' and 'particles.area_fraction'");
   }
-  if (scene.disks.start.layout == Layout::File) return count_of_file(input, place);
+  if (scene.particles.start.layout == Layout::File) return count_of_file(input, place);
   const auto count = asked_count(input);
   if (!count) {
-    throw UserError(place_of(root, "disks", file), "the number of disks is missing",
-                    "give exactly one of 'disks.count' and 'disks.area_fraction'");
+    throw UserError(place_of(root, "particles", file), "the number of particles is missing",
+                    "give exactly one of 'particles.count' and 'particles.area_fraction'");
   }
   const int capacity = lattice_capacity(scene.start_room());
   if (*count > capacity) {
     const bool walls_move = scene.clear_box() != scene.box;
     throw UserError(place,
                     (input.count ? std::to_string(*input.count) : number_text(*count)) +
-                        " disks do not fit into the box" +
+                        " particles do not fit into the box" +
                         (walls_move ? " where its walls move farthest in" : ""),
                     "it holds at most " + std::to_string(capacity));
   }

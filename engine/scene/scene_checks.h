@@ -15,11 +15,12 @@ namespace clatter {
 /// read from, and `file` the name that errors carry.
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// Throws UserError where the camera follows a disk that the scene, whose count is known, has not.
+/// Throws UserError where the camera follows a particle that the scene, whose count is known, has
+/// not.
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// The number of disks that the input asks for; throws UserError where it asks twice, not at all,
-/// for more than any lattice holds, or for others than a start state has.
+/// The number of particles that the input asks for; throws UserError where it asks twice, not at
+/// all, for more than any lattice holds, or for others than a start state has.
 int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file);
 
 }  // namespace clatter

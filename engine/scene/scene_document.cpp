@@ -33,7 +33,7 @@ static std::size_t end_of_string(std::string_view text, std::size_t start) {
 /// Throws at a dotted key of absurdly many parts. The parser limits the depth of arrays and inline
 /// tables but not of these, and frees the nested tables recursively, as deep as the stack lasts.
 static void refuse_deep_keys(std::string_view text, const std::string& file) {
-  constexpr int kMostDots = 16;
+  constexpr int kMaxDots = 16;
   int dots = 0;
   int line = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -43,8 +43,8 @@ static void refuse_deep_keys(std::string_view text, const std::string& file) {
     } else if (text[i] == '"' || text[i] == '\'') {
       i = std::min(end_of_string(text, i), text.size() - 1);
     }
-    if (text[i] == '.' && ++dots > kMostDots) {
-      throw UserError({file, line, 0}, "a key has more than " + std::to_string(kMostDots) + " dots",
+    if (text[i] == '.' && ++dots > kMaxDots) {
+      throw UserError({file, line, 0}, "a key has more than " + std::to_string(kMaxDots) + " dots",
                       "no key of a scene is that deep");
     }
     if (std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos) dots = 0;
@@ -81,7 +81,7 @@ static toml::table parse_override(const Override& change) {
     }
   }
   throw UserError({file}, in_quotes(change.key) + " cannot be a key",
-                  "write, say, disks.count=500");
+                  "write, say, particles.count=500");
 }
 
 static void replace(toml::table& into, toml::table& changes) {
@@ -99,10 +99,10 @@ static void replace(toml::table& into, toml::table& changes) {
 
 void apply_override(toml::table& root, const Override& change) {
   toml::table changes = parse_override(change);
-  // Either resolves the number of disks, so each displaces the other.
-  if (toml::table* disks = root["disks"].as_table()) {
-    if (changes.at_path("disks.count")) disks->erase("area_fraction");
-    if (changes.at_path("disks.area_fraction")) disks->erase("count");
+  // Either resolves the number of particles, so each displaces the other.
+  if (toml::table* particles = root["particles"].as_table()) {
+    if (changes.at_path("particles.count")) particles->erase("area_fraction");
+    if (changes.at_path("particles.area_fraction")) particles->erase("count");
   }
   replace(root, changes);
 }
@@ -127,6 +127,7 @@ Place place_of(const toml::node& node, const std::string& file) {
 /// What to do about an unknown key, given its path and the length of its table's part of it.
 static std::string advice_on(std::string_view path, std::size_t prefix,
                              const std::vector<std::string>& known) {
+  if (path == "disks") return "it is called 'particles' now: write particles in place of disks";
   const std::string_view key = path.substr(prefix);
   std::vector<std::string> siblings;
   std::string all;
@@ -164,7 +165,7 @@ static void refuse_unknown_keys(const toml::table& table, const std::string& pre
   for (auto&& [key, value] : table) {
     const std::string path = prefix + std::string(key.str());
     const bool dotted =
-        key.str().find('.') != std::string_view::npos;  // one in_quotes key, no path
+        key.str().find('.') != std::string_view::npos;  // one quoted key, no path
     if (dotted || std::ranges::find(known, path) == known.end()) {
       const std::string name = in_quotes(key.str());
       throw UserError(place_of(key, value), "unknown key '" + name.substr(1, name.size() - 2) + "'",

@@ -56,8 +56,8 @@ bool is_file(const std::filesystem::path& path) {
 /// from the working directory.
 void load_start_state(Scene& scene, const toml::table& root, const std::string& file,
                       Origin origin) {
-  Start& start = scene.disks.start;
-  const Place place = place_of(root, "disks.start.file", file);
+  Start& start = scene.particles.start;
+  const Place place = place_of(root, "particles.start.file", file);
   // What a person types is relative to where they are, and not to the scene.
   const bool typed = from_override(place);
   std::filesystem::path path = start.file;
@@ -65,7 +65,7 @@ void load_start_state(Scene& scene, const toml::table& root, const std::string& 
   const EmbeddedFile* embedded = find_embedded(embedded_start_states(), start.file);
   if ((typed || origin == Origin::Folder) && is_file(path)) {
     start.file = path.string();
-    const std::string csv = read_file(start.file, kLargestState, "a line is enough for a disk");
+    const std::string csv = read_file(start.file, kLargestState, "a line is enough for a particle");
     start.state = parse_state(csv, start.file, scene);
   } else if (embedded) {
     start.state = parse_state(embedded->bytes, start.file, scene);
@@ -97,13 +97,13 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   if (!input.scene.spins()) input = read_keys(root, file, false);
   Scene& scene = input.scene;
   check_scene(scene, root, file);
-  const bool from_file = scene.disks.start.layout == Layout::File;
+  const bool from_file = scene.particles.start.layout == Layout::File;
   if (from_file && start_file == StartFile::Skip) {
-    scene.disks.count = input.count.value_or(0);
+    scene.particles.count = input.count.value_or(0);
     return scene;
   }
   if (from_file) load_state(scene);
-  scene.disks.count = resolve_count(input, root, file);
+  scene.particles.count = resolve_count(input, root, file);
   check_followed(scene, root, file);
   return scene;
 }
@@ -155,11 +155,12 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
   without_changes.changes.clear();
   toml::table root = parse_document(scene_to_toml(without_changes), "");
   for (const Override& setting : settings) apply_override(root, setting);
-  const Start& start = scene.disks.start;
+  const Start& start = scene.particles.start;
   const bool skipped = start.layout == Layout::File && start.state.positions.empty();
-  const auto keep_state = [&](Scene& read) { read.disks.start.state = start.state; };
+  const auto keep_state = [&](Scene& read) { read.particles.start.state = start.state; };
   Scene made = read_scene(root, "", skipped ? StartFile::Skip : StartFile::Read, keep_state);
-  if (made.disks.start.layout == Layout::File) made.disks.start.temperature = start.temperature;
+  if (made.particles.start.layout == Layout::File)
+    made.particles.start.temperature = start.temperature;
   made.changes = scene.changes;
   return made;
 }
@@ -188,7 +189,7 @@ Scene load_scene(const std::string& path_or_name, const std::vector<Override>& o
 template <class Writer>
 static std::string written(const Scene& scene) {
   SceneInput input{
-      .count = scene.disks.count, .area_fraction = {}, .spins = scene.spins(), .scene = scene};
+      .count = scene.particles.count, .area_fraction = {}, .spins = scene.spins(), .scene = scene};
   Writer writer;
   visit_scene(writer, input);
   return writer.text();

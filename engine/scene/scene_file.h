@@ -9,8 +9,8 @@
 
 namespace clatter {
 
-/// Whether the file of a start state is read. A run that goes on has its disks already: without the
-/// file the scene has no start state and, unless a key gives their number, no disks.
+/// Whether the file of a start state is read. A run that goes on has its particles already: without
+/// the file the scene has no start state and, unless a key gives their number, no particles.
 enum class StartFile { Read, Skip };
 
 /// Reads the scene at a path, or the gallery scene of that name, applies the overrides, and

@@ -53,15 +53,15 @@ constexpr Limits at_least_or_infinite(double lowest) {
 /// ordinary numbers; box sides where a position still has a rounding error of 1e-10 diameters; a
 /// wall's phase where it is as precise in its period; inertia where spins are not faster than
 /// speeds by more than they have room for.
-inline constexpr double kMostSpeed = 1e15;
-inline constexpr double kMostTemperature = 1e30;
-inline constexpr double kMostAcceleration = 1e15;
-inline constexpr double kMostLength = 1e6;
-inline constexpr double kMostFrequency = 1e15;
-inline constexpr double kMostPhase = 1e6;
-inline constexpr double kLeastInertia = 1e-9;
+inline constexpr double kMaxSpeed = 1e15;
+inline constexpr double kMaxTemperature = 1e30;
+inline constexpr double kMaxAcceleration = 1e15;
+inline constexpr double kMaxLength = 1e6;
+inline constexpr double kMaxFrequency = 1e15;
+inline constexpr double kMaxPhase = 1e6;
+inline constexpr double kMinInertia = 1e-9;
 /// A wall that gives more than it gets, Sec. 3.1 a, has a restitution above 1.
-inline constexpr double kMostWallRestitution = 10.0;
+inline constexpr double kMaxWallRestitution = 10.0;
 
 /// Whether a table must, may or must not have a key.
 struct Presence {
@@ -76,13 +76,13 @@ inline constexpr Presence kNotOfWall = {Presence::Forbidden, "has no meaning for
                                         "remove it or choose another kind"};
 inline constexpr Presence kNotWithoutFile = {Presence::Forbidden,
                                              "has no meaning without layout = \"file\"",
-                                             "remove it, or set disks.start.layout = \"file\""};
+                                             "remove it, or set particles.start.layout = \"file\""};
 inline constexpr Presence kNotBesideFile = {
     Presence::Forbidden, "has no meaning beside layout = \"file\": the file has the velocities",
     "remove it, or choose another layout"};
 inline constexpr Presence kNotWithoutSpins = {
     Presence::Forbidden, "has no meaning where nothing spins",
-    "remove it, or make the disks or a wall rough: give friction above 0, or "
+    "remove it, or make the particles or a wall rough: give friction above 0, or "
     "tangential_restitution above -1"};
 
 inline constexpr Presence kNotWithoutRamp = {Presence::Forbidden, "has no meaning without a ramp",
@@ -215,8 +215,8 @@ inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}
 
 /// What a scene file says: the scene, and the keys that are resolved when it is read.
 struct SceneInput {
-  int schema = 1;                       ///< version of the format
-  std::optional<int> count;             ///< the number of disks, given by exactly one of these two
+  int schema = 1;            ///< version of the format
+  std::optional<int> count;  ///< the number of particles, given by exactly one of these two
   std::optional<double> area_fraction;  ///< phi
   bool spins = true;                    ///< whether the keys of spins are allowed
   Scene scene;
@@ -225,7 +225,7 @@ struct SceneInput {
   Presence spin_key() const { return spins ? kOptional : kNotWithoutSpins; }
 };
 
-/// The keys of rough partners, disks or walls.
+/// The keys of rough partners, particles or walls.
 template <class Visitor>
 void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
   io.value("friction", roughness.friction, at_least_or_infinite(0.0), presence);
@@ -241,49 +241,49 @@ void visit_wall(Visitor& io, Wall& wall) {
   const bool thermal = wall.kind == WallKind::Thermal;
   const Presence of_touch = thermal ? kNotOfWall : kOptional;
   const Presence of_motion = wall.moves() ? kRequired : kNotOfWall;
-  io.value("restitution", wall.restitution, between(0.0, kMostWallRestitution), of_touch);
+  io.value("restitution", wall.restitution, between(0.0, kMaxWallRestitution), of_touch);
   visit_roughness(io, wall.roughness, of_touch);
-  io.value("drive_speed", wall.drive_speed, between(0.0, kMostSpeed),
+  io.value("drive_speed", wall.drive_speed, between(0.0, kMaxSpeed),
            driven ? kRequired : kNotOfWall);
-  io.value("temperature", wall.temperature, between(0.0, kMostTemperature),
+  io.value("temperature", wall.temperature, between(0.0, kMaxTemperature),
            thermal ? kRequired : kNotOfWall);
-  io.value("stroke", wall.stroke, between(0.0, kMostLength), of_motion);
-  io.value("frequency", wall.frequency, between(0.0, kMostFrequency), of_motion);
-  io.value("phase", wall.phase, between(-kMostPhase, kMostPhase),
+  io.value("stroke", wall.stroke, between(0.0, kMaxLength), of_motion);
+  io.value("frequency", wall.frequency, between(0.0, kMaxFrequency), of_motion);
+  io.value("phase", wall.phase, between(-kMaxPhase, kMaxPhase),
            wall.moves() ? kOptional : kNotOfWall);
 }
 
-/// The keys of [disks.start]; which of them it may have depends on its layout.
+/// The keys of [particles.start]; which of them it may have depends on its layout.
 template <class Visitor>
 void visit_start(Visitor& io, Start& start, Presence spin_key) {
   io.choice("layout", start.layout, kLayouts);
   const bool from_file = start.layout == Layout::File;
   io.value("file", start.file, Limits{}, from_file ? kRequired : kNotWithoutFile);
-  io.value("temperature", start.temperature, between(0.0, kMostTemperature),
+  io.value("temperature", start.temperature, between(0.0, kMaxTemperature),
            from_file ? kNotBesideFile : kOptional);
-  io.value("spin_temperature", start.spin_temperature, between(0.0, kMostTemperature),
+  io.value("spin_temperature", start.spin_temperature, between(0.0, kMaxTemperature),
            from_file ? kNotBesideFile : spin_key);
 }
 
-/// The keys of [disks]; count and area_fraction are resolved when the whole scene is known.
+/// The keys of [particles]; count and area_fraction are resolved when the whole scene is known.
 template <class Visitor>
-void visit_disks(Visitor& io, SceneInput& input) {
+void visit_particles(Visitor& io, SceneInput& input) {
   constexpr double kLargestCount = std::numeric_limits<int>::max();
-  Disks& disks = input.scene.disks;
+  Particles& particles = input.scene.particles;
   io.value("count", input.count, between(0, kLargestCount));
   io.value("area_fraction", input.area_fraction, between(0.0, 1.0));
-  io.value("restitution", disks.restitution, between(0.0, 1.0));
-  visit_roughness(io, disks.roughness, kOptional);
-  io.value("inertia", disks.inertia, between(kLeastInertia, 1.0), input.spin_key());
-  io.table("start", [&](auto& io) { visit_start(io, disks.start, input.spin_key()); });
+  io.value("restitution", particles.restitution, between(0.0, 1.0));
+  visit_roughness(io, particles.roughness, kOptional);
+  io.value("inertia", particles.inertia, between(kMinInertia, 1.0), input.spin_key());
+  io.table("start", [&](auto& io) { visit_start(io, particles.start, input.spin_key()); });
 }
 
 /// The keys of [bulk_drive], where there is one.
 template <class Visitor>
 void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
   io.value("interval", drive.interval, above(0.0), kRequired);
-  io.value("kick_speed", drive.kick_speed, between(0.0, kMostSpeed), kRequired);
-  io.value("kick_spin", drive.kick_spin, between(0.0, kMostSpeed), spin_key);
+  io.value("kick_speed", drive.kick_speed, between(0.0, kMaxSpeed), kRequired);
+  io.value("kick_spin", drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
 }
 
 /// The keys of [measure]; those of snapshots and of the Gaussian only with these.
@@ -355,12 +355,12 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.value("caption", scene.caption);
   io.value("goal", scene.goal);
   io.value("try_this", scene.try_this);
-  // A side of one diameter leaves a disk between walls no room to move, and across a periodic
-  // side the disk touches its own image.
+  // A side of one diameter leaves a particle between walls no room to move, and across a periodic
+  // side the particle touches its own image.
   io.table("box", [&](auto& io) {
-    io.value("size", scene.box, Limits{.lowest = 1.0, .highest = kMostLength, .above = true});
+    io.value("size", scene.box, Limits{.lowest = 1.0, .highest = kMaxLength, .above = true});
   });
-  io.table("disks", [&](auto& io) { visit_disks(io, input); });
+  io.table("particles", [&](auto& io) { visit_particles(io, input); });
   io.table("walls", [&](auto& io) {
     for (int side = 0; side < 4; ++side) {
       io.table(kSideNames[side], scene.walls[side],
@@ -368,8 +368,7 @@ void visit_scene(Visitor& io, SceneInput& input) {
     }
   });
   io.table("gravity", scene.gravity, [](auto& io, Vec2& acceleration) {
-    io.value("acceleration", acceleration, between(-kMostAcceleration, kMostAcceleration),
-             kRequired);
+    io.value("acceleration", acceleration, between(-kMaxAcceleration, kMaxAcceleration), kRequired);
   });
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });

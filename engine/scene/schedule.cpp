@@ -12,9 +12,10 @@
 namespace clatter {
 
 bool may_change_live(std::string_view key) {
-  constexpr std::array<std::string_view, 4> kOfDisks = {
-      "disks.restitution", "disks.friction", "disks.tangential_restitution", "disks.inertia"};
-  if (std::ranges::find(kOfDisks, key) != kOfDisks.end()) return true;
+  constexpr std::array<std::string_view, 4> kOfParticles = {
+      "particles.restitution", "particles.friction", "particles.tangential_restitution",
+      "particles.inertia"};
+  if (std::ranges::find(kOfParticles, key) != kOfParticles.end()) return true;
   for (const std::string_view table : {"gravity", "bulk_drive", "collapse"}) {
     if (key.substr(0, key.find('.')) == table) return true;
   }

@@ -54,7 +54,7 @@ class Reader {
   State<2> read() {
     read_header();
     State<2> state;
-    while (next_line()) read_disk(state);
+    while (next_line()) read_particle(state);
     refuse_overlaps(state.positions);
     return state;
   }
@@ -67,7 +67,7 @@ class Reader {
   void visit_cells(const Visit& visit);
   void read_header();
   Column column_of(const Cell& cell) const;
-  void read_disk(State<2>& state);
+  void read_particle(State<2>& state);
   double number_in(const Cell& cell) const;
   void check_number(const Cell& cell, Column column, double number) const;
   void check_place(const Cell& cell, int axis, double centre) const;
@@ -78,9 +78,9 @@ class Reader {
   std::string_view line_;
   const Scene& scene_;
   const std::string& file_;
-  int number_ = 0;               // of line_, from 1
-  std::vector<Column> columns_;  // as they stand in the file
-  std::vector<int> disk_lines_;  // [N] of each disk
+  int number_ = 0;                   // of line_, from 1
+  std::vector<Column> columns_;      // as they stand in the file
+  std::vector<int> particle_lines_;  // [N] of each particle
 };
 
 /// Moves to the next line that counts; false at the end.
@@ -127,7 +127,7 @@ Column Reader::column_of(const Cell& cell) const {
   }
   if (column == kOmega && !scene_.spins()) {
     throw UserError(place_of(cell), "the column \"omega\" has no meaning where nothing spins",
-                    "remove the column, or make the disks or a wall rough");
+                    "remove the column, or make the particles or a wall rough");
   }
   return column;
 }
@@ -154,9 +154,9 @@ double Reader::number_in(const Cell& cell) const {
 void Reader::check_number(const Cell& cell, Column column, double number) const {
   if (column == kX || column == kY) {
     check_place(cell, column == kX ? 0 : 1, number);
-  } else if (std::fabs(number) > kMostSpeed) {
+  } else if (std::fabs(number) > kMaxSpeed) {
     throw UserError(place_of(cell), std::string(kNames[column]) + " is " + number_text(number),
-                    "give at most " + number_text(kMostSpeed) + " either way");
+                    "give at most " + number_text(kMaxSpeed) + " either way");
   }
 }
 
@@ -178,13 +178,13 @@ void Reader::check_place(const Cell& cell, int axis, double centre) const {
   const int side = 2 * axis + (centre > high ? 1 : 0);
   const bool moves = scene_.walls[side]->moves();
   throw UserError(place_of(cell),
-                  "at " + name + " = " + number_text(centre) + " the disk overlaps the " +
+                  "at " + name + " = " + number_text(centre) + " the particle overlaps the " +
                       kSideNames[side] + " wall" + (moves ? ", as that is at time 0" : ""),
                   "give a number between " + number_text(low) + " and " + number_text(high) +
                       (moves ? ", or the wall the phase that it had" : ""));
 }
 
-void Reader::read_disk(State<2>& state) {
+void Reader::read_particle(State<2>& state) {
   if (cells_in_line() != columns_.size()) {
     throw UserError(place_of(Cell{}),
                     "this line has " + std::to_string(cells_in_line()) + " cells, the header has " +
@@ -201,19 +201,20 @@ void Reader::read_disk(State<2>& state) {
   state.positions.emplace_back(numbers[kX], numbers[kY]);
   state.velocities.emplace_back(numbers[kVx], numbers[kVy]);
   if (scene_.spins()) state.spins.push_back(Spin<2>(numbers[kOmega]));
-  disk_lines_.push_back(number_);
+  particle_lines_.push_back(number_);
 }
 
 void Reader::refuse_pair(std::size_t a, std::size_t b, double distance) const {
-  const auto [first, second] = std::minmax(disk_lines_[a], disk_lines_[b]);
+  const auto [first, second] = std::minmax(particle_lines_[a], particle_lines_[b]);
   throw UserError({file_, second, 1},
-                  "the disks of lines " + std::to_string(first) + " and " + std::to_string(second) +
-                      " overlap by " + three_digits(1.0 - distance) + " diameters",
+                  "the particles of lines " + std::to_string(first) + " and " +
+                      std::to_string(second) + " overlap by " + three_digits(1.0 - distance) +
+                      " diameters",
                   "move them apart, or remove one");
 }
 
-/// Disks sorted by cells a little wider than a diameter, so that disks that overlap lie in one cell
-/// or in neighbours; memory follows the disks and not the box.
+/// Particles sorted by cells a little wider than a diameter, so that particles that overlap lie in
+/// one cell or in neighbours; memory follows the particles and not the box.
 class Neighbours {
  public:
   Neighbours(const Scene& scene, const std::vector<Vec2>& centres) : scene_(scene) {
@@ -227,7 +228,7 @@ class Neighbours {
     std::ranges::sort(sorted_);
   }
 
-  /// Calls visit(other) for the disks about a centre, some of them more than once.
+  /// Calls visit(other) for the particles about a centre, some of them more than once.
   template <class Visit>
   void visit(const Vec2& centre, const Visit& visit) const {
     const auto [x, y] = cell_at(centre);
@@ -271,7 +272,7 @@ class Neighbours {
 
   const Scene& scene_;
   Position counts_;                                             // of cells along each axis
-  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // [N] number of the cell, disk
+  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // [N] number of the cell, particle
 };
 
 void Reader::refuse_overlaps(const std::vector<Vec2>& centres) const {

@@ -39,15 +39,15 @@ class Collector {
   void add(const FlightPiece& piece, double from, double to) {
     constexpr double kOff = 1.0 / 16.0;  // pixels
     const double curvature = piece.acceleration.norm() * projection_.scale();
-    constexpr double kMost = 4096.0;
+    constexpr double kMax = 4096.0;
     const double bends = (to - from) * std::sqrt(curvature / (8.0 * kOff));
     const Vec2 way = piece.at(to) - piece.at(from);
     const double boxes = (way.array() / snapshot_.box.array()).abs().maxCoeff();
-    const double count = std::floor(std::min(std::max(bends, boxes), kMost)) + 1.0;
+    const double count = std::floor(std::min(std::max(bends, boxes), kMax)) + 1.0;
     const double step = (to - from) / count;
     for (double k = 0.0; k < count; ++k) {
       const double start = from + k * step, end = k + 1.0 < count ? start + step : to;
-      add(piece.disk, {piece.at(start), piece.at(end)}, start, end);
+      add(piece.particle, {piece.at(start), piece.at(end)}, start, end);
     }
   }
 

@@ -15,7 +15,7 @@ class Coverage {
  public:
   /// Pixels kept around the picture, for disks whose centre lies just outside.
   static constexpr int kMargin = 4;
-  /// Disks are smaller than this, pixels.
+  /// Particles are smaller than this, pixels.
   static constexpr double kLargestRadius = 1.5;
 
   /// Starts an empty picture of `size`, for disks of `radius` > 0, in pixels.

@@ -119,13 +119,13 @@ void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projec
 void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projection,
                             const DiskColours& colours) {
   constexpr double kStep = 0.25;  // pixels
-  constexpr double kMostSteps = 1e6;
+  constexpr double kMaxSteps = 1e6;
   const double reach = reach_pixels(snapshot, projection);
   const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
   for (const Chord& chord : chords(snapshot, projection, snapshot.exposure)) {
     const Colour colour = colours.of(snapshot, chord.disk);
     const Vec2 way = chord.end - chord.start;
-    const int steps = static_cast<int>(std::min(way.norm() / kStep, kMostSteps)) + 1;
+    const int steps = static_cast<int>(std::min(way.norm() / kStep, kMaxSteps)) + 1;
     const double share = (chord.to - chord.from) / snapshot.exposure / steps;
     for (int k = 0; k < steps; ++k) {
       const Vec2 centre = chord.start + (k + 0.5) / steps * way;

@@ -38,9 +38,9 @@ Axis axis_of(const Plot& plot, Coordinate coordinate) {
     }
   }
   if (!(low <= high)) return {};
-  constexpr double kRoom = 0.15, kMostDecades = 4.0;
+  constexpr double kRoom = 0.15, kMaxDecades = 4.0;
   high = 0.5 * std::ceil(2.0 * (high + kRoom));
-  low = 0.5 * std::floor(2.0 * (std::max(low, high - kMostDecades) - kRoom));
+  low = 0.5 * std::floor(2.0 * (std::max(low, high - kMaxDecades) - kRoom));
   return {low, high};
 }
 
@@ -51,7 +51,7 @@ struct Rectangle {
     return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y &&
            other.low.y < high.y;
   }
-  bool holds(const Rectangle& other) const {
+  bool is_current(const Rectangle& other) const {
     return low.x <= other.low.x && other.high.x <= high.x && low.y <= other.low.y &&
            other.high.y <= high.y;
   }
@@ -148,7 +148,7 @@ class PanelDrawing {
       const Rectangle label{corner, {corner.x + extent.x, corner.y + extent.y}};
       const bool covers =
           std::ranges::any_of(taken_, [&](const Rectangle& other) { return label.meets(other); });
-      if (covers || !frame_.holds(label)) continue;
+      if (covers || !frame_.is_current(label)) continue;
       draw_text(list_, *fonts_.small, corner, point.hollow ? theme_.faint_ink() : theme_.ink(),
                 point.label);
       taken_.push_back(label);

@@ -11,7 +11,7 @@ namespace clatter {
 
 /// Draws disks as a shutter sees them that is open for the snapshot's exposure: each pixel has the
 /// light of every disk for the share of time in which it covers the pixel, which is exact for
-/// straight flights. Disks never overlap, so that their shares add up.
+/// straight flights. Particles never overlap, so that their shares add up.
 class SweptLayer {
  public:
   explicit SweptLayer(const Gl& gl);

@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 // Between press, move and release a person takes a while, and the program a picture.
 static constexpr const char* kPause = " sleep 0.15 ";
 
-Hands::Hands(const std::string& arguments, const std::string& size) {
+GuiDriver::GuiDriver(const std::string& arguments, const std::string& size) {
   const Outcome outcome = shell_.run("Xvfb -displayfd 3 -screen 0 " + size +
                                      "x24 3>display >/dev/null 2>&1 & echo $! >xvfb\n"
                                      "until [ -s display ]; do sleep 0.05; done");
@@ -30,23 +30,23 @@ Hands::Hands(const std::string& arguments, const std::string& size) {
   std::this_thread::sleep_for(300ms);
 }
 
-Hands::~Hands() {
+GuiDriver::~GuiDriver() {
   shell_.run("kill $(cat xvfb)");
 }
 
-Outcome Hands::run(const std::string& line) const {
+Outcome GuiDriver::run(const std::string& line) const {
   return shell_.run(display_ + '\n' + line);
 }
 
-void Hands::tool(const std::string& line) const {
+void GuiDriver::tool(const std::string& line) const {
   REQUIRE(run("xdotool " + line).code == 0);
 }
 
-void Hands::key(const std::string& name) const {
+void GuiDriver::key(const std::string& name) const {
   tool("key --delay 120 " + name + kPause);
 }
 
-std::vector<json> Hands::events(const std::string& name) const {
+std::vector<json> GuiDriver::events(const std::string& name) const {
   std::istringstream log(shell_.read("log"));
   std::vector<json> events;
   for (std::string line; std::getline(log, line) && !log.eof();) {
@@ -56,8 +56,8 @@ std::vector<json> Hands::events(const std::string& name) const {
   return events;
 }
 
-json Hands::wait_for(const std::string& event, std::size_t after,
-                     const std::function<bool(const json&)>& is_it) const {
+json GuiDriver::wait_for(const std::string& event, std::size_t after,
+                         const std::function<bool(const json&)>& is_it) const {
   const auto end = std::chrono::steady_clock::now() + 20s;
   do {
     const std::vector<json> all = events();
@@ -71,7 +71,7 @@ json Hands::wait_for(const std::string& event, std::size_t after,
   return {};
 }
 
-std::vector<double> Hands::place(const std::string& widget) const {
+std::vector<double> GuiDriver::place(const std::string& widget) const {
   return wait_for("widget", 0, [&](const json& event) { return event["name"] == widget; })["place"];
 }
 
@@ -80,16 +80,16 @@ static std::string at(const std::vector<double>& place, double share) {
          std::to_string(std::lround(place[1] + 0.5 * place[3]));
 }
 
-void Hands::point_at(const std::string& widget, double share) const {
+void GuiDriver::point_at(const std::string& widget, double share) const {
   tool("mousemove " + at(place(widget), share) + kPause);
 }
 
-void Hands::click(const std::string& widget) const {
+void GuiDriver::click(const std::string& widget) const {
   tool("mousemove " + at(place(widget), 0.5) + kPause + "mousedown 1" + kPause + "mouseup 1" +
        kPause);
 }
 
-void Hands::drag(const std::string& widget, double from, double to) const {
+void GuiDriver::drag(const std::string& widget, double from, double to) const {
   const std::vector<double> where = place(widget);
   std::string line = "mousemove " + at(where, from) + kPause + "mousedown 1" + kPause;
   constexpr int kSteps = 6;
@@ -99,13 +99,13 @@ void Hands::drag(const std::string& widget, double from, double to) const {
   tool(line + "mouseup 1" + kPause);
 }
 
-void Hands::pull(const std::string& widget, int right, int down) const {
+void GuiDriver::pull(const std::string& widget, int right, int down) const {
   const std::string way = std::to_string(right) + ' ' + std::to_string(down);
   tool("mousemove " + at(place(widget), 0.5) + kPause + "mousedown 1" + kPause +
        "mousemove_relative -- " + way + kPause + "mouseup 1" + kPause);
 }
 
-std::vector<int> Hands::pixel(int x, int y) const {
+std::vector<int> GuiDriver::pixel(int x, int y) const {
   const std::string place = std::to_string(x) + ',' + std::to_string(y);
   const Outcome outcome =
       run("ffmpeg -v error -f x11grab -video_size 2x2 -i $DISPLAY+" + place +
@@ -116,7 +116,7 @@ std::vector<int> Hands::pixel(int x, int y) const {
   return colour;
 }
 
-double Hands::brightness(const std::string& widget) const {
+double GuiDriver::brightness(const std::string& widget) const {
   const std::vector<double> where = place(widget);
   const auto pixels = [&](int i) { return std::to_string(std::lround(where[i])); };
   const Outcome outcome =
@@ -135,7 +135,7 @@ double Hands::brightness(const std::string& widget) const {
   return sum / static_cast<double>(grabbed.size()) - darkest;
 }
 
-int Hands::exit_code() const {
+int GuiDriver::exit_code() const {
   const Outcome outcome =
       shell_.run("for i in $(seq 100); do [ -s code ] && cat code && exit; sleep 0.05; done");
   return outcome.out.empty() ? -1 : std::stoi(outcome.out);

@@ -9,14 +9,14 @@
 
 namespace clatter {
 
-/// A display without a screen, the program in a window on it, and hands on its mouse and keys. The
-/// program tells what it does in its script log.
-class Hands {
+/// A display without a screen, the program in a window on it, and the driver of its mouse and keys.
+/// The program tells what it does in its script log.
+class GuiDriver {
  public:
   /// Opens `clatter view` with these arguments on a screen of this size, and waits until it shows
   /// a gas and all that it shows has its place.
-  explicit Hands(const std::string& arguments, const std::string& size = "1280x800");
-  ~Hands();
+  explicit GuiDriver(const std::string& arguments, const std::string& size = "1280x800");
+  ~GuiDriver();
 
   /// Runs a line of the shell on the display.
   Outcome run(const std::string& line) const;

@@ -19,8 +19,8 @@ const std::string kBalance = " --quiet --set 'measure.fields=[\"balance\"]' ";
 TEST_CASE("The balance equations close in every cell, whatever acts") {
   const Shell shell;
   for (const std::string scene :
-       {"equilibrium --set disks.restitution=0.9",  // smooth
-        "rough_cooling --set disks.start.spin_temperature=1",
+       {"equilibrium --set particles.restitution=0.9",  // smooth
+        "rough_cooling --set particles.start.spin_temperature=1",
         "barometer --set bulk_drive.interval=0.1 --set bulk_drive.kick_speed=0.2",
         "conduction",                              // thermal walls
         "vibrated --set walls.left.friction=0.5",  // driven walls
@@ -70,7 +70,7 @@ TEST_CASE("A balance goes on from a checkpoint, anew where cells hold another en
   CHECK(shell.run(line + "--until 9 --resume c").code == 0);
   CHECK(json::parse(shell.read("r.json")).at("time").at("burn_in") == 1.0);
   CHECK(json::parse(shell.read("r.json")).at("balance").at("energy") <= 1e-10);
-  CHECK(shell.run(line + "--until 9 --resume c --set disks.inertia=0.4").code == 0);
+  CHECK(shell.run(line + "--until 9 --resume c --set particles.inertia=0.4").code == 0);
   CHECK(json::parse(shell.read("r.json")).at("time").at("burn_in") == 5.0);
   CHECK(json::parse(shell.read("r.json")).at("balance").at("energy") <= 1e-10);
 }
@@ -83,7 +83,7 @@ TEST_CASE("A gravity too weak to change velocities is no balance that does not c
     CAPTURE(gravity);
     const Outcome outcome =
         shell.run("clatter measure equilibrium" + kBalance +
-                  "--set disks.count=1 --set box.size=[1000,1000] --set measure.cells=[1,1] "
+                  "--set particles.count=1 --set box.size=[1000,1000] --set measure.cells=[1,1] "
                   "--set measure.burn_in=0 --until 16 --out r.json --set gravity.acceleration=[" +
                   gravity + ",0]");
     CAPTURE(outcome.err);

@@ -50,7 +50,7 @@ TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
               "clatter check rough_driven --set collapse.contact_time=1e-6 --until 100 "
               "--set gravity.acceleration=[0,-1] --set bulk_drive.interval=0.5 "
               "--set measure.cells=[10,10] --set 'measure.fields=[\"density\",\"velocity\"]' "
-              "--set disks.count=100")
+              "--set particles.count=100")
           .err;
   CAPTURE(all);
   CHECK(says(all, ", 200 kicks of all disks; "));
@@ -66,8 +66,8 @@ TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
 TEST_CASE("A flag wins over the scene") {
   const Shell shell;
   const Outcome outcome = shell.run(
-      "clatter check vibrated --set disks.count=50 --set view.overlay=false --set title=Mine "
-      "--set box.size=[30,40] --set disks.start.layout=lattice");
+      "clatter check vibrated --set particles.count=50 --set view.overlay=false --set title=Mine "
+      "--set box.size=[30,40] --set particles.start.layout=lattice");
   CHECK(outcome.code == 0);
   for (const char* line :
        {"count = 50\n", "overlay = false\n", "title = \"Mine\"\n", "layout = \"lattice\"\n"}) {
@@ -78,7 +78,7 @@ TEST_CASE("A flag wins over the scene") {
 
 TEST_CASE("Scenes with a title of any script and lines of any ending are read") {
   const Shell shell;
-  shell.write("s.toml", "title = \"气体 ρ\"\r\ncaption = \"\"\r\n[disks]\r\ncount = 3\r\n");
+  shell.write("s.toml", "title = \"气体 ρ\"\r\ncaption = \"\"\r\n[particles]\r\ncount = 3\r\n");
   const Outcome outcome = shell.run("clatter check s.toml");
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("title = \"气体 ρ\"\n") != std::string::npos);

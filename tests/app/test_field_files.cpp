@@ -21,7 +21,7 @@ namespace {
 // cells are never visited.
 const std::string kMeasure =
     "clatter measure vibrated --quiet --set measure.burn_in=20 --until 22 "
-    "--set measure.cells=[40,20] --set disks.friction=inf --set view.overlay=false "
+    "--set measure.cells=[40,20] --set particles.friction=inf --set view.overlay=false "
     "--set 'measure.fields=[\"density\",\"velocity\",\"temperature\",\"stress\","
     "\"stress_collisional\",\"heat_flux\",\"dissipation\",\"spin\"]' ";
 constexpr int kColumns = 40, kRows = 20;
@@ -210,7 +210,7 @@ TEST_CASE("h5py reads the whole result, the scene as attributes, and the maps") 
     CAPTURE(key);
     CHECK(file.at(key) == value);
   }
-  CHECK(file.at("scene").at("disks").at("friction") == "inf");
+  CHECK(file.at("scene").at("particles").at("friction") == "inf");
   CHECK(file.at("scene").at("view").at("overlay") == false);
   for (const char* key : {"time", "translational", "spin"}) {
     CHECK(file.at("temperature_series").at(key).at("values") ==

@@ -31,7 +31,7 @@ TEST_CASE("A measurement prints one JSON object with what the scene has, and not
   CHECK(result.at("schema") == 1);
   CHECK(result.at("seed") == 7);
   CHECK(result.at("program").get<std::string>().starts_with("clatter "));
-  CHECK(result.at("scene").at("disks").at("count") == 200);
+  CHECK(result.at("scene").at("particles").at("count") == 200);
   CHECK(result.at("scene").at("measure").at("burn_in") == 20.0);
   CHECK(result.at("state_hash").get<std::string>().size() == 16);
   CHECK(result.at("time").at("burn_in") == 20.0);
@@ -125,9 +125,9 @@ TEST_CASE("A result says what theory predicts of a gas in a periodic box") {
   const json partial = theory("rough_driven --set measure.burn_in=0");
   CHECK(partial.at("bulk_drive_power").get<double>() == doctest::Approx(0.1995));
   CHECK_FALSE(partial.contains("temperature_driven"));  // friction has a limit
-  const json driven = theory("rough_driven --set measure.burn_in=0 --set disks.friction=inf");
+  const json driven = theory("rough_driven --set measure.burn_in=0 --set particles.friction=inf");
   CHECK(driven.at("temperature_ratio").get<double>() == doctest::Approx(0.25 / (1.0 - 0.5)));
-  CHECK_FALSE(theory("equilibrium --set disks.restitution=1 "
+  CHECK_FALSE(theory("equilibrium --set particles.restitution=1 "
                      "--set 'bulk_drive={interval=1,kick_speed=1}' --set measure.burn_in=0")
                   .contains("temperature_driven"));  // nothing dissipates
   CHECK_FALSE(theory("vibrated --set measure.burn_in=0").contains("compressibility"));
@@ -221,7 +221,7 @@ TEST_CASE("Profiles have every field that was asked for, and no other") {
       "--set 'measure.fields=[\"density\",\"velocity\",\"temperature\",\"stress\","
       "\"stress_kinetic\",\"stress_collisional\",\"heat_flux\",\"heat_flux_kinetic\","
       "\"heat_flux_collisional\",\"dissipation\",\"spin\",\"spin_temperature\"]' "
-      "--set disks.friction=0.5");
+      "--set particles.friction=0.5");
   for (const char* key :
        {"density", "velocity_x", "velocity_y", "temperature", "temperature_x", "temperature_y",
         "stress_xx", "stress_yy", "stress_xy", "stress_xx_kinetic", "stress_xy_collisional",
@@ -273,7 +273,7 @@ TEST_CASE("A state that was saved is where another run starts") {
   const std::string instant = " --quiet --until 1e-300 --save-state again.csv";
   for (const std::string scene : {"from/s.toml",
                                   "vibrated --set measure.burn_in=0 --set "
-                                  "'disks.start={layout=\"file\",file=\"end.csv\"}'"}) {
+                                  "'particles.start={layout=\"file\",file=\"end.csv\"}'"}) {
     CAPTURE(scene);
     const Outcome outcome = shell.run("clatter measure " + scene + instant);
     CAPTURE(outcome.err);
@@ -389,10 +389,10 @@ TEST_CASE("A gas that its walls heat without bound has no temperature in theory"
         "--set walls.left.restitution=1.05 --set walls.right.restitution=1.05 ";
     return json::parse(shell.run(line + settings).out).at("theory");
   };
-  const json heated = theory("--set disks.restitution=1");
+  const json heated = theory("--set particles.restitution=1");
   CHECK(heated.at("epsilon_effective") < 0.0);
   CHECK_FALSE(heated.contains("temperature_simple"));
-  const json layered = theory("--set disks.restitution=0.9975");
+  const json layered = theory("--set particles.restitution=0.9975");
   CHECK(layered.at("epsilon_effective") > 0.0);
   CHECK(layered.contains("temperature_refined"));
   CHECK_FALSE(layered.contains("temperature_corrected"));
@@ -406,7 +406,7 @@ TEST_CASE("Of replicas that stop the first seed is named, and the rest is left o
   const Shell shell;
   for (const std::string replicas : {"2", "100000"}) {
     const Outcome outcome = shell.run(
-        "clatter measure collapse --quiet --set collapse={} --set disks.count=100 "
+        "clatter measure collapse --quiet --set collapse={} --set particles.count=100 "
         "--set box.size=[15,15] --set measure.burn_in=0 --seed 7 --out all.json --replicas " +
         replicas);
     CHECK(outcome.code == 3);

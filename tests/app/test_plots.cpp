@@ -34,13 +34,13 @@ void go_on(ScheduledRun& run, double time) {
 
 TEST_CASE("Plots: of a gas without motion, or that comes to rest, all axes are finite") {
   using Settings = std::vector<Override>;
-  const Override cold{"disks.start.temperature", "0.0"};
+  const Override cold{"particles.start.temperature", "0.0"};
   const Override still{"walls.left.drive_speed", "0.0"}, too{"walls.right.drive_speed", "0.0"};
   const Override frozen{"walls.left", "{ kind = \"thermal\", temperature = 0.0 }"};
   const Override likewise{"walls.right", "{ kind = \"thermal\", temperature = 0.0 }"};
   for (const Settings& settings : {Settings{cold}, Settings{still, too}, Settings{cold, still, too},
                                    Settings{frozen, likewise}, Settings{cold, frozen, likewise},
-                                   Settings{{"disks.count", "0"}}}) {
+                                   Settings{{"particles.count", "0"}}}) {
     CAPTURE(settings.front().key);
     for (const Profiled profiled : {Profiled::Fields, Profiled::Balances}) {
       WatchedRun run(load_scene("vibrated", settings), 1);

@@ -99,14 +99,14 @@ TEST_CASE("A picture is the same whenever it is drawn, another seed draws anothe
 
 TEST_CASE("A picture stands for its scene and seed, wherever it is drawn again") {
   const Shell shell;
-  shell.run(kRender + "--to 1 --seed 7 --set disks.count=50 --out a.png");
+  shell.run(kRender + "--to 1 --seed 7 --set particles.count=50 --out a.png");
   REQUIRE(shell.run("clatter render a.png --size 160x120 --quiet --to 1 --out b.png").code == 0);
   CHECK(shell.read("a.png") == shell.read("b.png"));
   // What is said on the command line goes before.
   CHECK(shell.run("clatter render a.png --size 160x120 --quiet --to 1 --seed 8 --out b.png").code ==
         0);
   CHECK(says(shell.read("b.png"), std::string("Seed\0\0\0\0\0", 9) + "8"));
-  CHECK(says(shell.run("clatter check a.png --set disks.count=51").out, "count = 51"));
+  CHECK(says(shell.run("clatter check a.png --set particles.count=51").out, "count = 51"));
   // A picture from elsewhere.
   shell.run("ffmpeg -v error -f lavfi -i color -frames:v 1 other.png");
   const Outcome other = shell.run("clatter check other.png");

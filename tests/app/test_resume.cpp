@@ -105,7 +105,7 @@ TEST_CASE("A run may go on for longer, and is then one run") {
   CHECK(shell.run(line + "--until 60 --resume c --out d.json").code == 0);
   CHECK(result_of(shell, "d.json") == result_of(shell, "a.json"));
   // Of other laws it has nothing to tell.
-  check_refused(shell, line + "--until 60 --resume c --set disks.restitution=0.8",
+  check_refused(shell, line + "--until 60 --resume c --set particles.restitution=0.8",
                 {"--until", "t = 60", "go beyond"});
 }
 
@@ -142,12 +142,12 @@ TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
   const std::string line = "clatter measure vibrated --set measure.burn_in=1 ";
   REQUIRE(shell.run(line + "--until 5 --checkpoint c --out a.json").code == 0);
   const Outcome outcome = shell.run(line +
-                                    "--until 9 --resume c --seed 3 --set disks.restitution=0.8 "
+                                    "--until 9 --resume c --seed 3 --set particles.restitution=0.8 "
                                     "--set walls.left.drive_speed=2 --set view.speed=7");
   CHECK(outcome.code == 0);
-  CHECK(
-      says(outcome.err,
-           "from t = 5 on other laws hold: disks.restitution, walls.left.drive_speed, the seed\n"));
+  CHECK(says(
+      outcome.err,
+      "from t = 5 on other laws hold: particles.restitution, walls.left.drive_speed, the seed\n"));
   CHECK(json::parse(outcome.out).at("seed") == 3);
 
   // What flights contribute is booked at their end, so averages cannot span two gravities.
@@ -205,8 +205,8 @@ TEST_CASE("A run goes on without the file of its start state") {
   CHECK(resumed.at("scene") == whole.at("scene"));
   // From the temperature that the file gave.
   CHECK(resumed.at("theory").at("haff_rate") == whole.at("theory").at("haff_rate"));
-  check_refused(shell, "clatter measure s.toml --until 20 --resume c --set disks.count=7",
-                {"c: ", "disks.count is 200 in the checkpoint and 7 in the scene"});
+  check_refused(shell, "clatter measure s.toml --until 20 --resume c --set particles.count=7",
+                {"c: ", "particles.count is 200 in the checkpoint and 7 in the scene"});
 }
 
 // What a run has found of itself goes with it, so a checkpoint may stand for a run that overlapped.
@@ -236,8 +236,8 @@ TEST_CASE("A checkpoint that does not fit is refused") {
               .run("clatter measure vibrated --set measure.burn_in=1 --until 5 --checkpoint c "
                    "--out a.json")
               .code == 0);
-  check_refused(shell, line + "--set disks.count=201",
-                {"c: ", "disks.count is 200 in the checkpoint and 201 in the scene"});
+  check_refused(shell, line + "--set particles.count=201",
+                {"c: ", "particles.count is 200 in the checkpoint and 201 in the scene"});
   check_refused(shell, line + "--set box.size=[20,26]", {"c: ", "box.size"});
   check_refused(shell, line + "--set walls.top.kind=static --set walls.bottom.kind=static",
                 {"c: ", "walls.bottom.kind is absent in the checkpoint"});
@@ -263,7 +263,7 @@ TEST_CASE("A checkpoint that does not fit is refused") {
 TEST_CASE("A collapse leaves results, a checkpoint and the way on") {
   const Shell shell;
   const std::string scene =
-      "cooling --set disks.restitution=0.1 --set disks.count=300 "
+      "cooling --set particles.restitution=0.1 --set particles.count=300 "
       "--set box.size=[25,25] --set measure.series_interval=0.125 --until 1000 ";
   const Outcome stopped = shell.run("clatter measure " + scene + "--quiet --out r.json");
   CHECK(stopped.code == 3);

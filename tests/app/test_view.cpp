@@ -20,32 +20,32 @@ bool halted(const json& status) {
 }
 
 // The hash that a run without a window has at the time of a status.
-json hash_of_run(const Hands& hands, const std::string& scene, const json& status) {
+json hash_of_run(const GuiDriver& driver, const std::string& scene, const json& status) {
   char line[256];
   std::snprintf(line, sizeof line,
                 "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
                 status["time"].get<double>());
-  const Outcome outcome = hands.shell().run(line);
+  const Outcome outcome = driver.shell().run(line);
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   return json::parse(outcome.out)["state_hash"];
 }
 
 // Saves the scene of a gas that halts: a run of it comes to the same bits.
-void check_saved_scene(const Hands& hands) {
-  const std::size_t told = hands.told();
-  hands.key("ctrl+s");
-  const std::string scene = hands.wait_for("saved", told)["file"];
-  const json now = hands.wait_for("status", 0, halted);
-  CHECK(hash_of_run(hands, scene, now) == now["hash"]);
+void check_saved_scene(const GuiDriver& driver) {
+  const std::size_t told = driver.told();
+  driver.key("ctrl+s");
+  const std::string scene = driver.wait_for("saved", told)["file"];
+  const json now = driver.wait_for("status", 0, halted);
+  CHECK(hash_of_run(driver, scene, now) == now["hash"]);
 }
 
 // The file of the disks with which the gas has started.
-std::string saved_start(const Hands& hands) {
-  const std::size_t told = hands.told();
-  hands.key("ctrl+s");
-  std::string file = hands.wait_for("saved", told)["file"];
-  return hands.shell().read(file.replace(file.rfind('.'), file.size(), ".csv"));
+std::string saved_start(const GuiDriver& driver) {
+  const std::size_t told = driver.told();
+  driver.key("ctrl+s");
+  std::string file = driver.wait_for("saved", told)["file"];
+  return driver.shell().read(file.replace(file.rfind('.'), file.size(), ".csv"));
 }
 
 // A column of a table, whose first line names them.
@@ -66,10 +66,10 @@ std::vector<double> column_of(const std::string& table, const std::string& name)
 }
 
 // The upper left corner of the stage's picture.
-std::vector<int> corner_colour(const Hands& hands) {
-  const json stage = hands.wait_for(
+std::vector<int> corner_colour(const GuiDriver& driver) {
+  const json stage = driver.wait_for(
       "widget", 0, [](const json& event) { return event["name"] == "stage"; })["place"];
-  return hands.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3);
+  return driver.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3);
 }
 
 }  // namespace
@@ -77,125 +77,126 @@ std::vector<int> corner_colour(const Hands& hands) {
 TEST_SUITE_BEGIN("window");
 
 TEST_CASE("Window: a gas plays, halts, steps to a frame and to a collision, plays on") {
-  const Hands hands("");
-  const double began = hands.wait_for("status")["time"];
-  std::size_t told = hands.told();
-  CHECK(hands.wait_for("status", told)["time"].get<double>() > began);
+  const GuiDriver driver("");
+  const double began = driver.wait_for("status")["time"];
+  std::size_t told = driver.told();
+  CHECK(driver.wait_for("status", told)["time"].get<double>() > began);
 
-  hands.click("play");
-  hands.wait_for("pause", told);
-  const json still = hands.wait_for("status", told, halted);
-  told = hands.told();
-  hands.key("period");
-  const json frame = hands.wait_for("status", told, halted);
+  driver.click("play");
+  driver.wait_for("pause", told);
+  const json still = driver.wait_for("status", told, halted);
+  told = driver.told();
+  driver.key("period");
+  const json frame = driver.wait_for("status", told, halted);
   CHECK(frame["time"].get<double>() ==
         doctest::Approx(still["time"].get<double>() + 2.0 / 60.0).epsilon(1e-9));
 
-  told = hands.told();
-  hands.key("shift+period");
-  const json hit = hands.wait_for("status", told,
-                                  [](const json& status) { return status.contains("partners"); });
+  told = driver.told();
+  driver.key("shift+period");
+  const json hit = driver.wait_for("status", told,
+                                   [](const json& status) { return status.contains("partners"); });
   CHECK(hit["collisions"].get<int>() == frame["collisions"].get<int>() + 1);
 
   // The same run without a window has the same hash.
-  CHECK(hash_of_run(hands, "vibrated", hit) == hit["hash"]);
+  CHECK(hash_of_run(driver, "vibrated", hit) == hit["hash"]);
 
-  told = hands.told();
-  hands.key("space");
-  hands.wait_for("status", told, [](const json& status) { return status["plays"]; });
+  told = driver.told();
+  driver.key("space");
+  driver.wait_for("status", told, [](const json& status) { return status["plays"]; });
 }
 
 TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") {
-  const Hands hands("--set view.speed=20");
-  const double hot = hands.wait_for(
+  const GuiDriver driver("--set view.speed=20");
+  const double hot = driver.wait_for(
       "status", 0, [](const json& status) { return status["time"] > 40.0; })["temperature"];
-  hands.drag("disks.restitution", 0.88, 0.5);
-  const std::size_t told = hands.told();
-  const json cold = hands.wait_for(
+  driver.drag("particles.restitution", 0.88, 0.5);
+  const std::size_t told = driver.told();
+  const json cold = driver.wait_for(
       "status", told, [&](const json& status) { return status["temperature"] < 0.4 * hot; });
   CHECK(cold["restitution"].get<double>() == doctest::Approx(0.5).epsilon(0.05));
   CHECK(cold["changes"] > 2);
-  hands.key("ctrl+z");
-  hands.wait_for("undo", told);
-  hands.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
+  driver.key("ctrl+z");
+  driver.wait_for("undo", told);
+  driver.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
 }
 
 // Grains at rest on a floor that hardly moves: with a long stroke it would lie in them.
 TEST_CASE("Window: what the engine refuses stays neither in the panels nor in what they start") {
-  const Hands hands(
+  const GuiDriver driver(
       "shaker --set walls.bottom.stroke=0.1 --set view.speed=20 --set collapse.contact_time=1e-3 "
       "--until 30.25",
       "1280x1500");
-  hands.wait_for("status", 0, halted);
-  std::size_t told = hands.told();
-  hands.drag("walls.bottom.stroke", 0.1, 0.95);
-  const json message = hands.wait_for("message", told);
+  driver.wait_for("status", 0, halted);
+  std::size_t told = driver.told();
+  driver.drag("walls.bottom.stroke", 0.1, 0.95);
+  const json message = driver.wait_for("message", told);
   CHECK(says(message["text"], "overlap"));
-  hands.key("r");
-  hands.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
-  told = hands.told();
-  hands.key("ctrl+s");
-  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  driver.key("r");
+  driver.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
+  told = driver.told();
+  driver.key("ctrl+s");
+  const std::string scene = driver.shell().read(driver.wait_for("saved", told)["file"]);
   const std::size_t stroke = scene.find("stroke = ");
   REQUIRE(stroke != std::string::npos);
   CHECK(std::stod(scene.substr(stroke + 9)) < 1.0);
 }
 
 TEST_CASE("Window: a scene of the gallery, found by its name") {
-  const Hands hands("");
+  const GuiDriver driver("");
   // Files of these names are other scenes, or none.
-  hands.shell().run("echo none | tee cooling cradle rough_cooling equilibrium");
-  std::size_t told = hands.told();
-  hands.key("g");
-  hands.wait_for("gallery", told);
-  hands.tool("type --delay 100 cradle");
-  hands.tool("sleep 0.3");
-  hands.key("Return");
-  CHECK(hands.wait_for("open", told)["title"] == "Newton's cradle");
-  CHECK(hands.wait_for("status", told,
-                       [](const json& status) { return status["run"] == 2; })["temperature"] > 0.0);
-  told = hands.told();
-  hands.key("g");
-  hands.wait_for("gallery", told);
-  hands.click("gallery.cooling");
-  CHECK(hands.wait_for("open", told)["title"] == "Haff's cooling");
+  driver.shell().run("echo none | tee cooling cradle rough_cooling equilibrium");
+  std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.tool("type --delay 100 cradle");
+  driver.tool("sleep 0.3");
+  driver.key("Return");
+  CHECK(driver.wait_for("open", told)["title"] == "Newton's cradle");
+  CHECK(driver.wait_for("status", told, [](const json& status) {
+    return status["run"] == 2;
+  })["temperature"] > 0.0);
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.click("gallery.cooling");
+  CHECK(driver.wait_for("open", told)["title"] == "Haff's cooling");
 }
 
 TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays it again") {
-  const Hands hands("");
-  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 2.0; });
-  hands.drag("walls.left.drive_speed", 0.3, 0.8);
-  hands.key("space");
-  std::size_t told = hands.told();
+  const GuiDriver driver("");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 2.0; });
+  driver.drag("walls.left.drive_speed", 0.3, 0.8);
+  driver.key("space");
+  std::size_t told = driver.told();
   // Those that a scene of that name would write, too.
-  hands.shell().run("touch clatter-1.csv clatter-2.mp4");
-  hands.key("F2");
-  const std::string file = hands.wait_for("screenshot", told)["file"];
+  driver.shell().run("touch clatter-1.csv clatter-2.mp4");
+  driver.key("F2");
+  const std::string file = driver.wait_for("screenshot", told)["file"];
   CHECK(file == "clatter-3.png");
-  CHECK(hands.shell().read(file).starts_with("\x89PNG"));
+  CHECK(driver.shell().read(file).starts_with("\x89PNG"));
   // Above the left wall there is background, on the wall there is not.
-  CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
+  CHECK(corner_colour(driver) == std::vector<int>{0x10, 0x14, 0x18});
 
-  check_saved_scene(hands);
+  check_saved_scene(driver);
 }
 
 TEST_CASE("Window: with fewer disks the rest of the gas goes on, and can be saved") {
-  const Hands hands("");
-  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 3.0; });
-  std::size_t told = hands.told();
-  hands.drag("disks.count", 0.8, 0.6);
-  hands.wait_for("refit", told);
-  const json again = hands.wait_for("status", told, [](const json& status) {
+  const GuiDriver driver("");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 3.0; });
+  std::size_t told = driver.told();
+  driver.drag("particles.count", 0.8, 0.6);
+  driver.wait_for("refit", told);
+  const json again = driver.wait_for("status", told, [](const json& status) {
     return status["run"] == 2 && status["time"] > 0.5;
   });
-  CHECK(again["disks"] < 150);
-  hands.drag("disks.restitution", 0.88, 0.8);
-  hands.key("space");
-  check_saved_scene(hands);
+  CHECK(again["particles"] < 150);
+  driver.drag("particles.restitution", 0.88, 0.8);
+  driver.key("space");
+  check_saved_scene(driver);
 }
 
 TEST_CASE("Window: a wall that is dragged makes another box for the same disks") {
-  const Hands hands("--set walls.bottom.kind=static --set walls.top.kind=static");
+  const GuiDriver driver("--set walls.bottom.kind=static --set walls.top.kind=static");
   struct Case {
     const char* wall;
     int right, down;  // outwards
@@ -206,149 +207,149 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
        {Case{"wall.right", 75, 0, 0, "x"}, Case{"wall.left", -75, 0, 0, "x"},
         Case{"wall.top", 0, -75, 1, "y"}, Case{"wall.bottom", 0, 75, 1, "y"}}) {
     CAPTURE(wall);
-    const json before = hands.wait_for("status");
-    const std::size_t told = hands.told();
+    const json before = driver.wait_for("status");
+    const std::size_t told = driver.told();
     const auto opened = [&](const json& status) { return status["run"] > before["run"]; };
-    hands.pull(wall, right, down);
-    const json wider = hands.wait_for("status", told, opened);
-    CHECK(wider["disks"] == before["disks"]);
+    driver.pull(wall, right, down);
+    const json wider = driver.wait_for("status", told, opened);
+    CHECK(wider["particles"] == before["particles"]);
     const double grown = wider["box"][axis].get<double>() - before["box"][axis].get<double>();
     CHECK(grown > 1.0);
     CHECK(wider["box"][1 - axis] == before["box"][1 - axis]);
     // The disks are where they were: what is new of the box begins without any.
-    const std::string saved = saved_start(hands);
+    const std::string saved = saved_start(driver);
     const bool low = right + down == (axis == 0 ? -75 : 75);
     const auto [least, most] = std::ranges::minmax(column_of(saved, column));
     const double room = low ? least : wider["box"][axis].get<double>() - most;
     CHECK(room >= grown + 0.5 - 1e-9);
-    hands.key("ctrl+z");
-    hands.wait_for("status", told,
-                   [&](const json& status) { return status["box"] == before["box"]; });
-    const auto [lowest, highest] = std::ranges::minmax(column_of(saved_start(hands), column));
+    driver.key("ctrl+z");
+    driver.wait_for("status", told,
+                    [&](const json& status) { return status["box"] == before["box"]; });
+    const auto [lowest, highest] = std::ranges::minmax(column_of(saved_start(driver), column));
     CHECK(lowest >= 0.5 - 1e-9);
     CHECK(highest <= before["box"][axis].get<double>() - 0.5 + 1e-9);
   }
-  hands.pull("wall.left", 40, 0);
-  hands.key("space");
-  check_saved_scene(hands);
+  driver.pull("wall.left", 40, 0);
+  driver.key("space");
+  check_saved_scene(driver);
 }
 
 TEST_CASE("Window: what the balance equations leave open is plotted only where it is asked for") {
-  const Hands hands("--set view.speed=10");
+  const GuiDriver driver("--set view.speed=10");
   const auto told_residuals = [](const json& status) { return status.contains("residuals"); };
-  hands.key("p");
-  hands.click("plots.profile");
-  std::size_t told = hands.told();
-  hands.click("plots.profile.balance residuals");
-  const json with = hands.wait_for("status", told, [&](const json& status) {
+  driver.key("p");
+  driver.click("plots.profile");
+  std::size_t told = driver.told();
+  driver.click("plots.profile.balance residuals");
+  const json with = driver.wait_for("status", told, [&](const json& status) {
     return told_residuals(status) && status["residuals"][3] > 0.0;
   });
   for (const json& residual : with["residuals"]) CHECK(residual < 1e-9);
   CHECK(with["run"] == 1);
-  hands.key("p");
-  told = hands.told();
-  hands.wait_for("status", told, [&](const json& status) { return !told_residuals(status); });
+  driver.key("p");
+  told = driver.told();
+  driver.wait_for("status", told, [&](const json& status) { return !told_residuals(status); });
 }
 
 TEST_CASE("Window: what there is to try closes, and a lecture is for a projector") {
-  const Hands hands("", "1280x1500");
+  const GuiDriver driver("", "1280x1500");
   const auto height = [&](std::size_t told) {
-    return hands
+    return driver
         .wait_for("widget", told,
                   [](const json& event) { return event["name"] == "stage"; })["place"][3]
         .get<double>();
   };
   const double before = height(0);
-  std::size_t told = hands.told();
-  hands.click("close_lesson");
+  std::size_t told = driver.told();
+  driver.click("close_lesson");
   CHECK(height(told) > before + 20.0);
   // An edit of the view, to be taken back in the lecture.
-  hands.click("view.grid");
-  told = hands.told();
-  hands.key("l");
+  driver.click("view.grid");
+  told = driver.told();
+  driver.key("l");
   height(told);
-  CHECK(corner_colour(hands) == std::vector<int>{255, 255, 255});
-  hands.key("ctrl+z");
-  hands.wait_for("undo", told);
-  CHECK(corner_colour(hands) == std::vector<int>{255, 255, 255});
-  told = hands.told();
-  hands.key("Escape");
+  CHECK(corner_colour(driver) == std::vector<int>{255, 255, 255});
+  driver.key("ctrl+z");
+  driver.wait_for("undo", told);
+  CHECK(corner_colour(driver) == std::vector<int>{255, 255, 255});
+  told = driver.told();
+  driver.key("Escape");
   height(told);
-  CHECK(corner_colour(hands) == std::vector<int>{0x10, 0x14, 0x18});
+  CHECK(corner_colour(driver) == std::vector<int>{0x10, 0x14, 0x18});
 }
 
 TEST_CASE("Window: trails come with their slider, go with undo, and are in the saved scene") {
   // Few disks on a dark ground, so that most of the light is that of trails, some disks long each.
-  const Hands hands(
-      "equilibrium --set disks.area_fraction=0.03 --set view.overlay=false --set view.speed=5",
+  const GuiDriver driver(
+      "equilibrium --set particles.area_fraction=0.03 --set view.overlay=false --set view.speed=5",
       "1280x1500");
-  const json before = hands.wait_for("status");
+  const json before = driver.wait_for("status");
   CHECK(before["flights"] == 0);
-  std::size_t told = hands.told();
-  hands.drag("view.trails", 0.02, 0.9);
+  std::size_t told = driver.told();
+  driver.drag("view.trails", 0.02, 0.9);
   const json begun =
-      hands.wait_for("status", told, [](const json& status) { return status["flights"] > 0; });
-  const json with = hands.wait_for("status", told, [&](const json& status) {
+      driver.wait_for("status", told, [](const json& status) { return status["flights"] > 0; });
+  const json with = driver.wait_for("status", told, [&](const json& status) {
     return status["time"].get<double>() > begun["time"].get<double>() + 5.0;
   });
   // Nothing but the picture is another.
   CHECK(with["run"] == before["run"]);
   CHECK(with["changes"] == 0);
-  hands.key("space");
-  hands.wait_for("status", told, halted);
-  const double bright = hands.brightness("stage");
+  driver.key("space");
+  driver.wait_for("status", told, halted);
+  const double bright = driver.brightness("stage");
   // A drag is one step to take back.
-  told = hands.told();
-  hands.key("ctrl+z");
-  hands.wait_for("status", told, [](const json& status) { return status["flights"] == 0; });
-  const double dark = hands.brightness("stage");
+  told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("status", told, [](const json& status) { return status["flights"] == 0; });
+  const double dark = driver.brightness("stage");
   MESSAGE("brightness " << bright << " with trails, " << dark << " without");
   CHECK(dark < 0.8 * bright);
-  hands.key("ctrl+y");
-  told = hands.told();
-  hands.key("ctrl+s");
-  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  driver.key("ctrl+y");
+  told = driver.told();
+  driver.key("ctrl+s");
+  const std::string scene = driver.shell().read(driver.wait_for("saved", told)["file"]);
   CHECK(scene.find("trails = ") != std::string::npos);
 }
 
 TEST_CASE("Window: what a contact time leaves out is told, and fields may come from snapshots") {
-  const Hands hands("--set view.speed=10", "1280x1500");
-  std::size_t told = hands.told();
-  hands.click("contact_time");
-  const json few = hands.wait_for(
+  const GuiDriver driver("--set view.speed=10", "1280x1500");
+  std::size_t told = driver.told();
+  driver.click("contact_time");
+  const json few = driver.wait_for(
       "status", told, [](const json& status) { return status.contains("elasticised"); });
   CHECK(few["elasticised"] < 0.01);
-  told = hands.told();
-  hands.drag("collapse.contact_time", 0.5, 1.0);
-  hands.wait_for("status", told, [](const json& status) {
+  told = driver.told();
+  driver.drag("collapse.contact_time", 0.5, 1.0);
+  driver.wait_for("status", told, [](const json& status) {
     return status.contains("elasticised") && status["elasticised"] > 0.05;
   });
-  hands.click("view.estimator");
-  hands.click("view.estimator.snapshot  x1.1");
-  told = hands.told();
-  hands.key("ctrl+s");
-  const std::string scene = hands.shell().read(hands.wait_for("saved", told)["file"]);
+  driver.click("view.estimator");
+  driver.click("view.estimator.snapshot  x1.1");
+  told = driver.told();
+  driver.key("ctrl+s");
+  const std::string scene = driver.shell().read(driver.wait_for("saved", told)["file"]);
   CHECK(scene.find("estimator = \"snapshot\"\ninterval = 0.1") != std::string::npos);
 }
 
 TEST_CASE("Window: films what was done to the gas, as the command does that it gives") {
-  const Hands hands("--set view.speed=4", "1280x1700");
-  hands.drag("disks.restitution", 0.88, 0.7);
-  hands.drag("walls.left.drive_speed", 0.2, 0.4);
-  hands.drag("walls.right.restitution", 0.9, 0.8);
-  hands.key("space");
+  const GuiDriver driver("--set view.speed=4", "1280x1700");
+  driver.drag("particles.restitution", 0.88, 0.7);
+  driver.drag("walls.left.drive_speed", 0.2, 0.4);
+  driver.drag("walls.right.restitution", 0.9, 0.8);
+  driver.key("space");
   // A short film, of few pictures.
-  for (int i = 0; i < 6; ++i) hands.key("plus");
-  check_saved_scene(hands);
-  const std::size_t told = hands.told();
-  hands.click("film");
-  const json film = hands.wait_for("film", told);
+  for (int i = 0; i < 6; ++i) driver.key("plus");
+  check_saved_scene(driver);
+  const std::size_t told = driver.told();
+  driver.click("film");
+  const json film = driver.wait_for("film", told);
   CHECK(film["code"] == 0);
-  hands.click("command");
-  const std::string line = hands.wait_for("command", told)["line"];
-  REQUIRE(hands.shell().run(line + " --quiet").code == 0);
+  driver.click("command");
+  const std::string line = driver.wait_for("command", told)["line"];
+  REQUIRE(driver.shell().run(line + " --quiet").code == 0);
   const auto pictures = [&](const std::string& file) {
-    return hands.shell().run("ffmpeg -v error -i " + file + " -f md5 - </dev/null").out;
+    return driver.shell().run("ffmpeg -v error -i " + file + " -f md5 - </dev/null").out;
   };
   const std::string mine = pictures(film["file"]);
   CHECK(mine.starts_with("MD5="));
@@ -356,51 +357,51 @@ TEST_CASE("Window: films what was done to the gas, as the command does that it g
 }
 
 TEST_CASE("Window: halts at the time that it is given") {
-  const Hands hands("--until 1.5");
-  const json there = hands.wait_for("status", 0, halted);
+  const GuiDriver driver("--until 1.5");
+  const json there = driver.wait_for("status", 0, halted);
   CHECK(there["time"] == 1.5);
-  CHECK(hash_of_run(hands, "vibrated", there) == there["hash"]);
+  CHECK(hash_of_run(driver, "vibrated", there) == there["hash"]);
 }
 
 TEST_CASE("Window: where OpenGL is too old it says what to do instead") {
-  const Hands hands("");
-  const Outcome old = hands.run("MESA_GL_VERSION_OVERRIDE=2.1 clatter view");
+  const GuiDriver driver("");
+  const Outcome old = driver.run("MESA_GL_VERSION_OVERRIDE=2.1 clatter view");
   CHECK(old.code == 1);
   CHECK(old.err.find("OpenGL 3.3") != std::string::npos);
   CHECK(old.err.find("clatter render") != std::string::npos);
-  const Outcome off_screen = hands.run("clatter view --backend osmesa");
+  const Outcome off_screen = driver.run("clatter view --backend osmesa");
   CHECK(off_screen.code == 2);
   CHECK(off_screen.err.find("clatter render") != std::string::npos);
 }
 
 TEST_CASE("Window: where its OpenGL context is lost it says what to do instead") {
-  const Hands hands("");
+  const GuiDriver driver("");
   // The sanitizers would rather come first themselves.
-  const Outcome lost = hands.run("ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" +
-                                 std::string(CLATTER_LOST_CONTEXT) + " clatter view");
+  const Outcome lost = driver.run("ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" +
+                                  std::string(CLATTER_LOST_CONTEXT) + " clatter view");
   CHECK(lost.code == 1);
   CHECK(lost.err.find("context is lost") != std::string::npos);
   CHECK(lost.err.find("clatter render") != std::string::npos);
 }
 
 TEST_CASE("Window: closes at once while it films, and what there is of the film plays") {
-  const Hands hands("--set view.speed=0.5 --set disks.count=20", "1280x1700");
-  hands.wait_for("status", 0, [](const json& status) { return status["time"] > 4.0; });
-  hands.click("film");
+  const GuiDriver driver("--set view.speed=0.5 --set particles.count=20", "1280x1700");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 4.0; });
+  driver.click("film");
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  hands.key("ctrl+q");
-  hands.wait_for("quit");
+  driver.key("ctrl+q");
+  driver.wait_for("quit");
   // It is found by its name while it is on the screen.
-  CHECK(hands.run("xdotool search --onlyvisible --name 'Vibrated box'").code != 0);
-  CHECK(hands.exit_code() == 0);
-  CHECK(hands.shell().run("ffmpeg -v error -i clatter-1.mp4 -f null - </dev/null").code == 0);
+  CHECK(driver.run("xdotool search --onlyvisible --name 'Vibrated box'").code != 0);
+  CHECK(driver.exit_code() == 0);
+  CHECK(driver.shell().run("ffmpeg -v error -i clatter-1.mp4 -f null - </dev/null").code == 0);
 }
 
 TEST_CASE("Window: quits at once") {
-  const Hands hands("collapse");
-  hands.key("ctrl+q");
-  hands.wait_for("quit");
-  CHECK(hands.exit_code() == 0);
+  const GuiDriver driver("collapse");
+  driver.key("ctrl+q");
+  driver.wait_for("quit");
+  CHECK(driver.exit_code() == 0);
 }
 
 TEST_CASE("Window: without a display it says what to do instead") {
@@ -416,22 +417,22 @@ TEST_SUITE_END();
 
 TEST_CASE("Window: a picture of 10,000 disks takes its thread less than 8 ms beside the drawing" *
           doctest::test_suite("slow")) {
-  const Hands hands("--set disks.count=1");
-  const Outcome outcome = hands.run("clatter bench window --json times");
+  const GuiDriver driver("--set particles.count=1");
+  const Outcome outcome = driver.run("clatter bench window --json times");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
-  CHECK(json::parse(hands.shell().read("times"))["median_milliseconds"] < 8.0);
+  CHECK(json::parse(driver.shell().read("times"))["median_milliseconds"] < 8.0);
 }
 
 // It looks at real time, and so needs a machine that has nothing else to do.
 TEST_CASE("Window: a law that a slider sets holds within a frame of the display" *
           doctest::test_suite("slow")) {
-  const Hands hands("");
-  hands.drag("disks.restitution", 0.88, 0.5);
+  const GuiDriver driver("");
+  driver.drag("particles.restitution", 0.88, 0.5);
   std::this_thread::sleep_for(std::chrono::seconds(1));
   std::vector<double> delays;
-  for (const json& set : hands.events("set")) {
-    for (const json& done : hands.events("handled")) {
+  for (const json& set : driver.events("set")) {
+    for (const json& done : driver.events("handled")) {
       if (done["command"] < set["command"]) continue;
       delays.push_back(done["at"].get<double>() - set["at"].get<double>());
       break;

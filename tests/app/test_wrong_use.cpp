@@ -12,7 +12,7 @@ namespace {
 // A scene that is right: a mistake is put in by writing another line 4 or 5.
 std::string scene(const std::string& line_4 = "count = 10",
                   const std::string& line_5 = "restitution = 0.9") {
-  return "[box]\nsize = [20, 20]\n[disks]\n" + line_4 + "\n" + line_5 + "\n";
+  return "[box]\nsize = [20, 20]\n[particles]\n" + line_4 + "\n" + line_5 + "\n";
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ TEST_CASE("Mistakes in a scene are refused at their line and column") {
 
 TEST_CASE("Mistakes in a start state are refused at their line and column") {
   const Shell shell;
-  shell.write("s.toml", "[disks.start]\nlayout = 'file'\nfile = 'a.csv'\n");
+  shell.write("s.toml", "[particles.start]\nlayout = 'file'\nfile = 'a.csv'\n");
   struct Mistake {
     std::string csv;
     std::vector<std::string> parts;
@@ -73,7 +73,7 @@ TEST_CASE("What is no scene is refused") {
 
 TEST_CASE("Wrong flags are refused") {
   const Shell shell;
-  check_refused(shell, "clatter check vibrated --set disks.count", {"--set key=value"});
+  check_refused(shell, "clatter check vibrated --set particles.count", {"--set key=value"});
   check_refused(shell, "clatter check vibrated --set =5", {"--set key=value"});
   check_refused(shell, "clatter check vibrated --set disks.cuont=5",
                 {"--set disks.cuont", "did you mean 'count'?"});

@@ -1,5 +1,5 @@
-// Time of one full prediction (all neighbours, walls, borders), of a disk alone and of two at once,
-// by area fraction and number of disks.
+// Time of one full prediction (all neighbours, walls, borders), of a particle alone and of two at
+// once, by area fraction and number of particles.
 
 #include <cmath>
 #include <cstdint>
@@ -14,20 +14,20 @@
 
 using namespace clatter;
 
-// Disks on a square lattice in a periodic box, with Gaussian velocities.
-static LargeArray<Disk<2>> lattice(int side, double edge) {
-  LargeArray<Disk<2>> disks(static_cast<std::size_t>(side * side));
-  for (std::size_t i = 0; i < disks.size(); ++i) {
+// Particles on a square lattice in a periodic box, with Gaussian velocities.
+static LargeArray<Particle<2>> lattice(int side, double edge) {
+  LargeArray<Particle<2>> particles(static_cast<std::size_t>(side * side));
+  for (std::size_t i = 0; i < particles.size(); ++i) {
     Random random(1, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
     const int n = static_cast<int>(i);
-    disks[i].flight.r = Vec2(n % side + 0.5, n / side + 0.5) * (edge / side);
-    disks[i].flight.v = {random.normal(), random.normal()};
+    particles[i].flight.r = Vec2(n % side + 0.5, n / side + 0.5) * (edge / side);
+    particles[i].flight.v = {random.normal(), random.normal()};
   }
-  return disks;
+  return particles;
 }
 
 struct Taken {
-  double alone;        // seconds for the plan of one disk
+  double alone;        // seconds for the plan of one particle
   double two_at_once;  // seconds for each of two
 };
 
@@ -35,18 +35,18 @@ static Taken time_plans(int side, double area_fraction) {
   Model<2> model;
   const double edge = side * std::sqrt(std::numbers::pi / (4.0 * area_fraction));
   model.box = {edge, edge};
-  const LargeArray<Disk<2>> disks = lattice(side, edge);
-  CellGrid<2> grid(model, static_cast<double>(disks.size()));
-  std::vector<Plan<2>> plans(disks.size());
-  for (std::uint32_t i = 0; i < disks.size(); ++i) {
-    plans[i].cell = grid.cell_at(disks[i].flight.r);
+  const LargeArray<Particle<2>> particles = lattice(side, edge);
+  CellGrid<2> grid(model, static_cast<double>(particles.size()));
+  std::vector<Plan<2>> plans(particles.size());
+  for (std::uint32_t i = 0; i < particles.size(); ++i) {
+    plans[i].cell = grid.cell_at(particles[i].flight.r);
     grid.insert(i, plans[i].cell);
   }
   const Clock clock({0.0, 0.0});
   const Boundary<2> boundary(model, clock);
-  const Prediction<2> prediction(model, boundary, disks, grid);
-  const int rounds = 400000 / static_cast<int>(disks.size()) + 1;
-  const auto count = static_cast<std::uint32_t>(disks.size() / 2 * 2);
+  const Prediction<2> prediction(model, boundary, particles, grid);
+  const int rounds = 400000 / static_cast<int>(particles.size()) + 1;
+  const auto count = static_cast<std::uint32_t>(particles.size() / 2 * 2);
   const double alone = bench::seconds([&] {
     for (int round = 0; round < rounds; ++round) {
       for (std::uint32_t i = 0; i < count; ++i) prediction.plan({i, &plans[i]}, 0.0);
@@ -64,7 +64,7 @@ static Taken time_plans(int side, double area_fraction) {
 }
 
 int main() {
-  std::printf("%10s %10s %18s %18s\n", "disks", "phi", "ns/plan, alone", "two at once");
+  std::printf("%10s %10s %18s %18s\n", "particles", "phi", "ns/plan, alone", "two at once");
   for (const int side : {30, 100, 400}) {
     for (const double area_fraction : {0.1, 0.4, 0.7}) {
       const Taken taken = time_plans(side, area_fraction);

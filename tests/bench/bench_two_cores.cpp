@@ -20,7 +20,7 @@ namespace {
 class Places : public Observer<2> {
  public:
   void on_collision(const PairCollision<2>& collision) override {
-    places.push_back(collision.disks[0].position);
+    places.push_back(collision.particles[0].position);
   }
   std::vector<Vec2> places;
 };
@@ -36,14 +36,14 @@ bool depend(const Vec2& a, const Vec2& b, const Vec2& box) {
 // Mean number of successive collisions of which none depends on an earlier one.
 double independent_collisions(int count, double area_fraction) {
   Scene scene;
-  scene.disks.count = count;
+  scene.particles.count = count;
   scene.box.setConstant(std::sqrt(count * 0.25 * std::numbers::pi / area_fraction));
   const auto simulation = simulation_of(scene, 1);
   constexpr std::uint64_t kCollisions = 200'000;
   simulation->run_until(kNever, 10 * static_cast<std::uint64_t>(count));
   Places watched;
   simulation->add_observer(watched);
-  simulation->run_until(kNever, simulation->counts().disk_disk + kCollisions);
+  simulation->run_until(kNever, simulation->counts().pair_collisions + kCollisions);
   const std::vector<Vec2>& places = watched.places;
   int groups = 1;
   std::size_t first = 0;
@@ -81,7 +81,7 @@ double hand_over() {
 
 int main() {
   std::printf("hand-over between cores: %.0f ns\n", 1e9 * hand_over());
-  std::printf("%10s %10s %24s\n", "disks", "phi", "independent collisions");
+  std::printf("%10s %10s %24s\n", "particles", "phi", "independent collisions");
   for (const int count : {1'000, 10'000, 100'000}) {
     std::printf("%10d %10.1f %24.1f\n", count, 0.5, independent_collisions(count, 0.5));
   }

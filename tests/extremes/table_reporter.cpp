@@ -15,7 +15,7 @@ std::string escaped(const std::string& text) {
   return cell;
 }
 
-// What a file of cases is about, as its name says: "few_disks" is "Few disks".
+// What a file of cases is about, as its name says: "few_particles" is "Few particles".
 std::string heading_of(const char* file) {
   std::string name = std::filesystem::path(file).stem();
   for (char& c : name) c = c == '_' ? ' ' : c;

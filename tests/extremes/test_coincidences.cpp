@@ -13,7 +13,7 @@ using namespace clatter;
 using namespace clatter::testing;
 
 TEST_CASE("Newton's cradle of ten" *
-          doctest::description("the last disk leaves with exactly the first one's velocity")) {
+          doctest::description("the last particle leaves with exactly the first one's velocity")) {
   State<2> start;
   for (int i = 0; i < 11; ++i) {
     start.positions.push_back({i == 10 ? 27.0 : 14.0 + i, 3.0});
@@ -21,29 +21,29 @@ TEST_CASE("Newton's cradle of ten" *
   }
   Simulation<2> simulation(periodic_box(40.0, 6.0), start);
   simulation.run_until(2.9);  // the gap of 3 is about to close
-  CHECK(simulation.counts().disk_disk == 0);
+  CHECK(simulation.counts().pair_collisions == 0);
   simulation.run_until(3.5);
-  CHECK(simulation.counts().disk_disk == 10);
+  CHECK(simulation.counts().pair_collisions == 10);
   const State<2> state = simulation.state();
   CHECK(state.velocities[0] == Vec2(-1.0, 0.0));
   for (std::size_t i = 1; i <= 10; ++i) CHECK(state.velocities[i] == Vec2(0.0, 0.0));
-  MESSAGE("the last disk leaves with ", state.velocities[0].x());
+  MESSAGE("the last particle leaves with ", state.velocities[0].x());
   check_sound(simulation);
 }
 
-TEST_CASE("Newton's cradle of ten touching disks between walls" *
+TEST_CASE("Newton's cradle of ten touching particles between walls" *
           doctest::description("exact to the last bit for fifty passes, overlap 0")) {
-  // Every number is a multiple of 1/4, so nothing is rounded: the eleventh disk flies 2, hands on
-  // its velocity through ten that touch, the last flies 3 to the wall and 3 back, and so on.
-  constexpr int kDisks = 11;
+  // Every number is a multiple of 1/4, so nothing is rounded: the eleventh particle flies 2, hands
+  // on its velocity through ten that touch, the last flies 3 to the wall and 3 back, and so on.
+  constexpr int kParticles = 11;
   constexpr double kSpeed = 0.5;
   Model<2> model = with_walls(periodic_box(16.5, 6.0), 0, kStatic);
   State<2> start;
-  for (int i = 0; i < kDisks; ++i) {
+  for (int i = 0; i < kParticles; ++i) {
     start.positions.push_back({i == 0 ? 0.5 : 2.5 + i, 3.0});
     start.velocities.push_back({i == 0 ? kSpeed : 0.0, 0.0});
   }
-  // Disks at rest: 0 at 2.5 after the first pass, ..., 10 at 12.5 or under way to 16 and back.
+  // Particles at rest: 0 at 2.5 after the first pass, ..., 10 at 12.5 or under way to 16 and back.
   Simulation<2> simulation(model, start);
   for (int pass = 0; pass < 50; ++pass) {
     CAPTURE(pass);
@@ -51,23 +51,23 @@ TEST_CASE("Newton's cradle of ten touching disks between walls" *
     const double there = 22.0 * pass + 4.0 + 0.5;
     simulation.run_until(there);
     State<2> state = simulation.state();
-    for (int i = 0; i < kDisks; ++i) {
-      const bool last = i == kDisks - 1;
+    for (int i = 0; i < kParticles; ++i) {
+      const bool last = i == kParticles - 1;
       REQUIRE(state.positions[i] == Vec2(2.5 + i + (last ? 0.25 : 0.0), 3.0));
       REQUIRE(state.velocities[i] == Vec2(last ? kSpeed : 0.0, 0.0));
     }
-    REQUIRE(simulation.counts().disk_disk == 20U * pass + 10U);
+    REQUIRE(simulation.counts().pair_collisions == 20U * pass + 10U);
     simulation.run_until(22.0 * pass + 4.0 + 14.0 + 0.5);
     state = simulation.state();
-    for (int i = 0; i < kDisks; ++i) {
+    for (int i = 0; i < kParticles; ++i) {
       REQUIRE(state.positions[i] == Vec2(2.5 + i - (i == 0 ? 0.25 : 0.0), 3.0));
       REQUIRE(state.velocities[i] == Vec2(i == 0 ? -kSpeed : 0.0, 0.0));
     }
-    REQUIRE(simulation.counts().disk_disk == 20U * pass + 20U);
+    REQUIRE(simulation.counts().pair_collisions == 20U * pass + 20U);
   }
   CHECK(simulation.checks().deepest_overlap == 0.0);
   CHECK(simulation.checks().clock_steps_back == 0.0);
-  MESSAGE(simulation.counts().disk_disk, " collisions, overlap ",
+  MESSAGE(simulation.counts().pair_collisions, " collisions, overlap ",
           brief(simulation.checks().deepest_overlap));
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("a lattice whose rows and columns all meet at once" *
   CHECK(momentum_off < 1e-13);
 }
 
-TEST_CASE("one disk hits two that touch, at once" *
+TEST_CASE("one particle hits two that touch, at once" *
           doctest::description("the same bits again and by brute force; energy and momentum within "
                                "1e-15, inelastic ones lose energy")) {
   double energy_off = 0.0, momentum_off = 0.0;
@@ -133,10 +133,10 @@ TEST_CASE("one disk hits two that touch, at once" *
       Simulation<2> simulation(model, start);
       simulation.run_until(4.0);
       const State<2> end = simulation.state();
-      CHECK(simulation.counts().disk_disk >= 2);
+      CHECK(simulation.counts().pair_collisions >= 2);
       CHECK(finite_and_inside(model, end));
       check_sound(simulation);
-      check_deterministic(model, start, simulation.counts().disk_disk);
+      check_deterministic(model, start, simulation.counts().pair_collisions);
       momentum_off = std::max(momentum_off, (momentum(end) - momentum(start)).norm());
       if (restitution == 1.0) {
         energy_off = std::max(energy_off, std::fabs(energy_of(end) / energy_of(start) - 1.0));
@@ -151,7 +151,7 @@ TEST_CASE("one disk hits two that touch, at once" *
 }
 
 TEST_CASE(
-    "a row of inelastic disks in contact is hit" *
+    "a row of inelastic particles in contact is hit" *
     doctest::description("it ends or is told to collapse; momentum within 1e-14, overlap below "
                          "1e-12")) {
   double momentum_off = 0.0, deepest = 0.0;
@@ -176,15 +176,15 @@ TEST_CASE(
   CHECK(deepest < 1e-12);
 }
 
-TEST_CASE(
-    "a disk flies into a corner" *
-    doctest::description("it comes back on its way, speed and place exact; so does a disk whose "
-                         "way through the corner two walls share with another disk")) {
+TEST_CASE("a particle flies into a corner" *
+          doctest::description(
+              "it comes back on its way, speed and place exact; so does a particle whose "
+              "way through the corner two walls share with another particle")) {
   const Model<2> model = four(kStatic, kStatic);  // 9 x 8
   // Along the diagonal into the corner at (0, 0), in steps that are exact.
   Simulation<2> alone(model, State<2>{{{2.5, 2.5}}, {{-1.0, -1.0}}});
   alone.run_until(4.0);
-  CHECK(alone.counts().disk_wall == 2);
+  CHECK(alone.counts().wall_collisions == 2);
   CHECK(alone.state().positions[0] == Vec2(2.5, 2.5));
   CHECK(alone.state().velocities[0] == Vec2(1.0, 1.0));
   // One lies in the corner when another comes along the floor and along the wall at the same time.
@@ -204,7 +204,7 @@ TEST_CASE(
     Simulation<2> simulation(model, State<2>{{from}, {corner - from}});
     const double energy = simulation.kinetic_energy();
     simulation.run_until(1.5);
-    CHECK(simulation.counts().disk_wall == 2);
+    CHECK(simulation.counts().wall_collisions == 2);
     CHECK(simulation.state().velocities[0] == from - corner);
     energy_off = std::max(energy_off, std::fabs(simulation.kinetic_energy() / energy - 1.0));
     deepest = std::max(deepest, simulation.checks().deepest_overlap);

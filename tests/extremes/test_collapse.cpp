@@ -21,7 +21,7 @@ namespace {
 // Its acceleration is .18 at most, so that what lies on it under gravity 1 stays.
 const Wall kGentle{
     .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 0.1, .frequency = 0.3};
-// A row of disks along x that all fall upon the first.
+// A row of particles along x that all fall upon the first.
 State<2> row(int count, double spacing) {
   State<2> start;
   for (int i = 0; i < count; ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("the cascade of a bouncing ball" *
     const std::string message = stop_of(simulation, 1e6);
     const double end = 4.0 * (1.0 + restitution) / (1.0 - restitution);
     CAPTURE(message);
-    CHECK(message.find("disk 0 and the bottom wall collide without end") != std::string::npos);
+    CHECK(message.find("particle 0 and the bottom wall collide without end") != std::string::npos);
     MESSAGE("alpha = ", restitution, ": off by ", brief(simulation.time() / end - 1.0));
     CHECK(std::fabs(simulation.time() / end - 1.0) < 1e-5);
     CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
@@ -124,11 +124,11 @@ TEST_CASE("grains on floors" *
   }
 }
 
-TEST_CASE("rows of disks that collapse" *
+TEST_CASE("rows of particles that collapse" *
           doctest::description(
               "a clean stop that says who, and the t_c advised carries on; overlap below 1e-11")) {
-  // In one dimension three free disks collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara & Young
-  // 1992), longer rows above.
+  // In one dimension three free particles collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara &
+  // Young 1992), longer rows above.
   struct Row {
     int count;
     double restitution;
@@ -141,7 +141,7 @@ TEST_CASE("rows of disks that collapse" *
     Simulation<2> simulation(model, start);
     const std::string message = stop_of(simulation, 1000.0);
     CHECK(message.find("inelastic collapse") != std::string::npos);
-    CHECK(message.find(" and disk ") != std::string::npos);
+    CHECK(message.find(" and particle ") != std::string::npos);
     CHECK(simulation.deepest_overlap() < 1e-11);
     model.contact_time = advised_contact_time(message);
     Simulation<2> on(model, start);
@@ -174,7 +174,7 @@ TEST_CASE(
     doctest::description("1e-3 of the time between collisions before, within a factor of ten")) {
   // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
   // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
-  // some ten collisions per disk before it collapses.
+  // some ten collisions per particle before it collapses.
   Model<2> ball = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.9});
   ball.gravity = {0.0, -0.5};
   Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
@@ -188,10 +188,10 @@ TEST_CASE(
   const State<2> start = clear_gas(pile, 12, 909);
   Simulation<2> falling(pile, start), first(pile, start);
   const double pile_time = 1e3 * advised_contact_time(stop_of(falling, 1e6));
-  first.run_until(kNever, 60);  // ten for each disk
+  first.run_until(kNever, 60);  // ten for each particle
   const double expected =
       first.time() * 12.0 /
-      static_cast<double>(2 * first.counts().disk_disk + first.counts().disk_wall);
+      static_cast<double>(2 * first.counts().pair_collisions + first.counts().wall_collisions);
   MESSAGE("a pile's ", brief(pile_time), ", of its first collisions ", brief(expected));
   CHECK(pile_time > 0.1 * expected);
   CHECK(pile_time < 10.0 * expected);
@@ -227,9 +227,9 @@ TEST_CASE("a standstill is looked for" *
 TEST_CASE(
     "dense, fast and hot gases" *
     doctest::description("they are no standstill: 2e5 collisions each, overlap below 1e-11")) {
-  // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic disks at phi = .68,
-  // kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they take,
-  // for which inelastic disks make up.
+  // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic particles at phi =
+  // .68, kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they
+  // take, for which inelastic particles make up.
   Model<2> dense = periodic_box(9.2, 9.0);
   dense.restitution = 0.9;
   dense.bulk_drive = BulkDrive{0.01, 0.1, 0.0};

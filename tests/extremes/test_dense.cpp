@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kColumns = 20, kRows = 24;
 
-// Disks on a triangular lattice that fills a periodic box, with Gaussian velocities of mean 0.
+// Particles on a triangular lattice that fills a periodic box, with Gaussian velocities of mean 0.
 struct Crystal {
   Model<2> model;
   State<2> start;
@@ -33,7 +33,7 @@ struct Crystal {
   }
 };
 
-// Spacing of the triangular lattice at which disks cover a share phi.
+// Spacing of the triangular lattice at which particles cover a share phi.
 double spacing_of(double phi) {
   return std::sqrt(std::numbers::pi / (2.0 * std::sqrt(3.0) * phi));
 }
@@ -75,7 +75,7 @@ TEST_CASE("hexagonal at spacing 1 + 1e-11" *
 }
 
 // Kolafa & Rottner 2006: Z(.69) = 10.23. Relaxation is slow at the edge of freezing, and
-// finite-size effects of 4000 disks are below .1 %.
+// finite-size effects of 4000 particles are below .1 %.
 TEST_CASE("equation of state at phi = .69, by the edge of freezing" * doctest::test_suite("slow") *
           doctest::description("Z within .5 % of 10.23 (Kolafa & Rottner 2006)")) {
   const Measured result = run(gas_of_fraction(0.69, 4000, 1.0), 100.0, 400.0, 922);

@@ -16,7 +16,7 @@ using namespace clatter::testing;
 namespace {
 
 double temperature(const Simulation<2>& simulation) {
-  return simulation.kinetic_energy() / static_cast<double>(simulation.disks().size());
+  return simulation.kinetic_energy() / static_cast<double>(simulation.particles().size());
 }
 
 // What the rounding of a + b has added, exactly (Knuth 1969).
@@ -32,9 +32,9 @@ class Roundings : public Observer<2> {
   Vec2 variance = Vec2::Zero();  // of a walk of steps that are even over a unit in the last place
 
   void on_collision(const PairCollision<2>& c) override {
-    for (const DiskChange<2>& disk : c.disks) {
-      momentum += rounding(disk.velocity, disk.gain.momentum);
-      const Vec2 after = disk.velocity + disk.gain.momentum;
+    for (const ParticleChange<2>& particle : c.particles) {
+      momentum += rounding(particle.velocity, particle.gain.momentum);
+      const Vec2 after = particle.velocity + particle.gain.momentum;
       for (int k = 0; k < 2; ++k) {
         const double unit = std::nextafter(std::fabs(after[k]), kNever) - std::fabs(after[k]);
         variance[k] += unit * unit / 12.0;
@@ -55,8 +55,8 @@ Vec2 exact_momentum(const State<2>& state) {
 
 }  // namespace
 
-// Of 200 disks each T(4) varies by some 16 %, the ratio of means over 16000 seeds by .18 %: 2 % is
-// more than 5 standard errors from a ratio that is 1 % off.
+// Of 200 particles each T(4) varies by some 16 %, the ratio of means over 16000 seeds by .18 %: 2 %
+// is more than 5 standard errors from a ratio that is 1 % off.
 TEST_CASE("alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" * doctest::test_suite("slow") *
           doctest::description("T(4) the same for both within 2 %, by 5 standard errors")) {
   for (const double restitution : {0.0, 0.1, 0.3}) {
@@ -129,7 +129,7 @@ TEST_CASE(
   const Vec2 walk = roundings.momentum.cwiseQuotient(roundings.variance.cwiseSqrt());
   MESSAGE(
       "T = ", brief(temperature(simulation)), " at t = ", brief(time), " after ",
-      simulation.counts().disk_disk, " collisions; T t^2 = ", brief(scaled.mean()), " +- ",
+      simulation.counts().pair_collisions, " collisions; T t^2 = ", brief(scaled.mean()), " +- ",
       brief(scaled.standard_error()), ", by the law ", brief(1.0 / (k * k)), "; momentum ",
       brief(drift.norm()), ", ", brief(drift.squaredNorm() / 128.0 / simulation.kinetic_energy()),
       " of the energy; off by ", brief(walk.x()), " and ", brief(walk.y()), " standard deviations");

@@ -27,14 +27,14 @@ class GapWatch : public Observer<2> {
 
   void on_collision(const PairCollision<2>& c) override {
     widest_contact = std::max(widest_contact, c.separation.norm() - 1.0);
-    for (const DiskChange<2>& disk : c.disks) follow(disk.disk, c.time);
+    for (const ParticleChange<2>& particle : c.particles) follow(particle.particle, c.time);
   }
 
  private:
   void follow(std::uint32_t i, double end) {
-    for (std::uint32_t j = 0; j < simulation_.disks().size(); ++j) {
+    for (std::uint32_t j = 0; j < simulation_.particles().size(); ++j) {
       if (j == i) continue;
-      const Flight<2>&a = simulation_.disks()[i].flight, &b = simulation_.disks()[j].flight;
+      const Flight<2>&a = simulation_.particles()[i].flight, &b = simulation_.particles()[j].flight;
       const double begin = std::max(a.time, b.time);
       look(a.at(begin, Vec2::Zero()) - b.at(begin, Vec2::Zero()), a.v - b.v, end - begin);
     }
@@ -73,7 +73,7 @@ class GapWatch : public Observer<2> {
 }  // namespace
 
 TEST_CASE(
-    "two and three disks whose flights are longer than the box" *
+    "two and three particles whose flights are longer than the box" *
     doctest::description("no image missed: gap >= -1e-9 between all collisions, against brute "
                          "force over all images")) {
   double least = kInfinity, widest = 0.0, longest = 0.0;
@@ -97,7 +97,7 @@ TEST_CASE(
   CHECK(widest <= 1e-9);
 }
 
-TEST_CASE("none to three disks between walls of every kind, under all that acts" *
+TEST_CASE("none to three particles between walls of every kind, under all that acts" *
           doctest::description("they come to the end or to a rest; all numbers finite, overlap "
                                "below 1e-9")) {
   double deepest = 0.0;
@@ -133,7 +133,7 @@ TEST_CASE("none to three disks between walls of every kind, under all that acts"
   MESSAGE("deepest overlap ", brief(deepest));
 }
 
-TEST_CASE("kicks of one disk, and of two" *
+TEST_CASE("kicks of one particle, and of two" *
           doctest::description("of one nothing, of two opposite: momentum 0 within 1e-13")) {
   Model<2> model = periodic_box(7.0, 6.0);
   model.bulk_drive = BulkDrive{0.3, 0.2, 0.0};
@@ -148,7 +148,7 @@ TEST_CASE("kicks of one disk, and of two" *
   CHECK(momentum(both.state()).norm() < 1e-13);
 }
 
-TEST_CASE("rough disks touch through images that are not the nearest" *
+TEST_CASE("rough particles touch through images that are not the nearest" *
           doctest::description("same bits as brute force; contacts within 1e-12 of a diameter")) {
   // In a box lower than two diameters: each collision is whole (the separation one diameter, the
   // loss that of section 2), whichever image it is through.
@@ -163,18 +163,18 @@ TEST_CASE("rough disks touch through images that are not the nearest" *
       longest = std::max(longest, std::fabs(c.separation.norm() - 1.0));
       const ContactLaw law{model_.restitution, kInfinity, 0.5};
       const double loss =
-          dissipated_energy<2>(c.separation, c.disks[0].velocity - c.disks[1].velocity,
-                               c.disks[0].spin + c.disks[1].spin, law, model_.inertia, 1.0);
-      const double lost = -(c.disks[0].energy + c.disks[1].energy);
+          dissipated_energy<2>(c.separation, c.particles[0].velocity - c.particles[1].velocity,
+                               c.particles[0].spin + c.particles[1].spin, law, model_.inertia, 1.0);
+      const double lost = -(c.particles[0].energy + c.particles[1].energy);
       worst_loss = std::max(worst_loss, std::fabs(lost - loss));
     }
 
    private:
     // Through the image that touches in the end, when the later of the two flights began.
     static Vec2 separation_at_prediction(const PairCollision<2>& c) {
-      const Flight<2>&a = c.disks[0].before, &b = c.disks[1].before;
+      const Flight<2>&a = c.particles[0].before, &b = c.particles[1].before;
       const double time = std::max(a.time, b.time);
-      const Vec2 shift = c.separation - (c.disks[0].position - c.disks[1].position);
+      const Vec2 shift = c.separation - (c.particles[0].position - c.particles[1].position);
       return a.at(time, Vec2::Zero()) - b.at(time, Vec2::Zero()) + shift;
     }
     const Model<2>& model_;
@@ -191,7 +191,7 @@ TEST_CASE("rough disks touch through images that are not the nearest" *
     simulation.run_until(kNever, 3000);
     reference.run_until_collisions(3000);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
-    MESSAGE(images.far, " of ", simulation.counts().disk_disk,
+    MESSAGE(images.far, " of ", simulation.counts().pair_collisions,
             " collisions through such images, contacts off by ", brief(images.longest));
     CHECK(images.far > 50);
     CHECK(images.longest < 1e-12);
@@ -201,7 +201,7 @@ TEST_CASE("rough disks touch through images that are not the nearest" *
   }
 }
 
-TEST_CASE("no disk, and one disk between four walls" *
+TEST_CASE("no particle, and one particle between four walls" *
           doctest::description("back at its start after ten periods within 1e-12")) {
   Simulation<2> none(periodic_box(10.0, 10.0), State<2>{});
   none.run_until(1000.0);
@@ -216,7 +216,7 @@ TEST_CASE("no disk, and one disk between four walls" *
   const Model<2> walled = with_walls(with_walls(periodic_box(10.0, 10.0), 0, Wall{}), 1, Wall{});
   Simulation<2> one(walled, start);
   one.run_until(180.0);  // to and fro over 9: 10 periods along x, 2.5 along y
-  CHECK(one.counts().disk_wall == 25);
+  CHECK(one.counts().wall_collisions == 25);
   const double off = (one.state().positions[0] - Vec2(5.0, 5.0)).norm();
   MESSAGE("off by ", brief(off));
   CHECK(off < 1e-12);
@@ -248,14 +248,14 @@ TEST_CASE("a free flight through many boxes" *
   MESSAGE("off by ", brief(worst), " of the way");
 }
 
-TEST_CASE("disks in contact that move alike through thousands of boxes" *
+TEST_CASE("particles in contact that move alike through thousands of boxes" *
           doctest::description("they never collide, overlap below 1e-10")) {
   State<2> start;
   start.positions = {{1.0, 1.0}, {2.0, 1.0}, {1.0, 2.0}};
   start.velocities = {{50.0, -31.0}, {50.0, -31.0}, {50.0, -31.0}};
   Simulation<2> simulation(periodic_box(4.0, 6.0), start);
   simulation.run_until(1000.0);
-  CHECK(simulation.counts().disk_disk == 0);
+  CHECK(simulation.counts().pair_collisions == 0);
   CHECK(simulation.counts().cell_crossings > 20000);
   MESSAGE("overlap ", brief(simulation.deepest_overlap()));
   CHECK(simulation.deepest_overlap() < 1e-10);  // positions at 1000 are of order 5e4

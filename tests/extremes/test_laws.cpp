@@ -26,9 +26,10 @@ State<2> without_spins(State<2> state) {
 
 }  // namespace
 
-TEST_CASE("beta = -1, and mu = 0, with spins that turn" *
-          doctest::description("places and velocities identical to smooth disks bit for bit, spins "
-                               "as at the start")) {
+TEST_CASE(
+    "beta = -1, and mu = 0, with spins that turn" *
+    doctest::description("places and velocities identical to smooth particles bit for bit, spins "
+                         "as at the start")) {
   const Model<2> smooth = inelastic(four(kDriven, kLossy), 0.9);
   std::uint64_t collisions = 0;
   for (const Roughness& roughness : {Roughness{kInfinity, -1.0}, Roughness{0.3, -1.0},
@@ -82,9 +83,9 @@ TEST_CASE("beta = 0, and mu = inf, with alpha = 1" *
   check_sound(unlimited);
 }
 
-TEST_CASE("alpha_w = 0" *
-          doctest::description("disks leave such walls with v_dr, or slide along; overlap below "
-                               "1e-12")) {
+TEST_CASE("alpha_w = 0" * doctest::description(
+                              "particles leave such walls with v_dr, or slide along; overlap below "
+                              "1e-12")) {
   double deepest = 0.0;
   for (const double drive : {0.0, 1.0}) {
     const Wall wall{.kind = WallKind::Driven, .restitution = 0.0, .drive_speed = drive};

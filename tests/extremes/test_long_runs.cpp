@@ -19,12 +19,12 @@ class WallMomentum : public Observer<2> {
   Vec2 given = Vec2::Zero();
   double size = 0.0;
   void on_wall(const WallCollision<2>& c) override {
-    given += c.disk.gain.momentum;
-    size += c.disk.gain.momentum.norm();
+    given += c.particle.gain.momentum;
+    size += c.particle.gain.momentum.norm();
   }
 };
 
-// 100 elastic disks at phi = .31 between walls along x, periodic along y.
+// 100 elastic particles at phi = .31 between walls along x, periodic along y.
 void conserve(std::uint64_t events) {
   const Model<2> model = with_walls(periodic_box(16.0, 16.0), 0, kStatic);
   State<2> start = random_gas(model, 100, 923);
@@ -37,7 +37,7 @@ void conserve(std::uint64_t events) {
   simulation.run_until(kNever, events);
   const Vec2 gained = momentum(simulation.state()) - momentum(start);
   const double energy_off = std::fabs(simulation.kinetic_energy() / energy - 1.0);
-  // Relative to the sum of all disks' speeds, of order N.
+  // Relative to the sum of all particles' speeds, of order N.
   const double momentum_off = std::fabs(gained.y()) / 100.0;
   const double ledger_off = std::fabs(gained.x() - walls.given.x()) / walls.size;
   MESSAGE(brief(static_cast<double>(events)), " events, t = ", brief(simulation.time()),
@@ -53,15 +53,15 @@ void conserve(std::uint64_t events) {
 // What each type of event gives to the energy of motion and spin.
 class Ledger : public Observer<2> {
  public:
-  double disks = 0.0, walls = 0.0, kicks = 0.0;
+  double particles = 0.0, walls = 0.0, kicks = 0.0;
   void on_collision(const PairCollision<2>& c) override {
-    disks += c.disks[0].energy + c.disks[1].energy;
+    particles += c.particles[0].energy + c.particles[1].energy;
   }
-  void on_wall(const WallCollision<2>& c) override { walls += c.disk.energy; }
-  void on_kick(const Kick<2>& k) override { kicks += k.disk.energy; }
+  void on_wall(const WallCollision<2>& c) override { walls += c.particle.energy; }
+  void on_kick(const Kick<2>& k) override { kicks += k.particle.energy; }
 };
 
-// 100 inelastic disks between driven walls, kicked as well.
+// 100 inelastic particles between driven walls, kicked as well.
 void balance(std::uint64_t events) {
   Model<2> model = inelastic(with_walls(periodic_box(20.0, 25.0), 0, kDriven), 0.9);
   model.bulk_drive = BulkDrive{0.5, 0.2, 0.0};
@@ -71,11 +71,12 @@ void balance(std::uint64_t events) {
   const double before = simulation.kinetic_energy();
   simulation.run_until(kNever, events);
   const double left = simulation.kinetic_energy() - before;
-  const double off = std::fabs(left - (ledger.walls + ledger.kicks + ledger.disks)) / -ledger.disks;
+  const double off =
+      std::fabs(left - (ledger.walls + ledger.kicks + ledger.particles)) / -ledger.particles;
   MESSAGE(brief(static_cast<double>(events)), " events, t = ", brief(simulation.time()),
           ": walls gave ", brief(ledger.walls), ", kicks ", brief(ledger.kicks),
-          ", collisions took ", brief(-ledger.disks), "; the rest is off by ", brief(off));
-  CHECK(ledger.kicks > 0.01 * -ledger.disks);
+          ", collisions took ", brief(-ledger.particles), "; the rest is off by ", brief(off));
+  CHECK(ledger.kicks > 0.01 * -ledger.particles);
   CHECK(off <= 1e-10);
   check_sound(simulation);
 }

@@ -41,7 +41,7 @@ TEST_CASE(
         for (const double y : {state.velocities[0].y(), -state.velocities[1].y()}) {
           worst = std::max(worst, std::fabs(y / across - 1.0));
         }
-        CHECK(simulation.counts().disk_disk == 1);
+        CHECK(simulation.counts().pair_collisions == 1);
         check_sound(simulation);
       }
     }
@@ -50,7 +50,7 @@ TEST_CASE(
   CHECK(worst < 1e-4);
 }
 
-TEST_CASE("disks that meet, or miss, after 1000 diameters" *
+TEST_CASE("particles that meet, or miss, after 1000 diameters" *
           doctest::description("contact within 1e-10 of a diameter, none missed or invented beyond "
                                "rounding of b")) {
   // The discriminant is the difference of two numbers of 10^6; b is within 10^-k of grazing.
@@ -71,9 +71,9 @@ TEST_CASE("disks that meet, or miss, after 1000 diameters" *
       // What is stored is rounded to 2e-13 in place and 2e-16 in direction, so 1e-12 over the way.
       if (std::fabs(beside) > 1e-12) {
         CAPTURE(beside);
-        CHECK(simulation.counts().disk_disk == (beside > 0.0 ? 1 : 0));
+        CHECK(simulation.counts().pair_collisions == (beside > 0.0 ? 1 : 0));
       }
-      met += static_cast<int>(simulation.counts().disk_disk);
+      met += static_cast<int>(simulation.counts().pair_collisions);
       worst = std::max({worst, simulation.checks().deepest_overlap,
                         brute_force_overlap(model, simulation.state())});
     }
@@ -125,8 +125,8 @@ TEST_CASE("lengths scaled by 2^+-40 and speeds by 2^+-30, everything at once" *
   MESSAGE(plain.counts().collisions(), " collisions, four scalings, the same bits");
 }
 
-// The first disks reach the walls late after the start and leave them fast: times there are rounded
-// by as much as these disks fly in 1e-10 diameters' time, unless the base moves.
+// The first particles reach the walls late after the start and leave them fast: times there are
+// rounded by as much as these particles fly in 1e-10 diameters' time, unless the base moves.
 TEST_CASE("a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
           doctest::description("same bits as brute force, overlap below 1e-12")) {
   double deepest = 0.0;
@@ -151,8 +151,8 @@ TEST_CASE("a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
 TEST_CASE("speeds that differ by 1e12" *
           doctest::description("same bits as brute force; energy 1e-12, overlap below 1e-10")) {
   double energy_off = 0.0, deepest = 0.0;
-  // One disk at 1e6 among others at 1e-6, which it sets in motion one after the other; and with a
-  // wall that swings at a speed of order 1.
+  // One particle at 1e6 among others at 1e-6, which it sets in motion one after the other; and with
+  // a wall that swings at a speed of order 1.
   for (const bool walled : {false, true}) {
     Model<2> model = periodic_box(9.0, 8.0);
     if (walled) {

@@ -12,8 +12,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Walls that move far faster than the disks, or far slower; far, or often. That a contact is the
-// first root is shown case by case in tests/engine/physics/test_wall_motion.cpp.
+// Walls that move far faster than the particles, or far slower; far, or often. That a contact is
+// the first root is shown case by case in tests/engine/physics/test_wall_motion.cpp.
 
 namespace {
 
@@ -22,7 +22,7 @@ struct Figures {
   std::uint64_t hits = 0;
 };
 
-// 10 disks, by the simulation and by brute force.
+// 10 particles, by the simulation and by brute force.
 void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   const State<2> start = clear_gas(model, 10, 956);
   Simulation<2> simulation(model, start);
@@ -31,14 +31,15 @@ void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   reference.run_until_collisions(collisions);
   CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
   CHECK(simulation.checks().clock_steps_back < 1e-13);
-  // Brute force knows walls in their resting place only; of disks with disks it looks at all.
+  // Brute force knows walls in their resting place only; of particles with particles it looks at
+  // all.
   Model<2> open = model;
   for (auto& wall : open.walls) wall.reset();
   open.box.array() += 20.0;
   figures.deepest =
       std::max({figures.deepest, simulation.checks().deepest_overlap, simulation.deepest_overlap(),
                 brute_force_overlap(open, simulation.state())});
-  figures.hits += simulation.counts().disk_wall;
+  figures.hits += simulation.counts().wall_collisions;
 }
 
 void report(const Figures& figures) {
@@ -73,20 +74,20 @@ void shake_at(std::initializer_list<double> speeds) {
 
 }  // namespace
 
-TEST_CASE("walls 10^3, 10^6 times as fast as the disks" *
-          doctest::description("same bits as brute force, no disk beyond a wall, overlap below "
+TEST_CASE("walls 10^3, 10^6 times as fast as the particles" *
+          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   shake_at({1e3, 1e6});
 }
 
-TEST_CASE("walls 10^-3, 10^-6 times as fast as the disks" *
-          doctest::description("same bits as brute force, no disk beyond a wall, overlap below "
+TEST_CASE("walls 10^-3, 10^-6 times as fast as the particles" *
+          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   shake_at({1e-3, 1e-6});
 }
 
 TEST_CASE("a frequency of 10^6 at strokes of 1e-6 to .1" *
-          doctest::description("same bits as brute force, no disk beyond a wall, overlap below "
+          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   Figures figures;
   for (const WallKind kind : kMoving) {
@@ -96,13 +97,13 @@ TEST_CASE("a frequency of 10^6 at strokes of 1e-6 to .1" *
 }
 
 TEST_CASE("strokes as long as the box leaves" *
-          doctest::description("same bits as brute force, no disk beyond a wall, overlap below "
+          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   Figures figures;
   for (const WallKind kind : kMoving) {
     for (const double frequency : {0.01, 1.0, 100.0}) {
-      // Two columns of disks are left where both walls are farthest in; in the second case one
-      // wall comes to where a lone disk just fits.
+      // Two columns of particles are left where both walls are farthest in; in the second case one
+      // wall comes to where a lone particle just fits.
       const double reach = kind == WallKind::Sawtooth ? 1.0 : 2.0;
       shake(between(kind, 4.9 * reach, frequency), 500, figures);
       Model<2> narrow = between(kind, 10.9 * reach, frequency);
@@ -110,7 +111,7 @@ TEST_CASE("strokes as long as the box leaves" *
       const State<2> start{{{11.45, 5.0}}, {{-0.25, 0.125}}};
       Simulation<2> lone(narrow, start);
       lone.run_until(kNever, 2000);
-      figures.hits += lone.counts().disk_wall;
+      figures.hits += lone.counts().wall_collisions;
       figures.deepest =
           std::max({figures.deepest, lone.checks().deepest_overlap, lone.deepest_overlap()});
     }

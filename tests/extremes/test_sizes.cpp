@@ -24,18 +24,18 @@ json measured(const Shell& shell, const std::string& scene_and_flags, int second
 
 }  // namespace
 
-// At area fraction .68: two collisions of each disk.
-TEST_CASE("10^7 disks" * doctest::test_suite("slow") *
+// At area fraction .68: two collisions of each particle.
+TEST_CASE("10^7 particles" * doctest::test_suite("slow") *
           doctest::description("10^7 collisions in less than 4 GB; T constant to 1e-12, overlap "
                                "below 1e-9")) {
   const Shell shell;
   const json result = measured(
       shell,
-      "equilibrium --quiet --set disks.count=10000000 --set box.size=[3400,3400] "
-      "--set disks.start.layout='\"lattice\"' --set measure.fields=[] --set measure.burn_in=0 "
+      "equilibrium --quiet --set particles.count=10000000 --set box.size=[3400,3400] "
+      "--set particles.start.layout='\"lattice\"' --set measure.fields=[] --set measure.burn_in=0 "
       "--until 0.2",
       600);
-  const int collisions = result.at("events").at("disk_disk");
+  const int collisions = result.at("events").at("pair_collisions");
   const double off = result.at("temperature").at("mean").get<double>() - 1.0;
   const double gigabytes = 1e-9 * result.at("performance").at("peak_memory_bytes").get<double>();
   const double overlap = result.at("checks").at("deepest_overlap");
@@ -47,13 +47,15 @@ TEST_CASE("10^7 disks" * doctest::test_suite("slow") *
   CHECK(overlap < 1e-9);
 }
 
-TEST_CASE("2 * 10^9 disks" *
+TEST_CASE("2 * 10^9 particles" *
           doctest::description("refused with the memory that they take, before it is allocated, or "
                                "as too many for the box")) {
   const Shell shell;
-  const std::string measure = "clatter measure equilibrium --quiet --set disks.count=2000000000 ";
-  check_refused(shell, measure + "--set box.size=[100000,100000]",
-                {"2000000000 disks take about 448 GB, and this machine has ", "choose at most "});
+  const std::string measure =
+      "clatter measure equilibrium --quiet --set particles.count=2000000000 ";
+  check_refused(
+      shell, measure + "--set box.size=[100000,100000]",
+      {"2000000000 particles take about 448 GB, and this machine has ", "choose at most "});
   check_refused(shell, measure + "--set box.size=[1000,1000]",
                 {"do not fit into the box", "at most"});
   MESSAGE("refused");
@@ -69,15 +71,15 @@ TEST_CASE(
     const std::string scene = "equilibrium --quiet --set box.size=" + size;
     const json result =
         measured(shell, scene +
-                            " --set disks.count=100000 --set measure.burn_in=0 --until 1 "
+                            " --set particles.count=100000 --set measure.burn_in=0 --until 1 "
                             "--set measure.cells=[20,20]");
     const double overlap = result.at("checks").at("deepest_overlap");
-    MESSAGE(result.at("events").at("disk_disk").get<int>(), " collisions, deepest overlap ",
+    MESSAGE(result.at("events").at("pair_collisions").get<int>(), " collisions, deepest overlap ",
             brief(overlap));
     CHECK(overlap < 1e-9);
     CHECK(shell
               .run("clatter render " + scene +
-                   " --set disks.count=1000 --to 1 --out a.png --overwrite")
+                   " --set particles.count=1000 --to 1 --out a.png --overwrite")
               .code == 0);
   }
 }

@@ -25,7 +25,7 @@ TEST_CASE("a gas at T = 0 between driven walls" *
   simulation.run_until(kNever, 1);
   CHECK(simulation.state_hash() == before);
   CHECK(simulation.time() == 100.0);
-  CHECK(simulation.counts().disk_wall + simulation.counts().disk_disk == 0);
+  CHECK(simulation.counts().wall_collisions + simulation.counts().pair_collisions == 0);
 }
 
 TEST_CASE(
@@ -65,7 +65,7 @@ int numbers_in(const json& value) {
   return numbers;
 }
 
-// The cells of a profile that no disk ever visited have a density of 0 and nothing else.
+// The cells of a profile that no particle ever visited have a density of 0 and nothing else.
 void take_out_unvisited(json& profile) {
   const json density = profile.at("density");
   for (const auto& take : {&profile, &profile.at("standard_error")}) {
@@ -81,20 +81,20 @@ void take_out_unvisited(json& profile) {
 const std::string kStill[] = {
     "conduction --set walls.left.temperature=0 --set walls.right.temperature=0",
     "vibrated --set walls.left.drive_speed=0 --set walls.right.drive_speed=0",
-    "vibrated --set disks.start.temperature=0",
-    "equilibrium --set disks.start.temperature=0",
-    "rough_cooling --set disks.start.temperature=0 --set disks.start.spin_temperature=0",
-    "equilibrium --set disks.count=0",
-    "equilibrium --set disks.count=1",
-    "equilibrium --set disks.count=2",
-    "equilibrium --set disks.count=3"};
+    "vibrated --set particles.start.temperature=0",
+    "equilibrium --set particles.start.temperature=0",
+    "rough_cooling --set particles.start.temperature=0 --set particles.start.spin_temperature=0",
+    "equilibrium --set particles.count=0",
+    "equilibrium --set particles.count=1",
+    "equilibrium --set particles.count=2",
+    "equilibrium --set particles.count=3"};
 
 }  // namespace
 
 TEST_CASE(
-    "results at T_w = 0, T = 0, v_dr = 0, and of few disks" *
+    "results at T_w = 0, T = 0, v_dr = 0, and of few particles" *
     doctest::description("every number of the result is finite; tables have nan only where no "
-                         "disk ever was, with density 0")) {
+                         "particle ever was, with density 0")) {
   const Shell shell;
   int numbers = 0, lines = 0;
   for (const std::string& scene : kStill) {
@@ -123,7 +123,7 @@ TEST_CASE(
   MESSAGE(numbers, " numbers and ", lines, " lines of tables of ", std::size(kStill), " scenes");
 }
 
-TEST_CASE("pictures at T_w = 0, T = 0, v_dr = 0, and of few disks" *
+TEST_CASE("pictures at T_w = 0, T = 0, v_dr = 0, and of few particles" *
           doctest::description("every field, colour and arrow is drawn")) {
   const Shell shell;
   const std::string views[] = {"--set view.field=temperature --set view.colour_by=speed",

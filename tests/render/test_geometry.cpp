@@ -25,7 +25,7 @@ constexpr double kFastest = 4.0;  // end of the colours' range
 Snapshot gas() {
   const Scene scene = parse_scene(R"(
       box.size = [16.0, 12.0]
-      disks.count = 80
+      particles.count = 80
       walls.left = { kind = "static" }
       walls.right = { kind = "static" }
       walls.bottom = { kind = "static" }

@@ -27,14 +27,14 @@ struct Golden {
 
 constexpr std::array kGolden = {Golden{"driven", R"(
         box.size = [16.0, 12.0]
-        disks = { count = 70, restitution = 0.9 }
+        particles = { count = 70, restitution = 0.9 }
         walls.left = { kind = "driven", drive_speed = 1.0 }
         walls.right = { kind = "thermal", temperature = 1.0 }
         view = { field = "density", range = [0.0, 3.0], field_range = [0.0, 1.0], overlay = false })",
                                        20.0},
                                 Golden{"rough", R"(
         box.size = [12.0, 9.0]
-        disks = { count = 40, restitution = 0.9, friction = 0.5, start.spin_temperature = 1.0 }
+        particles = { count = 40, restitution = 0.9, friction = 0.5, start.spin_temperature = 1.0 }
         [view]
         colour_by = "spin"
         range = [-4.0, 4.0]
@@ -44,7 +44,7 @@ constexpr std::array kGolden = {Golden{"driven", R"(
                                        2.0},
                                 Golden{"shaken", R"(
         box.size = [16.0, 12.0]
-        disks = { count = 60, restitution = 0.9 }
+        particles = { count = 60, restitution = 0.9 }
         gravity.acceleration = [0.0, -1.0]
         walls.left = { kind = "static" }
         walls.right = { kind = "sawtooth", stroke = 0.5, frequency = 0.4 }
@@ -54,14 +54,14 @@ constexpr std::array kGolden = {Golden{"driven", R"(
                                        3.1},
                                 Golden{"small", R"(
         box.size = [200.0, 150.0]
-        disks.count = 1200
+        particles.count = 1200
         view = { palette = "inferno", range = [0.0, 4.0], overlay = false })",
                                        1.0},
                                 Golden{"labelled", R"(
         title = "Heat flux"
         caption = "From the hot wall to the cold one."
         box.size = [16.0, 12.0]
-        disks.count = 70
+        particles.count = 70
         walls.left = { kind = "thermal", temperature = 2.0 }
         walls.right = { kind = "thermal", temperature = 0.5 }
         [view]

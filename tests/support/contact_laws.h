@@ -37,14 +37,14 @@ inline ContactLaw random_law(Random& random) {
   return law;
 }
 
-/// Uniform disk, sphere, or anything.
+/// Uniform particle, sphere, or anything.
 inline double random_inertia(Random& random) {
   return std::array{0.5, 0.4, 0.01 + random.uniform()}[random.below(3)];
 }
 
 /// The tangential impulse by the laws themselves, without beta's and eta's formulas: what turns the
 /// slip into -beta_0 times itself, or as much of it as Coulomb allows. An impulse J changes the
-/// slip by (sum of 1/m) (1 + 1/q) J; the sum is 2 for two disks and 1 for a disk at a wall.
+/// slip by (sum of 1/m) (1 + 1/q) J; the sum is 2 for two particles and 1 for a particle at a wall.
 template <int D>
 Vec<D> friction_by_law(const Vec<D>& n, const Vec<D>& surface_velocity, double normal_impulse,
                        const ContactLaw& law, double inertia, double inverse_masses) {

@@ -27,7 +27,7 @@ inline double counts_p(std::span<const double> observed, std::span<const double>
 }
 
 /// The probability below which a statistical test of many numbers at once fails.
-inline constexpr double kLeastProbability = 1e-3;
+inline constexpr double kMinProbability = 1e-3;
 
 /// Mean of a sample, as its distance from the mean expected in standard errors.
 inline double standard_errors_off(double sum, double samples, double mean, double variance) {

@@ -11,8 +11,8 @@ namespace clatter::testing {
 Scene gas(double lx, double ly, int count, double restitution) {
   Scene scene;
   scene.box = {lx, ly};
-  scene.disks.count = count;
-  scene.disks.restitution = restitution;
+  scene.particles.count = count;
+  scene.particles.restitution = restitution;
   return scene;
 }
 
@@ -56,11 +56,11 @@ void check_energy_balance(const Measured& measured, int count) {
   MESSAGE("energy in - dissipated = ", sum, " +- ", error, ", dissipated ",
           measured.dissipated.mean);
   CHECK(std::fabs(sum) < 5.0 * error);
-  // The energy of few disks may be many times its mean, with a probability that falls off as
+  // The energy of few particles may be many times its mean, with a probability that falls off as
   // exp(-E/T).
   const double spin_temperature = measured.spin_temperature ? measured.spin_temperature->mean : 0.0;
-  const double energy_per_disk = measured.temperature.mean + 0.5 * spin_temperature;
-  CHECK(std::fabs(sum) * measured.duration < (count + 10.0) * energy_per_disk);
+  const double energy_per_particle = measured.temperature.mean + 0.5 * spin_temperature;
+  CHECK(std::fabs(sum) * measured.duration < (count + 10.0) * energy_per_particle);
 }
 
 }  // namespace clatter::testing

@@ -23,7 +23,7 @@ Scene vibrated_gas(double restitution, double wall_restitution);
 /// Runs a scene through its [measure] block, which is `burn_in` and `duration` here.
 Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
 
-/// What walls, kicks and gravity give is what collisions of so many disks lose where the gas is
+/// What walls, kicks and gravity give is what collisions of so many particles lose where the gas is
 /// stationary: within 5 standard errors, and but for the energy that the gas itself holds, which
 /// bounds the difference far more tightly.
 void check_energy_balance(const Measured& measured, int count);

@@ -15,8 +15,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Elastic disks under gravity on a thermal floor, below an elastic lid: canonical equilibrium at
-// T_w, so that everything is known exactly, or by the equation of state.
+// Elastic particles under gravity on a thermal floor, below an elastic lid: canonical equilibrium
+// at T_w, so that everything is known exactly, or by the equation of state.
 
 namespace {
 
@@ -27,7 +27,7 @@ Scene column(double lx, double ly, int count, double gravity) {
   scene.walls[kBottom] = {.kind = WallKind::Thermal, .temperature = kTemperature};
   scene.walls[kTop] = Wall{};
   scene.gravity = Vec2(0.0, -gravity);
-  scene.disks.start.temperature = kTemperature;
+  scene.particles.start.temperature = kTemperature;
   return scene;
 }
 
@@ -68,7 +68,8 @@ struct Layers {
   std::vector<double> weight;    // of what lies above, per width, mean over each layer
 };
 
-// The density is known in sub-layers. A disk weighs on a layer by the share of it that lies below.
+// The density is known in sub-layers. A particle weighs on a layer by the share of it that lies
+// below.
 Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
                  const CellSums& density, const MomentLayout<2>& density_layout, double width,
                  double gravity) {
@@ -93,7 +94,7 @@ Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
 
 }  // namespace
 
-TEST_CASE("barometer: one disk on a thermal floor has the exponential law of height, exactly") {
+TEST_CASE("barometer: one particle on a thermal floor has the exponential law of height, exactly") {
   // Height above the floor over T/g: exponential of mean 1. The lid at 40 of these is never met
   // (e^-40). Bounces take 2.5 sqrt(T)/g on average; samples every 40 sqrt(T)/g are independent,
   // for a bounce that long has the probability e^-200. 40 bins of equal probability.
@@ -120,15 +121,15 @@ TEST_CASE("barometer: one disk on a thermal floor has the exponential law of hei
   const double off = standard_errors_off(sum, kSamples, 1.0, 1.0);
   MESSAGE("heights: p = ", p, ", speeds: p = ", p_speeds, ", <y> - 1/2 = ", sum / kSamples,
           " T/g, off by ", off, " standard errors of .7 %");
-  CHECK(p > kLeastProbability);
-  CHECK(p_speeds > kLeastProbability);
+  CHECK(p > kMinProbability);
+  CHECK(p_speeds > kMinProbability);
   for (const double count : counts) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
   for (const double count : speeds) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
   CHECK(std::fabs(off) < 5.0);
-  CHECK(simulation.counts().disk_disk == 0);
+  CHECK(simulation.counts().pair_collisions == 0);
 }
 
-TEST_CASE("barometer: averages over time of one disk are those of the law") {
+TEST_CASE("barometer: averages over time of one particle are those of the law") {
   const Scene scene = column(10.0, 160.0, 1, 0.5);
   const Measured result = run(scene, 100.0, 400000.0, 402);
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error, ", pressure ",
@@ -143,7 +144,7 @@ TEST_CASE("barometer: averages over time of one disk are those of the law") {
 }
 
 TEST_CASE("barometer: a dense gas weighs upon the floor what it is, and is at T_w throughout") {
-  // 120 disks in 15 x 15 (phi = .42), g Ly = 3.75 T.
+  // 120 particles in 15 x 15 (phi = .42), g Ly = 3.75 T.
   constexpr int kCount = 120;
   constexpr double kGravity = 0.5;
   const Scene scene = column(15.0, 15.0, kCount, kGravity);
@@ -166,8 +167,8 @@ TEST_CASE("barometer: a dense gas weighs upon the floor what it is, and is at T_
 }
 
 TEST_CASE("barometer: a thin gas has the barometric profile at one temperature") {
-  // 100 disks over 200 wide, T/g = 20: rho = .025 at the floor, 1.5 e^-8 of it at the lid. 16
-  // layers of 10; those that hold less than a disk on average are left out. The two virial
+  // 100 particles over 200 wide, T/g = 20: rho = .025 at the floor, 1.5 e^-8 of it at the lid. 16
+  // layers of 10; those that hold less than a particle on average are left out. The two virial
   // coefficients of the law change a layer by up to 8 %, the next one by .3 %; the layers next to
   // the floor hold no centres in its lowest half diameter.
   constexpr int kLayers = 16;
@@ -203,10 +204,11 @@ TEST_CASE("barometer: a thin gas has the barometric profile at one temperature")
 }
 
 TEST_CASE("barometer: the stress of every layer carries the weight above it") {
-  // dp/dy = -rho g. 160 disks over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04 below
-  // the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum forgets
-  // itself within some collisions, the column its swinging. Densities in sub-layers of 1/16, which
-  // miss the weight within a layer by some 1e-4 of it where contacts with the floor order the gas.
+  // dp/dy = -rho g. 160 particles over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04
+  // below the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum
+  // forgets itself within some collisions, the column its swinging. Densities in sub-layers of
+  // 1/16, which miss the weight within a layer by some 1e-4 of it where contacts with the floor
+  // order the gas.
   constexpr int kLayers = 40;
   constexpr int kParts = 16;
   constexpr int kWindows = 150;
@@ -245,7 +247,7 @@ TEST_CASE("barometer: the stress of every layer carries the weight above it") {
       below = excess;
     }
   }
-  // A step is about the disks of two layers: every other has its own.
+  // A step is about the particles of two layers: every other has its own.
   double chi_squared = 0.0, least = 1.0, most = 0.0;
   for (std::size_t i = 0; i < kLayers; ++i) {
     CAPTURE(i);
@@ -261,6 +263,6 @@ TEST_CASE("barometer: the stress of every layer carries the weight above it") {
   const double p = chi_squared_p(chi_squared, kLayers / 2);
   MESSAGE("-sigma_yy from ", pressures.front().mean(), " to ", pressures.back().mean(),
           "; dp/dy = -rho g in every layer within ", least, " to ", most, " of it, p = ", p);
-  CHECK(p > kLeastProbability);
+  CHECK(p > kMinProbability);
   CHECK(most < 0.02);
 }

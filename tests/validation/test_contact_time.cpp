@@ -13,7 +13,7 @@ using namespace clatter::testing;
 
 namespace {
 
-// Between a disk's collisions with others.
+// Between a particle's collisions with others.
 double mean_collision_time() {
   return 1.0 / run(vibrated_gas(0.9, 1.0), 100.0, 500.0, 701).collision_rate.mean;
 }
@@ -27,9 +27,9 @@ Measured with_contact_time(double contact_time, double duration, std::uint64_t s
 }  // namespace
 
 TEST_CASE("t_c: what it does vanishes with it, in proportion") {
-  // A disk meets another within a short t_c after the last with a probability proportional to it,
-  // either of two: the share of elasticised collisions is about 2 t_c/(mean time), and thrice as
-  // long gives about thrice the share. (From .3 on the gas runs away: hotter, it collides more
+  // A particle meets another within a short t_c after the last with a probability proportional to
+  // it, either of two: the share of elasticised collisions is about 2 t_c/(mean time), and thrice
+  // as long gives about thrice the share. (From .3 on the gas runs away: hotter, it collides more
   // often, so that more of its collisions are elastic.)
   const double unit = mean_collision_time();
   double share = 1.0, undissipated = 1e9;
@@ -37,7 +37,7 @@ TEST_CASE("t_c: what it does vanishes with it, in proportion") {
   for (const double t_c : {0.03, 0.01, 0.003, 0.001, 0.0003}) {
     // Long enough for some hundred elasticised collisions.
     const Measured result = with_contact_time(t_c * unit, t_c < 0.002 ? 4000.0 : 1000.0, seed++);
-    const double next_share = static_cast<double>(result.elasticised) / result.disk_disk;
+    const double next_share = static_cast<double>(result.elasticised) / result.pair_collisions;
     MESSAGE("t_c = ", t_c, ": share elasticised ", next_share, ", undissipated ",
             *result.undissipated_share, ", T ", result.temperature.mean);
     CHECK(next_share < 0.6 * share);

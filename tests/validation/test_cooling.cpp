@@ -38,9 +38,9 @@ TEST_CASE("cooling gas: Haff's law down to a hundredth of the temperature, withi
   }
 }
 
-TEST_CASE("cooling gas: walls that lose heat cool elastic disks by Eq. (3.10)") {
+TEST_CASE("cooling gas: walls that lose heat cool elastic particles by Eq. (3.10)") {
   // The refined rate with the wall layer: k = kappa (1 - alpha_w^2)/(pi Lx) sqrt(pi T0/2), where
-  // kappa = (1 + 2 phi chi) Lx/(Lx - a) counts the hits of dense disks on walls.
+  // kappa = (1 + 2 phi chi) Lx/(Lx - a) counts the hits of dense particles on walls.
   constexpr int kSeeds = 64;
   constexpr double kRestitution = 0.98;
   Scene scene = gas(20.0, 25.0, 100, 1.0);

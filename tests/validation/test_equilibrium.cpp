@@ -14,8 +14,8 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Z of an elastic periodic gas of 4000 disks, checked to a standard error of at most 0.1 % and a
-/// deviation of at most 0.3 %, three of these.
+/// Z of an elastic periodic gas of 4000 particles, checked to a standard error of at most 0.1 % and
+/// a deviation of at most 0.3 %, three of these.
 void check_compressibility(double area_fraction, double literature, double duration,
                            std::uint64_t seed) {
   const Measured result =
@@ -62,8 +62,8 @@ TEST_CASE("elastic gas: the kurtosis of the velocities is that of a Gaussian") {
 }
 
 TEST_CASE("elastic gas: speeds have Maxwell's distribution") {
-  // Of 2000 disks every 5 time units, some ten collisions of each, 100 times: 200,000 speeds in 40
-  // bins of equal probability, exp(-v^2/2T) = k/40. The 1/N of the fixed energy is below chi^2's
+  // Of 2000 particles every 5 time units, some ten collisions of each, 100 times: 200,000 speeds in
+  // 40 bins of equal probability, exp(-v^2/2T) = k/40. The 1/N of the fixed energy is below chi^2's
   // resolution: it shifts a bin by at most 0.05 %, a seventh of a standard error.
   constexpr int kBins = 40;
   constexpr int kSamples = 100;
@@ -72,15 +72,15 @@ TEST_CASE("elastic gas: speeds have Maxwell's distribution") {
   std::vector<double> counts(kBins);
   for (int k = 1; k <= kSamples; ++k) {
     simulation.run_until(5.0 * k);
-    for (const Disk<2>& disk : simulation.disks()) {
-      const double beyond = std::exp(-0.5 * disk.flight.v.squaredNorm());
+    for (const Particle<2>& particle : simulation.particles()) {
+      const double beyond = std::exp(-0.5 * particle.flight.v.squaredNorm());
       counts[static_cast<std::size_t>(std::min(beyond * kBins, kBins - 1.0))] += 1.0;
     }
   }
   const double mean = 2000.0 * kSamples / kBins;
   const double p = counts_p(counts, std::vector(kBins, mean));
   MESSAGE("chi^2 of the speeds: p = ", p);
-  CHECK(p > kLeastProbability);
+  CHECK(p > kMinProbability);
   for (const double count : counts) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("fields: the vibrated gas passes on what the walls give, from wall to 
   const double p = flatness_p(stress, -pressure);
   MESSAGE("sigma_xx over wall pressure is -1 within ", largest, ", p = ", p);
   CHECK(largest < 1e-3);
-  CHECK(p > kLeastProbability);
+  CHECK(p > kMinProbability);
   CHECK(std::fabs(stress.front().mean + result.pressure[kLeft]->mean) < 1e-9 * pressure);
 
   double dissipation = 0.0;
@@ -106,10 +106,10 @@ TEST_CASE("fields: an elastic gas at rest conducts and dissipates nothing") {
       agreement_p(profile.at(Field::TemperatureX), profile.at(Field::TemperatureY));
   MESSAGE("p of q_x = 0: ", q_x, ", q_y = 0: ", q_y, ", sigma_xy = 0: ", s_xy,
           ", T_x = T_y: ", equal);
-  CHECK(std::min({q_x, q_y, s_xy, equal}) > kLeastProbability);
+  CHECK(std::min({q_x, q_y, s_xy, equal}) > kMinProbability);
 
-  // p = rho T (1 + 2 phi chi), T = 1 being that of all disks. Two momenta are fixed, which makes
-  // contacts rarer and softer by some 1/N of their share of the pressure, 0.1 %.
+  // p = rho T (1 + 2 phi chi), T = 1 being that of all particles. Two momenta are fixed, which
+  // makes contacts rarer and softer by some 1/N of their share of the pressure, 0.1 %.
   const double phi = 0.1;
   const double density = 4.0 * phi / std::numbers::pi;
   const double expected = density * (1.0 + 2.0 * phi * contact_correlation(phi));
@@ -120,7 +120,7 @@ TEST_CASE("fields: an elastic gas at rest conducts and dissipates nothing") {
       CHECK(e.standard_error < 0.01 * expected);
       mean += e.mean / 10.0;
     }
-    // Columns share the disks, so that their mean is far better known than each.
+    // Columns share the particles, so that their mean is far better known than each.
     CHECK(std::fabs(mean / expected + 1.0) < 0.003);
   }
 }
@@ -165,7 +165,7 @@ TEST_CASE("fields: snapshots agree with the exact estimator") {
   for (const Field field : kFields) {
     const double p = agreement_p(exact.profile->at(field), snapshot.profile->at(field));
     CAPTURE(static_cast<int>(field));
-    CHECK(p > kLeastProbability);
+    CHECK(p > kMinProbability);
     least = std::min(least, p);
   }
   MESSAGE("least p of ", kFields.size(), " fields: ", least);

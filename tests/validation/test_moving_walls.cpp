@@ -28,7 +28,7 @@ void compare_with_limit(double restitution, double wall_restitution, double star
                         double duration, std::uint64_t seed, double precision, double width) {
   Scene limit = vibrated_gas(restitution, wall_restitution);
   Scene finite = sawtooth_gas(restitution, wall_restitution);
-  limit.disks.start.temperature = finite.disks.start.temperature = start_temperature;
+  limit.particles.start.temperature = finite.particles.start.temperature = start_temperature;
   const Measured driven = run(limit, 300.0, duration, seed);
   const Measured moved = run(finite, 300.0, duration, seed + 1);
   MESSAGE("T = ", moved.temperature.mean, " +- ", moved.temperature.standard_error,
@@ -65,7 +65,7 @@ TEST_CASE("moving walls: what sinusoidal walls give is what collisions lose") {
 
 TEST_CASE("moving walls: a shaken floor carries a rough gas under gravity, kicked as well") {
   // Everything that gives or takes energy at once; gravity gives nothing on average. t_c keeps
-  // disks from collapsing onto the floor while it recedes.
+  // particles from collapsing onto the floor while it recedes.
   Scene scene = gas(12.0, 30.0, 40, 0.9);
   scene.walls[kBottom] = {.kind = WallKind::Sinusoidal,
                           .restitution = 0.9,
@@ -73,7 +73,7 @@ TEST_CASE("moving walls: a shaken floor carries a rough gas under gravity, kicke
                           .stroke = 0.4,
                           .frequency = 1.0};
   scene.walls[kTop] = Wall{};
-  scene.disks.roughness = {0.5, 0.5};
+  scene.particles.roughness = {0.5, 0.5};
   scene.gravity = Vec2(0.0, -0.5);
   scene.bulk_drive = BulkDrive{.interval = 0.5, .kick_speed = 0.1, .kick_spin = 0.1};
   scene.contact_time = 1e-4;

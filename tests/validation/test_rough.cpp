@@ -13,8 +13,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Rough disks of constant beta (infinite friction), q = 1/2, against the theory of section 5. It
-// takes both velocity distributions for Gaussian and independent; the deviations that this makes
+// Rough particles of constant beta (infinite friction), q = 1/2, against the theory of section 5.
+// It takes both velocity distributions for Gaussian and independent; the deviations that this makes
 // are a few per cent in dilute gases that are not too inelastic (Luding, Huthmann, McNamara &
 // Zippelius 1998).
 
@@ -29,8 +29,9 @@ struct Pair {
 
 Scene rough_gas(const Pair& pair) {
   Scene scene = gas_of_fraction(0.1, 100, pair.restitution);
-  scene.disks.roughness = {std::numeric_limits<double>::infinity(), pair.tangential_restitution};
-  scene.disks.inertia = kInertia;
+  scene.particles.roughness = {std::numeric_limits<double>::infinity(),
+                               pair.tangential_restitution};
+  scene.particles.inertia = kInertia;
   return scene;
 }
 
@@ -53,8 +54,8 @@ State<2> spinning_start(const Scene& scene, double spin_temperature, std::uint64
 
 TEST_CASE("rough gas: free cooling tends to one ratio of the temperatures, from both sides") {
   // phi = .1, N = 100, 32 seeds: half start without spin, half with T_rot = 3 T_tr. The ratio is
-  // looked at five times from 40 to 60 collisions per disk: by then the slowest of these pairs is
-  // within e^-5 of its limit, and nothing has clustered in so small a box.
+  // looked at five times from 40 to 60 collisions per particle: by then the slowest of these pairs
+  // is within e^-5 of its limit, and nothing has clustered in so small a box.
   constexpr int kSeeds = 32;
   for (const Pair& pair : {Pair{0.9, 0.0}, Pair{0.9, 0.5}, Pair{0.95, -0.5}, Pair{0.8, 0.9}}) {
     const Scene scene = rough_gas(pair);
@@ -80,8 +81,8 @@ TEST_CASE("rough gas: free cooling tends to one ratio of the temperatures, from 
 }
 
 TEST_CASE("rough gas: kicks of the motion alone set both temperatures") {
-  // H = s^2 (1 - 1/N)/dt = .099, and T is of order 1: a disk is kicked some ten times between two
-  // collisions. T is predicted with Enskog's rate at phi = .1.
+  // H = s^2 (1 - 1/N)/dt = .099, and T is of order 1: a particle is kicked some ten times between
+  // two collisions. T is predicted with Enskog's rate at phi = .1.
   std::uint64_t seed = 341;
   for (const Pair& pair : {Pair{0.9, 0.0}, Pair{0.8, 0.5}, Pair{0.9, -0.5}}) {
     Scene scene = rough_gas(pair);
@@ -107,8 +108,8 @@ TEST_CASE("rough gas: kicks of the motion alone set both temperatures") {
   }
 }
 
-TEST_CASE("driven gas: smooth disks have the temperature at which kicks balance the loss") {
-  // beta = -1 in the theory of rough disks: A = (1 - alpha^2)/2, B = C = 0.
+TEST_CASE("driven gas: smooth particles have the temperature at which kicks balance the loss") {
+  // beta = -1 in the theory of rough particles: A = (1 - alpha^2)/2, B = C = 0.
   Scene scene = gas_of_fraction(0.1, 100, 0.9);
   scene.bulk_drive = BulkDrive{.interval = 0.2, .kick_speed = std::sqrt(0.02)};
   const Measured result = run(scene, 100.0, 4000.0, 351);

@@ -18,20 +18,20 @@ Scene between(double left, double right) {
   Scene scene = gas(20.0, 15.0, 80, 1.0);
   scene.walls[kLeft] = {.kind = WallKind::Thermal, .temperature = left};
   scene.walls[kRight] = {.kind = WallKind::Thermal, .temperature = right};
-  scene.disks.start.temperature = 0.5 * (left + right);
+  scene.particles.start.temperature = 0.5 * (left + right);
   scene.measure.fields = {Field::Density, Field::TemperatureX, Field::TemperatureY};
   scene.measure.cells = {5, 1};
   return scene;
 }
 
-// Dense elastic disks, perfectly rough or smooth, all round between walls of one temperature.
+// Dense elastic particles, perfectly rough or smooth, all round between walls of one temperature.
 Scene thermal_box(double temperature, bool rough) {
   Scene scene = gas(15.0, 12.0, 60, 1.0);
   for (const int axis : {0, 1}) {
     wall_in(scene, axis, {.kind = WallKind::Thermal, .temperature = temperature});
   }
-  if (rough) scene.disks.roughness = {std::numeric_limits<double>::infinity(), 1.0};
-  scene.disks.start.temperature = 0.5 * temperature;  // to be forgotten in the burn-in
+  if (rough) scene.particles.roughness = {std::numeric_limits<double>::infinity(), 1.0};
+  scene.particles.start.temperature = 0.5 * temperature;  // to be forgotten in the burn-in
   return scene;
 }
 
@@ -39,7 +39,8 @@ Scene thermal_box(double temperature, bool rough) {
 class WallSpeeds : public Observer<2> {
  public:
   static constexpr int kBins = 20;
-  static constexpr int kEvery = 7;  // hits; of 60 disks, so that one counts rarely twice in a row
+  static constexpr int kEvery =
+      7;  // hits; of 60 particles, so that one counts rarely twice in a row
 
   WallSpeeds(double temperature, double inertia)
       : temperature_(temperature), moment_of_inertia_(0.25 * inertia) {
@@ -48,15 +49,15 @@ class WallSpeeds : public Observer<2> {
 
   void on_wall(const WallCollision<2>& hit) override {
     if (++hits_ % kEvery != 0) return;
-    const DiskChange<2>& disk = hit.disk;
-    const Vec2 after = disk.velocity + disk.gain.momentum;
+    const ParticleChange<2>& particle = hit.particle;
+    const Vec2 after = particle.velocity + particle.gain.momentum;
     const int normal = hit.side / 2;
-    count_flux(0, disk.velocity[normal]);
+    count_flux(0, particle.velocity[normal]);
     count_flux(1, after[normal]);
-    count_gaussian(2, disk.velocity[1 - normal]);
+    count_gaussian(2, particle.velocity[1 - normal]);
     count_gaussian(3, after[1 - normal]);
-    count_gaussian(4, std::sqrt(moment_of_inertia_) * disk.spin[0]);
-    count_gaussian(5, std::sqrt(moment_of_inertia_) * (disk.spin + disk.gain.spin)[0]);
+    count_gaussian(4, std::sqrt(moment_of_inertia_) * particle.spin[0]);
+    count_gaussian(5, std::sqrt(moment_of_inertia_) * (particle.spin + particle.gain.spin)[0]);
   }
 
   double hits() const { return static_cast<double>(hits_ / kEvery); }
@@ -83,7 +84,7 @@ class WallSpeeds : public Observer<2> {
 TEST_CASE("thermal walls: a gas between two of one temperature takes it") {
   constexpr double kTemperature = 2.0;
   Scene scene = between(kTemperature, kTemperature);
-  scene.disks.start.temperature = 0.5;  // to be forgotten in the burn-in
+  scene.particles.start.temperature = 0.5;  // to be forgotten in the burn-in
   const Measured result = run(scene, 300.0, 30000.0, 121);
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error, ", walls ",
           kTemperature);
@@ -124,7 +125,7 @@ TEST_CASE("thermal walls: heat flows from the hot one to the cold one, and matte
   CHECK(std::fabs(result.walls_in->mean) < 3.0 * result.walls_in->standard_error);
 }
 
-TEST_CASE("thermal walls: all round, smooth disks take the temperature") {
+TEST_CASE("thermal walls: all round, smooth particles take the temperature") {
   constexpr double kTemperature = 2.0;
   const Measured result = run(thermal_box(kTemperature, false), 100.0, 12000.0, 123);
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error);
@@ -135,7 +136,7 @@ TEST_CASE("thermal walls: all round, smooth disks take the temperature") {
   check_energy_balance(result, 60);
 }
 
-TEST_CASE("thermal walls: all round, perfectly rough disks take it in motion and in spin") {
+TEST_CASE("thermal walls: all round, perfectly rough particles take it in motion and in spin") {
   // alpha = beta = 1 conserves energy, so that spins have T_w too, however they get it.
   constexpr double kTemperature = 2.0;
   const Measured result = run(thermal_box(kTemperature, true), 100.0, 12000.0, 124);
@@ -161,7 +162,7 @@ TEST_CASE("thermal walls: what comes to them is distributed as what leaves") {
   const Scene scene = thermal_box(kTemperature, true);
   Simulation<2> simulation(model_of(scene, 125), start_state(scene, 125));
   simulation.run_until(100.0);
-  WallSpeeds speeds(kTemperature, scene.disks.inertia);
+  WallSpeeds speeds(kTemperature, scene.particles.inertia);
   simulation.add_observer(speeds);
   simulation.run_until(8000.0);
   const double mean = speeds.hits() / WallSpeeds::kBins;
@@ -169,7 +170,7 @@ TEST_CASE("thermal walls: what comes to them is distributed as what leaves") {
   for (int kind = 0; kind < 6; ++kind) {
     const double p = counts_p(speeds.counts(kind), std::vector(WallSpeeds::kBins, mean));
     MESSAGE("law ", kind, ": p = ", p, " of ", speeds.hits(), " hits");
-    CHECK(p > kLeastProbability);
+    CHECK(p > kMinProbability);
     for (const double count : speeds.counts(kind)) {
       CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
     }

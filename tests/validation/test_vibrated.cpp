@@ -35,12 +35,12 @@ void check_balance(const Measured& result) {
 
 }  // namespace
 
-TEST_CASE("vibrated gas: elastic disks between lossy walls, Eq. (3.14) within 1 %") {
+TEST_CASE("vibrated gas: elastic particles between lossy walls, Eq. (3.14) within 1 %") {
   // All the loss is at the walls, so that the density there, which theory takes for uniform,
   // cancels from the balance of Eq. (3.2).
   const double expected = refined(1.0, 0.9);
   Scene scene = vibrated_gas(1.0, 0.9);
-  scene.disks.start.temperature = expected;
+  scene.particles.start.temperature = expected;
   const Measured result = run(scene, 500.0, 10000.0, 111);
   report(result, expected);
   CHECK(relative_error(result.temperature) < 0.004);
@@ -49,7 +49,7 @@ TEST_CASE("vibrated gas: elastic disks between lossy walls, Eq. (3.14) within 1 
   CHECK(result.dissipated.mean < 1e-9);
 }
 
-TEST_CASE("vibrated gas: inelastic disks between elastic walls, Eq. (3.14) within 4 %") {
+TEST_CASE("vibrated gas: inelastic particles between elastic walls, Eq. (3.14) within 4 %") {
   const double expected = refined(0.9, 1.0);
   const Measured result = run(vibrated_gas(0.9, 1.0), 300.0, 20000.0, 112);
   report(result, expected);
@@ -64,7 +64,7 @@ TEST_CASE("vibrated gas: both losses together balance the drive") {
   check_balance(result);
 }
 
-TEST_CASE("vibrated gas: inelastic disks between lossy walls, Eq. (3.14) within 5 %") {
+TEST_CASE("vibrated gas: inelastic particles between lossy walls, Eq. (3.14) within 5 %") {
   const double expected = refined(0.9, 0.9);
   const Measured result = run(vibrated_gas(0.9, 0.9), 300.0, 10000.0, 115);
   report(result, expected);

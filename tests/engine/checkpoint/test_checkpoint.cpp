@@ -31,7 +31,7 @@ std::string archived(Checkpoint& checkpoint) {
 
 // Every number is another, so that none can stand in for its neighbour.
 Checkpoint example() {
-  Saved<2> saved;
+  RunState<2> saved;
   saved.gravity = {0.5, -1.5};
   saved.base = {1e9, 1e-9};
   saved.now = 3.25;
@@ -117,8 +117,8 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { c.saved.kick_interval += 1.0; },
       [](Checkpoint& c) { c.saved.kick_origin += 1.0; },
       [](Checkpoint& c) { ++c.saved.kicks_since_origin; },
-      [](Checkpoint& c) { ++c.saved.counts.disk_disk; },
-      [](Checkpoint& c) { ++c.saved.counts.disk_wall; },
+      [](Checkpoint& c) { ++c.saved.counts.pair_collisions; },
+      [](Checkpoint& c) { ++c.saved.counts.wall_collisions; },
       [](Checkpoint& c) { ++c.saved.counts.kicks; },
       [](Checkpoint& c) { ++c.saved.counts.elasticised; },
       [](Checkpoint& c) { ++c.saved.counts.elasticised_wall; },

@@ -18,7 +18,7 @@ using namespace clatter::testing;
 
 namespace {
 
-Saved<2> through_file(const Simulation<2>& simulation) {
+RunState<2> through_file(const Simulation<2>& simulation) {
   const ScratchFolder folder;
   Checkpoint checkpoint;
   checkpoint.saved = simulation.save();
@@ -86,7 +86,7 @@ TEST_CASE("Resume: twenty halts in a run, across moves of the base, change no bi
       for (int part = 1; part <= 20; ++part) {
         straight.run_until(start_time + part * kPart);
         halted->run_until(start_time + part * kPart);
-        const Saved<2> saved = through_file(*halted);
+        const RunState<2> saved = through_file(*halted);
         base_moves += saved.now < kPart;
         halted = std::make_unique<Simulation<2>>(model, saved);
         REQUIRE(halted->state_hash() == straight.state_hash());
@@ -125,7 +125,7 @@ TEST_CASE("Resume: every scene of the gallery, halfway") {
     const Scene scene = load_gallery_scene(file);
     const Model<2> model = model_of(scene, 1);
     Simulation<2> first(model, start_state(scene, 1));
-    first.run_until(kNever, 20 * static_cast<std::uint64_t>(scene.disks.count));
+    first.run_until(kNever, 20 * static_cast<std::uint64_t>(scene.particles.count));
     const double halfway = first.time();
     first.run_until(halfway);
     Simulation<2> second(model, through_file(first));
@@ -133,12 +133,12 @@ TEST_CASE("Resume: every scene of the gallery, halfway") {
     Simulation<2> straight(model, start_state(scene, 1));
     straight.run_until(2.0 * halfway);
     CHECK(second.state_hash() == straight.state_hash());
-    CHECK(second.counts().disk_disk > first.counts().disk_disk);
+    CHECK(second.counts().pair_collisions > first.counts().pair_collisions);
   }
 }
 
 // Positions and velocities differ by no more than the rounding of a flight taken up midway.
-TEST_CASE("Resume: laws may change, and the disks stay where they are") {
+TEST_CASE("Resume: laws may change, and the particles stay where they are") {
   for (const auto& [before, old_model] : all_laws()) {
     Simulation<2> simulation(old_model, random_gas(old_model, 100, 303), 1e9);
     simulation.run_until(1e9 + 10.0);
@@ -146,7 +146,7 @@ TEST_CASE("Resume: laws may change, and the disks stay where they are") {
     for (const auto& [now, laws] : all_laws()) {
       CAPTURE(before);
       CAPTURE(now);
-      // The walls remain: where they moved, they would lie within disks.
+      // The walls remain: where they moved, they would lie within particles.
       Model<2> model = laws;
       model.walls = old_model.walls;
       Simulation<2> resumed(model, simulation.save());
@@ -186,7 +186,7 @@ TEST_CASE("Resume: kicks at another interval are counted from where the run is t
   CHECK(other.counts().kicks == 36);
 }
 
-// Many dissipative disks: the first collapse comes after some hundred thousand collisions.
+// Many dissipative particles: the first collapse comes after some hundred thousand collisions.
 TEST_CASE("Resume: a run that collapsed goes on with a contact time") {
   Model<2> model = periodic_box(20.0, 20.0);
   model.restitution = 0.1;
@@ -213,7 +213,7 @@ TEST_CASE("Resume: a stop leaves a base that moves on") {
   Model<2> model =
       with_walls(periodic_box(20.0, 20.0), 1, {.kind = WallKind::Static, .restitution = 0.5});
   model.gravity = {0.0, -1.0};
-  Saved<2> saved = Simulation<2>(model, {{{5.0, 5.0}}, {{0.0, 0.0}}}).save();
+  RunState<2> saved = Simulation<2>(model, {{{5.0, 5.0}}, {{0.0, 0.0}}}).save();
   for (saved.until_base_moves = 1; saved.until_base_moves <= 64; ++saved.until_base_moves) {
     CAPTURE(saved.until_base_moves);
     Simulation<2> simulation(model, saved);
@@ -224,7 +224,7 @@ TEST_CASE("Resume: a stop leaves a base that moves on") {
 
 TEST_CASE("Resume: overlaps that a run bore do not keep it from going on") {
   const Model<2> model = periodic_box(20.0, 20.0);
-  Saved<2> saved =
+  RunState<2> saved =
       Simulation<2>(model, {{{5.0, 5.0}, {6.0, 5.0}}, {{0.0, 0.0}, {1.0, 0.0}}}).save();
   saved.flights[1].r.x() -= 1e-10;
   CHECK_THROWS_AS(Simulation<2>(model, saved), PhysicalStop);

@@ -16,12 +16,12 @@ using namespace clatter::testing;
 
 namespace {
 
-using Image = std::tuple<std::uint32_t, int, int>;  // disk, box lengths along x and y
+using Image = std::tuple<std::uint32_t, int, int>;  // particle, box lengths along x and y
 
 std::multiset<Image> near(const CellGrid<2>& grid, const IntVec<2>& cell) {
   std::multiset<Image> images;
-  grid.visit(cell, [&](std::uint32_t disk, const Vec2& wrap) {
-    images.insert({disk, static_cast<int>(wrap.x()), static_cast<int>(wrap.y())});
+  grid.visit(cell, [&](std::uint32_t particle, const Vec2& wrap) {
+    images.insert({particle, static_cast<int>(wrap.x()), static_cast<int>(wrap.y())});
   });
   return images;
 }
@@ -31,7 +31,7 @@ bool wraps_are_told(const CellGrid<2>& grid, const IntVec<2>& cell) {
   for (const auto* list = &grid.near(cell); list; list = grid.next(*list)) {
     for (std::uint32_t k = 0; k < list->count; ++k) {
       const auto neighbour = list->neighbours[k];
-      if (neighbour != CellGrid<2>::disk_of(neighbour) && !list->wraps) return false;
+      if (neighbour != CellGrid<2>::particle_of(neighbour) && !list->wraps) return false;
     }
   }
   return true;
@@ -65,7 +65,7 @@ Vec2 random_place(const Model<2>& model, const CellGrid<2>& grid, Random& random
   return r;
 }
 
-// A disk in a grid: its cell, and its place in the frame of that cell.
+// A particle in a grid: its cell, and its place in the frame of that cell.
 struct Guest {
   IntVec<2> cell;
   Vec2 r;
@@ -80,7 +80,7 @@ bool belongs(const CellGrid<2>& grid, const Guest& guest) {
   return within;
 }
 
-// Where the disk is after a step to a neighbouring cell, or nowhere if there is a wall.
+// Where the particle is after a step to a neighbouring cell, or nowhere if there is a wall.
 std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Guest guest, int axis,
                              int step) {
   const int next = guest.cell[axis] + step;
@@ -91,16 +91,16 @@ std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Gue
   return guest;
 }
 
-// Moves a disk over borders of its cell, at most so many, where `may(there)` lets it; how many.
+// Moves a particle over borders of its cell, at most so many, where `may(there)` lets it; how many.
 template <typename May>
-int wander(const Model<2>& model, CellGrid<2>& grid, std::uint32_t disk, Guest& guest, int most,
+int wander(const Model<2>& model, CellGrid<2>& grid, std::uint32_t particle, Guest& guest, int most,
            Random& random, const May& may) {
   int crossed = 0;
   for (int k = 0; k < most; ++k) {
     const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
     const auto next = stepped(model, grid, guest, axis, step);
     if (!next || !may(*next)) continue;
-    grid.move(disk, guest.cell, axis, step);
+    grid.move(particle, guest.cell, axis, step);
     guest = *next;
     ++crossed;
   }
@@ -118,7 +118,7 @@ TEST_CASE(
   const IntVec<2> cell = {1, 2}, beside = {2, 3}, off = {4, 2};
   std::uint32_t next = 0;
   for (int i = 0; i < 5000; ++i) {
-    // Fills to some 250 disks, 18 lists, and empties again.
+    // Fills to some 250 particles, 18 lists, and empties again.
     const bool fill = (i / 250) % 2 == 0;
     if (fill || inside.empty()) {
       grid.insert(next, cell);
@@ -141,10 +141,10 @@ TEST_CASE("cell grid: a list tells that some lie round a border, whoever leaves 
   CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
   const IntVec<2> first = {0, 2}, last = {6, 2};
   // Those beyond the border come where others were.
-  for (std::uint32_t disk = 0; disk < 20; ++disk) grid.insert(disk, first);
-  for (std::uint32_t disk = 20; disk < 40; ++disk) grid.insert(disk, last);
-  for (std::uint32_t disk = 0; disk < 20; ++disk) {
-    grid.remove(disk, first);
+  for (std::uint32_t particle = 0; particle < 20; ++particle) grid.insert(particle, first);
+  for (std::uint32_t particle = 20; particle < 40; ++particle) grid.insert(particle, last);
+  for (std::uint32_t particle = 0; particle < 20; ++particle) {
+    grid.remove(particle, first);
     REQUIRE(wraps_are_told(grid, first));
   }
   CHECK(near(grid, first).count({39, -1, 0}) == 1);
@@ -199,7 +199,7 @@ TEST_CASE("cell grid: every position lies in a cell, within its borders") {
   }
 }
 
-TEST_CASE("cell grid: no image of a disk within one diameter is missed, and none comes twice") {
+TEST_CASE("cell grid: no image of a particle within one diameter is missed, and none comes twice") {
   Random random(63, Stream::Placement, 0, 0);
   int overhanging = 0;
   for (int i = 0; i < 10000; ++i) {

@@ -22,7 +22,7 @@ bool says(const std::string& stop, const std::string& words) {
 
 }  // namespace
 
-// The lone disk's speed grows by the factor in every bounce, long before time can stand still.
+// The lone particle's speed grows by the factor in every bounce, long before time can stand still.
 TEST_CASE("standstill: speeds that diverge stop the run before numbers lose their meaning") {
   for (const double restitution : {1.2, 2.0, 10.0}) {
     for (const int count : {1, 3, 100}) {
@@ -38,7 +38,7 @@ TEST_CASE("standstill: speeds that diverge stop the run before numbers lose thei
   }
 }
 
-// The first bounces come late and make disks 10^11 times as fast, and that is all.
+// The first bounces come late and make particles 10^11 times as fast, and that is all.
 TEST_CASE("standstill: a cold gas between walls that heat it is no divergence") {
   Model<2> model = with_walls(periodic_box(20.0, 25.0), 0,
                               {.kind = WallKind::Driven, .restitution = 1.05, .drive_speed = 0.1});
@@ -51,8 +51,10 @@ TEST_CASE("standstill: a cold gas between walls that heat it is no divergence") 
   check_sound(simulation);
 }
 
-// The walls give next to nothing; the disks are as fast as their fall, or their kicks, makes them.
-TEST_CASE("standstill: disks that fall or are kicked between walls that hum are no divergence") {
+// The walls give next to nothing; the particles are as fast as their fall, or their kicks, makes
+// them.
+TEST_CASE(
+    "standstill: particles that fall or are kicked between walls that hum are no divergence") {
   const Wall hums{.kind = WallKind::Sinusoidal, .stroke = 1e-6, .frequency = 1.0};
   Model<2> falls = with_walls(periodic_box(10.0, 30.0), 1, kStatic);
   falls.walls[kBottom] = hums;
@@ -65,12 +67,12 @@ TEST_CASE("standstill: disks that fall or are kicked between walls that hum are 
     for (Vec2& r : start.positions) r.y() += 0.05 * (29.5 - r.y()) / 29.0;
     Simulation<2> simulation(model, start);
     CHECK_NOTHROW(simulation.run_until(100.0));
-    CHECK(simulation.counts().disk_wall > 100);
+    CHECK(simulation.counts().wall_collisions > 100);
     check_sound(simulation);
   }
 }
 
-TEST_CASE("standstill: elastic disks at rest on a floor are seen, and t_c lets them rest") {
+TEST_CASE("standstill: elastic particles at rest on a floor are seen, and t_c lets them rest") {
   Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, kStatic);
   model.gravity = {0.0, -1.0};
   const State<2> start{{{2.0, 0.5}, {5.0, 0.5}}, {{0.0, 0.0}, {0.0, 0.0}}};
@@ -129,9 +131,9 @@ TEST_CASE("standstill: t_c does not heat a gas between walls that shake faster")
   }
 }
 
-// A wholly inelastic wall lets disks go with its own velocity, so each grazes it at the start of
-// its flight; after a move of the base that must not count as a contact in the past.
-TEST_CASE("standstill: the clock never steps back at moving walls that disks just left") {
+// A wholly inelastic wall lets particles go with its own velocity, so each grazes it at the start
+// of its flight; after a move of the base that must not count as a contact in the past.
+TEST_CASE("standstill: the clock never steps back at moving walls that particles just left") {
   for (std::uint64_t seed = 956; seed < 962; ++seed) {
     Model<2> model = with_walls(with_walls(periodic_box(20.0, 25.0), 0, kStatic), 1, kStatic);
     model.walls[kBottom] =
@@ -159,7 +161,7 @@ TEST_CASE("standstill: a run goes on between walls that move otherwise") {
   check_sound(second);
 }
 
-// While the wall stands far back, the disk falls behind its place and comes out again. A static
+// While the wall stands far back, the particle falls behind its place and comes out again. A static
 // wall that stands in that place from then on was never touched.
 TEST_CASE("standstill: what a flight passed before other walls held has not happened") {
   Model<2> before = with_walls(periodic_box(20.0, 25.0), 0, kStatic);
@@ -168,12 +170,12 @@ TEST_CASE("standstill: what a flight passed before other walls held has not happ
   before.gravity = {1.0, 0.0};
   Simulation<2> first(before, State<2>{{{1.5, 3.0}}, {{-1.6, 0.0}}});  // to .22, back at t = 3.2
   first.run_until(3.0);
-  REQUIRE(first.counts().disk_wall == 0);
+  REQUIRE(first.counts().wall_collisions == 0);
   Model<2> after = before;
   after.walls[kLeft] = kStatic;
   Simulation<2> second(after, first.save());
   second.run_until(4.0);
-  CHECK(second.counts().disk_wall == 0);
+  CHECK(second.counts().wall_collisions == 0);
   CHECK(second.state().positions[0].x() == doctest::Approx(1.5 - 1.6 * 4.0 + 8.0));
   check_sound(second);
 }

@@ -17,14 +17,14 @@ struct After {
   bool operator()(const Event& a, const Event& b) const { return before(b, a); }
 };
 
-// The queue beside the standard one. Every event has a disk of its own, so the order is total; the
-// dead are those that the caller's `live` disowns.
+// The queue beside the standard one. Every event has a particle of its own, so the order is total;
+// the dead are those that the caller's `live` disowns.
 class TwoQueues {
  public:
   void add(double time, Random& random) {
-    const auto disk = static_cast<std::uint32_t>(dead_.size());
-    const std::uint32_t partners[] = {disk / 2, kWall + 1, kCellBorder};
-    const Event event{time, disk, partners[random.below(3)]};
+    const auto particle = static_cast<std::uint32_t>(dead_.size());
+    const std::uint32_t partners[] = {particle / 2, kWall + 1, kCellBorder};
+    const Event event{time, particle, partners[random.below(3)]};
     dead_.push_back(false);
     reference_.push(event);
     queue_.push(event);
@@ -37,14 +37,14 @@ class TwoQueues {
   }
   // Takes the first event out of both; its time, or a negative number when they are empty.
   double take() {
-    while (!reference_.empty() && dead_[reference_.top().disk]) reference_.pop();
-    const Event* top = queue_.top([&](const Event& event) { return !dead_[event.disk]; });
+    while (!reference_.empty() && dead_[reference_.top().particle]) reference_.pop();
+    const Event* top = queue_.top([&](const Event& event) { return !dead_[event.particle]; });
     if (!top || reference_.empty()) {
       wrong_ += (top == nullptr) != reference_.empty();
       return -1.0;
     }
     const Event expected = reference_.top();
-    wrong_ += top->time != expected.time || top->disk != expected.disk ||
+    wrong_ += top->time != expected.time || top->particle != expected.particle ||
               top->partner != expected.partner;
     reference_.pop();
     queue_.pop();
@@ -103,7 +103,7 @@ TEST_CASE("event queue: the order of the standard queue over 10^6 operations and
        }},
       {"a little before what was taken last",
        [&](double now, Random& r) { return std::max(0.0, now + 0.1 * (r.uniform() - 0.2)); }},
-      {"a hot crowd before many cold disks",
+      {"a hot crowd before many cold particles",
        [&](double now, Random& r) {
          const double cold = r.below(10) == 0 ? 1e9 : 3000.0;
          return now + exponential(r) * (now > 0.0 || r.below(5) == 0 ? 1e-9 : cold);
@@ -132,7 +132,7 @@ TEST_CASE("event queue: the order of the standard queue over 10^7 operations" *
   compare(20000, next, 100, 10'000'000);
 }
 
-TEST_CASE("event queue: ties go to disks, then walls, then cell borders, and to low numbers") {
+TEST_CASE("event queue: ties go to particles, then walls, then cell borders, and to low numbers") {
   std::vector<Event> events = {{1.0, 0, kCellBorder}, {1.0, 1, kWall + 2}, {1.0, 1, kWall + 0},
                                {1.0, 9, 2},           {1.0, 3, 4},         {0.5, 7, kCellBorder}};
   EventQueue queue;

@@ -19,7 +19,7 @@ namespace {
 
 Scene gas(int count, const Vec2& box, const Vec2& gravity = Vec2::Zero()) {
   Scene scene;
-  scene.disks.count = count;
+  scene.particles.count = count;
   scene.box = box;
   scene.gravity = gravity;
   return scene;
@@ -38,31 +38,31 @@ std::vector<std::pair<std::string, Scene>> scenes() {
           {"falling between walls", walled(gas(300, {20.0, 20.0}, {0.0, -0.5}))}};
 }
 
-// A gas after some collisions, and all its disks' plans.
+// A gas after some collisions, and all its particles' plans.
 struct Planned {
   explicit Planned(const Scene& scene) : model(model_of(scene, 1)) {
     const auto simulation = simulation_of(scene, 1);
-    simulation->run_until(1e9, 20 * static_cast<std::uint64_t>(scene.disks.count));
+    simulation->run_until(1e9, 20 * static_cast<std::uint64_t>(scene.particles.count));
     now = simulation->base_time();
     clock.emplace(simulation->time() - now);
-    disks = simulation->disks();
-    plans.resize(disks.size());
-    grid.emplace(model, static_cast<double>(disks.size()));
-    for (std::uint32_t i = 0; i < disks.size(); ++i) {
-      const Vec2 r = disks[i].flight.at(now, model.gravity);
-      disks[i].image = model.boxes_off(r);
-      plans[i].cell = grid->cell_at(r - disks[i].image.cwiseProduct(model.box));
+    particles = simulation->particles();
+    plans.resize(particles.size());
+    grid.emplace(model, static_cast<double>(particles.size()));
+    for (std::uint32_t i = 0; i < particles.size(); ++i) {
+      const Vec2 r = particles[i].flight.at(now, model.gravity);
+      particles[i].image = model.image_index(r);
+      plans[i].cell = grid->cell_at(r - particles[i].image.cwiseProduct(model.box));
       grid->insert(i, plans[i].cell);
     }
     boundary.emplace(model, *clock);
-    prediction.emplace(model, *boundary, disks, *grid);
-    for (std::uint32_t i = 0; i < disks.size(); ++i) prediction->plan({i, &plans[i]}, now);
+    prediction.emplace(model, *boundary, particles, *grid);
+    for (std::uint32_t i = 0; i < particles.size(); ++i) prediction->plan({i, &plans[i]}, now);
   }
 
   Model<2> model;
   double now;
   std::optional<Clock> clock;
-  LargeArray<Disk<2>> disks;
+  LargeArray<Particle<2>> particles;
   std::vector<Plan<2>> plans;
   std::optional<CellGrid<2>> grid;
   std::optional<Boundary<2>> boundary;
@@ -71,22 +71,22 @@ struct Planned {
 
 }  // namespace
 
-TEST_CASE("prediction: no two disks touch before the plan of one of them, by brute force") {
+TEST_CASE("prediction: no two particles touch before the plan of one of them, by brute force") {
   for (const auto& [name, scene] : scenes()) {
     CAPTURE(name);
     const Planned gas(scene);
     int contacts = 0;
-    for (std::uint32_t i = 0; i < gas.disks.size(); ++i) {
-      for (std::uint32_t j = i + 1; j < gas.disks.size(); ++j) {
+    for (std::uint32_t i = 0; i < gas.particles.size(); ++i) {
+      for (std::uint32_t j = i + 1; j < gas.particles.size(); ++j) {
         const double planned = std::min(gas.plans[i].time, gas.plans[j].time);
         for (int image = 0; image < 9; ++image) {
           const Vec2 wrap(image % 3 - 1, image / 3 - 1);
           const bool there = (wrap.x() == 0.0 || gas.model.periodic(0)) &&
                              (wrap.y() == 0.0 || gas.model.periodic(1));
           if (!there) continue;
-          const Vec2 boxes = gas.disks[j].image - gas.disks[i].image - wrap;
+          const Vec2 boxes = gas.particles[j].image - gas.particles[i].image - wrap;
           const double time =
-              contact_time<2>(gas.disks[i].flight, gas.disks[j].flight,
+              contact_time<2>(gas.particles[i].flight, gas.particles[j].flight,
                               boxes.cwiseProduct(gas.model.box), 1.0, gas.model.gravity);
           REQUIRE(time >= planned);
           contacts += time == planned;
@@ -97,15 +97,16 @@ TEST_CASE("prediction: no two disks touch before the plan of one of them, by bru
   }
 }
 
-TEST_CASE("prediction: two disks planned at once are planned as one after the other, to the bit") {
+TEST_CASE(
+    "prediction: two particles planned at once are planned as one after the other, to the bit") {
   for (const auto& [name, scene] : scenes()) {
     CAPTURE(name);
     const Planned gas(scene);
     Random random(5, Stream::Placement, 0, 0);
     int contacts = 0, round_borders = 0;
     for (int k = 0; k < 4000; ++k) {
-      const auto a = static_cast<std::uint32_t>(random.below(gas.disks.size()));
-      const auto b = static_cast<std::uint32_t>(random.below(gas.disks.size()));
+      const auto a = static_cast<std::uint32_t>(random.below(gas.particles.size()));
+      const auto b = static_cast<std::uint32_t>(random.below(gas.particles.size()));
       if (a == b) continue;
       Plan<2> of_a, of_b;
       of_a.cell = gas.plans[a].cell;

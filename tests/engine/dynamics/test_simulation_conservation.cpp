@@ -9,8 +9,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// N = 1000 elastic disks at phi = .5: nothing may be lost over the collisions asked for. Energy and
-// momentum are of order 1000; each collision rounds them by some 1e-16, with either sign.
+// N = 1000 elastic particles at phi = .5: nothing may be lost over the collisions asked for. Energy
+// and momentum are of order 1000; each collision rounds them by some 1e-16, with either sign.
 static void conserve(std::uint64_t collisions, double start_time, double bound) {
   constexpr int kCount = 1000;
   const double edge = std::sqrt(kCount * std::numbers::pi / (4.0 * 0.5));
@@ -19,7 +19,7 @@ static void conserve(std::uint64_t collisions, double start_time, double bound) 
   Simulation<2> simulation(model, start, start_time);
   const double energy = simulation.kinetic_energy();
   simulation.run_until(kNever, collisions);
-  CHECK(simulation.counts().disk_disk == collisions);
+  CHECK(simulation.counts().pair_collisions == collisions);
   CHECK(std::fabs(simulation.kinetic_energy() / energy - 1.0) < bound);
   CHECK((momentum(simulation.state()) - momentum(start)).norm() / kCount < bound);
   CHECK(simulation.checks().deepest_overlap < 1e-12);
@@ -47,9 +47,9 @@ TEST_CASE("conservation: what collisions take is what is lost") {
     double booked = 0.0;
     void on_collision(const PairCollision<2>& c) override {
       const double g_n =
-          c.separation.dot(c.disks[0].velocity - c.disks[1].velocity) / c.separation.norm();
+          c.separation.dot(c.particles[0].velocity - c.particles[1].velocity) / c.separation.norm();
       taken += 0.25 * (1.0 - 0.9 * 0.9) * g_n * g_n;
-      booked += c.disks[0].energy + c.disks[1].energy;
+      booked += c.particles[0].energy + c.particles[1].energy;
     }
   } ledger;
   Model<2> model = periodic_box(20.0, 15.0);
@@ -65,9 +65,9 @@ TEST_CASE("conservation: what collisions take is what is lost") {
   check_sound(simulation);
 }
 
-// A collision that is missed lets two disks pass through each other, which takes them a time of
+// A collision that is missed lets two particles pass through each other, which takes them a time of
 // order 1: looking every .1 finds them.
-TEST_CASE("conservation: disks never overlap, by brute force over all images") {
+TEST_CASE("conservation: particles never overlap, by brute force over all images") {
   const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
   const Wall thermal{.kind = WallKind::Thermal, .temperature = 2.0};
   const Model<2> models[] = {
@@ -86,7 +86,7 @@ TEST_CASE("conservation: disks never overlap, by brute force over all images") {
       REQUIRE(finite_and_inside(model, state));
     }
     CHECK(deepest < 1e-12);
-    CHECK(simulation.counts().disk_disk > 2000);
+    CHECK(simulation.counts().pair_collisions > 2000);
     check_sound(simulation);
   }
 }

@@ -9,7 +9,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("edges: wholly inelastic disks collide once and move on together") {
+TEST_CASE("edges: wholly inelastic particles collide once and move on together") {
   int collisions = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Model<2> model = periodic_box(9.0, 8.0);
@@ -17,8 +17,8 @@ TEST_CASE("edges: wholly inelastic disks collide once and move on together") {
     Simulation<2> simulation(model, random_gas(model, 2, seed));
     simulation.run_until(1000.0);
     // Without tangential losses a pair may meet again after a turn round the box.
-    collisions += static_cast<int>(simulation.counts().disk_disk);
-    REQUIRE(simulation.counts().disk_disk < 1000);
+    collisions += static_cast<int>(simulation.counts().pair_collisions);
+    REQUIRE(simulation.counts().pair_collisions < 1000);
     REQUIRE(finite_and_inside(model, simulation.state()));
     check_sound(simulation);
   }
@@ -36,9 +36,9 @@ TEST_CASE("edges: a start with overlap is refused, one that touches is not") {
   CHECK_THROWS_AS(Simulation<2>(model, start({2.0, 3.0}, {8.6, 3.0})), PhysicalStop);
 }
 
-// Dropped from rest at the border of two cells, an elastic disk turns there again and again, above
-// or below it by rounding; so late on the base that it may cross twice at one time.
-TEST_CASE("edges: a disk that falls and turns on a border of its cell") {
+// Dropped from rest at the border of two cells, an elastic particle turns there again and again,
+// above or below it by rounding; so late on the base that it may cross twice at one time.
+TEST_CASE("edges: a particle that falls and turns on a border of its cell") {
   for (const double height : {1.5, 2.0, 3.0, 4.0, 5.25}) {
     Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, Wall{});
     model.gravity = {0.0, -1.0};
@@ -47,19 +47,19 @@ TEST_CASE("edges: a disk that falls and turns on a border of its cell") {
     start.velocities = {{0.0, 0.0}, {0.0, 0.0}};
     Simulation<2> simulation(model, start);
     simulation.run_until(20000.0);
-    CHECK(simulation.counts().disk_wall > 5000);
+    CHECK(simulation.counts().wall_collisions > 5000);
     CHECK(simulation.kinetic_energy() <= height);
     check_sound(simulation);
   }
 }
 
 // As above, where cells are so narrow that they have no overhang, as those about a crystal in a
-// wide box are made (Simulation::fit_cells): all disks lie on borders, rise, and are back within
-// the least time that there is.
-TEST_CASE("edges: disks that turn right beyond a border of narrow cells") {
+// wide box are made (Simulation::fit_cells): all particles lie on borders, rise, and are back
+// within the least time that there is.
+TEST_CASE("edges: particles that turn right beyond a border of narrow cells") {
   Model<2> model = periodic_box(20.2, 20.2);
   model.gravity = {0.0, -1e4};
-  Saved<2> saved;
+  RunState<2> saved;
   saved.gravity = model.gravity;
   saved.now = 1e4;
   for (int i = 0; i < 100; ++i) {

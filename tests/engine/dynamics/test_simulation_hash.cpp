@@ -25,7 +25,7 @@ std::vector<Model<2>> models() {
   return models;
 }
 
-// Every disk on a square lattice, many moving alike: hundreds of collisions at the same times.
+// Every particle on a square lattice, many moving alike: hundreds of collisions at the same times.
 State<2> symmetric_start() {
   State<2> start;
   for (int i = 0; i < 100; ++i) {
@@ -154,7 +154,7 @@ TEST_CASE("hash: the same whenever cells are fitted to a cluster") {
   Simulation<2> whole(model, start);
   whole.run_until(kEnd);
   check_sound(whole);
-  CHECK(whole.counts().disk_disk > 60000);
+  CHECK(whole.counts().pair_collisions > 60000);
   auto parts = std::make_unique<Simulation<2>>(model, start);
   for (double time = 50.0; time <= kEnd; time += 50.0) {
     parts->run_until(time);

@@ -29,32 +29,33 @@ void compare(const std::string& name, const Model<2>& model, const std::vector<i
     Reference reference(model, start);
     simulation.run_until(kNever, collisions);
     reference.run_until_collisions(collisions);
-    CHECK(simulation.counts().disk_disk == reference.collisions());
-    CHECK(simulation.counts().disk_wall == reference.wall_hits());
+    CHECK(simulation.counts().pair_collisions == reference.collisions());
+    CHECK(simulation.counts().wall_collisions == reference.wall_hits());
     CHECK(simulation.counts().kicks == reference.kicks());
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
     CHECK(simulation.deepest_overlap() < 1e-12);
     CHECK(totals.ledger_residual() < 1e-12);
     CHECK(simulation.checks().clock_steps_back < 1e-13);
-    // Two disks may fly a thousand box lengths before they meet, whose rounding is that much more.
+    // Two particles may fly a thousand box lengths before they meet, whose rounding is that much
+    // more.
     CHECK(simulation.checks().deepest_overlap < 1e-11);
   }
 }
 
 }  // namespace
 
-TEST_CASE("reference: rough disks and rough walls") {
+TEST_CASE("reference: rough particles and rough walls") {
   const Model<2> periodic = inelastic(periodic_box(9.0, 8.0), 0.9);
   // Not for long: a gas that cools ends with velocities that differ by rounding only.
   compare("constant beta", rough(periodic, kInfinity, 0.4), {3, 12, 30}, 100);
   compare("Coulomb", rough(periodic, 0.2, 1.0), {3, 12, 30}, 100);
-  compare("both, one disk high", rough(inelastic(periodic_box(12.0, 1.2), 0.9), 0.3, 0.7), {3, 6},
-          50);
-  compare("rough walls and disks", rough(inelastic(four(kRoughDriven, kThermal), 0.9), 0.3, 0.5),
-          {2, 12, 30});
+  compare("both, one particle high", rough(inelastic(periodic_box(12.0, 1.2), 0.9), 0.3, 0.7),
+          {3, 6}, 50);
+  compare("rough walls and particles",
+          rough(inelastic(four(kRoughDriven, kThermal), 0.9), 0.3, 0.5), {2, 12, 30});
   Model<2> rough_walls_only = inelastic(four(kRoughDriven, kStatic), 0.95);
   rough_walls_only.spins = true;
-  compare("smooth disks, rough walls", rough_walls_only, {2, 12});
+  compare("smooth particles, rough walls", rough_walls_only, {2, 12});
 }
 
 TEST_CASE("reference: gravity in every direction, with and without walls") {

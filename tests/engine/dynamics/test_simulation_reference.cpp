@@ -17,7 +17,7 @@ namespace {
 struct Case {
   std::string name;
   Model<2> model;
-  std::vector<int> counts;  // numbers of disks
+  std::vector<int> counts;  // numbers of particles
 };
 
 // The state after 2000 collisions must be that of the reference to the last bit.
@@ -26,8 +26,8 @@ void compare(const Model<2>& model, const State<2>& start, std::uint64_t collisi
   Reference reference(model, start);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
-  CHECK(simulation.counts().disk_disk == reference.collisions());
-  CHECK(simulation.counts().disk_wall == reference.wall_hits());
+  CHECK(simulation.counts().pair_collisions == reference.collisions());
+  CHECK(simulation.counts().wall_collisions == reference.wall_hits());
   CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
   CHECK(brute_force_overlap(model, simulation.state()) < 1e-12);
   check_sound(simulation);
@@ -46,10 +46,10 @@ void compare(const Case& c) {
 TEST_CASE("reference: periodic boxes") {
   compare({"wide", periodic_box(9.0, 8.0), {2, 3, 7, 16, 30}});
   compare({"dense", periodic_box(6.2, 6.1), {30}});
-  compare({"one disk high: contacts through images that are not the nearest",
+  compare({"one particle high: contacts through images that are not the nearest",
            periodic_box(12.0, 1.2),
            {2, 3, 6}});
-  compare({"two disks high", periodic_box(7.0, 2.05), {2, 5, 9}});
+  compare({"two particles high", periodic_box(7.0, 2.05), {2, 5, 9}});
   compare({"two cells wide", periodic_box(2.2, 9.0), {2, 8, 12}});
   compare({"one cell in all", periodic_box(1.9, 2.05), {2}});
   compare({"inelastic", inelastic(periodic_box(9.0, 8.0), 0.9), {2, 12, 30}});
@@ -70,20 +70,21 @@ TEST_CASE("reference: walls on two sides and on four") {
   compare({"driven, periodic across and narrow",
            inelastic(with_walls(periodic_box(12.0, 1.2), 0, kDriven), 0.9),
            {2, 5}});
-  compare({"thermal, periodic across and two disks high",
+  compare({"thermal, periodic across and two particles high",
            inelastic(with_walls(periodic_box(9.0, 2.05), 0, kThermal), 0.9),
            {2, 5, 12}});
-  compare({"a channel that holds one disk across",
+  compare({"a channel that holds one particle across",
            with_walls(periodic_box(12.0, 1.5), 1, kStatic),
            {2, 6}});
 }
 
-TEST_CASE("reference: wholly inelastic disks between driven walls") {
+TEST_CASE("reference: wholly inelastic particles between driven walls") {
   const Model<2> model = inelastic(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 0.0);
   for (const int count : {2, 5, 20}) compare(model, random_gas(model, count, 82));
 }
 
-// Disks on a square lattice, four velocities that repeat: several pairs collide at the same times.
+// Particles on a square lattice, four velocities that repeat: several pairs collide at the same
+// times.
 TEST_CASE("reference: simultaneous collisions") {
   for (const bool walled : {false, true}) {
     for (const double restitution : {1.0, 0.5}) {
@@ -100,7 +101,7 @@ TEST_CASE("reference: simultaneous collisions") {
   }
 }
 
-// The second disk crosses the box some hundred times before it meets the first.
+// The second particle crosses the box some hundred times before it meets the first.
 TEST_CASE("reference: a first contact after many box lengths") {
   const Model<2> model = periodic_box(10.0, 9.0);
   State<2> start;

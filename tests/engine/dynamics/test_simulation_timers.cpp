@@ -75,7 +75,7 @@ TEST_CASE("timers: physical events of the same time come first") {
   Simulation<2> simulation(periodic_box(20.0, 20.0), start);
   std::vector<std::uint64_t> seen;
   for (const double at : {std::nextafter(2.0, 0.0), 2.0}) {
-    simulation.every(at, 0.0, [&](double) { seen.push_back(simulation.counts().disk_disk); });
+    simulation.every(at, 0.0, [&](double) { seen.push_back(simulation.counts().pair_collisions); });
   }
   simulation.run_until(2.0);
   CHECK(seen == std::vector<std::uint64_t>{0, 1});

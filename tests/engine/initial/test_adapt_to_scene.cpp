@@ -12,7 +12,7 @@ using namespace clatter::testing;
 namespace {
 
 Scene box(int count, double width, double height) {
-  return load_scene("vibrated", {{"disks.count", std::to_string(count)},
+  return load_scene("vibrated", {{"particles.count", std::to_string(count)},
                                  {"box.size", '[' + std::to_string(width) + ", " +
                                                   std::to_string(height) + ']'}});
 }
@@ -31,7 +31,7 @@ std::size_t kept(const State<2>& before, const State<2>& now) {
 
 }  // namespace
 
-TEST_CASE("refitted: all disks stay that fit, others come, none overlap") {
+TEST_CASE("adapt_to_scene: all particles stay that fit, others come, none overlap") {
   const State<2> before = start_state(box(200, 20.0, 25.0), 3);
   struct Case {
     Scene scene;
@@ -42,10 +42,10 @@ TEST_CASE("refitted: all disks stay that fit, others come, none overlap") {
         Case{box(120, 20.0, 25.0), 120}, Case{box(200, 30.0, 30.0), 190},
         Case{box(150, 15.0, 20.0), 80}, Case{box(210, 600.0, 600.0), 190},
         Case{box(1, 20.0, 25.0), 1}, Case{box(3, 60.0, 60.0), 3}}) {
-    CAPTURE(scene.disks.count);
+    CAPTURE(scene.particles.count);
     CAPTURE(scene.box.x());
-    const State<2> now = refitted(before, scene, 3);
-    REQUIRE(now.positions.size() == static_cast<std::size_t>(scene.disks.count));
+    const State<2> now = adapt_to_scene(before, scene, 3);
+    REQUIRE(now.positions.size() == static_cast<std::size_t>(scene.particles.count));
     REQUIRE(now.velocities.size() == now.positions.size());
     CHECK(kept(before, now) >= least);
     CHECK(brute_force_overlap(model_of(scene, 3), now) < 1e-12);
@@ -53,19 +53,19 @@ TEST_CASE("refitted: all disks stay that fit, others come, none overlap") {
   }
 }
 
-TEST_CASE("refitted: disks that come have the temperature of the gas") {
+TEST_CASE("adapt_to_scene: particles that come have the temperature of the gas") {
   State<2> before = start_state(box(10, 60.0, 60.0), 4);
   for (Vec2& v : before.velocities) v *= 3.0;
-  const State<2> now = refitted(before, box(1500, 60.0, 60.0), 4);
+  const State<2> now = adapt_to_scene(before, box(1500, 60.0, 60.0), 4);
   double squares = 0.0;
   for (const Vec2& v : now.velocities) squares += v.squaredNorm();
   // 1490 pairs of normal numbers: T/9 = 1 +- 0.026; five of these.
   CHECK(squares / (2.0 * 1500) == doctest::Approx(9.0).epsilon(0.13));
 }
 
-TEST_CASE("refitted: where random places do not suffice the gas starts as the scene says") {
+TEST_CASE("adapt_to_scene: where random places do not suffice the gas starts as the scene says") {
   const State<2> before = start_state(box(200, 20.0, 25.0), 5);
   const Scene dense = box(450, 20.0, 25.0);  // phi = 0.71
-  const State<2> now = refitted(before, dense, 5);
+  const State<2> now = adapt_to_scene(before, dense, 5);
   CHECK(now.positions == start_state(dense, 5).positions);
 }

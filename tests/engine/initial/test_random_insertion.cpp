@@ -57,7 +57,7 @@ void check_uniform(const std::vector<double>& counts) {
   double total = 0.0;
   for (const double count : counts) total += count;
   const double mean = total / static_cast<double>(counts.size());
-  CHECK(counts_p(counts, std::vector(counts.size(), mean)) > kLeastProbability);
+  CHECK(counts_p(counts, std::vector(counts.size(), mean)) > kMinProbability);
   for (const double count : counts) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
 }
 
@@ -85,8 +85,9 @@ TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
   }
 }
 
-TEST_CASE("random_insertion: a single disk is anywhere alike, up to walls and corners") {
-  // 20,000 disks, 100 cells of 200 each: 7 % per cell. The room's sides are no multiples of a cell.
+TEST_CASE("random_insertion: a single particle is anywhere alike, up to walls and corners") {
+  // 20,000 particles, 100 cells of 200 each: 7 % per cell. The room's sides are no multiples of a
+  // cell.
   for (const bool periodic : {false, true}) {
     CAPTURE(periodic);
     const Room room{{5.3, 3.7}, {periodic, periodic}};
@@ -95,7 +96,7 @@ TEST_CASE("random_insertion: a single disk is anywhere alike, up to walls and co
 }
 
 TEST_CASE("random_insertion: no gaps between the cells that it works with") {
-  // 20,000 disks along each axis in 200 bins of 100: a gap as wide as a bin would empty one.
+  // 20,000 particles along each axis in 200 bins of 100: a gap as wide as a bin would empty one.
   const Room room{{5.3, 3.7}, {true, false}};
   const Vec2 low = {0.0, 0.5}, extent = {5.3, 2.7};
   std::array<std::vector<double>, 2> counts = {std::vector(200, 0.0), std::vector(200, 0.0)};
@@ -109,17 +110,18 @@ TEST_CASE("random_insertion: no gaps between the cells that it works with") {
 }
 
 TEST_CASE("random_insertion: a periodic room has no place of its own, however full") {
-  // phi = .44 in a box in which a disk feels its images: 9 disks, 2000 seeds, 36 cells of 500 each.
+  // phi = .44 in a box in which a particle feels its images: 9 particles, 2000 seeds, 36 cells of
+  // 500 each.
   check_uniform(pooled_counts({{4.0, 4.0}, {true, true}}, 9, 2000, 6));
 }
 
 TEST_CASE("random_insertion: walls and corners get their share of a thin gas") {
-  // phi = .004, so that disks hardly keep each other off the middle (the cells' density differs by
-  // about phi). 2 disks, 10,000 seeds, 100 cells of 200 each.
+  // phi = .004, so that particles hardly keep each other off the middle (the cells' density differs
+  // by about phi). 2 particles, 10,000 seeds, 100 cells of 200 each.
   check_uniform(pooled_counts({{20.0, 20.0}, {false, false}}, 2, 10000, 10));
 }
 
-TEST_CASE("random_insertion: two disks are as far apart as chance has it") {
+TEST_CASE("random_insertion: two particles are as far apart as chance has it") {
   // In a periodic box the second centre is uniform outside of the first one's circle, so the share
   // of seeds with the two nearer than 1.5 is pi (1.5^2 - 1)/(16 - pi) = .3054. 10,000 seeds.
   constexpr int kSeeds = 10000;
@@ -138,7 +140,7 @@ TEST_CASE("random_insertion: gives up where it jams") {
   const Room room{{20.0, 20.0}, {true, true}};
   Random random = placement(62);
   CHECK(random_insertion(room, 306, random).empty());
-  // A second disk never fits here.
+  // A second particle never fits here.
   CHECK(random_insertion({{1.9, 1.9}, {false, false}}, 3, random).empty());
 }
 

@@ -25,21 +25,22 @@ struct Case {
 const Case kCases[] = {{0.1, "insertion"}, {0.3, "insertion"}, {0.5, "insertion"},
                        {0.6, "melting"},   {0.69, "melting"},  {0.75, "lattice"}};
 
-/// About 500 disks; walls reduce what a lattice holds, so the fraction is a little lower there.
+/// About 500 particles; walls reduce what a lattice holds, so the fraction is a little lower there.
 Scene scene_of(double fraction, std::array<bool, 2> walled) {
   Scene scene;
   scene.box = {25.0, 22.0};
   for (int axis = 0; axis < 2; ++axis) {
     if (walled[axis]) scene.walls[2 * axis] = scene.walls[2 * axis + 1] = Wall{};
   }
-  scene.disks.count = static_cast<int>(fraction * scene.box.prod() * 4.0 / std::numbers::pi);
-  scene.disks.start.temperature = 1.7;
+  scene.particles.count = static_cast<int>(fraction * scene.box.prod() * 4.0 / std::numbers::pi);
+  scene.particles.start.temperature = 1.7;
   return scene;
 }
 
 /// Whether such a scene passes the check of scene files.
 bool fits(const Scene& scene) {
-  return scene.disks.count <= lattice_capacity({scene.box, {scene.periodic(0), scene.periodic(1)}});
+  return scene.particles.count <=
+         lattice_capacity({scene.box, {scene.periodic(0), scene.periodic(1)}});
 }
 
 Vec2 nearest(const Scene& scene, Vec2 x) {
@@ -89,7 +90,7 @@ Vec2 momentum(const State<2>& state) {
 
 }  // namespace
 
-TEST_CASE("start_state: no disks overlap each other or a wall, at any density") {
+TEST_CASE("start_state: no particles overlap each other or a wall, at any density") {
   for (const std::array<bool, 2> walled : {std::array{false, false}, {true, false}, {true, true}}) {
     for (const Case& c : kCases) {
       const Scene scene = scene_of(c.fraction, walled);
@@ -99,7 +100,7 @@ TEST_CASE("start_state: no disks overlap each other or a wall, at any density") 
       CAPTURE(walled[1]);
       REQUIRE(fits(scene));
       const State<2> state = start_state(scene, 71);
-      REQUIRE(static_cast<int>(state.positions.size()) == scene.disks.count);
+      REQUIRE(static_cast<int>(state.positions.size()) == scene.particles.count);
       CHECK(least_distance(scene, state.positions) >= 1.0 - 1e-12);
       for (const Vec2& r : state.positions) {
         for (int k = 0; k < 2; ++k) {
@@ -115,7 +116,7 @@ TEST_CASE("start_state: no disks overlap each other or a wall, at any density") 
 TEST_CASE("start_state: the temperature is met exactly, the mean velocity is removed") {
   for (const int count : {2, 3, 10, 400}) {
     Scene scene = scene_of(0.1, {false, true});
-    scene.disks.count = count;
+    scene.particles.count = count;
     const State<2> state = start_state(scene, 72);
     CAPTURE(count);
     CHECK(temperature(state) == doctest::Approx(1.7).epsilon(1e-14));
@@ -124,11 +125,11 @@ TEST_CASE("start_state: the temperature is met exactly, the mean velocity is rem
 }
 
 TEST_CASE("start_state: velocities are Gaussian") {
-  // 5000 disks: kurtosis <v^4>/<v^2>^2 = 3 with standard error sqrt(24/10000) = .049 over both
+  // 5000 particles: kurtosis <v^4>/<v^2>^2 = 3 with standard error sqrt(24/10000) = .049 over both
   // components, <v_x v_y> = 0 with T/sqrt(5000).
   Scene scene;
   scene.box = {200.0, 200.0};
-  scene.disks.count = 5000;
+  scene.particles.count = 5000;
   const State<2> state = start_state(scene, 73);
   double fourth = 0.0, mixed = 0.0;
   for (const Vec2& v : state.velocities) {
@@ -156,15 +157,16 @@ TEST_CASE("start_state: a seed gives the same state again, another one another")
 TEST_CASE("start_state: places do not depend on the temperature") {
   Scene scene = scene_of(0.6, {false, false});
   const State<2> warm = start_state(scene, 76);
-  scene.disks.start.temperature = 0.0;
+  scene.particles.start.temperature = 0.0;
   const State<2> cold = start_state(scene, 76);
   CHECK(warm.positions == cold.positions);
   CHECK(std::ranges::all_of(cold.velocities, [](const Vec2& v) { return v == Vec2(0.0, 0.0); }));
 }
 
 TEST_CASE("start_state: what was melted has the order of a fluid") {
-  // Without order |psi_m| = 1/sqrt(independent bonds), for 500 disks about .03; a hard-disk fluid
-  // near freezing is correlated over some diameters. The lattice that is melted has |psi_4| near 1.
+  // Without order |psi_m| = 1/sqrt(independent bonds), for 500 particles about .03; a hard-particle
+  // fluid near freezing is correlated over some diameters. The lattice that is melted has |psi_4|
+  // near 1.
   for (const double fraction : {0.6, 0.69}) {
     for (const std::array<bool, 2> walled : {std::array{false, false}, {true, true}}) {
       const Scene scene = scene_of(fraction, walled);
@@ -176,7 +178,7 @@ TEST_CASE("start_state: what was melted has the order of a fluid") {
     }
   }
   const Scene scene = scene_of(0.6, {false, false});
-  const auto sites = square_lattice({scene.box, {true, true}}, scene.disks.count);
+  const auto sites = square_lattice({scene.box, {true, true}}, scene.particles.count);
   CHECK(bond_order(scene, sites, 4) > 0.9);
 }
 
@@ -184,7 +186,7 @@ TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
   Scene scene = scene_of(0.75, {false, false});
   CHECK(bond_order(scene, start_state(scene, 80).positions, 6) > 0.9);
   scene = scene_of(0.2, {true, false});
-  scene.disks.start.layout = Layout::Lattice;
+  scene.particles.start.layout = Layout::Lattice;
   const State<2> state = start_state(scene, 80);
   CHECK(least_distance(scene, state.positions) > 1.5);
   // Few different heights or few different places along x: the sites lie in rows.
@@ -201,8 +203,8 @@ TEST_CASE("start_state: gases of none, one and two") {
     for (const int count : {0, 1, 2}) {
       CAPTURE(count);
       Scene scene = scene_of(0.1, {true, false});
-      scene.disks.count = count;
-      scene.disks.start.layout = layout;
+      scene.particles.count = count;
+      scene.particles.start.layout = layout;
       const State<2> state = start_state(scene, 81);
       REQUIRE(static_cast<int>(state.positions.size()) == count);
       REQUIRE(static_cast<int>(state.velocities.size()) == count);
@@ -212,26 +214,27 @@ TEST_CASE("start_state: gases of none, one and two") {
   }
 }
 
-TEST_CASE("start_state: one disk in a box that it nearly fills") {
+TEST_CASE("start_state: one particle in a box that it nearly fills") {
   // phi = .55, beyond random insertion; nothing that it could collide with while melting.
   for (const bool walled : {false, true}) {
     Scene scene;
     scene.box = {1.2, 1.19};
-    scene.disks.count = 1;
+    scene.particles.count = 1;
     if (walled) scene.walls[kLeft] = scene.walls[kRight] = Wall{};
     CHECK(start_state(scene, 82).positions.size() == 1);
   }
 }
 
 TEST_CASE("start_state: spins have exactly their temperature, and the mean that chance gives") {
-  // 5000 disks: the mean of omega is 0 with standard error sqrt(T_rot/(I N)), and what is left of
-  // it shows that none was taken out; the kurtosis is 3 with standard error sqrt(24/5000) = .069.
+  // 5000 particles: the mean of omega is 0 with standard error sqrt(T_rot/(I N)), and what is left
+  // of it shows that none was taken out; the kurtosis is 3 with standard error sqrt(24/5000) =
+  // .069.
   Scene scene;
   scene.box = {200.0, 200.0};
-  scene.disks.count = 5000;
-  scene.disks.roughness.friction = 0.5;
-  scene.disks.inertia = 0.4;
-  scene.disks.start.spin_temperature = 2.3;
+  scene.particles.count = 5000;
+  scene.particles.roughness.friction = 0.5;
+  scene.particles.inertia = 0.4;
+  scene.particles.start.spin_temperature = 2.3;
   const double moment = 0.1;  // I = q/4
   const State<2> state = start_state(scene, 83);
   REQUIRE(state.spins.size() == 5000);
@@ -262,13 +265,13 @@ TEST_CASE("start_state: spins are there where the scene has them, and change not
   CHECK(std::ranges::all_of(still.spins, [](const Spin<2>& spin) { return spin[0] == 0.0; }));
   CHECK(still.positions == smooth.positions);
   CHECK(still.velocities == smooth.velocities);
-  scene.disks.start.spin_temperature = 1.0;
-  scene.disks.count = 1;
-  scene.disks.inertia = 0.5;
+  scene.particles.start.spin_temperature = 1.0;
+  scene.particles.count = 1;
+  scene.particles.inertia = 0.5;
   CHECK(std::fabs(start_state(scene, 85).spins[0][0]) == doctest::Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("start_state: disks keep clear of moving walls, at any density") {
+TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
   for (const Case& c : kCases) {
     // The room of 25 x 22 that other cases fill, and what the walls sweep around it.
     const Scene still = scene_of(c.fraction, {true, true});
@@ -295,9 +298,9 @@ TEST_CASE("start_state: forces, roughness and driving leave the places as they a
   scene.gravity = {1.0, -5.0};
   scene.bulk_drive = {.interval = 0.01, .kick_speed = 3.0, .kick_spin = 1.0};
   scene.contact_time = 0.1;
-  scene.disks.restitution = 0.5;
-  scene.disks.roughness.friction = 0.5;
-  scene.disks.start.spin_temperature = 2.0;
+  scene.particles.restitution = 0.5;
+  scene.particles.roughness.friction = 0.5;
+  scene.particles.start.spin_temperature = 2.0;
   const State<2> other = start_state(scene, 87);
   CHECK(other.positions == plain.positions);
   CHECK(other.velocities == plain.velocities);
@@ -305,8 +308,8 @@ TEST_CASE("start_state: forces, roughness and driving leave the places as they a
 
 TEST_CASE("start_state: a state that was saved starts a run, bit by bit") {
   const auto restarted = [](Scene scene, const State<2>& saved) {
-    scene.disks.start.layout = Layout::File;
-    scene.disks.start.state = parse_state(state_to_csv(saved), "a.csv", scene);
+    scene.particles.start.layout = Layout::File;
+    scene.particles.start.state = parse_state(state_to_csv(saved), "a.csv", scene);
     return start_state(scene, 1);
   };
   Scene scene = scene_of(0.3, {true, false});
@@ -318,8 +321,8 @@ TEST_CASE("start_state: a state that was saved starts a run, bit by bit") {
   CHECK(state.spins.empty());
   CHECK(Simulation<2>(model_of(scene, 1), state).state_hash() == simulation.state_hash());
 
-  scene.disks.roughness.friction = 0.5;
-  scene.disks.start.spin_temperature = 2.0;
+  scene.particles.roughness.friction = 0.5;
+  scene.particles.start.spin_temperature = 2.0;
   const State<2> spinning = start_state(scene, 88);
   CHECK(restarted(scene, spinning).spins == spinning.spins);
 }

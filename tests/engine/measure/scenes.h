@@ -17,8 +17,8 @@ inline void wall_in(Scene& scene, int axis, const Wall& wall) {
 inline Scene gas(double lx, double ly, int count, double restitution) {
   Scene scene;
   scene.box = {lx, ly};
-  scene.disks.count = count;
-  scene.disks.restitution = restitution;
+  scene.particles.count = count;
+  scene.particles.restitution = restitution;
   return scene;
 }
 
@@ -33,22 +33,23 @@ inline Scene rough_mixture(int count) {
   return scene;
 }
 
-/// One disk in a box, alone: what it does is known at any time.
-inline std::unique_ptr<Simulation<2>> lone_disk(const Scene& scene, const Vec2& r, const Vec2& v) {
+/// One particle in a box, alone: what it does is known at any time.
+inline std::unique_ptr<Simulation<2>> lone_particle(const Scene& scene, const Vec2& r,
+                                                    const Vec2& v) {
   return std::make_unique<Simulation<2>>(model_of(scene, 1), State<2>{{r}, {v}});
 }
 
 /// Total momentum.
 inline Vec2 momentum(const Simulation<2>& simulation) {
   Vec2 sum = Vec2::Zero();
-  for (const Disk<2>& disk : simulation.disks()) sum += disk.flight.v;
+  for (const Particle<2>& particle : simulation.particles()) sum += particle.flight.v;
   return sum;
 }
 
-/// Sum of v_k^2 over the disks.
+/// Sum of v_k^2 over the particles.
 inline Vec2 squares(const Simulation<2>& simulation) {
   Vec2 sum = Vec2::Zero();
-  for (const Disk<2>& disk : simulation.disks()) sum += disk.flight.v.cwiseAbs2();
+  for (const Particle<2>& particle : simulation.particles()) sum += particle.flight.v.cwiseAbs2();
   return sum;
 }
 

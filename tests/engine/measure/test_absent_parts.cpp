@@ -80,8 +80,8 @@ TEST_CASE("absent parts: who does not watch is told nothing, and who does change
   watched->add_observer(counter);
   watched->run_until(20.0);
   unwatched->run_until(20.0);
-  CHECK(counter.collisions == watched->counts().disk_disk);
-  CHECK(counter.walls == watched->counts().disk_wall);
+  CHECK(counter.collisions == watched->counts().pair_collisions);
+  CHECK(counter.walls == watched->counts().wall_collisions);
   CHECK(counter.kicks == 30 * watched->counts().kicks);
   CHECK(counter.collisions > 100);
   CHECK(watched->state_hash() == unwatched->state_hash());
@@ -89,7 +89,7 @@ TEST_CASE("absent parts: who does not watch is told nothing, and who does change
 
 TEST_CASE("absent parts: a part that is there but switched off changes no bit") {
   const std::string scene =
-      "box.size = [20, 25]\ndisks = { count = 100, restitution = 0.9 }\n"
+      "box.size = [20, 25]\nparticles = { count = 100, restitution = 0.9 }\n"
       "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n";
   const auto hash_of = [&](const std::vector<Override>& changes) {
     const auto simulation = simulation_of(parse_scene(scene, "s.toml", changes), 124);
@@ -98,8 +98,8 @@ TEST_CASE("absent parts: a part that is there but switched off changes no bit") 
   };
   const std::uint64_t plain = hash_of({});
   for (const Override& change : {Override{"gravity.acceleration", "[0, 0]"},
-                                 {"disks.friction", "0"},
-                                 {"disks.tangential_restitution", "-1"},
+                                 {"particles.friction", "0"},
+                                 {"particles.tangential_restitution", "-1"},
                                  {"walls.right.friction", "0"},
                                  {"walls.right.tangential_restitution", "-1"},
                                  {"collapse.contact_time", "1e-300"},
@@ -108,7 +108,7 @@ TEST_CASE("absent parts: a part that is there but switched off changes no bit") 
     CAPTURE(change.key);
     CHECK(hash_of({change}) == plain);
   }
-  CHECK(hash_of({{"disks.friction", "0.1"}}) != plain);
+  CHECK(hash_of({{"particles.friction", "0.1"}}) != plain);
 }
 
 TEST_CASE("absent parts: what is there but switched off costs no time" *
@@ -117,10 +117,10 @@ TEST_CASE("absent parts: what is there but switched off costs no time" *
   constexpr int kPairs = 51;
   constexpr std::uint64_t kSlice = 40'000;
   const std::string text =
-      "box.size = [50, 50]\ndisks = { count = 1000, restitution = 0.9 }\n"
+      "box.size = [50, 50]\nparticles = { count = 1000, restitution = 0.9 }\n"
       "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n";
   const std::vector<Override> off = {{"gravity.acceleration", "[0, 0]"},
-                                     {"disks.friction", "0"},
+                                     {"particles.friction", "0"},
                                      {"walls.right.tangential_restitution", "-1"},
                                      {"view.field", "'density'"},
                                      {"measure.fields", "['stress']"}};
@@ -129,7 +129,7 @@ TEST_CASE("absent parts: what is there but switched off costs no time" *
   const auto slice = [](Simulation<2>& simulation) {
     const std::clock_t began = std::clock();
     const EventCounts& counts = simulation.counts();
-    simulation.run_until(kNever, counts.disk_disk + counts.disk_wall + kSlice);
+    simulation.run_until(kNever, counts.pair_collisions + counts.wall_collisions + kSlice);
     return static_cast<double>(std::clock() - began);
   };
   std::vector<double> ratios;

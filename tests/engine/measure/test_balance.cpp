@@ -51,9 +51,9 @@ struct Watched {
 };
 
 // Every equation must close in every cell and window. The cells: coarse ones, single ones along
-// either axis and in all, halves of a diameter, whose faces lie where disks touch the walls, and
-// ones much smaller than a disk. 1e-15 is typical, and 1e-13 in the shortest window, where gravity
-// or a kick changes velocities by 1e-3.
+// either axis and in all, halves of a diameter, whose faces lie where particles touch the walls,
+// and ones much smaller than a particle. 1e-15 is typical, and 1e-13 in the shortest window, where
+// gravity or a kick changes velocities by 1e-3.
 void check_closure(const std::string& name, const Model<2>& model, int count = 30,
                    double start_time = 0.0) {
   CAPTURE(name);
@@ -72,10 +72,10 @@ void check_closure(const std::string& name, const Model<2>& model, int count = 3
       CHECK(window.imbalances.largest()[0] == 0.0);
       CHECK(window.imbalances.largest().maxCoeff() < 1e-12);
     }
-    CHECK(run.simulation.counts().disk_disk > 0);
+    CHECK(run.simulation.counts().pair_collisions > 0);
     bool walls = false;
     for (const auto& wall : model.walls) walls = walls || wall;
-    CHECK((run.simulation.counts().disk_wall > 0) == walls);
+    CHECK((run.simulation.counts().wall_collisions > 0) == walls);
     CHECK((run.simulation.counts().kicks > 0) == model.bulk_drive.has_value());
     CHECK((run.simulation.counts().elasticised > 0) == model.contact_time.has_value());
   }
@@ -83,7 +83,7 @@ void check_closure(const std::string& name, const Model<2>& model, int count = 3
 
 }  // namespace
 
-TEST_CASE("Balance: closes for smooth, inelastic and rough disks") {
+TEST_CASE("Balance: closes for smooth, inelastic and rough particles") {
   check_closure("smooth", periodic_box(9.0, 8.0));
   check_closure("inelastic", inelastic(periodic_box(9.0, 8.0), 0.8));
   check_closure("Coulomb", rough(inelastic(periodic_box(9.0, 8.0), 0.9), 0.2, 1.0));
@@ -146,13 +146,13 @@ TEST_CASE("Balance: closes with the TC model") {
       20);
 }
 
-TEST_CASE("Balance: closes where disks touch at images that are not the nearest") {
+TEST_CASE("Balance: closes where particles touch at images that are not the nearest") {
   check_closure("elastic", periodic_box(12.0, 1.2), 6);
   check_closure(
       "rough, driven",
       rough(inelastic(with_walls(periodic_box(12.0, 1.2), 0, kRoughDriven), 0.9), 0.3, 0.7), 6);
   check_closure("falling round", falling(inelastic(periodic_box(12.0, 1.2), 0.9), {0.2, 1.0}), 6);
-  check_closure("one disk wide", periodic_box(1.2, 12.0), 6);
+  check_closure("one particle wide", periodic_box(1.2, 12.0), 6);
 }
 
 TEST_CASE("Balance: closes with everything at once, at time 0 and at 1e9") {
@@ -191,7 +191,7 @@ TEST_CASE("Balance: a watch that begins in the middle of flights") {
   }
 }
 
-TEST_CASE("Balance: a watch that begins finds the disks where they are") {
+TEST_CASE("Balance: a watch that begins finds the particles where they are") {
   Simulation<2> simulation(periodic_box(9.0, 8.0), {{{2.5, 4.5}}, {{1.0, 0.0}}});
   simulation.run_until(3.0);
   Balance<2> balance(simulation, {9, 8});
@@ -200,10 +200,10 @@ TEST_CASE("Balance: a watch that begins finds the disks where they are") {
   for (const Booked<2>& face : window.booked.faces[0]) CHECK(face.size[0] == 0.0);
 }
 
-// The faces lie at whole numbers. The disk falls from x = 2.5 at speed 1 under gravity -1: it
+// The faces lie at whole numbers. The particle falls from x = 2.5 at speed 1 under gravity -1: it
 // stands at the face x = 3 at time 1, turns, and comes back to x = 2 with speed sqrt(2) at 1 +
 // sqrt(2).
-TEST_CASE("Balance: a disk carries through a face what it has there and then") {
+TEST_CASE("Balance: a particle carries through a face what it has there and then") {
   const Model<2> model = falling(periodic_box(9.0, 8.0), {-1.0, 0.0});
   Watched run(model, {{{2.5, 4.5}}, {{1.0, 0.1}}}, {9, 8});
   const std::size_t row = 9 * 4;
@@ -224,13 +224,13 @@ TEST_CASE("Balance: a disk carries through a face what it has there and then") {
   CHECK(back.imbalances.largest().maxCoeff() < 1e-13);
 }
 
-// A disk of velocity (1, 0) meets one at rest at half time: centres at 3.75 and 4.75, faces at 4
-// and 4.5. alpha = 1/2: the second gains 3/4, the first ends at 1/4.
+// A particle of velocity (1, 0) meets one at rest at half time: centres at 3.75 and 4.75, faces at
+// 4 and 4.5. alpha = 1/2: the second gains 3/4, the first ends at 1/4.
 TEST_CASE("Balance: a collision carries along its branch and dissipates at its ends") {
   Model<2> model = inelastic(periodic_box(9.0, 8.0), 0.5);
   Watched run(model, {{{3.6, 4.1}, {4.75, 4.1}}, {{1.0, 0.0}, {0.0, 0.0}}}, {18, 16});
   const BalanceWindow<2> window = run.close_at(0.2);
-  REQUIRE(run.simulation.counts().disk_disk == 1);
+  REQUIRE(run.simulation.counts().pair_collisions == 1);
   const std::size_t row = 18 * 8;
   const double gain = 0.5 * 0.75 * 0.75, loss = 0.5 * (0.0625 - 1.0);
   for (std::size_t face : {7, 8}) {
@@ -257,9 +257,9 @@ TEST_CASE("Balance: a collision carries along its branch and dissipates at its e
   CHECK(quiet.booked.faces[0][row + 7].size.norm() == 0.0);
 }
 
-// A disk at (3.5, 0.2) of velocity (1, 0) meets one at rest at (4.5, 1.0), or rather (4.5, -0.2),
-// for the box is 1.2 high: aslant by (-sqrt(0.84), 0.4). From the second the branch goes up through
-// y = 0 and then left through x = 4, and not down through y = 0.8 and y = 0.4.
+// A particle at (3.5, 0.2) of velocity (1, 0) meets one at rest at (4.5, 1.0), or rather (4.5,
+// -0.2), for the box is 1.2 high: aslant by (-sqrt(0.84), 0.4). From the second the branch goes up
+// through y = 0 and then left through x = 4, and not down through y = 0.8 and y = 0.4.
 TEST_CASE("Balance: a branch passes the faces between images that touch, in order") {
   for (const int moving : {0, 1}) {
     State<2> start{{{4.5, 1.0}, {4.5, 1.0}}, {{0.0, 0.0}, {0.0, 0.0}}};
@@ -267,7 +267,7 @@ TEST_CASE("Balance: a branch passes the faces between images that touch, in orde
     start.velocities[moving] = {1.0, 0.0};
     Watched run(periodic_box(9.0, 1.2), start, {9, 3});
     const BalanceWindow<2> window = run.close_at(0.1);
-    REQUIRE(run.simulation.counts().disk_disk == 1);
+    REQUIRE(run.simulation.counts().pair_collisions == 1);
     const Conserved<2> given(0.0, -0.84, 0.4 * std::sqrt(0.84), -0.42);
     const std::size_t up = 9 * 2 + 4, left = 3;
     for (std::size_t cell = 0; cell < 27; ++cell) {
@@ -280,12 +280,12 @@ TEST_CASE("Balance: a branch passes the faces between images that touch, in orde
   }
 }
 
-// The disk, of velocity (1, 0), touches the far wall with its centre at 8.5; faces
+// The particle, of velocity (1, 0), touches the far wall with its centre at 8.5; faces
 // at 8.25, 8.5, 8.75. alpha_w = 0.8: it gains momentum -1.8 and energy -0.18.
 TEST_CASE("Balance: what a wall gives comes in where it touches") {
   Watched run(between(kLossy, 0), {{{8.4, 4.1}}, {{1.0, 0.0}}}, {36, 8});
   const BalanceWindow<2> window = run.close_at(0.15);
-  REQUIRE(run.simulation.counts().disk_wall == 1);
+  REQUIRE(run.simulation.counts().wall_collisions == 1);
   const std::size_t row = 36 * 4;
   const Conserved<2> given = window.booked.sources[row + 35].net;
   CHECK(given[1] == doctest::Approx(-1.8));
@@ -299,7 +299,7 @@ TEST_CASE("Balance: what a wall gives comes in where it touches") {
   CHECK(window.imbalances.largest().maxCoeff() < 1e-13);
 }
 
-// The left wall creeps inwards at 0.002, and lies 1 inside when the disk, of velocity (-1, 0),
+// The left wall creeps inwards at 0.002, and lies 1 inside when the particle, of velocity (-1, 0),
 // comes to it: touching at x = 1.0002 with its centre at 1.5002. Faces every 1/4. alpha_w = 0.9.
 TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
   Model<2> model = periodic_box(9.0, 8.0);
@@ -311,7 +311,7 @@ TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
   model.walls = {creeping, kStatic, {}, {}};
   Watched run(model, {{{1.6, 4.1}}, {{-1.0, 0.0}}}, {36, 8});
   const BalanceWindow<2> window = run.close_at(0.15);
-  REQUIRE(run.simulation.counts().disk_wall == 1);
+  REQUIRE(run.simulation.counts().wall_collisions == 1);
   const std::size_t row = 36 * 4;
   for (std::size_t cell = 0; cell < 36; ++cell) {
     const double arisen = window.booked.sources[row + cell].net[1];
@@ -322,8 +322,8 @@ TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
   CHECK(window.imbalances.largest().maxCoeff() < 1e-13);
 }
 
-// One disk needs 9 windows to go round the box and its flight never ends; each window ends with it
-// on a face.
+// One particle needs 9 windows to go round the box and its flight never ends; each window ends with
+// it on a face.
 TEST_CASE("Balance: a flight over many windows, each ending on a face") {
   for (const Vec2& v : {Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(1.0, -1.0), Vec2(0.1, 0.3)}) {
     Watched run(periodic_box(9.0, 8.0), {{{2.0, 4.0}}, {v}}, {9, 8});
@@ -337,8 +337,8 @@ TEST_CASE("Balance: a flight over many windows, each ending on a face") {
   }
 }
 
-// Disks that start on faces and corners, and collide there: whichever cells they are counted in,
-// they are in these for everything.
+// Particles that start on faces and corners, and collide there: whichever cells they are counted
+// in, they are in these for everything.
 TEST_CASE("Balance: collisions on faces and at corners of cells") {
   for (const double restitution : {1.0, 0.5}) {
     for (const bool walled : {false, true}) {
@@ -354,15 +354,15 @@ TEST_CASE("Balance: collisions on faces and at corners of cells") {
       for (int window = 1; window <= 20; ++window) {
         CHECK(run.close_at(0.5 * window).imbalances.largest().maxCoeff() < 1e-10);
       }
-      CHECK(run.simulation.counts().disk_disk > 10);
+      CHECK(run.simulation.counts().pair_collisions > 10);
     }
   }
 }
 
-// The top of the parabola lies a rounding error above the face, so that the disk would cross it up
-// and down within what a time of 1000 can tell apart.
-TEST_CASE("Balance: a disk that turns on a face does not cross it for ever") {
-  Saved<2> saved;
+// The top of the parabola lies a rounding error above the face, so that the particle would cross it
+// up and down within what a time of 1000 can tell apart.
+TEST_CASE("Balance: a particle that turns on a face does not cross it for ever") {
+  RunState<2> saved;
   saved.now = 1000.0;
   saved.until_base_moves = 64;
   saved.flights.push_back({{3.0, 4.5}, {1e-20, 0.0}, 1000.0, 0});
@@ -393,7 +393,7 @@ TEST_CASE("Balance: what was not booked shows") {
   CHECK(window.imbalances.largest().minCoeff() > 0.1);
 }
 
-// The disk comes to the far wall with momentum 1 and goes with -0.8 through the face x = 8 at
+// The particle comes to the far wall with momentum 1 and goes with -0.8 through the face x = 8 at
 // 0.725. Who is not told of the wall misses -1.8, first beside nothing booked, then beside 0.8.
 TEST_CASE("Balance: residuals are shares of what was booked") {
   const Model<2> model = between(kLossy, 0);

@@ -14,10 +14,10 @@ using namespace clatter::testing;
 
 namespace {
 
-/// What one disk leaves on a grid while nothing is in its way.
-Grid of_lone_disk(const Vec2& box, const IntVec<2>& cells, const Vec2& r, const Vec2& v,
-                  double duration) {
-  const auto simulation = lone_disk(gas(box.x(), box.y(), 1, 1.0), r, v);
+/// What one particle leaves on a grid while nothing is in its way.
+Grid of_lone_particle(const Vec2& box, const IntVec<2>& cells, const Vec2& r, const Vec2& v,
+                      double duration) {
+  const auto simulation = lone_particle(gas(box.x(), box.y(), 1, 1.0), r, v);
   CellIntegrals<2> integrals(*simulation, cells, full_layout());
   simulation->add_observer(integrals);
   simulation->run_until(duration);
@@ -71,7 +71,7 @@ Grid by_sampling(Simulation<2>& simulation, const IntVec<2>& cells, double durat
 TEST_CASE("CellIntegrals: a diagonal flight is cut at every border") {
   // Borders in x at t = .75, 1.75, in y at t = .5, 1.5: cells of unit side, 3 along x, 4 along y.
   const Vec2 v = {1.0, 1.0};
-  const Grid grid = of_lone_disk({3.0, 4.0}, {3, 4}, {0.25, 0.5}, v, 2.0);
+  const Grid grid = of_lone_particle({3.0, 4.0}, {3, 4}, {0.25, 0.5}, v, 2.0);
   check_times(grid,
               {0.5, 0.0, 0.0,    //
                0.25, 0.75, 0.0,  //
@@ -82,7 +82,7 @@ TEST_CASE("CellIntegrals: a diagonal flight is cut at every border") {
 
 TEST_CASE("CellIntegrals: a flight back, and through the corners of cells") {
   const Vec2 v = {-1.0, -1.0};
-  const Grid grid = of_lone_disk({3.0, 4.0}, {3, 4}, {2.5, 2.5}, v, 2.25);
+  const Grid grid = of_lone_particle({3.0, 4.0}, {3, 4}, {2.5, 2.5}, v, 2.25);
   check_times(grid,
               {0.75, 0.0, 0.0,  //
                0.0, 1.0, 0.0,   //
@@ -92,9 +92,10 @@ TEST_CASE("CellIntegrals: a flight back, and through the corners of cells") {
 }
 
 TEST_CASE("CellIntegrals: a flight over many boxes visits all cells on its line alike") {
-  // In 80 time units the disk crosses the box 20 times along x and 10 times, backwards, along y.
+  // In 80 time units the particle crosses the box 20 times along x and 10 times, backwards, along
+  // y.
   const Vec2 v = {1.0, -0.5};
-  const Grid grid = of_lone_disk({4.0, 4.0}, {4, 4}, {0.5, 3.75}, v, 80.0);
+  const Grid grid = of_lone_particle({4.0, 4.0}, {4, 4}, {0.5, 3.75}, v, 80.0);
   double sum_of_rows[4] = {}, sum_of_columns[4] = {};
   for (std::size_t i = 0; i < grid.size(); ++i) {
     sum_of_columns[i % 4] += grid[i].count;
@@ -107,43 +108,43 @@ TEST_CASE("CellIntegrals: a flight over many boxes visits all cells on its line 
   CHECK(total(grid).velocity.isApprox(v * 80.0, 1e-12));
 }
 
-TEST_CASE("CellIntegrals: a disk at rest, also on a border") {
-  check_times(of_lone_disk({4.0, 2.0}, {4, 2}, {2.5, 0.5}, {0.0, 0.0}, 7.0),
+TEST_CASE("CellIntegrals: a particle at rest, also on a border") {
+  check_times(of_lone_particle({4.0, 2.0}, {4, 2}, {2.5, 0.5}, {0.0, 0.0}, 7.0),
               {0.0, 0.0, 7.0, 0.0, 0.0, 0.0, 0.0, 0.0}, {0.0, 0.0});
   // A cell holds its lower border.
-  check_times(of_lone_disk({4.0, 2.0}, {4, 2}, {2.0, 1.0}, {0.0, 0.0}, 7.0),
+  check_times(of_lone_particle({4.0, 2.0}, {4, 2}, {2.0, 1.0}, {0.0, 0.0}, 7.0),
               {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 7.0, 0.0}, {0.0, 0.0});
 }
 
-TEST_CASE("CellIntegrals: a disk that moves along one axis only") {
+TEST_CASE("CellIntegrals: a particle that moves along one axis only") {
   const Vec2 v = {0.0, 2.0};
   // From y = 1.5: .75 to the top, then round.
-  check_times(of_lone_disk({2.0, 3.0}, {2, 3}, {0.5, 1.5}, v, 2.0),
+  check_times(of_lone_particle({2.0, 3.0}, {2, 3}, {0.5, 1.5}, v, 2.0),
               {0.5, 0.0, 0.75, 0.0, 0.75, 0.0}, v);
   // Along the border x = 1 itself.
-  check_times(of_lone_disk({2.0, 3.0}, {2, 3}, {1.0, 1.5}, v, 2.0),
+  check_times(of_lone_particle({2.0, 3.0}, {2, 3}, {1.0, 1.5}, v, 2.0),
               {0.0, 0.5, 0.0, 0.75, 0.0, 0.75}, v);
 }
 
-TEST_CASE("CellIntegrals: a disk that starts on a border counts where it goes") {
-  check_times(of_lone_disk({4.0, 2.0}, {4, 1}, {2.0, 1.0}, {1.0, 0.0}, 0.5), {0.0, 0.0, 0.5, 0.0},
-              {1.0, 0.0});
-  check_times(of_lone_disk({4.0, 2.0}, {4, 1}, {2.0, 1.0}, {-1.0, 0.0}, 0.5), {0.0, 0.5, 0.0, 0.0},
-              {-1.0, 0.0});
+TEST_CASE("CellIntegrals: a particle that starts on a border counts where it goes") {
+  check_times(of_lone_particle({4.0, 2.0}, {4, 1}, {2.0, 1.0}, {1.0, 0.0}, 0.5),
+              {0.0, 0.0, 0.5, 0.0}, {1.0, 0.0});
+  check_times(of_lone_particle({4.0, 2.0}, {4, 1}, {2.0, 1.0}, {-1.0, 0.0}, 0.5),
+              {0.0, 0.5, 0.0, 0.0}, {-1.0, 0.0});
   // The box's own border, across which the far cells follow.
-  check_times(of_lone_disk({4.0, 2.0}, {4, 1}, {0.0, 1.0}, {-1.0, 0.0}, 0.5), {0.0, 0.0, 0.0, 0.5},
-              {-1.0, 0.0});
+  check_times(of_lone_particle({4.0, 2.0}, {4, 1}, {0.0, 1.0}, {-1.0, 0.0}, 0.5),
+              {0.0, 0.0, 0.0, 0.5}, {-1.0, 0.0});
 }
 
 TEST_CASE("CellIntegrals: a window that ends on a border") {
-  check_times(of_lone_disk({4.0, 2.0}, {4, 1}, {0.5, 1.0}, {1.0, 0.0}, 1.5), {0.5, 1.0, 0.0, 0.0},
-              {1.0, 0.0});
+  check_times(of_lone_particle({4.0, 2.0}, {4, 1}, {0.5, 1.0}, {1.0, 0.0}, 1.5),
+              {0.5, 1.0, 0.0, 0.0}, {1.0, 0.0});
 }
 
 TEST_CASE("CellIntegrals: cells whose sides are no binary fractions") {
-  // 1/10 of 1.5: borders are not exact, and the disk must not fall between two cells.
+  // 1/10 of 1.5: borders are not exact, and the particle must not fall between two cells.
   const Vec2 v = {0.3, -0.7};
-  const Grid grid = of_lone_disk({1.5, 2.1}, {10, 7}, {0.45, 0.3}, v, 1000.0);
+  const Grid grid = of_lone_particle({1.5, 2.1}, {10, 7}, {0.45, 0.3}, v, 1000.0);
   CHECK(total(grid).count == doctest::Approx(1000.0).epsilon(1e-12));
   CHECK(std::ranges::all_of(grid, [](const auto& cell) { return cell.count >= 0.0; }));
 }
@@ -163,7 +164,7 @@ TEST_CASE("CellIntegrals: a gas agrees with sampling its states") {
 
   const auto sampled = simulation_of(scene, 21);
   const Grid sampling = by_sampling(*sampled, cells, kDuration, 40000);
-  REQUIRE(sampled->counts().disk_wall >= 10);
+  REQUIRE(sampled->counts().wall_collisions >= 10);
   for (std::size_t i = 0; i < exact.size(); ++i) {
     CAPTURE(i);
     CHECK(std::fabs(exact[i].count - sampling[i].count) < 1e-3);
@@ -184,9 +185,9 @@ TEST_CASE("CellIntegrals: cells add up to N Dt, and to the integral of sum v_k^2
   for (const double end : {0.01, 60.0, 61.0, 300.0}) {
     simulation->run_until(end);
     const Sums sum = total(close(integrals));
-    const double disk_time = 20.0 * (end - begin);
-    CHECK(sum.count == doctest::Approx(disk_time).epsilon(1e-10));
-    const Vec2 expected = totals.close_window().temperature * disk_time;
+    const double particle_time = 20.0 * (end - begin);
+    CHECK(sum.count == doctest::Approx(particle_time).epsilon(1e-10));
+    const Vec2 expected = totals.close_window().temperature * particle_time;
     CHECK(sum.squares().isApprox(expected, 1e-10));
     begin = end;
   }
@@ -230,7 +231,7 @@ TEST_CASE("CellIntegrals: watching from the middle of a run is as from a start t
   simulation->run_until(5.123);
   close(early);
   CellIntegrals<2> late(*simulation, {6, 5},
-                        full_layout());  // most disks are in the middle of a flight
+                        full_layout());  // most particles are in the middle of a flight
   simulation->add_observer(late);
   simulation->run_until(9.0);
   CHECK(difference(close(early), close(late)) < 1e-13);
@@ -253,32 +254,33 @@ class PointByPoint : public Observer<2> {
 
   void on_collision(const PairCollision<2>& c) override {
     // The image of the partner that touches; flights may have gone round the box several times.
-    const Vec2 apart = c.disks[0].position - c.disks[1].position;
-    const Vec2 near = c.disks[1].position +
+    const Vec2 apart = c.particles[0].position - c.particles[1].position;
+    const Vec2 near = c.particles[1].position +
                       apart.cwiseQuotient(box()).array().round().matrix().cwiseProduct(box());
     Vec2 touching;
     double best = 1.0;
     for (int i = -3; i <= 3; ++i) {
       for (int j = -3; j <= 3; ++j) {
         const Vec2 image = near + box().cwiseProduct(Vec2(i, j));
-        const double gap = std::fabs((c.disks[0].position - image).norm() - 1.0);
+        const double gap = std::fabs((c.particles[0].position - image).norm() - 1.0);
         if (gap < best) touching = image;
         best = std::min(best, gap);
       }
     }
-    const double gain_1 = energy_gain(c.disks[0]), gain_2 = energy_gain(c.disks[1]);
-    transfer(touching, c.disks[0].position, c.disks[0].gain.momentum, 0.5 * (gain_1 - gain_2));
-    for (const Vec2& end : {touching, c.disks[0].position}) {
+    const double gain_1 = energy_gain(c.particles[0]), gain_2 = energy_gain(c.particles[1]);
+    transfer(touching, c.particles[0].position, c.particles[0].gain.momentum,
+             0.5 * (gain_1 - gain_2));
+    for (const Vec2& end : {touching, c.particles[0].position}) {
       grid[cell_of(end)].dissipation += 0.5 * (gain_1 + gain_2);
     }
-    through_borders += !inside(touching) || !inside(c.disks[0].position);
+    through_borders += !inside(touching) || !inside(c.particles[0].position);
   }
 
   void on_wall(const WallCollision<2>& c) override {
     const double inset = simulation_.wall(c.side).displacement;
-    Vec2 contact = c.disk.position;
+    Vec2 contact = c.particle.position;
     contact[c.side / 2] = c.side % 2 ? box()[c.side / 2] - inset : inset;
-    transfer(contact, c.disk.position, c.disk.gain.momentum, energy_gain(c.disk));
+    transfer(contact, c.particle.position, c.particle.gain.momentum, energy_gain(c.particle));
   }
 
  private:
@@ -289,10 +291,10 @@ class PointByPoint : public Observer<2> {
     return (r.array() >= 0.0).all() && (r.array() < box().array()).all();
   }
 
-  double energy_gain(const DiskChange<2>& disk) const {
-    const double w = disk.spin[0], after = w + disk.gain.spin[0];
-    return 0.5 *
-               ((disk.velocity + disk.gain.momentum).squaredNorm() - disk.velocity.squaredNorm()) +
+  double energy_gain(const ParticleChange<2>& particle) const {
+    const double w = particle.spin[0], after = w + particle.gain.spin[0];
+    return 0.5 * ((particle.velocity + particle.gain.momentum).squaredNorm() -
+                  particle.velocity.squaredNorm()) +
            0.125 * simulation_.model().inertia * (after * after - w * w);
   }
 
@@ -308,8 +310,8 @@ class PointByPoint : public Observer<2> {
     return index;
   }
 
-  void transfer(const Vec2& partner, const Vec2& disk, const Vec2& momentum, double energy) {
-    const Vec2 branch = disk - partner;
+  void transfer(const Vec2& partner, const Vec2& particle, const Vec2& momentum, double energy) {
+    const Vec2 branch = particle - partner;
     std::size_t before = grid.size();
     for (int k = 0; k < kPoints; ++k) {
       const std::size_t index = cell_of(partner + branch * ((k + 0.5) / kPoints));
@@ -333,7 +335,7 @@ void check_collisions(const Scene& scene, const IntVec<2>& cells, std::uint64_t 
   simulation->add_observer(points);
   simulation->run_until(6.0);
   const Grid grid = close(integrals);
-  REQUIRE(simulation->counts().disk_disk > 20);
+  REQUIRE(simulation->counts().pair_collisions > 20);
   if (scene.periodic(0) || scene.periodic(1)) REQUIRE(points.through_borders > 5);
   double largest = 0.0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -349,8 +351,8 @@ void check_collisions(const Scene& scene, const IntVec<2>& cells, std::uint64_t 
 }
 
 Scene spinning(Scene scene) {
-  scene.disks.roughness = {.friction = 0.5, .tangential_restitution = 0.3};
-  scene.disks.start.spin_temperature = 1.0;
+  scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.3};
+  scene.particles.start.spin_temperature = 1.0;
   return scene;
 }
 
@@ -374,7 +376,7 @@ TEST_CASE("CellIntegrals: branch vectors to walls, at rest and moving") {
   check_collisions(scene, {14, 12}, 56);
 }
 
-TEST_CASE("CellIntegrals: falls of spinning disks are as dense sampling finds them") {
+TEST_CASE("CellIntegrals: falls of spinning particles are as dense sampling finds them") {
   constexpr double kDuration = 10.0;
   const IntVec<2> cells(4, 6);
   Scene scene = spinning(gas(6.0, 5.0, 8, 0.9));
@@ -387,7 +389,7 @@ TEST_CASE("CellIntegrals: falls of spinning disks are as dense sampling finds th
   const Grid exact = close(integrals);
   const auto sampled = simulation_of(scene, 57);
   const Grid sampling = by_sampling(*sampled, cells, kDuration, 80000);
-  REQUIRE(sampled->counts().disk_wall >= 10);
+  REQUIRE(sampled->counts().wall_collisions >= 10);
   for (std::size_t i = 0; i < exact.size(); ++i) {
     CAPTURE(i);
     CHECK(std::fabs(exact[i].count - sampling[i].count) < 2e-3);
@@ -404,7 +406,7 @@ TEST_CASE("CellIntegrals: one fall by hand") {
   // v_y = 2 - t.
   Scene scene = gas(1000.0, 1000.0, 1, 1.0);
   scene.gravity = Vec2(0.0, -1.0);
-  const auto simulation = lone_disk(scene, {0.5, 1.0}, {1.0, 2.0});
+  const auto simulation = lone_particle(scene, {0.5, 1.0}, {1.0, 2.0});
   CellIntegrals<2> integrals(*simulation, {1, 1}, full_layout());
   simulation->add_observer(integrals);
   simulation->run_until(3.0);
@@ -418,7 +420,7 @@ TEST_CASE("CellIntegrals: one fall by hand") {
   CHECK(sums.energy_flux.y() == doctest::Approx(0.5 * (1.5 + (16.0 - 1.0) / 4.0)));
 }
 
-TEST_CASE("CellIntegrals: snapshots count the disks where they are") {
+TEST_CASE("CellIntegrals: snapshots count the particles where they are") {
   const IntVec<2> cells(5, 4);
   Scene scene = spinning(rough_mixture(20));
   scene.gravity = Vec2(0.0, -0.5);
@@ -460,7 +462,7 @@ TEST_CASE("CellIntegrals: a Gaussian spreads what box cells hold, and keeps its 
   CHECK(difference(sharp, wide) > 1.0);
 }
 
-TEST_CASE("CellIntegrals: a Gaussian along the branch, at its ends, and at the disks") {
+TEST_CASE("CellIntegrals: a Gaussian along the branch, at its ends, and at the particles") {
   // Head-on at t = 1/2, where the centres are at x = 2.5 and 3.5: 1 gains (-3/2, 0) and loses 3/8.
   Scene scene = gas(6.0, 5.0, 2, 0.5);
   Simulation<2> simulation(model_of(scene, 1),
@@ -471,7 +473,7 @@ TEST_CASE("CellIntegrals: a Gaussian along the branch, at its ends, and at the d
   integrals.sample();
   simulation.run_until(1.0);
   const Grid grid = close(integrals);
-  REQUIRE(simulation.counts().disk_disk == 1);
+  REQUIRE(simulation.counts().pair_collisions == 1);
   const GaussianKernel<2> kernel(integrals.grid(), 0.8);
   Grid expected(grid.size());
   kernel.along({2.5, 2.4}, {1.0, 0.0},

@@ -43,12 +43,12 @@ TEST_CASE("CellPath: cells by place and by index") {
 }
 
 TEST_CASE("CellPath: a cell holds what lies in it at any image, to within rounding") {
-  CHECK(kPath.holds({1, 1}, {2.0 - 1e-12, 4.0 + 1e-12}));
-  CHECK(kPath.holds({1, 1}, {3.0, 3.0 - 60.0}));
-  CHECK_FALSE(kPath.holds({1, 1}, {1.99, 3.0}));
-  CHECK_FALSE(kPath.holds({1, 1}, {3.0, 4.01}));
-  CHECK(kPath.holds({0, 1}, {-3.0, 3.0}));
-  CHECK_FALSE(kPath.holds({3, 1}, {-3.0, 3.0}));
+  CHECK(kPath.is_current({1, 1}, {2.0 - 1e-12, 4.0 + 1e-12}));
+  CHECK(kPath.is_current({1, 1}, {3.0, 3.0 - 60.0}));
+  CHECK_FALSE(kPath.is_current({1, 1}, {1.99, 3.0}));
+  CHECK_FALSE(kPath.is_current({1, 1}, {3.0, 4.01}));
+  CHECK(kPath.is_current({0, 1}, {-3.0, 3.0}));
+  CHECK_FALSE(kPath.is_current({3, 1}, {-3.0, 3.0}));
 }
 
 TEST_CASE("CellPath: the next face of a flight") {

@@ -9,7 +9,7 @@
 #include "tests/engine/measure/sums.h"
 
 // The first-moment identities of chapter 4 tie the stress, heat flux and dissipation that are
-// reported to the states of the disks at a window's two ends, so that no sign, factor or wall
+// reported to the states of the particles at a window's two ends, so that no sign, factor or wall
 // branch can be wrong in one and not show. Along each walled axis k
 //   [sum r_k v_l] = Dt int (rho V_k V_l - sigma_kl) dA + sum_walls r_w,k dp_l + sources
 //   [sum r_k E]   = Dt int (q + E V - sigma.V)_k dA + sum_coll (dE_1 + dE_2)/2 (r_1 + r_2)_k
@@ -33,7 +33,7 @@ struct Booked {
 };
 
 /// What walls, kicks and gravity add to the moments, from velocities and not from
-/// DiskChange::energy.
+/// ParticleChange::energy.
 class Sources : public Observer<2> {
  public:
   explicit Sources(const Simulation<2>& simulation)
@@ -41,51 +41,52 @@ class Sources : public Observer<2> {
 
   Booked momentum[2][2];    ///< [k][l] of sum r_k v_l
   Booked energy_moment[2];  ///< of sum r_k E
-  Booked energy;            ///< of sum E, without what collisions of disks dissipate
+  Booked energy;            ///< of sum E, without what collisions of particles dissipate
 
   void on_collision(const PairCollision<2>& c) override {
-    for (const DiskChange<2>& disk : c.disks) fall(disk.before, c.time);
-    const double gained = energy_gain(c.disks[0]) + energy_gain(c.disks[1]);
-    const Vec2 ends = 2.0 * c.disks[0].position - c.separation;
+    for (const ParticleChange<2>& particle : c.particles) fall(particle.before, c.time);
+    const double gained = energy_gain(c.particles[0]) + energy_gain(c.particles[1]);
+    const Vec2 ends = 2.0 * c.particles[0].position - c.separation;
     for (int k = 0; k < 2; ++k) energy_moment[k].add(0.5 * gained * ends[k]);
   }
 
   void on_wall(const WallCollision<2>& c) override {
-    fall(c.disk.before, c.time);
+    fall(c.particle.before, c.time);
     // The wall's face, where it is now.
     const double inset = simulation_.wall(c.side).displacement;
     const int axis = c.side / 2;
-    Vec2 contact = c.disk.position;
+    Vec2 contact = c.particle.position;
     contact[axis] = c.side % 2 ? simulation_.model().box[axis] - inset : inset;
-    add(c.disk, contact);
+    add(c.particle, contact);
   }
 
   void on_kick(const Kick<2>& kick) override {
-    fall(kick.disk.before, kick.time);
-    add(kick.disk, kick.disk.position);
+    fall(kick.particle.before, kick.time);
+    add(kick.particle, kick.particle.position);
   }
 
   void on_base_moved(double shift) override { begin_ -= shift; }
 
   void close() {
-    for (const Disk<2>& disk : simulation_.disks()) fall(disk.flight, simulation_.base_time());
+    for (const Particle<2>& particle : simulation_.particles())
+      fall(particle.flight, simulation_.base_time());
   }
 
  private:
-  double energy_gain(const DiskChange<2>& disk) const {
+  double energy_gain(const ParticleChange<2>& particle) const {
     const double inertia = 0.25 * simulation_.model().inertia;
-    const Vec2 after = disk.velocity + disk.gain.momentum;
-    const double w = disk.spin[0], w_after = w + disk.gain.spin[0];
-    return 0.5 * (after.squaredNorm() - disk.velocity.squaredNorm()) +
+    const Vec2 after = particle.velocity + particle.gain.momentum;
+    const double w = particle.spin[0], w_after = w + particle.gain.spin[0];
+    return 0.5 * (after.squaredNorm() - particle.velocity.squaredNorm()) +
            0.5 * inertia * (w_after * w_after - w * w);
   }
 
-  void add(const DiskChange<2>& disk, const Vec2& place) {
-    const double gained = energy_gain(disk);
+  void add(const ParticleChange<2>& particle, const Vec2& place) {
+    const double gained = energy_gain(particle);
     energy.add(gained);
     for (int k = 0; k < 2; ++k) {
       energy_moment[k].add(place[k] * gained);
-      for (int l = 0; l < 2; ++l) momentum[k][l].add(place[k] * disk.gain.momentum[l]);
+      for (int l = 0; l < 2; ++l) momentum[k][l].add(place[k] * particle.gain.momentum[l]);
     }
   }
 
@@ -111,7 +112,7 @@ class Sources : public Observer<2> {
   double begin_;
 };
 
-/// The moments of the disks as they are.
+/// The moments of the particles as they are.
 struct State2 {
   Eigen::Matrix2d momentum = Eigen::Matrix2d::Zero();  ///< sum r_k v_l
   Vec2 energy_moment = Vec2::Zero();                   ///< sum r_k E
@@ -149,7 +150,7 @@ Reported reported(const CellIntegrals<2>& integrals, const CellSums& sums, bool 
     };
     const double density = value(Field::Density);
     const Vec2 V(value(Field::VelocityX), value(Field::VelocityY));
-    // What rough disks and thermal walls pass on is askew: xy and yx differ, and only xy is
+    // What rough particles and thermal walls pass on is askew: xy and yx differ, and only xy is
     // reported.
     const double xy = value(Field::StressXy);
     const double yx = xy + cell.transfer[0][1] - cell.transfer[1][0];
@@ -191,7 +192,7 @@ void check_identities(const Scene& scene, std::uint64_t seed) {
   const State2 after(*simulation);
   sources.close();
   const Reported fields = reported(integrals, integrals.close_window(), scene.spins());
-  REQUIRE(simulation->counts().disk_disk > 200);
+  REQUIRE(simulation->counts().pair_collisions > 200);
   double worst = residual(after.energy - before.energy, {fields.dissipation, sources.energy});
   CHECK(worst < kResidual);
   for (int k = 0; k < 2; ++k) {
@@ -222,8 +223,8 @@ Scene boxed(const Wall& along_x, const Wall& along_y) {
 }
 
 Scene with_spins(Scene scene) {
-  scene.disks.roughness = {.friction = 0.4, .tangential_restitution = 0.6};
-  scene.disks.start.spin_temperature = 0.8;
+  scene.particles.roughness = {.friction = 0.4, .tangential_restitution = 0.6};
+  scene.particles.start.spin_temperature = 0.8;
   for (auto& wall : scene.walls) {
     if (wall && wall->kind != WallKind::Thermal) wall->roughness.friction = 0.5;
   }
@@ -239,7 +240,7 @@ const Wall kSinusoidal = {
 
 }  // namespace
 
-TEST_CASE("first moments of the fields: smooth disks between driven and lossy walls") {
+TEST_CASE("first moments of the fields: smooth particles between driven and lossy walls") {
   check_identities(boxed(kDriven, kLossy), 81);
 }
 
@@ -252,7 +253,7 @@ TEST_CASE("first moments of the fields: a periodic axis beside a walled one") {
   check_identities(with_spins(scene), 83);
 }
 
-TEST_CASE("first moments of the fields: rough disks and walls") {
+TEST_CASE("first moments of the fields: rough particles and walls") {
   check_identities(with_spins(boxed(kDriven, kLossy)), 84);
 }
 

@@ -63,7 +63,7 @@ TEST_CASE("PartSums: windows go into equal parts, whose number stays bounded") {
 }
 
 TEST_CASE("PartSums: of large grids there are fewer parts") {
-  constexpr std::size_t kEight = PartSums::kMostBytes / sizeof(double) / 8;
+  constexpr std::size_t kEight = PartSums::kMaxBytes / sizeof(double) / 8;
   PartSums sums;
   for (int window = 0; window < 8; ++window) sums.add(numbered(window, kEight));
   CHECK(sums.parts().size() == 8);
@@ -106,10 +106,10 @@ TEST_CASE("Measurement: maps average to the profile, and their parts to the maps
 }
 
 TEST_CASE("Measurement: the mean velocity is taken from a temperature's map over the whole time") {
-  // One disk to and fro: at any time T = 0 about its velocity, and V = 0 in the end.
+  // One particle to and fro: at any time T = 0 about its velocity, and V = 0 in the end.
   Scene scene = gas(10.0, 4.0, 1, 1.0);
   wall_in(scene, 0, {.kind = WallKind::Static});
-  const auto simulation = lone_disk(scene, {5.0, 1.0}, {1.0, 0.0});
+  const auto simulation = lone_particle(scene, {5.0, 1.0}, {1.0, 0.0});
   Measure measure;
   measure.burn_in = 0.0;
   measure.fields = {Field::TemperatureX, Field::VelocityX};

@@ -13,7 +13,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Disks that share a cell, and what collisions passed on in it.
+/// Particles that share a cell, and what collisions passed on in it.
 struct Content {
   std::vector<Vec2> velocities = {{1.0, 2.0}, {3.0, -2.5}, {-0.5, 0.25}};
   std::vector<double> spin_energies = {0.5, 0.125, 2.0};
@@ -63,7 +63,8 @@ bool needs_visitors(Field field) {
 
 }  // namespace
 
-TEST_CASE("field_value: every field by its definition, with the mean taken off disk by disk") {
+TEST_CASE(
+    "field_value: every field by its definition, with the mean taken off particle by particle") {
   const Content content;
   const double area = 0.5;
   const CellAverages<2, double> cell = averages(content, area);
@@ -110,7 +111,8 @@ TEST_CASE("field_value: every field by its definition, with the mean taken off d
   check(Field::SpinTemperature, 2.0 * 2.625 / 3.0);
 }
 
-TEST_CASE("field_value: where no disk ever was only densities and collisional parts are known") {
+TEST_CASE(
+    "field_value: where no particle ever was only densities and collisional parts are known") {
   const CellAverages<2, double> nothing;
   for (const Field field : all_fields()) {
     CAPTURE(static_cast<int>(field));
@@ -175,8 +177,8 @@ TEST_CASE("Dual: derivatives of all fields as finite differences have them") {
 
 TEST_CASE("moment_layout: every field has what it needs, and no field keeps all") {
   Scene scene = rough_mixture(20);
-  scene.disks.roughness.friction = 0.4;
-  scene.disks.start.spin_temperature = 1.0;
+  scene.particles.roughness.friction = 0.4;
+  scene.particles.start.spin_temperature = 1.0;
   const auto simulation = simulation_of(scene, 61);
   CellIntegrals<2> all(*simulation, {6, 5}, full_layout());
   std::deque<CellIntegrals<2>> singles;

@@ -45,7 +45,7 @@ bool finite(const Measured& result) {
   }
   for (const double t : result.series_temperature) all = all && std::isfinite(t);
   if (result.profile) {
-    // Columns that no disk visited have a density, but no temperature.
+    // Columns that no particle visited have a density, but no temperature.
     const std::vector<Estimate>& density = result.profile->at(Field::Density);
     for (std::size_t k = 0; k < density.size(); ++k) {
       for (const Field field : result.profile->fields) {
@@ -75,8 +75,8 @@ TEST_CASE("Measurement: averages over the time after the burn-in, all of it and 
   again->run_until(7.3 + 31.9);
   const WindowTotals<2> window = totals.close_window();
   CHECK(again->state_hash() == simulation->state_hash());
-  CHECK(result.disk_disk == again->counts().disk_disk - at_start.disk_disk);
-  CHECK(result.disk_wall == again->counts().disk_wall - at_start.disk_wall);
+  CHECK(result.pair_collisions == again->counts().pair_collisions - at_start.pair_collisions);
+  CHECK(result.wall_collisions == again->counts().wall_collisions - at_start.wall_collisions);
   CHECK(result.temperature_x.mean == doctest::Approx(window.temperature.x()).epsilon(1e-9));
   CHECK(result.temperature_y.mean == doctest::Approx(window.temperature.y()).epsilon(1e-9));
   CHECK(result.temperature.mean == doctest::Approx(0.5 * window.temperature.sum()).epsilon(1e-9));
@@ -333,14 +333,14 @@ TEST_CASE("Measurement: no profile where no field was asked for") {
   CHECK_FALSE(measured(*simulation, measure_for(0.0, 5.0)).profile);
 }
 
-TEST_CASE("Measurement: the pressure of one disk between two walls") {
+TEST_CASE("Measurement: the pressure of one particle between two walls") {
   // 10 from wall to wall at speed 2: each wall takes up 2 * 2 every 10 time units, on a length
   // of 8.
   Scene scene = gas(11.0, 8.0, 1, 1.0);
   wall_in(scene, 0, Wall{});
-  const auto simulation = lone_disk(scene, {5.5, 4.0}, {2.0, 0.0});
+  const auto simulation = lone_particle(scene, {5.5, 4.0}, {2.0, 0.0});
   const Measured result = measured(*simulation, measure_for(0.0, 1000.0));
-  CHECK(result.disk_wall == 200);
+  CHECK(result.wall_collisions == 200);
   for (const int side : {kLeft, kRight}) {
     REQUIRE(result.pressure[side]);
     CHECK(result.pressure[side]->mean == doctest::Approx(4.0 / (10.0 * 8.0)).epsilon(1e-12));
@@ -361,7 +361,7 @@ TEST_CASE("Measurement: a gas of none, and of one") {
       const auto simulation = simulation_of(scene, 47);
       const Measured result = measured(*simulation, measure);
       CHECK(finite(result));
-      CHECK(result.disk_disk == 0);
+      CHECK(result.pair_collisions == 0);
       CHECK(result.series_temperature.size() == 23);
       CHECK(result.collision_rate.mean == 0.0);
       CHECK_FALSE(result.compressibility);
@@ -372,7 +372,7 @@ TEST_CASE("Measurement: a gas of none, and of one") {
 
 TEST_CASE("Measurement: a gas at rest") {
   Scene scene = gas(8.0, 8.0, 10, 0.9);
-  scene.disks.start.temperature = 0.0;
+  scene.particles.start.temperature = 0.0;
   Measure measure = measure_for(2.0, 20.0);
   measure.fields = {Field::Density, Field::TemperatureX, Field::TemperatureY};
   const auto simulation = simulation_of(scene, 48);

@@ -24,7 +24,7 @@ constexpr double kEnd = 43.7;
 
 Scene everything(int count) {
   Scene scene = rough_mixture(count);
-  scene.disks.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
+  scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
   scene.walls[kRight] = {
       .kind = WallKind::Sinusoidal, .restitution = 0.7, .stroke = 0.3, .frequency = 1.3};
   scene.gravity = Vec2(0.1, -0.2);
@@ -94,7 +94,7 @@ void check_same(const Run& a, const Run& b) {
   const Measured x = a.measurement->result(), y = b.measurement->result();
   CHECK(x.duration == y.duration);
   CHECK(x.burn_in == y.burn_in);
-  CHECK(x.disk_disk == y.disk_disk);
+  CHECK(x.pair_collisions == y.pair_collisions);
   CHECK(x.temperature.mean == y.temperature.mean);
   CHECK(x.temperature.standard_error == y.temperature.standard_error);
   CHECK(x.ledger_residual == y.ledger_residual);
@@ -158,10 +158,10 @@ TEST_CASE("Measurement: one that starts in the midst of a run averages from then
   CHECK(measured.burn_in == 10.0);
   CHECK(measured.duration == doctest::Approx(kEnd - 10.0));
   CHECK(measured.series_time.front() == doctest::Approx(10.5));
-  double disks = 0.0;
+  double particles = 0.0;
   for (const Estimate& density : measured.profile->at(Field::Density))
-    disks += density.mean * 9.0 / 5.0 * 8.0;
-  CHECK(disks == doctest::Approx(20.0));
+    particles += density.mean * 9.0 / 5.0 * 8.0;
+  CHECK(particles == doctest::Approx(20.0));
 }
 
 TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledger") {
@@ -170,7 +170,7 @@ TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledg
   rough.simulation->run_until(10.0);
   REQUIRE(rough.simulation->spin_energy() > 0.1);
   Scene scene = everything(20);
-  scene.disks.roughness = {};
+  scene.particles.roughness = {};
   Run smooth{std::make_unique<Simulation<2>>(model_of(scene, 5), rough.simulation->save()),
              nullptr};
   const std::string saved = rough.measurement->save();

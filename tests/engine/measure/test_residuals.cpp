@@ -15,10 +15,10 @@ using namespace clatter::testing;
 
 namespace {
 
-// Everything that books: rough disks, gravity, kicks, thermal, driven and moving walls.
+// Everything that books: rough particles, gravity, kicks, thermal, driven and moving walls.
 Scene everything() {
   Scene scene = rough_mixture(20);
-  scene.disks.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
+  scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
   scene.walls[kRight] = {
       .kind = WallKind::Sinusoidal, .restitution = 0.7, .stroke = 0.3, .frequency = 1.3};
   scene.gravity = Vec2(0.1, -0.2);

@@ -84,9 +84,10 @@ TEST_CASE("Totals: what every window booked is the change of the energy") {
     const double turnover = std::fabs(window.walls_in) + window.dissipated + energy;
     CHECK(std::fabs(window.walls_in - window.dissipated - gained) < 1e-12 * turnover);
     CHECK(window.dissipated > 0.0);
-    CHECK(window.collisions == static_cast<double>(simulation->counts().disk_disk - collisions));
+    CHECK(window.collisions ==
+          static_cast<double>(simulation->counts().pair_collisions - collisions));
     energy += gained;
-    collisions = simulation->counts().disk_disk;
+    collisions = simulation->counts().pair_collisions;
     CHECK(totals.ledger_residual() < 1e-13);
   }
 }

@@ -15,7 +15,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Two rough disks (D = 3: spheres) at contact; r_2 lies within a few diameters of the origin.
+/// Two rough particles (D = 3: spheres) at contact; r_2 lies within a few diameters of the origin.
 template <int D>
 struct RoughPair {
   Vec<D> r_1, r_2, v_1, v_2;

@@ -42,7 +42,7 @@ TEST_CASE("fall time: a gap of zero, or below it by rounding") {
   }
 }
 
-TEST_CASE("fall time: without acceleration the bits of the quotient, of slow disks too") {
+TEST_CASE("fall time: without acceleration the bits of the quotient, of slow particles too") {
   int different = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Random random(31, Stream::Velocity, i, 0);
@@ -78,25 +78,25 @@ TEST_CASE("way out: exact numbers") {
   const auto is = [](const WayOut& out, double time, bool upper) {
     return out.time == time && out.upper == upper;
   };
-  CHECK(is(way_out(6.0, 9.0, 4.0, -4.0), 3.0, false));  // Turns at a height of 2.
-  CHECK(is(way_out(9.0, 6.0, -4.0, 4.0), 3.0, true));
-  CHECK(is(way_out(6.0, 2.0, 4.0, -4.0), 3.0, false));  // Touches the upper plane only.
-  CHECK(is(way_out(6.0, 1.5, 4.0, -4.0), 0.5, true));
-  CHECK(is(way_out(6.0, 1.0, -1.0, -4.0), 1.5, false));
-  CHECK(is(way_out(8.0, 1.0, 0.0, -4.0), 2.0, false));
-  CHECK(is(way_out(0.0, 1.0, -3.0, -4.0), 0.0, false));
-  CHECK(is(way_out(-1e-16, 5.0, 2.0, -0.5), 8.0, false));
-  CHECK(is(way_out(6.0, kNever, 4.0, -4.0), 3.0, false));
-  CHECK(is(way_out(kNever, 1.5, 4.0, -4.0), 0.5, true));
+  CHECK(is(exit_time(6.0, 9.0, 4.0, -4.0), 3.0, false));  // Turns at a height of 2.
+  CHECK(is(exit_time(9.0, 6.0, -4.0, 4.0), 3.0, true));
+  CHECK(is(exit_time(6.0, 2.0, 4.0, -4.0), 3.0, false));  // Touches the upper plane only.
+  CHECK(is(exit_time(6.0, 1.5, 4.0, -4.0), 0.5, true));
+  CHECK(is(exit_time(6.0, 1.0, -1.0, -4.0), 1.5, false));
+  CHECK(is(exit_time(8.0, 1.0, 0.0, -4.0), 2.0, false));
+  CHECK(is(exit_time(0.0, 1.0, -3.0, -4.0), 0.0, false));
+  CHECK(is(exit_time(-1e-16, 5.0, 2.0, -0.5), 8.0, false));
+  CHECK(is(exit_time(6.0, kNever, 4.0, -4.0), 3.0, false));
+  CHECK(is(exit_time(kNever, 1.5, 4.0, -4.0), 0.5, true));
   for (const double rounding : {-1e-16, -0.0, 0.0}) {
-    CHECK(is(way_out(rounding, 1.0, -2.0, -0.5), 0.0, false));
-    CHECK(is(way_out(rounding, 1.0, 0.0, -0.5), 0.0, false));
-    CHECK(is(way_out(1.0, rounding, 2.0, -0.5), 0.0, true));
+    CHECK(is(exit_time(rounding, 1.0, -2.0, -0.5), 0.0, false));
+    CHECK(is(exit_time(rounding, 1.0, 0.0, -0.5), 0.0, false));
+    CHECK(is(exit_time(1.0, rounding, 2.0, -0.5), 0.0, true));
   }
   // Whoever falls to where there is no plane never leaves.
-  CHECK_FALSE(way_out(kNever, kNever, -4.0, -4.0).time < kNever);
-  CHECK_FALSE(way_out(kNever, kNever, 4.0, -4.0).time < kNever);
-  CHECK_FALSE(way_out(kNever, 3.0, 4.0, -4.0).time < kNever);
+  CHECK_FALSE(exit_time(kNever, kNever, -4.0, -4.0).time < kNever);
+  CHECK_FALSE(exit_time(kNever, kNever, 4.0, -4.0).time < kNever);
+  CHECK_FALSE(exit_time(kNever, 3.0, 4.0, -4.0).time < kNever);
 }
 
 TEST_CASE("way out: the earlier of the times to fall to either plane") {
@@ -108,7 +108,7 @@ TEST_CASE("way out: the earlier of the times to fall to either plane") {
     const auto length = [&] { return std::exp(10.0 * random.normal()); };
     const auto either_sign = [&] { return (random.below(2) ? 1.0 : -1.0) * length(); };
     const double above = length(), below = length(), speed = either_sign(), a = either_sign();
-    const WayOut out = way_out(above, below, speed, a);
+    const WayOut out = exit_time(above, below, speed, a);
     const double down = fall_time(above, speed, a), up = fall_time(below, -speed, -a);
     const double time = std::min(down, up);
     REQUIRE(out.upper == (up < down));

@@ -64,7 +64,7 @@ std::vector<Vec2> rows_of(const Room& room, int axis, int rows, int n, bool shif
   return sites;
 }
 
-/// The most disks over all such arrangements, trying every one.
+/// The most particles over all such arrangements, trying every one.
 int brute_capacity(const Room& room) {
   const int most = 2 * static_cast<int>(room.box.maxCoeff() / room.diameter) + 3;
   std::size_t best = 0;
@@ -162,11 +162,11 @@ TEST_CASE("sites are spread as far apart as the lattice allows") {
   CHECK(least_distance(square, hexagonal_lattice(square, 5)) == doctest::Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("disks that would touch exactly do not fit, for rounding would make some overlap") {
+TEST_CASE("particles that would touch exactly do not fit, for rounding would make some overlap") {
   const Room row{.box = {50.0, 1.0}, .periodic = {true, false}};
   CHECK(lattice_capacity(row) == 49);
   for (int n = 2; n < 400; ++n) {
-    // The narrowest box that 0.1 n leaves for n disks of diameter 0.1, and one a little wider.
+    // The narrowest box that 0.1 n leaves for n particles of diameter 0.1, and one a little wider.
     for (const double width : {0.1 * n, 0.1 * n * (1.0 + 1e-15), 0.1 * n * (1.0 + 1e-13)}) {
       const Room room{.box = {width, 0.15}, .diameter = 0.1};
       const auto sites = square_lattice(room, lattice_capacity(room));

@@ -31,12 +31,12 @@ const Vec2 kGravities[] = {kNone, {0.3, -0.7}};
 double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, double diameter = 1.0,
                  const Vec2& gravity = kNone) {
   const auto formula =
-      gravity == kNone ? encounter_time<2, false, double> : encounter_time<2, true, double>;
+      gravity == kNone ? pair_contact_time<2, false, double> : pair_contact_time<2, true, double>;
   return formula(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time, shift.data(),
                  diameter, gravity.data());
 }
 
-// Two disks of a box of 10 x 8, a few collision times old and one image apart at most.
+// Two particles of a box of 10 x 8, a few collision times old and one image apart at most.
 Pair random_pair(std::uint32_t number) {
   Random random(11, Stream::Placement, number, 0);
   const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
@@ -81,14 +81,14 @@ TEST_CASE("encounter: the same bits whoever asks") {
 
 // Distances are below 50 here, so the rounding of positions is below 1e-14 and that of a distance
 // at contact some times as much.
-TEST_CASE("encounter: disks are one diameter apart at contact, and farther before") {
+TEST_CASE("encounter: particles are one diameter apart at contact, and farther before") {
   for (const Vec2& gravity : kGravities) {
     double worst = 0.0, missed = 0.0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
       const Pair p = random_pair(i);
       const double time = encounter(p.a, p.b, p.shift, 1.0, gravity);
       const double start = later_start(p);
-      // Later, disks that fall are so far from where they started that rounding says nothing.
+      // Later, particles that fall are so far from where they started that rounding says nothing.
       if (!std::isfinite(time) || (gravity != kNone && time > 20.0)) continue;
       REQUIRE(time > start);
       worst = std::max(worst, std::fabs(distance(p, time, gravity) - 1.0));
@@ -102,7 +102,7 @@ TEST_CASE("encounter: disks are one diameter apart at contact, and farther befor
   }
 }
 
-TEST_CASE("encounter: disks that never meet stay apart, and touching ones are told") {
+TEST_CASE("encounter: particles that never meet stay apart, and touching ones are told") {
   for (std::uint32_t i = 0; i < 100000; ++i) {
     const Pair p = random_pair(i);
     const double time = encounter(p.a, p.b, p.shift);
@@ -180,10 +180,10 @@ TEST_CASE("encounter: powers of two scale lengths and velocities without a bit's
 
 namespace {
 
-// A disk and others that it may meet, and what encounter_time says of each.
+// A particle and others that it may meet, and what pair_contact_time says of each.
 struct Crowd {
   Vec2 box{10.0, 8.0};
-  std::vector<Disk<2>> disks;  // the last is the one that asks
+  std::vector<Particle<2>> particles;  // the last is the one that asks
   Candidates<2> candidates;
   std::vector<double> times;  // [candidates.size]
 
@@ -191,23 +191,23 @@ struct Crowd {
     Random random(13, Stream::Placement, number, 0);
     const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
     for (int i = 0; i <= size; ++i) {
-      Disk<2> disk;
-      disk.flight = random_pair(1000 * number + static_cast<std::uint32_t>(i)).a;
-      disk.image = {image(), image()};
-      disks.push_back(disk);
+      Particle<2> particle;
+      particle.flight = random_pair(1000 * number + static_cast<std::uint32_t>(i)).a;
+      particle.image = {image(), image()};
+      particles.push_back(particle);
     }
     candidates.size = size;
     candidates.wrapped = random.below(2) == 0;
     for (int i = 0; i < size; ++i) {
-      const Disk<2>& disk = disks[static_cast<std::size_t>(i)];
-      candidates.disks[i] = static_cast<std::uint32_t>(i);
-      Vec2 shift = disk.image - disks.back().image;
+      const Particle<2>& particle = particles[static_cast<std::size_t>(i)];
+      candidates.particles[i] = static_cast<std::uint32_t>(i);
+      Vec2 shift = particle.image - particles.back().image;
       for (int k = 0; k < 2; ++k) {
         candidates.wraps[k][i] = image();
         if (candidates.wrapped) shift[k] -= candidates.wraps[k][i];
       }
-      times.push_back(
-          encounter(disks.back().flight, disk.flight, shift.cwiseProduct(box), 1.0, gravity));
+      times.push_back(encounter(particles.back().flight, particle.flight, shift.cwiseProduct(box),
+                                1.0, gravity));
     }
   }
 };
@@ -219,9 +219,9 @@ template <bool kFalling, bool kShifted>
 [[gnu::always_inline]] inline Answers ask(const Crowd& crowd, const Vec2& gravity) {
   std::array<Candidates<2>, 2> candidates = {crowd.candidates, crowd.candidates};
   candidates[1].size /= 2;
-  const auto self = static_cast<std::uint32_t>(crowd.disks.size() - 1);
-  return first_contacts<2, kFalling, kShifted, 2>(crowd.disks.front().flight.r.data(), {self, self},
-                                                  candidates, crowd.box.data(), 1.0,
+  const auto self = static_cast<std::uint32_t>(crowd.particles.size() - 1);
+  return first_contacts<2, kFalling, kShifted, 2>(crowd.particles.front().flight.r.data(),
+                                                  {self, self}, candidates, crowd.box.data(), 1.0,
                                                   gravity.data());
 }
 
@@ -238,8 +238,8 @@ template <bool kFalling, bool kShifted>
 #endif
 
 bool same(const FirstContact& a, const FirstContact& b) {
-  return bits(a.time) == bits(b.time) && a.told_apart == b.told_apart &&
-         (!a.told_apart || a.time == kNever || a.candidate == b.candidate);
+  return bits(a.time) == bits(b.time) && a.unique == b.unique &&
+         (!a.unique || a.time == kNever || a.candidate == b.candidate);
 }
 
 // What the kernel says with any instruction set that the processor has.
@@ -268,7 +268,8 @@ Answers first_within_box(const Crowd& crowd, const Vec2& gravity) {
 
 }  // namespace
 
-TEST_CASE("contact kernel: the first encounter_time, to the bit, of every number of candidates") {
+TEST_CASE(
+    "contact kernel: the first pair_contact_time, to the bit, of every number of candidates") {
   constexpr std::uint32_t kRepeats = 1600;
   int different = 0, others = 0, met = 0, touching = 0;
   for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
@@ -282,7 +283,7 @@ TEST_CASE("contact kernel: the first encounter_time, to the bit, of every number
         const double expected = asked > 0 ? *earliest : kNever;
         different += bits(first.time) != bits(expected);
         touching += first.time == kTouching;
-        REQUIRE(first.told_apart == (expected != kTouching));
+        REQUIRE(first.unique == (expected != kTouching));
         if (!std::isfinite(expected)) continue;
         ++met;
         others += first.candidate != earliest - crowd.times.begin();
@@ -302,21 +303,21 @@ TEST_CASE("contact kernel: where all frames are that of the box, the shorter way
     const int size = 1 + static_cast<int>(number % Candidates<2>::kCapacity);
     Crowd crowd(number, size, gravity);
     crowd.candidates.wrapped = false;
-    for (Disk<2>& disk : crowd.disks) disk.image.setZero();
+    for (Particle<2>& particle : crowd.particles) particle.image.setZero();
     const FirstContact first = first_within_box(crowd, gravity)[0];
     REQUIRE(same(first, first_of(crowd, gravity)[0]));
     met += std::isfinite(first.time);
 
     // One whose frame is off the box: any of them, or the one who asks.
-    Disk<2>& off = crowd.disks[number % crowd.disks.size()];
+    Particle<2>& off = crowd.particles[number % crowd.particles.size()];
     off.image[number / 2 % 2] = number % 3 == 0 ? 1.0 : -1.0;
-    REQUIRE(!first_within_box(crowd, gravity)[0].told_apart);
+    REQUIRE(!first_within_box(crowd, gravity)[0].unique);
   }
   CHECK(met > 500);
 }
 
 TEST_CASE(
-    "contact kernel: disks that share the first time are not told apart, later ones do not "
+    "contact kernel: particles that share the first time are not told apart, later ones do not "
     "matter") {
   int first_shared = 0, later_shared = 0;
   for (std::uint32_t number = 0; number < 2000; ++number) {
@@ -326,11 +327,11 @@ TEST_CASE(
     const int copied = static_cast<int>(number % 12);
     const int copy = static_cast<int>(number / 12 % 12);
     if (copy == copied || copy == alone.candidate) continue;
-    crowd.candidates.disks[copy] = crowd.candidates.disks[copied];
+    crowd.candidates.particles[copy] = crowd.candidates.particles[copied];
     for (auto& wraps : crowd.candidates.wraps) wraps[copy] = wraps[copied];
     const FirstContact first = first_of(crowd, kNone)[0];
     REQUIRE(bits(first.time) == bits(alone.time));
-    REQUIRE(first.told_apart == (copied != alone.candidate));
+    REQUIRE(first.unique == (copied != alone.candidate));
     (copied == alone.candidate ? first_shared : later_shared) += 1;
   }
   CHECK(first_shared > 20);

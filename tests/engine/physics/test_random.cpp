@@ -35,7 +35,7 @@ TEST_CASE("random: uniform numbers fill (0,1) evenly") {
     sum += u;
     squares += u * u;
   }
-  CHECK(counts_p(observed, expected) > kLeastProbability);
+  CHECK(counts_p(observed, expected) > kMinProbability);
   CHECK(std::fabs(standard_errors_off(sum, kSamples, 0.5, 1.0 / 12.0)) < 5.0);
   CHECK(std::fabs(standard_errors_off(squares, kSamples, 1.0 / 3.0, 4.0 / 45.0)) < 5.0);
 }
@@ -57,7 +57,7 @@ TEST_CASE("random: normal numbers are normal") {
     ++observed[std::min(kBins - 1, std::max(0, static_cast<int>(std::floor((z + 4.0) * 10.0))))];
     for (int k = 1; k <= 4; ++k) moments[k] += std::pow(z, k);
   }
-  CHECK(counts_p(observed, expected) > kLeastProbability);
+  CHECK(counts_p(observed, expected) > kMinProbability);
   // Mean and variance of z^k of a standard normal z: 0, 1; 1, 2; 0, 15; 3, 96.
   CHECK(std::fabs(standard_errors_off(moments[1], kSamples, 0.0, 1.0)) < 5.0);
   CHECK(std::fabs(standard_errors_off(moments[2], kSamples, 1.0, 2.0)) < 5.0);
@@ -71,14 +71,14 @@ TEST_CASE("random: below is unbiased") {
     constexpr int kSamples = 700000;
     std::vector<double> observed(7), expected(7, kSamples / 7.0);
     for (int i = 0; i < kSamples; ++i) ++observed[random.below(7)];
-    CHECK(counts_p(observed, expected) > kLeastProbability);
+    CHECK(counts_p(observed, expected) > kMinProbability);
   }
   SUBCASE("n of the generator's own size: a plain remainder would favour the lowest third") {
     constexpr int kSamples = 90000;
     constexpr std::uint64_t kThird = 1ull << 62;
     std::vector<double> observed(3), expected(3, kSamples / 3.0);
     for (int i = 0; i < kSamples; ++i) ++observed[random.below(3 * kThird) / kThird];
-    CHECK(counts_p(observed, expected) > kLeastProbability);
+    CHECK(counts_p(observed, expected) > kMinProbability);
   }
   SUBCASE("n = 1") {
     CHECK(random.below(1) == 0);
@@ -110,5 +110,5 @@ TEST_CASE("random: the first numbers of neighbouring owners are independent") {
     const int b = static_cast<int>(kSide * Random(5, Stream::Velocity, owner + 1, 0).uniform());
     ++observed[a * kSide + b];
   }
-  CHECK(counts_p(observed, expected) > kLeastProbability);
+  CHECK(counts_p(observed, expected) > kMinProbability);
 }

@@ -18,7 +18,7 @@ VibratedGas vibrated(double count, double restitution, double wall_restitution) 
 }
 
 /// The bracket of Eq. (3.7): what the walls give, less what is lost. It is zero where the gas is
-/// stationary. Simple: averages over all disks. Refined: over those that collide, which doubles
+/// stationary. Simple: averages over all particles. Refined: over those that collide, which doubles
 /// both losses and multiplies the term linear in v_dr by pi/2.
 double bracket(const VibratedGas& gas, double temperature, bool refined) {
   const double loss = 0.5 * pi * gas.epsilon_effective() * gas.psi() * temperature;
@@ -28,14 +28,14 @@ double bracket(const VibratedGas& gas, double temperature, bool refined) {
   return refined ? constant + 0.5 * pi * gain - 2.0 * loss : constant + gain - loss;
 }
 
-/// T_tr and T_rot of rough disks.
+/// T_tr and T_rot of rough particles.
 struct Temperatures {
   double translational = 1.0, rotational = 0.0;
 };
 
 /// d/dt of both in a gas of area fraction .2: the energies of section 2 with the averages of g_n^2,
-/// g_t^2 and g_t v_t over the disks that collide, 4 T_tr, 2 T_tr + 2 T_rot/q and 2 T_tr, at half of
-/// Enskog's rate per disk. Without the names A, B and C.
+/// g_t^2 and g_t v_t over the particles that collide, 4 T_tr, 2 T_tr + 2 T_rot/q and 2 T_tr, at
+/// half of Enskog's rate per particle. Without the names A, B and C.
 Temperatures rough_change(const RoughGas& gas, const Temperatures& T, double power) {
   const double alpha = gas.restitution, beta = gas.tangential_restitution, q = gas.inertia;
   const double eta = gas.eta();
@@ -48,8 +48,8 @@ Temperatures rough_change(const RoughGas& gas, const Temperatures& T, double pow
   return {rate * translational + power, 2.0 * rate * (both - translational)};
 }
 
-/// The temperatures after 1000 collisions of a disk at T_tr = 1, by Runge and Kutta's fourth order;
-/// unless driven, T_tr is kept at 1, which leaves the ratio's course as it is.
+/// The temperatures after 1000 collisions of a particle at T_tr = 1, by Runge and Kutta's fourth
+/// order; unless driven, T_tr is kept at 1, which leaves the ratio's course as it is.
 Temperatures evolved(const RoughGas& gas, Temperatures T, double power) {
   const double step = 0.05 / enskog_rate(0.2, 1.0);
   const auto ahead = [](const Temperatures& T, const Temperatures& change, double time) {
@@ -81,7 +81,7 @@ TEST_CASE("compressibility: section 5") {
   CHECK(compressibility(0.5, 1.0) == doctest::Approx(4.125).epsilon(1e-15));  // 1 + 2 * .5 * 3.125
   // Each impulse is (1 + alpha)/2 of the elastic one.
   CHECK(compressibility(0.5, 0.6) == doctest::Approx(1.0 + 0.8 * 3.125).epsilon(1e-15));
-  // Second virial coefficient of hard disks: pi a^2/2 per disk, so Z = 1 + 2 phi + ...
+  // Second virial coefficient of hard disks: pi a^2/2 per particle, so Z = 1 + 2 phi + ...
   CHECK((compressibility(1e-6, 1.0) - 1.0) / 1e-6 == doctest::Approx(2.0).epsilon(1e-5));
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("VibratedGas: temperatures scale with the drive speed squared") {
 }
 
 TEST_CASE("VibratedGas: nothing dissipates, nothing is stationary") {
-  // The last one gains more at the walls than its disks lose.
+  // The last one gains more at the walls than its particles lose.
   for (const VibratedGas& gas :
        {vibrated(100.0, 1.0, 1.0), vibrated(200.0, 1.0, 1.05), vibrated(200.0, 0.995, 1.2)}) {
     CHECK(std::isinf(gas.temperature_simple()));
@@ -175,7 +175,7 @@ TEST_CASE("VibratedGas: rates and energies of Eqs. (3.2)-(3.5)") {
   CHECK(gas.energy_per_wall_hit(1.7) == doctest::Approx(1.4054234800934).epsilon(1e-13));
   CHECK(gas.energy_per_collision(1.7) == doctest::Approx(-0.1615).epsilon(1e-13));
   CHECK(gas.temperature_change_simple(1.7) == doctest::Approx(-0.20065736919313).epsilon(1e-13));
-  // Each collision is that of two disks, and of N - 1 others.
+  // Each collision is that of two particles, and of N - 1 others.
   CHECK(gas.collision_rate(1.7) ==
         doctest::Approx(0.5 * 199.0 * enskog_rate(gas.area_fraction(), 1.7)).epsilon(1e-13));
 }
@@ -188,11 +188,11 @@ TEST_CASE("VibratedGas: Eq. (3.7) is the balance of Eqs. (3.2)-(3.5)") {
         const double at_walls =
             2.0 * gas.wall_hit_rate(temperature) * gas.energy_per_wall_hit(temperature);
         // (3.7) takes N for N - 1.
-        const double at_disks =
+        const double at_particles =
             100.0 / 99.0 * gas.collision_rate(temperature) * gas.energy_per_collision(temperature);
-        const double scale = std::fabs(at_walls) + std::fabs(at_disks);
-        CHECK(std::fabs(100.0 * gas.temperature_change_simple(temperature) - at_walls - at_disks) <
-              1e-13 * scale);
+        const double scale = std::fabs(at_walls) + std::fabs(at_particles);
+        CHECK(std::fabs(100.0 * gas.temperature_change_simple(temperature) - at_walls -
+                        at_particles) < 1e-13 * scale);
       }
     }
   }
@@ -233,8 +233,8 @@ TEST_CASE("VibratedGas: the wall layer") {
 
 TEST_CASE("VibratedGas: Haff's rates, Eq. (3.10)") {
   // -dT/dt/(2 T) at T = 1.7 from rates times energies, evaluated outside of this program: simple
-  // averages; refined ones, which lose (1 - alpha_w^2) T at a wall and (1 - alpha^2) T at a disk;
-  // and those with the wall's share times kappa.
+  // averages; refined ones, which lose (1 - alpha_w^2) T at a wall and (1 - alpha^2) T at a
+  // particle; and those with the wall's share times kappa.
   const VibratedGas cooling = vibrated(200.0, 0.9, 0.95);
   CHECK(cooling.haff_rate_simple(1.7) == doctest::Approx(0.081785961926797).epsilon(1e-12));
   CHECK(cooling.haff_rate_refined(1.7) == doctest::Approx(0.16357192385359).epsilon(1e-12));
@@ -326,12 +326,12 @@ TEST_CASE("RoughGas: temperatures tend to the ratios, whatever they begin with")
 
 TEST_CASE("RoughGas: limits") {
   // Where collisions conserve energy or perfect roughness passes all of it on, energy is shared
-  // evenly: elastic perfectly rough disks, and driven perfectly rough ones whatever alpha.
+  // evenly: elastic perfectly rough particles, and driven perfectly rough ones whatever alpha.
   for (const double q : {0.4, 0.5, 1.0}) {
     CHECK(RoughGas{1.0, 1.0, q}.cooling_ratio() == doctest::Approx(1.0).epsilon(1e-14));
     CHECK(RoughGas{0.7, 1.0, q}.driven_ratio() == doctest::Approx(1.0).epsilon(1e-14));
   }
-  // Smooth disks: no spins, and Eq. (3.4) refined in a periodic box, H = 2 k T.
+  // Smooth particles: no spins, and Eq. (3.4) refined in a periodic box, H = 2 k T.
   const RoughGas smooth = {0.8, -1.0, 0.5};
   CHECK(smooth.driven_ratio() == 0.0);
   const double T = smooth.driven_temperature(0.2, 0.03);
@@ -339,7 +339,7 @@ TEST_CASE("RoughGas: limits") {
 }
 
 TEST_CASE("bulk_drive_power: section 4") {
-  // Two disks get +-(k_1 - k_2)/2, of variance s^2/2 per component: s^2/2 each in the plane.
+  // Two particles get +-(k_1 - k_2)/2, of variance s^2/2 per component: s^2/2 each in the plane.
   CHECK(bulk_drive_power(2.0, 0.5, 0.25) == 0.5);
   CHECK(bulk_drive_power(1.0, 0.5, 0.25) == 0.0);
   CHECK(bulk_drive_power(1e9, 0.5, 0.25) == doctest::Approx(1.0).epsilon(1e-8));

@@ -95,7 +95,7 @@ TEST_CASE("wall motion: hits by a sinusoidal wall") {
   CHECK(WallCase{wall, 0.0, 10.0, -4.0, 1.0}.contact() == kNever);  // turns before the zone
 }
 
-TEST_CASE("wall motion: disks that touch the wall") {
+TEST_CASE("wall motion: particles that touch the wall") {
   const WallMotion ramps{WallPath::Sawtooth, 2.0, 0.5, 0.0};
   for (const double overlap : {0.0, 1e-15}) {
     const auto contact = [&](double speed, double acceleration) {
@@ -123,7 +123,7 @@ TEST_CASE("wall motion: disks that touch the wall") {
 }
 
 // A wholly inelastic hit and what follows: rounding of either sign, of the wall's phase too.
-TEST_CASE("wall motion: a disk that rides the wall, but for rounding") {
+TEST_CASE("wall motion: a particle that rides the wall, but for rounding") {
   for (const WallPath path : kPaths) {
     Verdict verdict;
     for (std::uint32_t i = 0; i < 10000; ++i) {
@@ -139,8 +139,8 @@ TEST_CASE("wall motion: a disk that rides the wall, but for rounding") {
   }
 }
 
-// One hop of a disk that leaves the wall at hardly more than the rounding of the speeds, while the
-// accelerations press it back: it lasts 2 speed / acceleration, not nothing.
+// One hop of a particle that leaves the wall at hardly more than the rounding of the speeds, while
+// the accelerations press it back: it lasts 2 speed / acceleration, not nothing.
 TEST_CASE("wall motion: the smallest hops come to their end, and not before") {
   for (const WallPath path : kPaths) {
     double longest = 0.0, shortest = kNever;
@@ -168,8 +168,8 @@ TEST_CASE("wall motion: the smallest hops come to their end, and not before") {
   }
 }
 
-// Half of the disks pass the crest's neighbourhood behind the wall's path by a little, and must be
-// hit there or before; the others pass before it and must not.
+// Half of the particles pass the crest's neighbourhood behind the wall's path by a little, and must
+// be hit there or before; the others pass before it and must not.
 TEST_CASE("wall motion: grazing passes") {
   Verdict verdict;
   int behind = 0, met = 0, before = 0, invented = 0;
@@ -201,7 +201,7 @@ TEST_CASE("wall motion: grazing passes") {
   CHECK(invented == 0);
 }
 
-TEST_CASE("wall motion: a disk that creeps, or rests but for rounding, ends the search") {
+TEST_CASE("wall motion: a particle that creeps, or rests but for rounding, ends the search") {
   for (const WallPath path : kPaths) {
     const WallMotion wall{path, 2.0, 0.5, 0.0};
     const double travel = innermost_travel(wall);
@@ -211,7 +211,7 @@ TEST_CASE("wall motion: a disk that creeps, or rests but for rounding, ends the 
           const WallCase c{wall, 0.0, travel * (1.0 + above * kEpsilon), speed, acceleration};
           const double time = c.contact();
           if (time == kNever) {
-            // Only a disk that never sinks by more than rounding.
+            // Only a particle that never sinks by more than rounding.
             CHECK((speed >= 0.0 || acceleration > 0.0));
             CHECK(acceleration >= 0.0);
           } else {
@@ -223,7 +223,7 @@ TEST_CASE("wall motion: a disk that creeps, or rests but for rounding, ends the 
   }
 }
 
-TEST_CASE("wall motion: walls so slow or disks so fast that the other seems to stand") {
+TEST_CASE("wall motion: walls so slow or particles so fast that the other seems to stand") {
   for (const WallPath path : kPaths) {
     for (const double frequency : {1e-12, 1e-100, 1e-200}) {
       const WallMotion wall{path, 2.0, frequency, 0.0};
@@ -275,9 +275,9 @@ static void check_random_cases(WallPath path, std::uint32_t cases) {
 
 // Cases that follow from each other: every one but the first starts just after a hit, as far from
 // the wall as rounding leaves it.
-static void check_bounces(WallPath path, std::uint32_t disks) {
+static void check_bounces(WallPath path, std::uint32_t particles) {
   Verdict verdict;
-  for (std::uint32_t i = 0; i < disks; ++i) {
+  for (std::uint32_t i = 0; i < particles; ++i) {
     Random random(46, Stream::Velocity, i, 0);
     WallCase c = random_case(path, random);
     if (random.below(2)) c.acceleration = -std::fabs(c.acceleration);

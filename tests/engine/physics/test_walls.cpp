@@ -17,7 +17,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// A rough disk (D = 3: a sphere) at a wall, before and after.
+/// A rough particle (D = 3: a sphere) at a wall, before and after.
 template <int D>
 struct RoughHit {
   Vec<D> v, smooth, after;
@@ -110,8 +110,8 @@ TEST_CASE("walls: a thermal wall emits flux-weighted velocities") {
     ++tangential_bins[std::min(kBins - 1, static_cast<int>(kBins * tangential_share))];
   }
   const std::vector<double> expected(kBins, kSamples / double{kBins});
-  CHECK(counts_p(normal_bins, expected) > kLeastProbability);
-  CHECK(counts_p(tangential_bins, expected) > kLeastProbability);
+  CHECK(counts_p(normal_bins, expected) > kMinProbability);
+  CHECK(counts_p(tangential_bins, expected) > kMinProbability);
   const double mean = std::sqrt(std::numbers::pi * kT / 2.0);
   CHECK(std::fabs(standard_errors_off(sum, kSamples, mean, 2.0 * kT - mean * mean)) < 5.0);
   CHECK(std::fabs(standard_errors_off(squares, kSamples, 2.0 * kT, 4.0 * kT * kT)) < 5.0);
@@ -119,7 +119,7 @@ TEST_CASE("walls: a thermal wall emits flux-weighted velocities") {
   CHECK(std::fabs(standard_errors_off(tangential_squares, kSamples, kT, 2.0 * kT * kT)) < 5.0);
 }
 
-TEST_CASE("walls: a thermal wall at T_w = 0 stops the disk") {
+TEST_CASE("walls: a thermal wall at T_w = 0 stops the particle") {
   const double normal = -1.5;
   CHECK(emit<2>(0, 1.0, 0.0, 0.3, &normal) == Vec2(0.0, 0.0));
 }
@@ -167,7 +167,7 @@ TEST_CASE_TEMPLATE("walls: friction is Walton's and Coulomb's at a wall of infin
   CHECK(torque_off < 1e-13);
   CHECK(normal_changed == 0);
   CHECK(coulomb_excess < 1e-13);
-  CHECK(coulomb_excess > -1e-13);  // sliding disks use all of it
+  CHECK(coulomb_excess > -1e-13);  // sliding particles use all of it
 }
 
 // Section 2's dE of a partner of infinite mass: m/2 instead of m/4.

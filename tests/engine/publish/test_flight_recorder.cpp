@@ -32,7 +32,8 @@ double distance(const Vec2& a, const Vec2& b, const Snapshot& snapshot) {
   return off.norm();
 }
 
-// That each disk has one path, without gaps, from `reach` ago to where it is; returns the pieces.
+// That each particle has one path, without gaps, from `reach` ago to where it is; returns the
+// pieces.
 std::size_t check_paths(const FlightRecorder& recorder, const Simulation<2>& simulation,
                         double reach) {
   CHECK(recorder.reach() == doctest::Approx(reach).epsilon(1e-12));
@@ -42,7 +43,7 @@ std::size_t check_paths(const FlightRecorder& recorder, const Simulation<2>& sim
     double time = -recorder.reach();
     std::optional<Vec2> place;
     for (const FlightPiece& piece : pieces) {
-      if (piece.disk != i) continue;
+      if (piece.particle != i) continue;
       REQUIRE(piece.from < piece.to);
       REQUIRE(std::fabs(piece.from - time) < 1e-12);
       if (place) REQUIRE(distance(*place, piece.position, snapshot) < 1e-10);
@@ -57,7 +58,7 @@ std::size_t check_paths(const FlightRecorder& recorder, const Simulation<2>& sim
 
 }  // namespace
 
-TEST_CASE("FlightRecorder: the pieces of a disk are its path, without gaps") {
+TEST_CASE("FlightRecorder: the pieces of a particle are its path, without gaps") {
   const auto simulation = simulation_of(falling_gas(), 5);
   FlightRecorder recorder(*simulation, 1.5);
   CHECK(recorder.pieces().empty());

@@ -40,17 +40,18 @@ TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere
   const FieldMap map = map_of(live);
   REQUIRE(map.cells == std::array<int, 2>{12, 8});
   REQUIRE(map.values.size() == 96);
-  // Cells of area 1: exactly N disks in all.
+  // Cells of area 1: exactly N particles in all.
   CHECK(std::accumulate(map.values.begin(), map.values.end(), 0.0) ==
         doctest::Approx(30.0).epsilon(1e-10));
-  // A disk stays in a cell for about 0.8, so its time there averages over 2000/0.8 * 0.31 visits:
-  // 4 % with independent visits, less since disks exclude each other. 96 cells, 5 standard errors.
+  // A particle stays in a cell for about 0.8, so its time there averages over 2000/0.8 * 0.31
+  // visits: 4 % with independent visits, less since particles exclude each other. 96 cells, 5
+  // standard errors.
   for (const double density : map.values) CHECK(std::fabs(density / (30.0 / 96.0) - 1.0) < 0.2);
 }
 
 TEST_CASE("LiveField: every field is that of its cells over the window") {
   Scene scene = rough_mixture(20);
-  scene.disks.roughness.friction = 0.4;
+  scene.particles.roughness.friction = 0.4;
   for (const Field field : all_fields()) {
     CAPTURE(static_cast<int>(field));
     const auto simulation = simulation_of(scene, 34);
@@ -111,9 +112,9 @@ TEST_CASE("LiveField: of snapshots it is what samples of its cells give, also un
 
 TEST_CASE("LiveField: every residual is that of its cells over the window") {
   Scene scene = rough_mixture(20);
-  scene.disks.roughness.friction = 0.4;
+  scene.particles.roughness.friction = 0.4;
   scene.gravity = Vec2(0.2, -0.5);
-  // 20 disks in 72 cells: some see none.
+  // 20 particles in 72 cells: some see none.
   for (const Field field : kResiduals) {
     CAPTURE(static_cast<int>(field));
     const auto simulation = simulation_of(scene, 35);
@@ -156,8 +157,8 @@ TEST_CASE("MovingSum: of the last eight parts and of what came since") {
   CHECK(window.sum() == 1511);
 }
 
-TEST_CASE("LiveField: cells that no disk visited are gaps") {
-  const auto simulation = lone_disk(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
+TEST_CASE("LiveField: cells that no particle visited are gaps") {
+  const auto simulation = lone_particle(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Field::VelocityX, 100.0));
   CHECK(std::isnan(map_of(live).values[12]));  // no time has passed
   simulation->run_until(3.0);                  // visits the columns 0 to 3 of row 2
@@ -173,9 +174,9 @@ TEST_CASE("LiveField: cells that no disk visited are gaps") {
 }
 
 TEST_CASE("LiveField: the window reaches back by its length and by one part more at most") {
-  // One disk at speed 1 in a row of 16 cells leaves its density in the columns of the last 4 time
-  // units; parts are 0.5 long.
-  const auto simulation = lone_disk(gas(16.0, 1.0, 1, 1.0), {0.0, 0.5}, {1.0, 0.0});
+  // One particle at speed 1 in a row of 16 cells leaves its density in the columns of the last 4
+  // time units; parts are 0.5 long.
+  const auto simulation = lone_particle(gas(16.0, 1.0, 1, 1.0), {0.0, 0.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Field::Density, 4.0));
   const auto check = [&](double now, double reaches_back) {
     simulation->run_until(now);
@@ -210,7 +211,7 @@ TEST_CASE("LiveField: watching and asking change nothing") {
   }
   watched->run_until(60.0);
   CHECK(watched->state_hash() == alone->state_hash());
-  CHECK(watched->counts().disk_disk == alone->counts().disk_disk);
+  CHECK(watched->counts().pair_collisions == alone->counts().pair_collisions);
 }
 
 TEST_CASE("LiveField: does not depend on how often it is asked") {
@@ -240,7 +241,7 @@ TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
 }
 
 TEST_CASE("LiveField: at most 512 cells along an axis, at least one") {
-  const auto simulation = lone_disk(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
+  const auto simulation = lone_particle(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Field::Density, 1.0));
   CHECK(map_of(live).cells == std::array<int, 2>{512, 1});
 }
@@ -322,8 +323,8 @@ TEST_CASE("LiveField: a residual and arrows are those that each alone is") {
   }
 }
 
-TEST_CASE("LiveField: where no disk came by there is no arrow") {
-  const auto simulation = lone_disk(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
+TEST_CASE("LiveField: where no particle came by there is no arrow") {
+  const auto simulation = lone_particle(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
   View view;
   view.arrows = Arrows::Velocity;
   LiveField live(*simulation, view);

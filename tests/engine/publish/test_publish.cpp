@@ -20,7 +20,7 @@ TEST_CASE("snapshot_of: the state itself, to the last bit") {
     CHECK(snapshot.positions == state.positions);
     CHECK(snapshot.velocities == state.velocities);
     CHECK(snapshot.temperature == simulation->kinetic_energy() / 20.0);
-    CHECK(snapshot.collisions == simulation->counts().disk_disk);
+    CHECK(snapshot.collisions == simulation->counts().pair_collisions);
     CHECK_FALSE(snapshot.field);
   }
 }
@@ -52,7 +52,7 @@ TEST_CASE("snapshot_of: moving walls are where they are at its time, the others 
 }
 
 TEST_CASE("snapshot_of: centres lie in the box, wherever their flights began") {
-  const auto simulation = lone_disk(gas(5.0, 4.0, 1, 1.0), {0.5, 3.5}, {-3.0, 7.0});
+  const auto simulation = lone_particle(gas(5.0, 4.0, 1, 1.0), {0.5, 3.5}, {-3.0, 7.0});
   simulation->run_until(1.25);  // at (-3.25, 12.25): one box back, three boxes up
   const Snapshot snapshot = snapshot_of(*simulation);
   CHECK(snapshot.positions[0] == Vec2(1.75, 0.25));

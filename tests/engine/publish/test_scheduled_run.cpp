@@ -24,7 +24,7 @@ TEST_CASE("ScheduledRun: laws that change to themselves leave the run as it is, 
   Scene scene = vibrated();
   ScheduledRun plain(scene, 11);
   for (double time : {1.0, 1.7, 8.25}) {
-    scene.changes.push_back({.time = time, .set = {{"disks.restitution", "0.9"}}});
+    scene.changes.push_back({.time = time, .set = {{"particles.restitution", "0.9"}}});
   }
   ScheduledRun changing(scene, 11);
   plain.run_until(12.0);
@@ -39,7 +39,7 @@ TEST_CASE("ScheduledRun: what is changed by hand is played back to the same bits
   for (int part = 1; part <= 40; ++part) {
     live.run_until(0.5 * part, Simulation<2>::kNoLimit, live.simulation().counts().steps() + 1000);
     if (part % 5 != 0) continue;
-    live.change({{"disks.restitution", std::to_string(1.0 - 0.01 * part)},
+    live.change({{"particles.restitution", std::to_string(1.0 - 0.01 * part)},
                  {"walls.left.drive_speed", std::to_string(0.1 * part)}});
   }
   live.change({{"gravity.acceleration", "[0.0, -0.5]"}});
@@ -52,7 +52,7 @@ TEST_CASE("ScheduledRun: what is changed by hand is played back to the same bits
   ScheduledRun played(parse_scene(scene_to_toml(scene), ""), 12);
   played.run_until(time);
   CHECK(played.simulation().state_hash() == live.simulation().state_hash());
-  CHECK(played.scene().disks.restitution == live.scene().disks.restitution);
+  CHECK(played.scene().particles.restitution == live.scene().particles.restitution);
 
   ScheduledRun other(vibrated(), 12);
   other.run_until(time);
@@ -61,12 +61,12 @@ TEST_CASE("ScheduledRun: what is changed by hand is played back to the same bits
 
 TEST_CASE("ScheduledRun: a run that goes on from a checkpoint has the changes up to then") {
   Scene scene = vibrated();
-  scene.changes = {{.time = 2.0, .set = {{"disks.restitution", "0.7"}}},
-                   {.time = 6.0, .set = {{"disks.restitution", "0.99"}}}};
+  scene.changes = {{.time = 2.0, .set = {{"particles.restitution", "0.7"}}},
+                   {.time = 6.0, .set = {{"particles.restitution", "0.99"}}}};
   ScheduledRun whole(scene, 13);
   whole.run_until(4.0);
   ScheduledRun rest(scene, 13, whole.simulation().save());
-  CHECK(rest.scene().disks.restitution == 0.7);
+  CHECK(rest.scene().particles.restitution == 0.7);
   whole.run_until(9.0);
   rest.run_until(9.0);
   CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
@@ -80,7 +80,7 @@ TEST_CASE("ScheduledRun: the live field goes on across changes") {
   for (int part = 1; part <= 50; ++part) {
     plain.run_until(0.1 * part);
     changing.run_until(0.1 * part);
-    changing.change({{"disks.restitution", "0.9"}});
+    changing.change({{"particles.restitution", "0.9"}});
   }
   const FieldMap a = *plain.snapshot().field, b = *changing.snapshot().field;
   REQUIRE(a.values.size() == b.values.size());
@@ -90,14 +90,15 @@ TEST_CASE("ScheduledRun: the live field goes on across changes") {
 }
 
 TEST_CASE(
-    "ScheduledRun: pictures show flights and angles where they are asked for, and disks turn on") {
+    "ScheduledRun: pictures show flights and angles where they are asked for, and particles turn "
+    "on") {
   const Scene scene = load_scene("rough_driven");
   ScheduledRun plain(scene, 16), shown(scene, 16);
   plain.run_until(1.0);
   shown.show(scene.view);
   shown.run_until(0.5);
   CHECK(plain.snapshot().angles.empty());
-  CHECK(shown.snapshot().angles.size() == shown.simulation().disks().size());
+  CHECK(shown.snapshot().angles.size() == shown.simulation().particles().size());
   CHECK(shown.snapshot().flights.empty());
   // Whatever is shown from now on: nothing of the former view may be told of events any more.
   View view = scene.view;
@@ -107,7 +108,7 @@ TEST_CASE(
     shown.run_until(0.5 + 0.025 * k);
   }
   CHECK(shown.snapshot().exposure == doctest::Approx(0.01));
-  CHECK(shown.snapshot().flights.size() >= shown.simulation().disks().size());
+  CHECK(shown.snapshot().flights.size() >= shown.simulation().particles().size());
   CHECK(shown.simulation().state_hash() == plain.simulation().state_hash());
   ScheduledRun steady(scene, 16);
   steady.show(scene.view);
@@ -143,7 +144,7 @@ TEST_CASE("ScheduledRun: arrows and balances go on across changes") {
     const auto at_ten = [&](const std::vector<double>& times) {
       Scene scene = vibrated();
       for (const double time : times) {
-        scene.changes.push_back({.time = time, .set = {{"disks.restitution", "0.9"}}});
+        scene.changes.push_back({.time = time, .set = {{"particles.restitution", "0.9"}}});
       }
       ScheduledRun run(scene, 15);
       run.show(view);
@@ -173,15 +174,15 @@ TEST_CASE("ScheduledRun: arrows and balances go on across changes") {
 TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
   ScheduledRun run(vibrated(), 15);
   run.run_until(3.0);
-  CHECK_THROWS_AS(run.change({{"disks.restitution", "1.5"}}), UserError);
-  CHECK_THROWS_AS(run.change({{"disks.count", "5"}}), UserError);
-  // A wall that stands far inside at once has disks in it.
+  CHECK_THROWS_AS(run.change({{"particles.restitution", "1.5"}}), UserError);
+  CHECK_THROWS_AS(run.change({{"particles.count", "5"}}), UserError);
+  // A wall that stands far inside at once has particles in it.
   CHECK_THROWS_AS(run.change({{"walls.left",
                                "{ kind = 'sawtooth', stroke = 6.0, frequency = 0.01,"
                                " phase = 0.9 }"}}),
                   PhysicalStop);
   CHECK(run.scene().changes.empty());
-  CHECK(run.scene().disks.restitution == 0.9);
+  CHECK(run.scene().particles.restitution == 0.9);
   CHECK(run.run_until(4.0));
 }
 
@@ -190,7 +191,7 @@ TEST_CASE("ScheduledRun: averages that go on from a checkpoint are to the bit th
     CAPTURE(field);
     Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
     scene.view.arrows = Arrows::Velocity;
-    scene.changes = {{.time = 4.0, .set = {{"disks.restitution", "0.8"}}}};
+    scene.changes = {{.time = 4.0, .set = {{"particles.restitution", "0.8"}}}};
     ScheduledRun whole(scene, 14);
     whole.show(scene.view);
     whole.run_until(3.1);  // within a part of a window
@@ -233,7 +234,7 @@ TEST_CASE("ScheduledRun: flights and angles go on from a checkpoint as those of 
     CHECK(found.angles == wanted.angles);
     REQUIRE(found.flights.size() == wanted.flights.size());
     for (std::size_t i = 0; i < found.flights.size(); ++i) {
-      CHECK(found.flights[i].disk == wanted.flights[i].disk);
+      CHECK(found.flights[i].particle == wanted.flights[i].particle);
       CHECK(found.flights[i].from == wanted.flights[i].from);
       CHECK(found.flights[i].position == wanted.flights[i].position);
     }

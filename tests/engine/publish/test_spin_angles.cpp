@@ -15,8 +15,8 @@ namespace {
 
 Scene rough_gas() {
   Scene scene = gas(9.0, 8.0, 30, 0.9);
-  scene.disks.roughness.friction = 0.5;
-  scene.disks.start.spin_temperature = 1.0;
+  scene.particles.roughness.friction = 0.5;
+  scene.particles.start.spin_temperature = 1.0;
   wall_in(scene, 0, {.kind = WallKind::Static});
   scene.walls[kLeft]->roughness.tangential_restitution = 0.5;
   scene.bulk_drive = BulkDrive{.interval = 0.7, .kick_speed = 0.5, .kick_spin = 0.4};
@@ -30,12 +30,12 @@ double between(double a, double b) {
 
 }  // namespace
 
-TEST_CASE("SpinAngles: a disk turns by its spin, summed over time") {
+TEST_CASE("SpinAngles: a particle turns by its spin, summed over time") {
   const auto simulation = simulation_of(rough_gas(), 3);
   SpinAngles angles(*simulation);
   std::vector<double> summed(30, 0.0);
-  // A step in which a spin changes is summed wrongly by the change times a step at most. A disk has
-  // some 80 of them here, of about 1 each.
+  // A step in which a spin changes is summed wrongly by the change times a step at most. A particle
+  // has some 80 of them here, of about 1 each.
   constexpr double kStep = 1.0 / 16384.0;
   for (int k = 1; k <= 16384 * 16; ++k) {
     for (std::size_t i = 0; i < summed.size(); ++i) summed[i] += simulation->spins()[i][0] * kStep;

@@ -8,8 +8,9 @@
 
 using namespace clatter;
 
-TEST_CASE("Latest: the reader has the newest value, and keeps it until there is a newer one") {
-  Latest<int> latest;
+TEST_CASE(
+    "TripleBuffer: the reader has the newest value, and keeps it until there is a newer one") {
+  TripleBuffer<int> latest;
   CHECK_FALSE(latest.update());
   for (int value : {1, 2, 3}) {
     latest.back() = value;
@@ -27,9 +28,9 @@ TEST_CASE("Latest: the reader has the newest value, and keeps it until there is 
   CHECK(latest.front() == 4);
 }
 
-TEST_CASE("Latest: across threads values come whole, in order, and the last one arrives") {
+TEST_CASE("TripleBuffer: across threads values come whole, in order, and the last one arrives") {
   constexpr std::uint64_t kLast = 200'000;
-  Latest<std::array<std::uint64_t, 8>> latest;
+  TripleBuffer<std::array<std::uint64_t, 8>> latest;
   std::thread writer([&] {
     for (std::uint64_t value = 1; value <= kLast; ++value) {
       latest.back().fill(value);

@@ -45,8 +45,8 @@ double process_cpu_seconds() {
 
 TEST_CASE("Worker: holds the speed that it is asked for") {
   Worker worker(60.0);
-  // A few disks, which any machine runs fast enough.
-  Scene scene = load_scene("vibrated", {{"disks.count", "20"}, {"view.speed", "2.0"}});
+  // A few particles, which any machine runs fast enough.
+  Scene scene = load_scene("vibrated", {{"particles.count", "20"}, {"view.speed", "2.0"}});
   worker.send(command::Open{scene});
   const double first = wait_for_handled(worker, 1).snapshot.time;
   const auto began = RealClock::now();
@@ -128,7 +128,7 @@ TEST_CASE("Worker: laws that are set hold from then on, and the scene it tells p
   worker.send(command::Open{scene_at_speed("vibrated", 10.0), 22});
   for (int i = 1; i <= 5; ++i) {
     std::this_thread::sleep_for(30ms);
-    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(0.9 - 0.1 * i)}}});
+    worker.send(command::SetLaws{{{"particles.restitution", std::to_string(0.9 - 0.1 * i)}}});
     worker.send(command::SetLaws{{{"walls.left.drive_speed", std::to_string(1.0 + i)}}});
   }
   worker.send(command::Play{false});
@@ -136,7 +136,7 @@ TEST_CASE("Worker: laws that are set hold from then on, and the scene it tells p
   const Frame frame =
       wait_for(worker, [](const Frame& frame) { return frame.handled == 13 && frame.state_hash; });
   CHECK(frame.message.empty());
-  CHECK(frame.scene->disks.restitution == doctest::Approx(0.4));
+  CHECK(frame.scene->particles.restitution == doctest::Approx(0.4));
   CHECK(frame.scene->changes.size() == 10);
 
   Scene scene = load_scene("vibrated");
@@ -150,10 +150,10 @@ TEST_CASE("Worker: of laws set faster than they can change only the last ones co
   Worker worker(60.0);
   worker.send(command::Open{load_scene("cooling"), 1, false});
   for (int i = 1; i <= 200; ++i) {
-    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(0.9 - 0.001 * i)}}});
+    worker.send(command::SetLaws{{{"particles.restitution", std::to_string(0.9 - 0.001 * i)}}});
   }
   const Frame& frame = wait_for_handled(worker, 201);
-  CHECK(frame.scene->disks.restitution == doctest::Approx(0.7));
+  CHECK(frame.scene->particles.restitution == doctest::Approx(0.7));
   CHECK(frame.scene->changes.size() < 200);
 }
 
@@ -169,10 +169,10 @@ TEST_CASE(
   });
   const std::vector<Estimate>& density = shown.profile->at(Field::Density);
   CHECK(density.size() == 20);
-  double disks = 0.0;
-  for (const Estimate& column : density) disks += column.mean * shown.snapshot.box.y();
-  CHECK(disks == doctest::Approx(200.0).epsilon(1e-9));
-  // A band in the middle: there are some hundred disks' errors between it and the walls.
+  double particles = 0.0;
+  for (const Estimate& column : density) particles += column.mean * shown.snapshot.box.y();
+  CHECK(particles == doctest::Approx(200.0).epsilon(1e-9));
+  // A band in the middle: there are some hundred particles' errors between it and the walls.
   CHECK(density[10].mean > density[0].mean + 5.0 * density[10].standard_error);
   worker.send(command::ShowProfile{Profiled::Nothing});
   worker.send(command::Play{false});
@@ -206,51 +206,52 @@ TEST_CASE("Worker: balance residuals along x come when asked for, and are of rou
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
 
-TEST_CASE("Worker: of a picked disk it tells the next collision, and the last once it has been") {
+TEST_CASE(
+    "Worker: of a picked particle it tells the next collision, and the last once it has been") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 26, false});
   worker.send(command::Pick{7});
   const Frame picked = wait_for_handled(worker, 2);
-  CHECK_FALSE(picked.last_encounter);
-  REQUIRE(picked.next_encounter);
-  const double time = picked.next_encounter->time;
+  CHECK_FALSE(picked.last_collision);
+  REQUIRE(picked.next_collision);
+  const double time = picked.next_collision->time;
   CHECK(time > 0.0);
   // Until just before it is still to come, then it has been.
   worker.send(command::Play{true, time * (1.0 - 1e-9)});
   const Frame before =
       wait_for(worker, [](const Frame& frame) { return frame.handled == 3 && frame.state_hash; });
-  CHECK_FALSE(before.last_encounter);
-  CHECK(before.next_encounter->time == doctest::Approx(time).epsilon(1e-12));
+  CHECK_FALSE(before.last_collision);
+  CHECK(before.next_collision->time == doctest::Approx(time).epsilon(1e-12));
   worker.send(command::Play{true, time * (1.0 + 1e-9)});
   const Frame after =
       wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && frame.state_hash; });
-  REQUIRE(after.last_encounter);
-  CHECK(after.last_encounter->time == doctest::Approx(time).epsilon(1e-12));
-  CHECK(after.last_encounter->partner == picked.next_encounter->partner);
-  CHECK(after.next_encounter->time > time);
+  REQUIRE(after.last_collision);
+  CHECK(after.last_collision->time == doctest::Approx(time).epsilon(1e-12));
+  CHECK(after.last_collision->partner == picked.next_collision->partner);
+  CHECK(after.next_collision->time > time);
 }
 
-TEST_CASE("Worker: while the gas plays, too, the next collision of a picked disk comes true") {
+TEST_CASE("Worker: while the gas plays, too, the next collision of a picked particle comes true") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 30});
   worker.send(command::Pick{11});
   for (std::uint64_t i = 1; i <= 5; ++i) {
     // It is under the laws in force.
-    worker.send(command::SetLaws{{{"disks.restitution", std::to_string(1.0 - 0.1 * i)}}});
+    worker.send(command::SetLaws{{{"particles.restitution", std::to_string(1.0 - 0.1 * i)}}});
     const Frame ahead = wait_for(worker, [&](const Frame& frame) {
-      return frame.handled == 2 + i && frame.next_encounter &&
-             frame.next_encounter->time > frame.snapshot.time;
+      return frame.handled == 2 + i && frame.next_collision &&
+             frame.next_collision->time > frame.snapshot.time;
     });
     CHECK(ahead.plays);
-    const Encounter expected = *ahead.next_encounter;
-    // The first frame after it; the disk may have met another since.
+    const ParticleCollision expected = *ahead.next_collision;
+    // The first frame after it; the particle may have met another since.
     const Frame after =
         wait_for(worker, [&](const Frame& frame) { return frame.snapshot.time >= expected.time; });
-    REQUIRE(after.last_encounter);
-    CHECK(after.last_encounter->time >= expected.time * (1.0 - 1e-12));
-    if (after.last_encounter->time > expected.time * (1.0 + 1e-12)) continue;
-    CHECK(after.last_encounter->partner == expected.partner);
-    CHECK(after.last_encounter->side == expected.side);
+    REQUIRE(after.last_collision);
+    CHECK(after.last_collision->time >= expected.time * (1.0 - 1e-12));
+    if (after.last_collision->time > expected.time * (1.0 + 1e-12)) continue;
+    CHECK(after.last_collision->partner == expected.partner);
+    CHECK(after.last_collision->side == expected.side);
   }
   // To look ahead leaves the run as it is.
   worker.send(command::Play{false});
@@ -262,22 +263,22 @@ TEST_CASE("Worker: while the gas plays, too, the next collision of a picked disk
   CHECK(alone.simulation().state_hash() == *halted.state_hash);
 }
 
-TEST_CASE("Worker: of a picked disk at rest there is no next collision") {
+TEST_CASE("Worker: of a picked particle at rest there is no next collision") {
   Worker worker(60.0);
-  worker.send(
-      command::Open{load_scene("equilibrium", {{"disks.start.temperature", "0.0"}}), 27, false});
+  worker.send(command::Open{load_scene("equilibrium", {{"particles.start.temperature", "0.0"}}), 27,
+                            false});
   worker.send(command::Pick{7});
-  CHECK_FALSE(wait_for_handled(worker, 2).next_encounter);
+  CHECK_FALSE(wait_for_handled(worker, 2).next_collision);
 }
 
 TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
-  worker.send(command::SetLaws{{{"disks.restitution", "7"}}});
+  worker.send(command::SetLaws{{{"particles.restitution", "7"}}});
   const Frame refused = wait_for_handled(worker, 2);
   CHECK(refused.messages == 1);
   CHECK(refused.message.find("between 0 and 1") != std::string::npos);
-  CHECK(refused.scene->disks.restitution == 0.9);
+  CHECK(refused.scene->particles.restitution == 0.9);
 
   worker.send(command::Open{load_scene("collapse", {{"collapse", "{}"}, {"view.speed", "1000"}})});
   const Frame stopped = wait_for(worker, [](const Frame& frame) { return frame.messages == 2; });
@@ -296,7 +297,7 @@ TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
 }
 
 TEST_CASE("Worker: where the run stops before the next collision, it tells of none") {
-  // A stroke that would put the bottom among the disks, before long.
+  // A stroke that would put the bottom among the particles, before long.
   Scene scene = load_scene("shaker");
   scene.changes = {{.time = 0.05, .set = {{"walls.bottom.stroke", "40"}}}};
   Worker worker(60.0);
@@ -327,7 +328,7 @@ TEST_CASE("Worker: what goes wrong once it halts is told, too") {
     worker.send(command::StepCollision{});
     time = wait_for(worker, hit).snapshot.time;
   }
-  scene.changes = {{.time = time, .set = {{"disks.restitution", "7"}}}};
+  scene.changes = {{.time = time, .set = {{"particles.restitution", "7"}}}};
   Worker worker(60.0);
   worker.send(command::Open{scene, 1, false});
   worker.send(command::StepCollision{});
@@ -338,12 +339,13 @@ TEST_CASE("Worker: what goes wrong once it halts is told, too") {
 
 TEST_CASE("Worker: a gas that is kept starts with the temperature that it has") {
   Worker worker(60.0);
-  worker.send(command::Open{load_scene("vibrated", {{"disks.start.temperature", "4"}}), 1, false});
+  worker.send(
+      command::Open{load_scene("vibrated", {{"particles.start.temperature", "4"}}), 1, false});
   worker.send(
       command::Open{load_scene("vibrated", {{"box.size", "[20.0, 30.0]"}}), 1, false, true});
   const Frame& frame = wait_for_handled(worker, 2);
   CHECK(frame.run == 2);
-  CHECK(frame.scene->disks.start.temperature == doctest::Approx(4.0).epsilon(1e-12));
+  CHECK(frame.scene->particles.start.temperature == doctest::Approx(4.0).epsilon(1e-12));
 }
 
 TEST_CASE("Worker: costs nothing while the gas halts") {

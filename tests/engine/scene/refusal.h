@@ -9,7 +9,7 @@
 namespace clatter::testing {
 
 /// The smallest scene.
-inline const std::string kDisks = "[disks]\ncount = 10\n";
+inline const std::string kParticles = "[particles]\ncount = 10\n";
 
 /// The message with which a scene is refused; empty where it is not.
 inline std::string refusal(const std::string& text, const std::vector<Override>& overrides = {}) {

@@ -67,17 +67,17 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.goal == b.goal);
   CHECK(a.try_this == b.try_this);
   CHECK(a.box == b.box);
-  CHECK(a.disks.count == b.disks.count);
-  CHECK(a.disks.restitution == b.disks.restitution);
-  check_equal(a.disks.roughness, b.disks.roughness);
-  CHECK(a.disks.inertia == b.disks.inertia);
-  CHECK(a.disks.start.layout == b.disks.start.layout);
-  CHECK(a.disks.start.file == b.disks.start.file);
-  CHECK(a.disks.start.state.positions == b.disks.start.state.positions);
-  CHECK(a.disks.start.state.velocities == b.disks.start.state.velocities);
-  CHECK(a.disks.start.state.spins == b.disks.start.state.spins);
-  CHECK(a.disks.start.temperature == b.disks.start.temperature);
-  CHECK(a.disks.start.spin_temperature == b.disks.start.spin_temperature);
+  CHECK(a.particles.count == b.particles.count);
+  CHECK(a.particles.restitution == b.particles.restitution);
+  check_equal(a.particles.roughness, b.particles.roughness);
+  CHECK(a.particles.inertia == b.particles.inertia);
+  CHECK(a.particles.start.layout == b.particles.start.layout);
+  CHECK(a.particles.start.file == b.particles.start.file);
+  CHECK(a.particles.start.state.positions == b.particles.start.state.positions);
+  CHECK(a.particles.start.state.velocities == b.particles.start.state.velocities);
+  CHECK(a.particles.start.state.spins == b.particles.start.state.spins);
+  CHECK(a.particles.start.temperature == b.particles.start.temperature);
+  CHECK(a.particles.start.spin_temperature == b.particles.start.spin_temperature);
   for (int side = 0; side < 4; ++side) check_equal(a.walls[side], b.walls[side]);
   CHECK(a.gravity == b.gravity);
   check_equal(a.bulk_drive, b.bulk_drive);
@@ -126,14 +126,14 @@ Scene unusual_scene() {
   scene.goal = "to see";
   scene.try_this = "to do";
   scene.box = {123456.7, 0.1 + 0.2 + 1.0};
-  scene.disks.count = 17;
-  scene.disks.restitution = 1.0 / 3.0;
-  scene.disks.roughness = {.friction = std::numeric_limits<double>::infinity(),
-                           .tangential_restitution = -0.1};
-  scene.disks.inertia = 0.4;
-  scene.disks.start.layout = Layout::Lattice;
-  scene.disks.start.temperature = 1e-300;
-  scene.disks.start.spin_temperature = 0.7;
+  scene.particles.count = 17;
+  scene.particles.restitution = 1.0 / 3.0;
+  scene.particles.roughness = {.friction = std::numeric_limits<double>::infinity(),
+                               .tangential_restitution = -0.1};
+  scene.particles.inertia = 0.4;
+  scene.particles.start.layout = Layout::Lattice;
+  scene.particles.start.temperature = 1e-300;
+  scene.particles.start.spin_temperature = 0.7;
   scene.walls[kLeft] = Wall{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 2.5};
   scene.walls[kRight] = Wall{.kind = WallKind::Thermal, .temperature = 12345678901234567890.0};
   scene.walls[kBottom] = Wall{.kind = WallKind::Sawtooth,
@@ -181,8 +181,8 @@ Scene unusual_scene() {
 
 TEST_CASE("a short scene has the defaults") {
   Scene expected;
-  expected.disks.count = 10;
-  check_equal(parse_scene(kDisks, "s.toml"), expected);
+  expected.particles.count = 10;
+  check_equal(parse_scene(kParticles, "s.toml"), expected);
 }
 
 TEST_CASE("every key arrives at its place") {
@@ -190,7 +190,7 @@ TEST_CASE("every key arrives at its place") {
     schema = 1
     title = "T"
     box.size = [12, 8.5]
-    [disks]
+    [particles]
     count = 3
     restitution = 0.9
     friction = inf
@@ -227,14 +227,14 @@ TEST_CASE("every key arrives at its place") {
                                   "s.toml");
   CHECK(scene.title == "T");
   CHECK(scene.box == Vec2(12.0, 8.5));
-  CHECK(scene.disks.start.layout == Layout::Lattice);
+  CHECK(scene.particles.start.layout == Layout::Lattice);
   CHECK(scene.walls[kLeft]->drive_speed == 1.0);
   CHECK(scene.walls[kRight]->temperature == 3.0);
   CHECK(!scene.periodic(0));
-  CHECK(scene.disks.roughness.friction == std::numeric_limits<double>::infinity());
-  CHECK(!scene.disks.roughness.tangential_restitution);
-  CHECK(scene.disks.inertia == 0.4);
-  CHECK(scene.disks.start.spin_temperature == 3.0);
+  CHECK(scene.particles.roughness.friction == std::numeric_limits<double>::infinity());
+  CHECK(!scene.particles.roughness.tangential_restitution);
+  CHECK(scene.particles.inertia == 0.4);
+  CHECK(scene.particles.start.spin_temperature == 3.0);
   CHECK(scene.walls[kBottom]->kind == WallKind::Sawtooth);
   CHECK(scene.walls[kBottom]->stroke == 0.5);
   CHECK(scene.walls[kBottom]->frequency == 4.0);
@@ -269,13 +269,13 @@ TEST_CASE("every key arrives at its place") {
 }
 
 TEST_CASE("area_fraction becomes the nearest count") {
-  const Scene scene = parse_scene("box.size = [10, 10]\ndisks.area_fraction = 0.3\n", "s.toml");
-  CHECK(scene.disks.count == 38);  // 0.3 * 400 / pi = 38.197
+  const Scene scene = parse_scene("box.size = [10, 10]\nparticles.area_fraction = 0.3\n", "s.toml");
+  CHECK(scene.particles.count == 38);  // 0.3 * 400 / pi = 38.197
 }
 
 TEST_CASE("a name of a field stands for its components, and each may stand alone") {
   const auto fields = [](const std::string& list) {
-    return parse_scene(kDisks + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
+    return parse_scene(kParticles + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;
   };
   CHECK(fields(R"(["stress"])") == std::vector{Field::StressXx, Field::StressYy, Field::StressXy});
@@ -286,7 +286,7 @@ TEST_CASE("a name of a field stands for its components, and each may stand alone
         std::vector{Field::Temperature, Field::TemperatureX, Field::TemperatureY});
   // Each is written as it can be read.
   for (const auto& [name, field] : kProfiles) {
-    Scene scene = parse_scene(kDisks + "friction = 0.5\n", "s.toml");
+    Scene scene = parse_scene(kParticles + "friction = 0.5\n", "s.toml");
     scene.measure.fields = fields("[\"" + std::string(name) + "\"]");
     CHECK(std::ranges::find(scene.measure.fields, field) != scene.measure.fields.end());
     CHECK(parse_scene(scene_to_toml(scene), "s.toml").measure.fields == scene.measure.fields);
@@ -296,7 +296,7 @@ TEST_CASE("a name of a field stands for its components, and each may stand alone
 TEST_CASE("a scene in which all differs from the defaults survives writing and reading") {
   check_equal(parse_scene(scene_to_toml(unusual_scene()), "s.toml"), unusual_scene());
   Scene plain;
-  plain.disks.count = 10;
+  plain.particles.count = 10;
   check_equal(parse_scene(scene_to_toml(plain), "s.toml"), plain);
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("a scene as JSON has the keys of the file") {
   Scene scene = parse_scene(R"(
     title = "a \"b\"\n\u0007"
     box.size = [2.5, 20]
-    disks.count = 3
+    particles.count = 3
     walls.bottom = { kind = "static" }
     walls.top = { kind = "thermal", temperature = 2 }
     measure.fields = ["velocity", "temperature"])",
@@ -313,7 +313,7 @@ TEST_CASE("a scene as JSON has the keys of the file") {
       scene_to_json(scene) ==
       R"({"schema": 1, "title": "a \"b\"\u000a\u0007", "caption": "", "goal": "", "try_this": "", )"
       R"("box": {"size": [2.5, 20.0]}, )"
-      R"("disks": {"count": 3, "restitution": 1.0, )"
+      R"("particles": {"count": 3, "restitution": 1.0, )"
       R"("start": {"layout": "random", "temperature": 1.0}}, )"
       R"("walls": {"bottom": {"kind": "static", "restitution": 1.0}, )"
       R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
@@ -327,7 +327,7 @@ TEST_CASE("a scene as JSON has the keys of the file") {
 
 TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
   const std::string json = scene_to_json(parse_scene(R"(
-    disks = { count = 3, friction = inf, start.spin_temperature = 2 }
+    particles = { count = 3, friction = inf, start.spin_temperature = 2 }
     walls.left = { kind = "sawtooth", stroke = 0.5, frequency = 3, friction = 0.5 }
     walls.right = { kind = "sinusoidal", stroke = 0.5, frequency = 3 }
     gravity.acceleration = [0, -1]
@@ -336,7 +336,7 @@ TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as 
                                                      "s.toml"));
   CAPTURE(json);
   for (const char* part :
-       {R"("disks": {"count": 3, "restitution": 1.0, "friction": "inf", "inertia": 0.5, )",
+       {R"("particles": {"count": 3, "restitution": 1.0, "friction": "inf", "inertia": 0.5, )",
         R"("temperature": 1.0, "spin_temperature": 2.0})",
         R"("left": {"kind": "sawtooth", "restitution": 1.0, "friction": 0.5, "stroke": 0.5, )",
         R"("right": {"kind": "sinusoidal", "restitution": 1.0, "stroke": 0.5, "frequency": 3.0, )"
@@ -351,18 +351,18 @@ TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as 
 
 TEST_CASE("overrides replace values, and their mistakes name the flag") {
   const std::string text =
-      "[disks]\narea_fraction = 0.3\n[walls.left]\nkind = \"driven\"\n"
+      "[particles]\narea_fraction = 0.3\n[walls.left]\nkind = \"driven\"\n"
       "drive_speed = 1\n[walls.right]\nkind = \"static\"\n[view]\nspeed = 2\n";
   const Scene scene = parse_scene(text, "s.toml",
-                                  {{"disks.count", "50"},
+                                  {{"particles.count", "50"},
                                    {"walls.left.drive_speed", "0"},
                                    {"walls.right", "{ kind = \"thermal\", temperature = 2 }"},
                                    {"view.range", "[0,3]"},
                                    {"view.palette", "inferno"},
                                    {"view.field", "\"density\""},
                                    {"title", "two words"},
-                                   {"disks.start.temperature", "4"}});
-  CHECK(scene.disks.count == 50);
+                                   {"particles.start.temperature", "4"}});
+  CHECK(scene.particles.count == 50);
   CHECK(scene.walls[kLeft]->drive_speed == 0.0);
   CHECK(scene.walls[kRight]->kind == WallKind::Thermal);
   CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
@@ -370,30 +370,33 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
   CHECK(scene.view.field == Field::Density);
   CHECK(scene.view.speed == 2.0);
   CHECK(scene.title == "two words");
-  CHECK(scene.disks.start.temperature == 4.0);
-  CHECK(parse_scene(kDisks, "s.toml", {{"disks.area_fraction", "0.0078"}}).disks.count == 5);
+  CHECK(scene.particles.start.temperature == 4.0);
+  CHECK(
+      parse_scene(kParticles, "s.toml", {{"particles.area_fraction", "0.0078"}}).particles.count ==
+      5);
 
   CHECK(refusal(text, {{"walls.left", "{ kind = \"static\" }"}}) == "");
 
-  CHECK(refusal(text, {{"disks.restitution", "2"}}) ==
-        "--set disks.restitution: 'disks.restitution' cannot be 2; give a number between 0 and 1");
-  CHECK(refusal(text, {{"disks.restitutoin", "1"}}) ==
-        "--set disks.restitutoin: unknown key 'restitutoin'; did you mean 'restitution'?");
-  CHECK(has(refusal(text, {{"disks.count", "many"}}),
-            "--set disks.count: 'disks.count' cannot be \"many\"; give a whole number"));
-  CHECK(has(refusal(text, {{"disks.count", "10000"}}),
-            "--set disks.count: 10000 disks do not fit into the box; it holds at most "));
+  CHECK(refusal(text, {{"particles.restitution", "2"}}) ==
+        "--set particles.restitution: 'particles.restitution' cannot be 2; give a number between 0 "
+        "and 1");
+  CHECK(refusal(text, {{"particles.restitutoin", "1"}}) ==
+        "--set particles.restitutoin: unknown key 'restitutoin'; did you mean 'restitution'?");
+  CHECK(has(refusal(text, {{"particles.count", "many"}}),
+            "--set particles.count: 'particles.count' cannot be \"many\"; give a whole number"));
+  CHECK(has(refusal(text, {{"particles.count", "10000"}}),
+            "--set particles.count: 10000 particles do not fit into the box; it holds at most "));
   CHECK(has(refusal(text, {{"walls.top.kind", "static"}}),
             "--set walls.top.kind: [walls.top] has no wall opposite"));
-  CHECK(has(refusal(text, {{"disks..count", "1"}}),
-            "--set disks..count: \"disks..count\" cannot be a key"));
+  CHECK(has(refusal(text, {{"particles..count", "1"}}),
+            "--set particles..count: \"particles..count\" cannot be a key"));
   CHECK(has(refusal(text, {{"#", "1"}}), "--set #: \"#\" cannot be a key"));
   CHECK(has(refusal(text, {{"", "1"}}), "cannot be a key"));
 }
 
 TEST_CASE("scene files are found, or it is said why not") {
   CHECK(load_scene("vibrated").title == "Vibrated box");
-  CHECK(load_scene("vibrated.toml", {{"disks.count", "7"}}).disks.count == 7);
+  CHECK(load_scene("vibrated.toml", {{"particles.count", "7"}}).particles.count == 7);
   CHECK(load_refusal("vibratd") ==
         "vibratd: there is no such scene; did you mean the gallery scene 'vibrated'?");
   CHECK(has(load_refusal("scenes/vibrated.toml"),
@@ -402,10 +405,10 @@ TEST_CASE("scene files are found, or it is said why not") {
   const std::string folder = std::filesystem::temp_directory_path().string();
   CHECK(has(load_refusal(folder), folder + ": this is a directory"));
   {
-    const TemporaryFile file("\xef\xbb\xbf[disks]\r\ncount = 3\r\n");
-    CHECK(load_scene(file.path).disks.count == 3);
+    const TemporaryFile file("\xef\xbb\xbf[particles]\r\ncount = 3\r\n");
+    CHECK(load_scene(file.path).particles.count == 3);
   }
-  const TemporaryFile large(kDisks + std::string(1'000'000, '#'));
+  const TemporaryFile large(kParticles + std::string(1'000'000, '#'));
   CHECK(has(load_refusal(large.path), large.path + ": the file is larger than 1 MB"));
 }
 
@@ -418,7 +421,7 @@ TEST_CASE("the gallery's scenes are sound and presented") {
     CHECK(!scene.caption.empty());
     CHECK(!scene.goal.empty());
     CHECK(!scene.try_this.empty());
-    CHECK(scene.disks.count > 0);
+    CHECK(scene.particles.count > 0);
     CHECK(!scene.measure.fields.empty());
     check_equal(parse_scene(scene_to_toml(scene), "s.toml"), scene);
   }

@@ -18,213 +18,233 @@ TEST_CASE("mistakes are told with their place and what to do") {
   const std::vector<Case> cases = {
       // syntax
       {"title = \"a\"\nbox = = 3\n", "s.toml:2:7: "},
-      {"title = \"\xff\"\n" + kDisks, "s.toml:1:9: Encountered invalid utf-8 sequence"},
+      {"title = \"\xff\"\n" + kParticles, "s.toml:1:9: Encountered invalid utf-8 sequence"},
       // unknown keys
-      {kDisks + "restitutoin = 1\n",
+      {kParticles + "restitutoin = 1\n",
        "s.toml:3:1: unknown key 'restitutoin'; did you mean 'restitution'?"},
-      {kDisks + "\n[walls.lefft]\nkind = \"static\"\n",
+      {kParticles + "\n[walls.lefft]\nkind = \"static\"\n",
        "s.toml:4:1: unknown key 'lefft'; did you mean 'left'?"},
-      {kDisks + "[veiw]\n", "s.toml:3:1: unknown key 'veiw'; did you mean 'view'?"},
-      {kDisks + "temperature = 1\n",
-       "s.toml:3:1: unknown key 'temperature'; did you mean 'disks.start.temperature'?"},
-      {kDisks + "mass = 0.3\n",
+      {"[disks]\ncount = 1\n",
+       "s.toml:1:1: unknown key 'disks'; it is called 'particles' now: write particles in place of "
+       "disks"},
+      {kParticles + "[veiw]\n", "s.toml:3:1: unknown key 'veiw'; did you mean 'view'?"},
+      {kParticles + "temperature = 1\n",
+       "s.toml:3:1: unknown key 'temperature'; did you mean 'particles.start.temperature'?"},
+      {kParticles + "mass = 0.3\n",
        "s.toml:3:1: unknown key 'mass'; the keys here are count, area_fraction, restitution, "
        "friction, tangential_restitution, inertia, start"},
-      {kDisks + "[gravty]\n", "s.toml:3:1: unknown key 'gravty'; did you mean 'gravity'?"},
-      {kDisks + "[bulk_drive]\nkick_sped = 1\n",
+      {kParticles + "[gravty]\n", "s.toml:3:1: unknown key 'gravty'; did you mean 'gravity'?"},
+      {kParticles + "[bulk_drive]\nkick_sped = 1\n",
        "s.toml:4:1: unknown key 'kick_sped'; did you mean 'kick_speed'?"},
-      {"\"a.b\\u001b\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'a.b\\u001b'; the keys here are"},
-      {"\"disks.count\" = 1\n" + kDisks, "s.toml:1:1: unknown key 'disks.count'; "},
+      {"\"a.b\\u001b\" = 1\n" + kParticles,
+       "s.toml:1:1: unknown key 'a.b\\u001b'; the keys here are"},
+      {"\"particles.count\" = 1\n" + kParticles, "s.toml:1:1: unknown key 'particles.count'; "},
       // wrong types
-      {"title = 3\n" + kDisks, "s.toml:1:1: 'title' cannot be 3; give a text between quotes"},
-      {"[disks]\n  count = 10.5\n",
-       "s.toml:2:3: 'disks.count' cannot be 10.5; give a whole number between 0 and 2147483647"},
-      {"box = 3\n" + kDisks, "s.toml:1:1: 'box' cannot be 3; give a table"},
-      {"disks = [1]\n", "s.toml:1:1: 'disks' cannot be [1]; give a table"},
-      {kDisks + "restitution = \"high\"\n",
-       "s.toml:3:1: 'disks.restitution' cannot be \"high\"; give a number between 0 and 1"},
-      {kDisks + "[view]\ncamera = [{ time = 1 }, { time = 1 }]\n",
+      {"title = 3\n" + kParticles, "s.toml:1:1: 'title' cannot be 3; give a text between quotes"},
+      {"[particles]\n  count = 10.5\n",
+       "s.toml:2:3: 'particles.count' cannot be 10.5; give a whole number between 0 and "
+       "2147483647"},
+      {"box = 3\n" + kParticles, "s.toml:1:1: 'box' cannot be 3; give a table"},
+      {"particles = [1]\n", "s.toml:1:1: 'particles' cannot be [1]; give a table"},
+      {kParticles + "restitution = \"high\"\n",
+       "s.toml:3:1: 'particles.restitution' cannot be \"high\"; give a number between 0 and 1"},
+      {kParticles + "[view]\ncamera = [{ time = 1 }, { time = 1 }]\n",
        "s.toml:4:1: the camera's time 1 comes after 1; give each time once, in order"},
-      {kDisks + "[view]\ncamera = [{ follow = 10 }]\n",
-       "s.toml:4:1: there is no disk 10 to follow; disks are numbered from 0 to 9"},
-      {kDisks + "[[view.camera]]\nfollow = 1\ncentre = [1, 2]\n",
+      {kParticles + "[view]\ncamera = [{ follow = 10 }]\n",
+       "s.toml:4:1: there is no particle 10 to follow; particles are numbered from 0 to 9"},
+      {kParticles + "[[view.camera]]\nfollow = 1\ncentre = [1, 2]\n",
        "s.toml:5:1: 'view.camera.centre' has no meaning beside follow; remove one of the two"},
-      {kDisks + "[view]\ncamera = [{ widht = 3 }]\n",
+      {kParticles + "[view]\ncamera = [{ widht = 3 }]\n",
        "s.toml:4:13: unknown key 'widht'; did you mean 'width'?"},
-      {kDisks + "[view]\noverlay = 1\n",
+      {kParticles + "[view]\noverlay = 1\n",
        "s.toml:4:1: 'view.overlay' cannot be 1; give true or false"},
-      {kDisks + "[measure]\nfields = \"density\"\n",
+      {kParticles + "[measure]\nfields = \"density\"\n",
        "s.toml:4:1: 'measure.fields' cannot be \"density\"; give a list of names"},
       // values out of range
-      {"schema = 2\n" + kDisks, "s.toml:1:1: 'schema' cannot be 2; give 1"},
-      {kDisks + "restitution = 1.5\n",
-       "s.toml:3:1: 'disks.restitution' cannot be 1.5; give a number between 0 and 1"},
-      {kDisks + "restitution = nan\n", "s.toml:3:1: 'disks.restitution' cannot be nan; give"},
-      {kDisks + "[view]\nspeed = inf\n",
+      {"schema = 2\n" + kParticles, "s.toml:1:1: 'schema' cannot be 2; give 1"},
+      {kParticles + "restitution = 1.5\n",
+       "s.toml:3:1: 'particles.restitution' cannot be 1.5; give a number between 0 and 1"},
+      {kParticles + "restitution = nan\n",
+       "s.toml:3:1: 'particles.restitution' cannot be nan; give"},
+      {kParticles + "[view]\nspeed = inf\n",
        "s.toml:4:1: 'view.speed' cannot be inf; give a number greater than 0"},
-      {kDisks + "[disks.start]\ntemperature = -1\n",
-       "s.toml:4:1: 'disks.start.temperature' cannot be -1; give a number between 0 and"},
-      {"[disks]\ncount = -1\n", "s.toml:2:1: 'disks.count' cannot be -1; give a whole number"},
-      {"[box]\nsize = [1, 5]\n" + kDisks,
+      {kParticles + "[particles.start]\ntemperature = -1\n",
+       "s.toml:4:1: 'particles.start.temperature' cannot be -1; give a number between 0 and"},
+      {"[particles]\ncount = -1\n",
+       "s.toml:2:1: 'particles.count' cannot be -1; give a whole number"},
+      {"[box]\nsize = [1, 5]\n" + kParticles,
        "s.toml:2:1: 'box.size' cannot be [1, 5]; give two numbers greater than 1 and at most "
        "1e+06"},
-      {"[box]\nsize = [20, 20, 20]\n" + kDisks,
+      {"[box]\nsize = [20, 20, 20]\n" + kParticles,
        "s.toml:2:1: 'box.size' cannot be [20, 20, 20]; give two numbers greater than 1 and at most "
        "1e+06, along x and y: a third asks for spheres, which are not available yet"},
-      {kDisks + "[measure]\ncells = [0, 3]\n",
+      {kParticles + "[measure]\ncells = [0, 3]\n",
        "s.toml:4:1: 'measure.cells' cannot be [0, 3]; give two whole numbers between 1 and "
        "2000"},
-      {kDisks + "[measure]\ncells = [2.0, 3]\n", "s.toml:4:1: 'measure.cells' cannot be"},
-      {kDisks + "[view]\nrange = [3, 3]\n",
+      {kParticles + "[measure]\ncells = [2.0, 3]\n", "s.toml:4:1: 'measure.cells' cannot be"},
+      {kParticles + "[view]\nrange = [3, 3]\n",
        "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\", \"locked\" or two numbers "
        "[low, high] with low < high"},
-      {kDisks + "[view]\nbackground = \"#12345\"\n",
+      {kParticles + "[view]\nbackground = \"#12345\"\n",
        "s.toml:4:1: 'view.background' cannot be \"#12345\"; give a colour as \"#rrggbb\", for "
        "instance \"#ffffff\""},
-      {kDisks + "[view]\nbackground = \"#12345x\"\n", "s.toml:4:1: 'view.background' cannot be"},
-      {kDisks + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
-      {kDisks + "[view]\npalette = \"virdis\"\n",
+      {kParticles + "[view]\nbackground = \"#12345x\"\n",
+       "s.toml:4:1: 'view.background' cannot be"},
+      {kParticles + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
+      {kParticles + "[view]\npalette = \"virdis\"\n",
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\", "
        "\"cividis\"; did you mean \"viridis\"?"},
-      {kDisks + "[measure]\nfields = [\"density\", \"pressure\"]\n",
+      {kParticles + "[measure]\nfields = [\"density\", \"pressure\"]\n",
        "s.toml:4:1: 'measure.fields' cannot be \"pressure\"; give one of \"density\", "
        "\"velocity\""},
-      {kDisks + "[measure]\nfields = [\"density\", \"spin\"]\n",
+      {kParticles + "[measure]\nfields = [\"density\", \"spin\"]\n",
        "s.toml:4:1: a field of spins has no meaning where nothing spins; choose another, or make"},
-      {kDisks + "[view]\nfield = \"spin_temperature\"\n",
+      {kParticles + "[view]\nfield = \"spin_temperature\"\n",
        "s.toml:4:1: a field of spins has no meaning where nothing spins"},
-      {kDisks + "[measure]\ninterval = 1.0\n",
+      {kParticles + "[measure]\ninterval = 1.0\n",
        "s.toml:4:1: 'measure.interval' has no meaning for the exact estimator, which counts "
        "flights "
        "as a whole; remove it, or set estimator = \"snapshot\""},
-      {kDisks + "[measure]\nestimator = \"snapshot\"\n",
+      {kParticles + "[measure]\nestimator = \"snapshot\"\n",
        "s.toml:3:1: 'measure.interval' is missing"},
-      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 0\n",
+      {kParticles + "[measure]\nestimator = \"snapshot\"\ninterval = 0\n",
        "s.toml:5:1: 'measure.interval' cannot be 0"},
-      {kDisks + "[measure]\nwidth = 1.0\n",
+      {kParticles + "[measure]\nwidth = 1.0\n",
        "s.toml:4:1: 'measure.width' has no meaning for the box kernel"},
-      {kDisks + "[measure]\nkernel = \"gaussian\"\nwidth = 2.0\n",
-       "s.toml:4:1: a Gaussian spreads disks where they are now and then, not flights; set "
+      {kParticles + "[measure]\nkernel = \"gaussian\"\nwidth = 2.0\n",
+       "s.toml:4:1: a Gaussian spreads particles where they are now and then, not flights; set "
        "measure.estimator = \"snapshot\""},
-      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n",
+      {kParticles + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n",
        "s.toml:3:1: 'measure.width' is missing"},
-      {kDisks + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n"
-                "width = 0.25\n",
+      {kParticles + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n"
+                    "width = 0.25\n",
        "s.toml:7:1: the Gaussian falls between the centres of cells of 1"},
-      {kDisks + "[measure]\nprofile_axis = \"z\"\n",
+      {kParticles + "[measure]\nprofile_axis = \"z\"\n",
        "s.toml:4:1: 'measure.profile_axis' cannot be \"z\"; give one of \"x\", \"y\""},
       // walls
-      {kDisks + "[walls.left]\nkind = \"static\"\n",
+      {kParticles + "[walls.left]\nkind = \"static\"\n",
        "s.toml:3:1: [walls.left] has no wall opposite; add [walls.right], or remove this one"},
-      {kDisks + "[walls.top]\nrestitution = 1\n",
+      {kParticles + "[walls.top]\nrestitution = 1\n",
        "s.toml:3:1: 'walls.top.kind' is missing; give it a value"},
-      {kDisks + "[walls.top]\nkind = \"driven\"\n",
+      {kParticles + "[walls.top]\nkind = \"driven\"\n",
        "s.toml:3:1: 'walls.top.drive_speed' is missing"},
-      {kDisks + "[walls.top]\nkind = \"thermal\"\n",
+      {kParticles + "[walls.top]\nkind = \"thermal\"\n",
        "s.toml:3:1: 'walls.top.temperature' is missing"},
-      {kDisks + "[walls.top]\nkind = \"static\"\ndrive_speed = 1\n",
+      {kParticles + "[walls.top]\nkind = \"static\"\ndrive_speed = 1\n",
        "s.toml:5:1: 'walls.top.drive_speed' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\nrestitution = 1\n",
+      {kParticles + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\nrestitution = 1\n",
        "s.toml:6:1: 'walls.top.restitution' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"static\"\nrestitution = 10.1\n",
+      {kParticles + "[walls.top]\nkind = \"static\"\nrestitution = 10.1\n",
        "s.toml:5:1: 'walls.top.restitution' cannot be 10.1; give a number between 0 and 10"},
-      {kDisks + "[walls.top]\nkind = \"sawtoth\"\n",
+      {kParticles + "[walls.top]\nkind = \"sawtoth\"\n",
        "s.toml:4:1: 'walls.top.kind' cannot be \"sawtoth\"; give one of \"static\", \"driven\", "
        "\"thermal\", \"sawtooth\", \"sinusoidal\"; did you mean \"sawtooth\"?"},
-      {kDisks + "[walls.top]\nkind = \"sawtooth\"\nfrequency = 1\n",
+      {kParticles + "[walls.top]\nkind = \"sawtooth\"\nfrequency = 1\n",
        "s.toml:3:1: 'walls.top.stroke' is missing"},
-      {kDisks + "[walls.top]\nkind = \"sinusoidal\"\nstroke = 1\n",
+      {kParticles + "[walls.top]\nkind = \"sinusoidal\"\nstroke = 1\n",
        "s.toml:3:1: 'walls.top.frequency' is missing"},
-      {kDisks + "[walls.top]\nkind = \"sawtooth\"\nstroke = -1\nfrequency = 1\n",
+      {kParticles + "[walls.top]\nkind = \"sawtooth\"\nstroke = -1\nfrequency = 1\n",
        "s.toml:5:1: 'walls.top.stroke' cannot be -1; give a number between 0 and"},
-      {kDisks + "[walls.top]\nkind = \"static\"\nstroke = 1\n",
+      {kParticles + "[walls.top]\nkind = \"static\"\nstroke = 1\n",
        "s.toml:5:1: 'walls.top.stroke' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"driven\"\ndrive_speed = 1\nfrequency = 1\n",
+      {kParticles + "[walls.top]\nkind = \"driven\"\ndrive_speed = 1\nfrequency = 1\n",
        "s.toml:6:1: 'walls.top.frequency' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"static\"\nphase = 1\n",
+      {kParticles + "[walls.top]\nkind = \"static\"\nphase = 1\n",
        "s.toml:5:1: 'walls.top.phase' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\nfriction = 1\n",
+      {kParticles + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\nfriction = 1\n",
        "s.toml:6:1: 'walls.top.friction' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"thermal\"\ntemperature = 1\ntangential_restitution = 1\n",
+      {kParticles +
+           "[walls.top]\nkind = \"thermal\"\ntemperature = 1\ntangential_restitution = 1\n",
        "s.toml:6:1: 'walls.top.tangential_restitution' has no meaning for this kind of wall"},
-      {kDisks + "[walls.top]\nkind = \"sawtooth\"\nstroke = 0.1\nfrequency = 1\ndrive_speed = 1\n",
+      {kParticles +
+           "[walls.top]\nkind = \"sawtooth\"\nstroke = 0.1\nfrequency = 1\ndrive_speed = 1\n",
        "s.toml:7:1: 'walls.top.drive_speed' has no meaning for this kind of wall"},
-      {kDisks + "[walls.left]\nkind = \"static\"\n[walls.right]\nkind = \"sawtooth\"\n"
-                "stroke = 10\nfrequency = 1e15\n",
+      {kParticles + "[walls.left]\nkind = \"static\"\n[walls.right]\nkind = \"sawtooth\"\n"
+                    "stroke = 10\nfrequency = 1e15\n",
        "s.toml:8:1: the wall would move at a speed of 1e+16; lower its stroke or its frequency"},
-      {kDisks + "[walls.left]\nkind = \"sinusoidal\"\nstroke = 1\nfrequency = 4e14\n"
-                "[walls.right]\nkind = \"static\"\n",
+      {kParticles + "[walls.left]\nkind = \"sinusoidal\"\nstroke = 1\nfrequency = 4e14\n"
+                    "[walls.right]\nkind = \"static\"\n",
        "s.toml:6:1: the wall would move at a speed of 1256637061435917.2; lower its"},
-      {kDisks + "[walls.left]\nkind = \"sinusoidal\"\nstroke = 18\nfrequency = 1\n"
-                "[walls.right]\nkind = \"sawtooth\"\nstroke = 10\nfrequency = 1\n",
+      {kParticles + "[walls.left]\nkind = \"sinusoidal\"\nstroke = 18\nfrequency = 1\n"
+                    "[walls.right]\nkind = \"sawtooth\"\nstroke = 10\nfrequency = 1\n",
        "s.toml:9:1: where the walls move farthest in, 1 diameters are left between them; choose a "
        "smaller stroke or a larger box"},
-      {kDisks + "[walls.left]\nkind = \"sawtooth\"\nstroke = 19.5\nfrequency = 1\n"
-                "[walls.right]\nkind = \"static\"\n",
+      {kParticles + "[walls.left]\nkind = \"sawtooth\"\nstroke = 19.5\nfrequency = 1\n"
+                    "[walls.right]\nkind = \"static\"\n",
        "s.toml:5:1: where the walls move farthest in, 0.5 diameters are left between them"},
-      // rough disks
-      {kDisks + "friction = -1\n",
-       "s.toml:3:1: 'disks.friction' cannot be -1; give a number of at least 0, or inf"},
-      {kDisks + "friction = nan\n", "s.toml:3:1: 'disks.friction' cannot be nan; give"},
-      {kDisks + "tangential_restitution = -1.1\n",
-       "s.toml:3:1: 'disks.tangential_restitution' cannot be -1.1; give a number between -1 and 1"},
-      {kDisks + "tangential_restitution = inf\n",
-       "s.toml:3:1: 'disks.tangential_restitution' cannot be inf; give a number between -1 and 1"},
-      {kDisks + "friction = 1\ninertia = 0\n", "s.toml:4:1: 'disks.inertia' cannot be 0; give"},
-      {kDisks + "friction = 1\ninertia = 1.1\n", "s.toml:4:1: 'disks.inertia' cannot be 1.1; give"},
+      // rough particles
+      {kParticles + "friction = -1\n",
+       "s.toml:3:1: 'particles.friction' cannot be -1; give a number of at least 0, or inf"},
+      {kParticles + "friction = nan\n", "s.toml:3:1: 'particles.friction' cannot be nan; give"},
+      {kParticles + "tangential_restitution = -1.1\n",
+       "s.toml:3:1: 'particles.tangential_restitution' cannot be -1.1; give a number between -1 "
+       "and 1"},
+      {kParticles + "tangential_restitution = inf\n",
+       "s.toml:3:1: 'particles.tangential_restitution' cannot be inf; give a number between -1 and "
+       "1"},
+      {kParticles + "friction = 1\ninertia = 0\n",
+       "s.toml:4:1: 'particles.inertia' cannot be 0; give"},
+      {kParticles + "friction = 1\ninertia = 1.1\n",
+       "s.toml:4:1: 'particles.inertia' cannot be 1.1; give"},
       // spins without rough partners
-      {kDisks + "inertia = 0.5\n",
-       "s.toml:3:1: 'disks.inertia' has no meaning where nothing spins; remove it, or make the "
-       "disks or a wall rough: give friction above 0, or tangential_restitution above -1"},
-      {kDisks + "friction = 0\ninertia = 0.5\n",
-       "s.toml:4:1: 'disks.inertia' has no meaning where nothing spins"},
-      {kDisks + "[disks.start]\nspin_temperature = 1\n",
-       "s.toml:4:1: 'disks.start.spin_temperature' has no meaning where nothing spins; remove it"},
-      {kDisks + "[bulk_drive]\ninterval = 1\nkick_speed = 1\nkick_spin = 1\n",
+      {kParticles + "inertia = 0.5\n",
+       "s.toml:3:1: 'particles.inertia' has no meaning where nothing spins; remove it, or make the "
+       "particles or a wall rough: give friction above 0, or tangential_restitution above -1"},
+      {kParticles + "friction = 0\ninertia = 0.5\n",
+       "s.toml:4:1: 'particles.inertia' has no meaning where nothing spins"},
+      {kParticles + "[particles.start]\nspin_temperature = 1\n",
+       "s.toml:4:1: 'particles.start.spin_temperature' has no meaning where nothing spins; remove "
+       "it"},
+      {kParticles + "[bulk_drive]\ninterval = 1\nkick_speed = 1\nkick_spin = 1\n",
        "s.toml:6:1: 'bulk_drive.kick_spin' has no meaning where nothing spins; remove it"},
-      {kDisks + "[view]\ncolour_by = \"spin\"\n",
+      {kParticles + "[view]\ncolour_by = \"spin\"\n",
        "s.toml:4:1: the colour \"spin\" has no meaning where nothing spins; choose another"},
       // forces
-      {kDisks + "[gravity]\n", "s.toml:3:1: 'gravity.acceleration' is missing"},
-      {kDisks + "[gravity]\nacceleration = -1\n",
+      {kParticles + "[gravity]\n", "s.toml:3:1: 'gravity.acceleration' is missing"},
+      {kParticles + "[gravity]\nacceleration = -1\n",
        "s.toml:4:1: 'gravity.acceleration' cannot be -1; give two numbers between"},
-      {kDisks + "[gravity]\nacceleration = [0, -inf]\n",
+      {kParticles + "[gravity]\nacceleration = [0, -inf]\n",
        "s.toml:4:1: 'gravity.acceleration' cannot be [0, -inf]; give two numbers between"},
-      {kDisks + "[bulk_drive]\nkick_speed = 1\n", "s.toml:3:1: 'bulk_drive.interval' is missing"},
-      {kDisks + "[bulk_drive]\ninterval = 1\n", "s.toml:3:1: 'bulk_drive.kick_speed' is missing"},
-      {kDisks + "[bulk_drive]\ninterval = 0\nkick_speed = 1\n",
+      {kParticles + "[bulk_drive]\nkick_speed = 1\n",
+       "s.toml:3:1: 'bulk_drive.interval' is missing"},
+      {kParticles + "[bulk_drive]\ninterval = 1\n",
+       "s.toml:3:1: 'bulk_drive.kick_speed' is missing"},
+      {kParticles + "[bulk_drive]\ninterval = 0\nkick_speed = 1\n",
        "s.toml:4:1: 'bulk_drive.interval' cannot be 0; give a number greater than 0"},
-      {kDisks + "[bulk_drive]\ninterval = 1\nkick_speed = -1\n",
+      {kParticles + "[bulk_drive]\ninterval = 1\nkick_speed = -1\n",
        "s.toml:5:1: 'bulk_drive.kick_speed' cannot be -1; give"},
-      {kDisks + "[collapse]\ncontact_time = 0\n",
+      {kParticles + "[collapse]\ncontact_time = 0\n",
        "s.toml:4:1: 'collapse.contact_time' cannot be 0; give a number greater than 0"},
       // start
-      {kDisks + "[disks.start]\nfile = \"a.csv\"\n",
-       "s.toml:4:1: 'disks.start.file' has no meaning without layout = \"file\"; remove it, or "
+      {kParticles + "[particles.start]\nfile = \"a.csv\"\n",
+       "s.toml:4:1: 'particles.start.file' has no meaning without layout = \"file\"; remove it, or "
        "set"},
-      {kDisks + "[disks.start]\nlayout = \"file\"\n", "s.toml:3:1: 'disks.start.file' is missing"},
-      {kDisks + "[disks.start]\nlayout = \"file\"\nfile = \"a.csv\"\ntemperature = 1\n",
-       "s.toml:6:1: 'disks.start.temperature' has no meaning beside layout = \"file\""},
-      {kDisks + "friction = 1\n[disks.start]\nlayout = \"file\"\nfile = \"a.csv\"\n"
-                "spin_temperature = 1\n",
-       "s.toml:7:1: 'disks.start.spin_temperature' has no meaning beside layout = \"file\""},
-      {kDisks + "[disks.start]\nlayout = \"file\"\nfile = \"nowhere/a.csv\"\n",
+      {kParticles + "[particles.start]\nlayout = \"file\"\n",
+       "s.toml:3:1: 'particles.start.file' is missing"},
+      {kParticles + "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\ntemperature = 1\n",
+       "s.toml:6:1: 'particles.start.temperature' has no meaning beside layout = \"file\""},
+      {kParticles + "friction = 1\n[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n"
+                    "spin_temperature = 1\n",
+       "s.toml:7:1: 'particles.start.spin_temperature' has no meaning beside layout = \"file\""},
+      {kParticles + "[particles.start]\nlayout = \"file\"\nfile = \"nowhere/a.csv\"\n",
        "s.toml:5:1: there is no file 'nowhere/a.csv'; name a CSV file, relative to"},
-      // the number of disks
-      {"", "s.toml: the number of disks is missing; give exactly one of"},
-      {"title = \"a\"\n[disks]\n", "s.toml:2:1: the number of disks is missing"},
-      {kDisks + "area_fraction = 0.3\n",
-       "s.toml:3:1: both 'disks.count' and 'disks.area_fraction' are given; give exactly one of"},
-      {"[box]\nsize = [2.5, 3.5]\n[disks]\ncount = 9\n",
-       "s.toml:4:1: 9 disks do not fit into the box; it holds at most 8"},
-      {"[box]\nsize = [2.5, 3.5]\n[disks]\ncount = 8\n[walls.left]\nkind = \"sawtooth\"\n"
+      // the number of particles
+      {"", "s.toml: the number of particles is missing; give exactly one of"},
+      {"title = \"a\"\n[particles]\n", "s.toml:2:1: the number of particles is missing"},
+      {kParticles + "area_fraction = 0.3\n",
+       "s.toml:3:1: both 'particles.count' and 'particles.area_fraction' are given; give exactly "
+       "one of"},
+      {"[box]\nsize = [2.5, 3.5]\n[particles]\ncount = 9\n",
+       "s.toml:4:1: 9 particles do not fit into the box; it holds at most 8"},
+      {"[box]\nsize = [2.5, 3.5]\n[particles]\ncount = 8\n[walls.left]\nkind = \"sawtooth\"\n"
        "stroke = 1\nfrequency = 1\n[walls.right]\nkind = \"static\"\n",
-       "s.toml:4:1: 8 disks do not fit into the box where its walls move farthest in; it holds at "
+       "s.toml:4:1: 8 particles do not fit into the box where its walls move farthest in; it holds "
+       "at "
        "most 4"},
-      {"[disks]\narea_fraction = 0.95\n",
-       "s.toml:2:1: 605 disks do not fit into the box; it holds at most "},
-      {"[disks]\ncount = 2000000000\n",
-       "s.toml:2:1: 2000000000 disks do not fit into the box; it holds at most "},
+      {"[particles]\narea_fraction = 0.95\n",
+       "s.toml:2:1: 605 particles do not fit into the box; it holds at most "},
+      {"[particles]\ncount = 2000000000\n",
+       "s.toml:2:1: 2000000000 particles do not fit into the box; it holds at most "},
   };
   for (const Case& mistake : cases) {
     CAPTURE(mistake.text);
@@ -237,8 +257,9 @@ TEST_CASE("mistakes are told with their place and what to do") {
 
 TEST_CASE("huge boxes overflow nothing and huge counts allocate nothing") {
   const std::string box = "box.size = [1e6, 1e6]\n";
-  CHECK(parse_scene(box + "disks.count = 2000000000\n", "s.toml").disks.count == 2'000'000'000);
-  CHECK(has(refusal("box.size = [1e300, 1e300]\ndisks.area_fraction = 0.3\n"),
+  CHECK(parse_scene(box + "particles.count = 2000000000\n", "s.toml").particles.count ==
+        2'000'000'000);
+  CHECK(has(refusal("box.size = [1e300, 1e300]\nparticles.area_fraction = 0.3\n"),
             "give two numbers greater than 1 and at most 1e+06"));
 }
 
@@ -258,5 +279,5 @@ TEST_CASE("hostile nesting is refused, quickly and without a crash") {
   CHECK(has(refusal(hidden + dotted + "a = 1}"), "s.toml:1: a key has more than 16 dots"));
   const std::string dots = ". . . . . . . . . . . . . . . . . . . .";
   CHECK(refusal("title = \"\\\"" + dots + "\" # " + dots + "\ncaption = '''\n" + dots + "'''\n" +
-                kDisks) == "");
+                kParticles) == "");
 }

@@ -11,7 +11,7 @@ using namespace clatter;
 namespace {
 
 const std::string kBox =
-    "[disks]\ncount = 10\nrestitution = 0.9\n[walls.left]\nkind = 'driven'\ndrive_speed = 1\n"
+    "[particles]\ncount = 10\nrestitution = 0.9\n[walls.left]\nkind = 'driven'\ndrive_speed = 1\n"
     "[walls.right]\nkind = 'static'\n";
 
 Scene scene_with(const std::string& changes) {
@@ -32,17 +32,18 @@ std::string refusal(const std::string& changes) {
 TEST_CASE("Changes come into force in the order of their times, all keys of one at once") {
   const Scene scene = scene_with(
       "[[change]]\ntime = 7\nset = { 'walls.left' = { kind = 'thermal', temperature = 2.0 } }\n"
-      "[[change]]\ntime = 3\nset = { 'disks.restitution' = 0.5, collapse.contact_time = 1e-3 }\n"
-      "[[change]]\ntime = 3\n[change.set]\ndisks.restitution = 0.6\n");
+      "[[change]]\ntime = 3\nset = { 'particles.restitution' = 0.5, collapse.contact_time = 1e-3 "
+      "}\n"
+      "[[change]]\ntime = 3\n[change.set]\nparticles.restitution = 0.6\n");
   Schedule schedule(scene);
   CHECK(schedule.next() == 3.0);
-  CHECK(schedule.scene().disks.restitution == 0.9);
+  CHECK(schedule.scene().particles.restitution == 0.9);
   schedule.advance();
-  CHECK(schedule.scene().disks.restitution == 0.5);
+  CHECK(schedule.scene().particles.restitution == 0.5);
   CHECK(schedule.scene().contact_time == 1e-3);
   CHECK(schedule.next() == 3.0);
   schedule.advance();
-  CHECK(schedule.scene().disks.restitution == 0.6);
+  CHECK(schedule.scene().particles.restitution == 0.6);
   CHECK(schedule.scene().walls[kLeft]->kind == WallKind::Driven);
   schedule.skip_to(7.0);
   CHECK(schedule.scene().walls[kLeft]->kind == WallKind::Thermal);
@@ -53,30 +54,31 @@ TEST_CASE("Changes come into force in the order of their times, all keys of one 
 
 TEST_CASE("A ramp goes from the value in force to its own in equal steps, and arrives") {
   Schedule schedule(
-      scene_with("[[change]]\ntime = 10\nset = { 'disks.restitution' = 0.3 }\n"
+      scene_with("[[change]]\ntime = 10\nset = { 'particles.restitution' = 0.3 }\n"
                  "ramp = 'linear'\nuntil = 74\n"));
   for (int step = 1; step <= Schedule::kRampSteps; ++step) {
     REQUIRE(schedule.next() == 10.0 + step);
     schedule.advance();
-    CHECK(schedule.scene().disks.restitution ==
+    CHECK(schedule.scene().particles.restitution ==
           doctest::Approx(0.9 - 0.6 * step / Schedule::kRampSteps).epsilon(1e-13));
   }
-  CHECK(schedule.scene().disks.restitution == 0.3);
+  CHECK(schedule.scene().particles.restitution == 0.3);
   CHECK(schedule.next() == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("A change that is added while the run goes on comes before those to come") {
-  Schedule schedule(scene_with("[[change]]\ntime = 5\nset = { 'disks.restitution' = 0.5 }\n"));
+  Schedule schedule(scene_with("[[change]]\ntime = 5\nset = { 'particles.restitution' = 0.5 }\n"));
   schedule.add({.time = 2.0, .set = {{"walls.left.drive_speed", "3.0"}}});
   CHECK(schedule.next() == 2.0);
   schedule.advance();
   CHECK(schedule.scene().walls[kLeft]->drive_speed == 3.0);
-  CHECK(schedule.scene().disks.restitution == 0.9);
+  CHECK(schedule.scene().particles.restitution == 0.9);
 }
 
 TEST_CASE("Changes are written as a scene file that reads back") {
   const Scene scene = scene_with(
-      "[[change]]\ntime = 1.5\nset = { 'disks.restitution' = 0.5, walls.left = {kind = 'static'} "
+      "[[change]]\ntime = 1.5\nset = { 'particles.restitution' = 0.5, walls.left = {kind = "
+      "'static'} "
       "}\n"
       "[[change]]\ntime = 2\nset = { 'walls.left.restitution' = 0.25 }\nramp = 'linear'\n"
       "until = 60\n");
@@ -96,16 +98,17 @@ TEST_CASE("What no change can be is told with its place") {
       {"[[change]]\nset = {}\n", {"s.toml:9:1", "'change.time' is missing"}},
       {head, {"s.toml:9:1", "'change.set' is missing"}},
       {head + "set = 3\n", {"s.toml:11:1", "table of keys"}},
-      {head + "set = { 'disks.count' = 20 }\n", {"s.toml:9:1", "disks.count", "cannot change"}},
-      {head + "set = { 'disks.restitution' = 2 }\n", {"s.toml:9:1", "between 0 and 1"}},
-      {head + "set = { 'disks.restitutoin' = 1 }\n", {"s.toml:9:1", "cannot change"}},
+      {head + "set = { 'particles.count' = 20 }\n",
+       {"s.toml:9:1", "particles.count", "cannot change"}},
+      {head + "set = { 'particles.restitution' = 2 }\n", {"s.toml:9:1", "between 0 and 1"}},
+      {head + "set = { 'particles.restitutoin' = 1 }\n", {"s.toml:9:1", "cannot change"}},
       {head + "set = { 'walls.left.drive_sped' = 1 }\n", {"s.toml:9:1", "'drive_speed'"}},
       {head + "set = { 'walls.top' = { kind = 'static' } }\n", {"s.toml:9:1", "[walls.top]"}},
       {head + "sett = {}\n", {"s.toml:11:8", "unknown key 'sett'"}},
       {head + "set = {}\nuntil = 4\n", {"s.toml:12:1", "without a ramp"}},
       {head + "set = {}\nramp = 'linear'\nuntil = 0.5\n", {"s.toml:13:1", "greater than 1"}},
-      {head + "set = { 'disks.friction' = 0.5 }\nramp = 'linear'\nuntil = 4\n",
-       {"s.toml:9:1", "'disks.friction' has no number to start from"}},
+      {head + "set = { 'particles.friction' = 0.5 }\nramp = 'linear'\nuntil = 4\n",
+       {"s.toml:9:1", "'particles.friction' has no number to start from"}},
       {"change = 3\n", {"cannot be 3", "[[change]]"}},
   };
   for (const auto& [text, parts] : wrong) {

@@ -23,7 +23,7 @@ Scene smooth_scene() {
 
 Scene rough_scene() {
   Scene scene = smooth_scene();
-  scene.disks.roughness.friction = 0.5;
+  scene.particles.roughness.friction = 0.5;
   return scene;
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("spins are read where the scene has them, and are zero where the file 
   CHECK(still.spins[0][0] == 0.0);
 }
 
-TEST_CASE("a state of no disks is one") {
+TEST_CASE("a state of no particles is one") {
   CHECK(parse_state(kHeader, "a.csv", smooth_scene()).positions.empty());
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
       {"x,y,x,vx,vy\n", "a.csv:1:5: a second column \"x\"; remove one of them"},
       {"x,y,vx,vy,omega\n",
        "a.csv:1:11: the column \"omega\" has no meaning where nothing spins; remove the column, or "
-       "make the disks"},
+       "make the particles"},
       // numbers
       {kHeader + "1,2,3\n", "a.csv:2:1: this line has 3 cells, the header has 4; give every"},
       {kHeader + "1,2,3,4,5\n", "a.csv:2:1: this line has 5 cells, the header has 4"},
@@ -158,21 +158,24 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
        "a.csv:3:1: x = 10.5 lies outside the box; give a number between 0 and 10"},
       {kHeader + "1,-1e-9,3,4\n", "a.csv:2:3: y = -1e-09 lies outside the box"},
       {kHeader + "9.6,2,3,4\n",
-       "a.csv:2:1: at x = 9.6 the disk overlaps the right wall; give a number between 2 and 9.5",
+       "a.csv:2:1: at x = 9.6 the particle overlaps the right wall; give a number between 2 and "
+       "9.5",
        walled_scene()},
       {kHeader + "1.9,2,3,4\n",
-       "a.csv:2:1: at x = 1.9 the disk overlaps the left wall, as that is at time 0; give a "
+       "a.csv:2:1: at x = 1.9 the particle overlaps the left wall, as that is at time 0; give a "
        "number between 2 and 9.5, or the wall the phase that it had",
        walled_scene()},
       // overlaps
       {kHeader + "1,2,3,4\n\n5,5,0,0\n1.5,2,3,4\n",
-       "a.csv:5:1: the disks of lines 2 and 5 overlap by 0.5 diameters; move them apart"},
+       "a.csv:5:1: the particles of lines 2 and 5 overlap by 0.5 diameters; move them apart"},
       {kHeader + "9.75,2,3,4\n0.25,2,3,4\n",
-       "a.csv:3:1: the disks of lines 2 and 3 overlap by 0.5"},
-      {kHeader + "5,7.9,3,4\n5,0.1,3,4\n", "a.csv:3:1: the disks of lines 2 and 3 overlap by 0.8"},
-      {kHeader + "5,2,0,0\n5,2,0,0\n", "a.csv:3:1: the disks of lines 2 and 3 overlap by 1 diam"},
+       "a.csv:3:1: the particles of lines 2 and 3 overlap by 0.5"},
+      {kHeader + "5,7.9,3,4\n5,0.1,3,4\n",
+       "a.csv:3:1: the particles of lines 2 and 3 overlap by 0.8"},
+      {kHeader + "5,2,0,0\n5,2,0,0\n",
+       "a.csv:3:1: the particles of lines 2 and 3 overlap by 1 diam"},
       {kHeader + "5,2,0,0\n6,1.99999,0,0\n5,2.99999999999,0,0\n",
-       "a.csv:4:1: the disks of lines 2 and 4 overlap by 1e-11 diameters"},
+       "a.csv:4:1: the particles of lines 2 and 4 overlap by 1e-11 diameters"},
   };
   for (const Case& mistake : cases) {
     CAPTURE(mistake.csv);
@@ -183,7 +186,7 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
   }
 }
 
-TEST_CASE("disks that touch each other or a wall, up to rounding, are sound") {
+TEST_CASE("particles that touch each other or a wall, up to rounding, are sound") {
   CHECK(refusal(kHeader + "5,2,0,0\n5,2.9999999999995,0,0\n6,2,0,0\n") == "");
   CHECK(refusal(kHeader + "1.9999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
   CHECK(refusal(kHeader + "9.75,2,3,4\n0.5,7,3,4\n0.75,2,0,0\n") == "");
@@ -191,7 +194,7 @@ TEST_CASE("disks that touch each other or a wall, up to rounding, are sound") {
   CHECK(refusal(kHeader + "9.5,2,3,4\n2.5,7,3,4\n2.5,0.5,3,4\n9.5,3,0,0\n", walled_scene()) == "");
 }
 
-TEST_CASE("disks may lie wherever the walls are not at time 0, out of the box too") {
+TEST_CASE("particles may lie wherever the walls are not at time 0, out of the box too") {
   CHECK(refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // where the wall will come
   Scene scene = walled_scene();
   scene.walls[kRight] =
@@ -207,7 +210,7 @@ TEST_CASE("no overlap hides, in boxes of any shape") {
     Scene scene;
     scene.box = box;
     for (int k = 0; k < 64; ++k) {
-      // One disk at a corner of the box or inside, the other a little less than a diameter off.
+      // One particle at a corner of the box or inside, the other a little less than a diameter off.
       const double angle = 0.1 * k;
       const Vec2 a = 0.25 * (k % 4) * box;
       Vec2 b = a + 0.999 * Vec2(std::cos(angle), std::sin(angle));
@@ -216,12 +219,12 @@ TEST_CASE("no overlap hides, in boxes of any shape") {
       state.positions = {a, b};
       state.velocities.resize(2, Vec2::Zero());
       CAPTURE(k);
-      CHECK(has(refusal(state_to_csv(state), scene), "the disks of lines 2 and 3 overlap"));
+      CHECK(has(refusal(state_to_csv(state), scene), "the particles of lines 2 and 3 overlap"));
     }
   }
 }
 
-TEST_CASE("a million disks are read in seconds") {
+TEST_CASE("a million particles are read in seconds") {
   Scene scene;
   scene.box = {1100.0, 1100.0};
   State<2> state;
@@ -239,45 +242,46 @@ TEST_CASE("a million disks are read in seconds") {
 
 TEST_CASE("a scene names its state relative to its own folder") {
   const Folder folder;
-  const std::string start = "[disks.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
+  const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   const std::string scene_path = folder.write("s.toml", start);
   const std::string csv_path = folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");
   const Scene scene = load_scene(scene_path);
-  CHECK(scene.disks.count == 2);
-  CHECK(scene.disks.start.file == csv_path);
-  CHECK(scene.disks.start.state.positions[1] == Vec2(5.0, 6.0));
+  CHECK(scene.particles.count == 2);
+  CHECK(scene.particles.start.file == csv_path);
+  CHECK(scene.particles.start.state.positions[1] == Vec2(5.0, 6.0));
 
   // What is written is found from where one is, and reads back.
   const Scene again = parse_scene(scene_to_toml(scene), "s.toml");
-  CHECK(again.disks.start.file == csv_path);
-  CHECK(again.disks.start.state.velocities == scene.disks.start.state.velocities);
+  CHECK(again.particles.start.file == csv_path);
+  CHECK(again.particles.start.state.velocities == scene.particles.start.state.velocities);
   CHECK(has(scene_to_json(scene), "\"layout\": \"file\", \"file\": "));
 
   // What is typed is relative to where one is.
-  CHECK(load_scene("vibrated", {{"disks.start", "{layout = \"file\", file = \"" + csv_path + "\"}"},
-                                {"disks.count", "2"}})
-            .disks.start.file == csv_path);
-  CHECK(has(load_refusal(scene_path, {{"disks.start.file", "a.csv"}}),
-            "--set disks.start.file: there is no file 'a.csv'; "));
+  CHECK(load_scene("vibrated",
+                   {{"particles.start", "{layout = \"file\", file = \"" + csv_path + "\"}"},
+                    {"particles.count", "2"}})
+            .particles.start.file == csv_path);
+  CHECK(has(load_refusal(scene_path, {{"particles.start.file", "a.csv"}}),
+            "--set particles.start.file: there is no file 'a.csv'; "));
 }
 
-TEST_CASE("a count beside a state is that of its disks") {
+TEST_CASE("a count beside a state is that of its particles") {
   const Folder folder;
-  const std::string start = "[disks.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
+  const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");
-  CHECK(load_scene(folder.write("s.toml", "[disks]\ncount = 2\n" + start)).disks.count == 2);
-  CHECK(
-      load_scene(folder.write("s.toml", "[disks]\narea_fraction = 0.003\n" + start)).disks.count ==
-      2);
-  const std::string path = folder.write("s.toml", "[disks]\ncount = 3\n" + start);
-  CHECK(has(load_refusal(path), path + ":2:1: this asks for 3 disks, and "));
+  CHECK(load_scene(folder.write("s.toml", "[particles]\ncount = 2\n" + start)).particles.count ==
+        2);
+  CHECK(load_scene(folder.write("s.toml", "[particles]\narea_fraction = 0.003\n" + start))
+            .particles.count == 2);
+  const std::string path = folder.write("s.toml", "[particles]\ncount = 3\n" + start);
+  CHECK(has(load_refusal(path), path + ":2:1: this asks for 3 particles, and "));
   CHECK(has(load_refusal(path), "a.csv has 2; remove the key, or choose the file that you mean"));
 }
 
 TEST_CASE("a state that is not there gets a suggestion, and one that is wrong its own place") {
   const Folder folder;
   const std::string path =
-      folder.write("s.toml", "[disks.start]\nlayout = \"file\"\nfile = \"pol.csv\"\n");
+      folder.write("s.toml", "[particles.start]\nlayout = \"file\"\nfile = \"pol.csv\"\n");
   const std::string csv_path = folder.write("pool.csv", kHeader + "1,2,3,x\n");
   CHECK(has(load_refusal(path), path + ":3:1: there is no file '"));
   CHECK(has(load_refusal(path), "pol.csv'; did you mean 'pool.csv'?"));

@@ -22,7 +22,7 @@ static IntVec<2> divide(const Model<2>& model, int count) {
       best = {nx, ny};
     }
   }
-  REQUIRE_MESSAGE(widest >= model.diameter, "no room for that many disks");
+  REQUIRE_MESSAGE(widest >= model.diameter, "no room for that many particles");
   return best;
 }
 

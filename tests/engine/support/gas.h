@@ -9,18 +9,18 @@
 
 namespace clatter::testing {
 
-/// Disks at random places within equal plots of the box, with Gaussian velocities of temperature 1;
-/// without walls the momentum is zero.
+/// Particles at random places within equal plots of the box, with Gaussian velocities of
+/// temperature 1; without walls the momentum is zero.
 State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed);
 
 /// The same clear of wherever moving walls come, with spins where the model carries them.
 State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed);
 
-/// Deepest overlap of any two disks, through any image, and of any disk with a wall, in diameters:
-/// every pair and every image is looked at.
+/// Deepest overlap of any two particles, through any image, and of any particle with a wall, in
+/// diameters: every pair and every image is looked at.
 double brute_force_overlap(const Model<2>& model, const State<2>& state);
 
-/// Total momentum of the disks.
+/// Total momentum of the particles.
 Vec2 momentum(const State<2>& state);
 
 /// Whether every number of the state is finite and every centre lies in the box.
@@ -29,9 +29,9 @@ bool finite_and_inside(const Model<2>& model, const State<2>& state);
 /// Runs to a time and gives the message of what stopped it before; empty: nothing did.
 std::string stop_of(Simulation<2>& simulation, double time);
 
-/// What a run must never show: a clock that steps back, disks that overlap where they collide. When
-/// the base moves, times are rounded anew, so that the order of events that coincide may change:
-/// the clock may step back by as much, no more.
+/// What a run must never show: a clock that steps back, particles that overlap where they collide.
+/// When the base moves, times are rounded anew, so that the order of events that coincide may
+/// change: the clock may step back by as much, no more.
 void check_sound(const Simulation<2>& simulation);
 
 }  // namespace clatter::testing

@@ -34,10 +34,10 @@ Model<2> with_walls(Model<2> model, int axis, const Wall& wall);
 /// A box of 9 x 8 with the same walls at the ends of x, and of y.
 Model<2> four(const Wall& sides, const Wall& ends);
 
-/// The same model, whose disks lose energy.
+/// The same model, whose particles lose energy.
 Model<2> inelastic(Model<2> model, double restitution);
 
-/// The same model, whose disks are rough and spin.
+/// The same model, whose particles are rough and spin.
 Model<2> rough(Model<2> model, double friction, double tangential_restitution);
 
 /// The same model under gravity.
@@ -49,7 +49,7 @@ Model<2> kicked(Model<2> model, double interval, double speed);
 /// The same model with a t_c.
 Model<2> with_contact_time(Model<2> model, double contact_time);
 
-/// All there is: four kinds of walls, rough disks, gravity, kicks, t_c.
+/// All there is: four kinds of walls, rough particles, gravity, kicks, t_c.
 Model<2> everything();
 
 }  // namespace clatter::testing

@@ -24,7 +24,7 @@ Reference::Reference(const Model<2>& model, const State<2>& state)
 }
 
 void Reference::run_until_collisions(std::uint64_t collisions) {
-  while (disk_disk_ + disk_wall_ < collisions && step()) continue;
+  while (particle_particle_ + particle_wall_ < collisions && step()) continue;
 }
 
 // Looks farther and farther ahead until something happens; 10^9 times the first look is never.
@@ -109,7 +109,7 @@ bool Reference::within_contact_time(std::uint32_t i) const {
 }
 
 void Reference::collide(const Next& next) {
-  const std::uint32_t i = next.event.disk, j = next.event.partner;
+  const std::uint32_t i = next.event.particle, j = next.event.partner;
   const Flight<2>&a = flights_[i], &b = flights_[j];
   const Vec2 r_a = a.at(now_, model_.gravity), r_b = b.at(now_, model_.gravity);
   const Vec2 v_a = a.velocity_at(now_, model_.gravity), v_b = b.velocity_at(now_, model_.gravity);
@@ -122,11 +122,11 @@ void Reference::collide(const Next& next) {
   renew(i, r_a, v_a + gain.momentum, spin(i) + gain.spin);
   renew(j, r_b, v_b - gain.momentum, spin(j) + gain.spin);
   last_collisions_[i] = last_collisions_[j] = now_;
-  ++disk_disk_;
+  ++particle_particle_;
 }
 
 void Reference::hit_wall(const Event& event) {
-  const std::uint32_t i = event.disk;
+  const std::uint32_t i = event.particle;
   const int side = static_cast<int>(event.partner - kWall);
   Vec2 r = flights_[i].at(now_, model_.gravity);
   if (!model_.walls[side]->moves()) r[side / 2] = boundary_.touching_place(side, now_);
@@ -136,7 +136,7 @@ void Reference::hit_wall(const Event& event) {
       within_contact_time(i));
   renew(i, r, departure.velocity, departure.spin);
   last_collisions_[i] = now_;
-  ++disk_wall_;
+  ++particle_wall_;
 }
 
 double Reference::next_kick() const {

@@ -19,18 +19,19 @@ class Reference {
  public:
   Reference(const Model<2>& model, const State<2>& state);
 
-  /// Runs until that many collisions with disks and walls have happened, or no event is left.
+  /// Runs until that many collisions with particles and walls have happened, or no event is left.
   void run_until_collisions(std::uint64_t collisions);
 
-  std::uint64_t collisions() const { return disk_disk_; }
-  std::uint64_t wall_hits() const { return disk_wall_; }
+  std::uint64_t collisions() const { return particle_particle_; }
+  std::uint64_t wall_hits() const { return particle_wall_; }
   std::uint64_t kicks() const { return kicks_; }
   State<2> state() const;
 
  private:
   struct Next {
     Event event{kNeverAgain, 0, 0};
-    IntVec<2> image = IntVec<2>::Zero();  // added to disk's r minus partner's, event.disk lower
+    IntVec<2> image =
+        IntVec<2>::Zero();  // added to particle's r minus partner's, event.particle lower
   };
   static constexpr double kNeverAgain = 1e300;
 
@@ -55,7 +56,7 @@ class Reference {
   std::vector<Spin<2>> spins_;
   std::vector<double> last_collisions_;
   double now_ = 0.0;
-  std::uint64_t disk_disk_ = 0, disk_wall_ = 0, kicks_ = 0;
+  std::uint64_t particle_particle_ = 0, particle_wall_ = 0, kicks_ = 0;
   std::uint64_t until_base_moves_;
 };
 

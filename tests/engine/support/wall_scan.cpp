@@ -15,8 +15,8 @@ static double displacement(const WallMotion& motion, double phase) {
                                            : 0.5 * motion.stroke * std::sin(kTwoPi * phase);
 }
 
-// The times after the start between which the disk is lower than a plane, in order: the parabola
-// gives at most two intervals.
+// The times after the start between which the particle is lower than a plane, in order: the
+// parabola gives at most two intervals.
 struct Stays {
   double from[2], to[2];
   int count = 0;
@@ -89,8 +89,8 @@ static double least_gap(const WallCase& c, double begin, double from, double to)
   return least;
 }
 
-// The least gap from the start until `until`, in units of the lengths' rounding. A disk that stays
-// where the wall goes is scanned for three periods: it is met in the first.
+// The least gap from the start until `until`, in units of the lengths' rounding. A particle that
+// stays where the wall goes is scanned for three periods: it is met in the first.
 static double least_gap_until(const WallCase& c, double until) {
   const double f = c.motion.frequency, phase = fraction(c.motion.phase + f * c.start);
   const Stays stays = stays_below(c, innermost_travel(c.motion));

@@ -12,7 +12,7 @@ namespace clatter::testing {
 
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// A disk before a wall: the arguments of moving_wall_contact.
+/// A particle before a wall: the arguments of moving_wall_contact.
 struct WallCase {
   WallMotion motion;
   double start = 0.0;
@@ -24,7 +24,7 @@ struct WallCase {
   double contact() const {
     return moving_wall_contact(motion, start, distance, speed, acceleration);
   }
-  /// Where the disk is a time t after the start, and how fast.
+  /// Where the particle is a time t after the start, and how fast.
   double height(double t) const { return distance + speed * t + 0.5 * acceleration * t * t; }
   double velocity(double t) const { return speed + acceleration * t; }
   /// The most that the wall has of either.
@@ -37,7 +37,7 @@ struct WallCase {
                ? 0.0
                : 2.0 * std::numbers::pi * motion.frequency * peak_speed();
   }
-  /// By how much the disk starts behind the wall: what rounding left of the flight before.
+  /// By how much the particle starts behind the wall: what rounding left of the flight before.
   double overlap() const {
     return std::max(0.0, wall_state(motion, start).displacement - distance);
   }
@@ -60,8 +60,8 @@ struct Verdict {
   int contacts = 0, at_once = 0, never = 0, early = 0, missed = 0;
   double residual = 0.0, overlap = 0.0, recession = 0.0;
 
-  /// Judges the contact time of a case: the disk touches there, and nowhere before, as a scan of
-  /// the gap over the wall's periods tells.
+  /// Judges the contact time of a case: the particle touches there, and nowhere before, as a scan
+  /// of the gap over the wall's periods tells.
   void add(const WallCase& c, double time);
   /// Checks that no error is more than ten roundings.
   void check() const;
@@ -73,10 +73,10 @@ double sign(Random& random);
 /// 10^x with x uniform.
 double log_uniform(Random& random, double from, double to);
 
-/// A disk before a wall, over wide ranges of what the wall's stroke and frequency leave free.
+/// A particle before a wall, over wide ranges of what the wall's stroke and frequency leave free.
 WallCase random_case(WallPath path, Random& random);
 
-/// Makes it the disk after the wall has hit it, section 3.
+/// Makes it the particle after the wall has hit it, section 3.
 void reflect_at(WallCase& c, double time, double restitution);
 
 }  // namespace clatter::testing

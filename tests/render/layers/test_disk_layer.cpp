@@ -99,7 +99,7 @@ TEST_CASE("Points and squares give the same picture") {
   }
 }
 
-TEST_CASE("Disks whose angles are known have a mark that turns with them") {
+TEST_CASE("Particles whose angles are known have a mark that turns with them") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({100.0, 60.0}, 40.0);
   const Image unmarked = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -119,7 +119,7 @@ TEST_CASE("Disks whose angles are known have a mark that turns with them") {
   CHECK(difference(draw(context->gl(), snapshot, kAlwaysPoints), unmarked) == 0);
 }
 
-TEST_CASE("Disks beyond the largest point of the driver are drawn as well") {
+TEST_CASE("Particles beyond the largest point of the driver are drawn as well") {
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
   Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
@@ -172,7 +172,7 @@ TEST_CASE("A disk's colour shows its velocity") {
   CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
 }
 
-TEST_CASE("Disks smaller than a pixel send the light of their area") {
+TEST_CASE("Particles smaller than a pixel send the light of their area") {
   const auto context = open_context(Backend::Osmesa);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
   const double area = M_PI / 16.0;
@@ -185,7 +185,7 @@ TEST_CASE("Disks smaller than a pixel send the light of their area") {
 
 namespace {
 
-// Disks as dense as half the area, in order, of all colours.
+// Particles as dense as half the area, in order, of all colours.
 Snapshot many_disks(double diameter) {
   Snapshot snapshot = one_disk({0.0, 0.0}, diameter);
   snapshot.positions.clear();
@@ -210,7 +210,7 @@ std::array<double, 3> mean_colour(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("Disks look the same on both sides of the radius below which they have no shape") {
+TEST_CASE("Particles look the same on both sides of the radius below which they have no shape") {
   const auto context = open_context(Backend::Osmesa);
   const double switch_over = 2.0 * Coverage::kLargestRadius;
   Snapshot snapshot = many_disks(switch_over);
