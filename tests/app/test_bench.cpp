@@ -108,7 +108,7 @@ TEST_CASE("The table of accuracy compares each setting of a dial with the finest
 TEST_CASE("A time-stepped gas is the exact one in the limit of short steps only") {
   const Shell shell;
   shell.write("elastic.toml",
-              "box.size = [10, 10]\ndisks = { count = 40, restitution = 1.0 }\n"
+              "box.size = [10, 10]\nparticles = { count = 40, restitution = 1.0 }\n"
               "walls.left = { kind = 'static' }\nwalls.right = { kind = 'static' }\n");
   const Outcome outcome = shell.run(
       "clatter bench accuracy elastic.toml --duration 100 --dial time_step --json t.json");

@@ -19,7 +19,7 @@ const std::string kFilm =
 void write_scene(const Shell& shell) {
   shell.write("scene.toml",
               "title = \"Parts\"\nbox.size = [20, 15]\n"
-              "disks = { count = 100, restitution = 0.9 }\n"
+              "particles = { count = 100, restitution = 0.9 }\n"
               "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
               "walls.right = { kind = \"static\" }\n"
               "view = { field = \"temperature\", window = 2.0, arrows = \"velocity\", trails = 0.7,"

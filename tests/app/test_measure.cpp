@@ -140,7 +140,7 @@ TEST_CASE("Bulk driving gives the power and the temperatures that the result's t
   const Shell shell;
   shell.write("s.toml",
               "box.size = [28.02, 28.02]\n"
-              "disks = { count = 100, restitution = 0.9, tangential_restitution = 0.5 }\n"
+              "particles = { count = 100, restitution = 0.9, tangential_restitution = 0.5 }\n"
               "bulk_drive = { interval = 0.05, kick_speed = 0.1 }\n"
               "measure = { burn_in = 50.0, duration = 4000.0 }\n");
   const json result = json::parse(shell.run("clatter measure s.toml --quiet --seed 3").out);
@@ -266,7 +266,7 @@ TEST_CASE("A state that was saved is where another run starts") {
   shell.run("mkdir from && cp end.csv from/start.csv");
   shell.write(
       "from/s.toml",
-      "box.size = [20, 25]\ndisks.start = { layout = 'file', file = 'start.csv' }\n"
+      "box.size = [20, 25]\nparticles.start = { layout = 'file', file = 'start.csv' }\n"
       "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n"
       "measure.burn_in = 0\n");
   // So short a run moves no disk by as much as the last bit.
@@ -292,7 +292,7 @@ TEST_CASE("Where t_c makes all collisions elastic, it is said which other one wo
   CHECK(frozen.code == 0);
   CHECK(says(frozen.err, "a smaller one, say "));
   shell.write("pile.toml",
-              "box.size = [10, 20]\ndisks = { count = 20, restitution = 0.5 }\n"
+              "box.size = [10, 20]\nparticles = { count = 20, restitution = 0.5 }\n"
               "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
               "walls.top = { kind = 'static' }\ngravity.acceleration = [0, -1]\n"
               "collapse.contact_time = 1e-2\nmeasure.burn_in = 20\n");

@@ -178,7 +178,7 @@ TEST_CASE("A picture from a time is the picture at that time") {
 
 TEST_CASE("Arrows need no heatmap, and take none along") {
   const Shell shell;
-  const std::string empty = "box.size = [9, 9]\ndisks.count = 4\nview.colour_by = \"none\"\n";
+  const std::string empty = "box.size = [9, 9]\nparticles.count = 4\nview.colour_by = \"none\"\n";
   shell.write("plain.toml", empty);
   shell.write("arrows.toml", empty + "view.arrows = \"velocity\"\n");
   for (const std::string name : {"plain", "arrows"}) {

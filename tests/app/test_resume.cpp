@@ -191,7 +191,7 @@ TEST_CASE("A run goes on without the file of its start state") {
   const Shell shell;
   shell.run("clatter measure vibrated --until 501 --out r.json --save-state start.csv --quiet");
   shell.write("s.toml",
-              "disks = { start = { layout = 'file', file = 'start.csv' }, restitution = 0.9 }\n"
+              "particles = { start = { layout = 'file', file = 'start.csv' }, restitution = 0.9 }\n"
               "walls.left = { kind = 'static' }\nwalls.right = { kind = 'static' }\n"
               "measure.burn_in = 1\n");
   REQUIRE(shell.run("clatter measure s.toml --until 20 --out whole.json").code == 0);

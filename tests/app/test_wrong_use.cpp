@@ -75,8 +75,8 @@ TEST_CASE("Wrong flags are refused") {
   const Shell shell;
   check_refused(shell, "clatter check vibrated --set particles.count", {"--set key=value"});
   check_refused(shell, "clatter check vibrated --set =5", {"--set key=value"});
-  check_refused(shell, "clatter check vibrated --set disks.cuont=5",
-                {"--set disks.cuont", "did you mean 'count'?"});
+  check_refused(shell, "clatter check vibrated --set particles.cuont=5",
+                {"--set particles.cuont", "did you mean 'count'?"});
   check_refused(shell, "clatter check vibrated --colour", {"--colour"});
   check_refused(shell, "clatter check vibrated --seed -1", {"--seed"});
   check_refused(shell, "clatter measure vibrated --until 0", {"--until"});

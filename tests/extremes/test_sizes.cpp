@@ -35,7 +35,7 @@ TEST_CASE("10^7 particles" * doctest::test_suite("slow") *
       "--set particles.start.layout='\"lattice\"' --set measure.fields=[] --set measure.burn_in=0 "
       "--until 0.2",
       600);
-  const int collisions = result.at("events").at("pair_collisions");
+  const int collisions = result.at("events").at("disk_disk");
   const double off = result.at("temperature").at("mean").get<double>() - 1.0;
   const double gigabytes = 1e-9 * result.at("performance").at("peak_memory_bytes").get<double>();
   const double overlap = result.at("checks").at("deepest_overlap");
@@ -74,7 +74,7 @@ TEST_CASE(
                             " --set particles.count=100000 --set measure.burn_in=0 --until 1 "
                             "--set measure.cells=[20,20]");
     const double overlap = result.at("checks").at("deepest_overlap");
-    MESSAGE(result.at("events").at("pair_collisions").get<int>(), " collisions, deepest overlap ",
+    MESSAGE(result.at("events").at("disk_disk").get<int>(), " collisions, deepest overlap ",
             brief(overlap));
     CHECK(overlap < 1e-9);
     CHECK(shell
