@@ -19,14 +19,16 @@ template <int D>
 static IntVec<D> choose_counts(const Model<D>& model, double cells) {
   std::array<int, D> axes;
   std::iota(axes.begin(), axes.end(), 0);
-  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return model.box[a] < model.box[b]; });
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](int a, int b) { return model.box[a] < model.box[b]; });
   cells = std::max(1.0, cells);
   double volume = model.box.prod();
   IntVec<D> counts;
   for (int k = 0; k < D; ++k) {
     const double length = model.box[axes[k]];
-    const double edge =
-        std::max(std::pow(volume / cells, 1.0 / (D - k)), kLeastWidth * model.diameter);
+    const double cube = volume / cells;
+    static_assert(D <= 2, "three axes need a cube root");
+    const double edge = std::max(D - k == 2 ? std::sqrt(cube) : cube, kLeastWidth * model.diameter);
     const double count = std::max(1.0, std::floor(length / edge));
     counts[axes[k]] = static_cast<int>(count);
     cells = std::max(1.0, cells / count);
