@@ -19,7 +19,8 @@ template <int D>
 static IntVec<D> choose_counts(const Model<D>& model, double cells) {
   std::array<int, D> axes;
   std::iota(axes.begin(), axes.end(), 0);
-  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return model.box[a] < model.box[b]; });
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](int a, int b) { return model.box[a] < model.box[b]; });
   cells = std::max(1.0, cells);
   double volume = model.box.prod();
   IntVec<D> counts;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <utility>
@@ -64,6 +63,17 @@ static void choose(std::vector<Vec2>& sites, std::size_t count, Random& random) 
   sites.resize(count);
 }
 
+// exp(i m theta) of the direction theta of x, as a vector: a power of the unit vector.
+static Vec2 direction_power(const Vec2& x, int m) {
+  const Vec2 unit = x / x.norm();
+  Vec2 power = unit;
+  for (int k = 1; k < m; ++k) {
+    power = {power.x() * unit.x() - power.y() * unit.y(),
+             power.x() * unit.y() + power.y() * unit.x()};
+  }
+  return power;
+}
+
 // |psi_m| = |<exp(i m theta)>| over all pairs closer than 1.5 diameters: the global bond order.
 static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   constexpr double kReach = 1.5;
@@ -73,18 +83,18 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     grid.insert(i, grid.cell_at(state.positions[i]));
   }
-  std::complex<double> sum = 0.0;
+  Vec2 sum = Vec2::Zero();
   double bonds = 0.0;
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     const Vec2& r = state.positions[i];
     grid.visit(grid.cell_at(r), [&](std::uint32_t j, const Vec2& wrap) {
       const Vec2 x = state.positions[j] - r + wrap.cwiseProduct(model.box);
       if (j == i || x.norm() > reach.diameter) return;
-      sum += std::polar(1.0, m * std::atan2(x.y(), x.x()));
+      sum += direction_power(x, m);
       bonds += 1.0;
     });
   }
-  return bonds > 0.0 ? std::abs(sum) / bonds : 0.0;
+  return bonds > 0.0 ? sum.norm() / bonds : 0.0;
 }
 
 // Elastic motion from lattice sites until the bond order of the square and of the triangular
@@ -144,7 +154,7 @@ static std::vector<Vec2> lattice_positions(const Room& room, int count, std::uin
 static void number_by_rows(std::vector<Vec2>& positions) {
   constexpr double kRowHeight = 1.3;  // diameters: about that of the engine's cells
   const auto row = [](const Vec2& r) { return std::floor(r.y() / kRowHeight); };
-  std::sort(positions.begin(), positions.end(), [&](const Vec2& a, const Vec2& b) {
+  std::stable_sort(positions.begin(), positions.end(), [&](const Vec2& a, const Vec2& b) {
     return std::pair(row(a), a.x()) < std::pair(row(b), b.x());
   });
 }

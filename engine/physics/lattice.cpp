@@ -38,7 +38,7 @@ double least_distance(const Room& room, const Grid& grid) {
   const auto two_on = [&](int axis, double step) {
     return room.periodic[axis] || grid.points[axis] > 2 ? 2.0 * step : kNever;
   };
-  return std::min({two_on(0, dx), two_on(1, dy), std::hypot(dx, dy)});
+  return std::min({two_on(0, dx), two_on(1, dy), Vec2(dx, dy).norm()});
 }
 
 /// The distance that sites must keep so that their rounded coordinates do not overlap: a coordinate

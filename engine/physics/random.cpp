@@ -1,7 +1,8 @@
 #include "engine/physics/random.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "engine/physics/elementary.h"
 
 namespace clatter {
 
@@ -43,11 +44,11 @@ double Random::normal() {
     has_spare_ = false;
     return spare_;
   }
-  const double radius = std::sqrt(-2.0 * std::log(uniform()));
-  const double angle = 2.0 * std::numbers::pi * uniform();
-  spare_ = radius * std::sin(angle);
+  const double radius = std::sqrt(-2.0 * natural_log(uniform()));
+  const SineCosine direction = sin_cos_2pi(uniform());
+  spare_ = radius * direction.sine;
   has_spare_ = true;
-  return radius * std::cos(angle);
+  return radius * direction.cosine;
 }
 
 std::uint64_t Random::below(std::uint64_t n) {

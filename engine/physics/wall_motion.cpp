@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/physics/contact.h"
+#include "engine/physics/elementary.h"
 #include "engine/physics/fall_time.h"
 #include "engine/physics/fraction.h"
 
@@ -17,7 +18,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 double wall_velocity(const WallMotion& motion, double phase) {
   if (motion.path == WallPath::Sawtooth) return motion.stroke * motion.frequency;
-  return 0.5 * motion.stroke * (kTwoPi * motion.frequency) * std::cos(kTwoPi * fraction(phase));
+  return 0.5 * motion.stroke * (kTwoPi * motion.frequency) * cos_2pi(phase);
 }
 
 // The amplitude of the sinusoidal wall's acceleration.
@@ -57,9 +58,8 @@ double gap_to_ramp(const Approach& particle, double number, double t) {
 // The gap to the sinusoidal wall, from sin(x + 2y) - sin(x) = 2 cos(x + y) sin(y).
 double gap_to_wave(const Approach& particle, double t) {
   const double half = fraction(0.5 * particle.motion.frequency * t);
-  const double wave_rise = particle.motion.stroke *
-                           std::cos(kTwoPi * fraction(particle.motion.phase + half)) *
-                           std::sin(kTwoPi * half);
+  const double wave_rise =
+      particle.motion.stroke * cos_2pi(particle.motion.phase + half) * sin_2pi(half);
   return particle.gap + (particle.rise(t) - wave_rise);
 }
 
@@ -114,7 +114,7 @@ double contact_with_wave(const Approach& particle, double t, double crest) {
   const double cosine =
       std::clamp(-particle.acceleration / peak_acceleration(particle.motion), -1.0, 1.0);
   const double period = 1.0 / particle.motion.frequency;
-  const double convex_time = std::acos(cosine) / kTwoPi * period;
+  const double convex_time = acos_turns(cosine) * period;
   bool convex = true;
   for (const double end : {crest - (period - convex_time), crest - convex_time, crest}) {
     const double right = std::min(end, lowest);
@@ -168,7 +168,7 @@ WallState wall_state(const WallMotion& motion, double time) {
   const double phase = fraction(motion.frequency * time + motion.phase);
   const double velocity = wall_velocity(motion, phase);
   if (motion.path == WallPath::Sawtooth) return {motion.stroke * phase, velocity, 0.0};
-  const double sine = std::sin(kTwoPi * phase);
+  const double sine = sin_2pi(phase);
   return {0.5 * motion.stroke * sine, velocity, -peak_acceleration(motion) * sine};
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/physics/collision.h"
+#include "engine/physics/elementary.h"
 #include "engine/physics/spin.h"
 #include "engine/vec.h"
 
@@ -46,7 +47,7 @@ template <int D>
 Vec<D> emit(int axis, double inward, double temperature, double uniform, const double* normals) {
   Vec<D> v;
   for (int k = 0; k < D; ++k) {
-    v[k] = k == axis ? inward * std::sqrt(-2.0 * temperature * std::log(uniform))
+    v[k] = k == axis ? inward * std::sqrt(-2.0 * temperature * natural_log(uniform))
                      : std::sqrt(temperature) * *normals++;
   }
   return v;

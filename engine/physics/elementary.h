@@ -1,0 +1,35 @@
+#pragma once
+
+namespace clatter {
+
+// Elementary functions with the same bits on every machine. Those of the C library differ in the
+// last digit between libraries, and between processors where a library has code for several. These
+// use + - * / and sqrt of doubles only. Every result is within 1 ulp of the exact value.
+
+/// Sine and cosine of one angle.
+struct SineCosine {
+  double sine;
+  double cosine;
+};
+
+/// sin(2 pi phase) and cos(2 pi phase) for any finite phase, a number of turns; exactly 0, 1 or -1
+/// at quarters of a turn.
+SineCosine sin_cos_2pi(double phase);
+
+/// sin(2 pi phase) for any finite phase.
+inline double sin_2pi(double phase) {
+  return sin_cos_2pi(phase).sine;
+}
+
+/// cos(2 pi phase) for any finite phase.
+inline double cos_2pi(double phase) {
+  return sin_cos_2pi(phase).cosine;
+}
+
+/// acos(x) / (2 pi) in turns, 0 to 1/2, for x in [-1,1].
+double acos_turns(double x);
+
+/// Natural logarithm of a finite x > 0, subnormal numbers included.
+double natural_log(double x);
+
+}  // namespace clatter

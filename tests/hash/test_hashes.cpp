@@ -1,0 +1,155 @@
+// The state hashes of scenes after thousands of collisions. They are the same for every compiler,
+// optimisation level, processor and C library. Where a change is meant to change the results of
+// runs, the hashes that the failing tests print become the new ones.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/embedded_file.h"
+#include "engine/initial/start_state.h"
+#include "engine/scene/scene_file.h"
+
+using namespace clatter;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kCollisions = 8000;
+
+struct GalleryHash {
+  std::string_view name;
+  std::uint64_t hash;
+};
+
+// Every scene of the gallery.
+constexpr GalleryHash kGallery[] = {
+    {"barometer.toml", 0x6a2395a17e31fee7},     {"collapse.toml", 0x4bf763996dd1b7ee},
+    {"conduction.toml", 0x4742c3cdb52cce7c},    {"cooling.toml", 0xc2d485f5299d3cbe},
+    {"cradle.toml", 0x0d76ddcebd38d99e},        {"dense.toml", 0xa8462d63d5bf47fa},
+    {"equilibrium.toml", 0x2f6ceb84347bc73e},   {"heating_walls.toml", 0x940f2efa3bae110f},
+    {"rough_cooling.toml", 0x668b837c3859e598}, {"rough_driven.toml", 0x7dbb87cc82f27096},
+    {"shaker.toml", 0x96b5507643a1d9a1},        {"vibrated.toml", 0x893fff2f2673d6a9},
+};
+
+struct SceneHash {
+  const char* what;
+  std::uint64_t hash;
+  const char* scene;
+};
+
+// What the gallery lacks.
+constexpr SceneHash kScenes[] = {
+    {"thermal walls and spins", 0xd05c972192f3640c, R"(
+        box.size = [16, 12]
+        particles = { count = 80, restitution = 0.9, friction = 0.5, start.spin_temperature = 0.5 }
+        walls.left = { kind = "thermal", temperature = 2.0 }
+        walls.right = { kind = "thermal", temperature = 0.5 })"},
+    {"rough driven and static walls", 0xd7a08920cf015d7e, R"(
+        box.size = [16, 12]
+        particles = { count = 80, restitution = 0.9, tangential_restitution = 0.5 }
+        walls.left = { kind = "driven", drive_speed = 1.0, friction = 0.3 }
+        walls.right = { kind = "static", restitution = 0.9, tangential_restitution = -0.5 })"},
+    {"sinusoidal walls", 0x7579facda3a85183, R"(
+        box.size = [16, 12]
+        particles = { count = 80, restitution = 0.9 }
+        walls.left = { kind = "sinusoidal", stroke = 0.5, frequency = 2.0, phase = 0.3 }
+        walls.right = { kind = "sinusoidal", stroke = 2.0, frequency = 0.1, restitution = 0.8 })"},
+    {"sinusoidal floor under gravity", 0x335e4ac960207d10, R"(
+        box.size = [16, 20]
+        particles = { count = 80, restitution = 0.95 }
+        gravity.acceleration = [0.1, -1.0]
+        walls.bottom = { kind = "sinusoidal", stroke = 1.0, frequency = 0.7, friction = 0.3 }
+        walls.top.kind = "static")"},
+    {"saw-tooth walls under gravity", 0x1f9dc5b9c7744889, R"(
+        box.size = [16, 20]
+        particles = { count = 80, restitution = 0.95 }
+        gravity.acceleration = [0.0, -0.5]
+        walls.bottom = { kind = "sawtooth", stroke = 0.5, frequency = 2.0, phase = 0.25 }
+        walls.top = { kind = "sawtooth", stroke = 0.01, frequency = 50.0 })"},
+    {"kicks of motion and spin", 0x49859e2a5f9ccacb, R"(
+        box.size = [16, 12]
+        particles = { count = 80, restitution = 0.8, friction = 0.4 }
+        bulk_drive = { interval = 0.05, kick_speed = 0.1, kick_spin = 0.2 })"},
+    {"all at once", 0x5977fdeddf43704e, R"(
+        box.size = [16, 12]
+        particles = { count = 80, restitution = 0.7, friction = 0.4, inertia = 0.4 }
+        walls.left = { kind = "sinusoidal", stroke = 0.4, frequency = 1.0, phase = 0.125 }
+        walls.right = { kind = "sawtooth", stroke = 0.3, frequency = 2.0, friction = 0.2 }
+        walls.bottom = { kind = "driven", drive_speed = 1.0, restitution = 0.9 }
+        walls.top = { kind = "thermal", temperature = 2.0 }
+        gravity.acceleration = [0.25, -0.5]
+        bulk_drive = { interval = 0.2, kick_speed = 0.1, kick_spin = 0.05 }
+        collapse.contact_time = 1e-3)"},
+    {"sparse start", 0xf6d395fb19d5121f, R"(
+        box.size = [90, 80]
+        particles.count = 80)"},
+    {"melted start", 0x4d709eb2dc03a42a, R"(
+        box.size = [16, 12]
+        particles.area_fraction = 0.62)"},
+    {"melted start between walls", 0xdee8c69bf6a613b1, R"(
+        box.size = [16, 12]
+        particles.area_fraction = 0.58
+        walls.left.kind = "static"
+        walls.right.kind = "static"
+        walls.bottom.kind = "static"
+        walls.top.kind = "static")"},
+    {"lattice between walls", 0x196b2be6f7a20f70, R"(
+        box.size = [16, 12]
+        particles = { area_fraction = 0.5, start.layout = "lattice" }
+        walls.left.kind = "static"
+        walls.right.kind = "static")"},
+};
+
+std::uint64_t hash_of(const Scene& scene) {
+  Simulation<2> simulation(model_of(scene, kSeed), start_state(scene, kSeed));
+  simulation.run_until(kNever, kCollisions);
+  return simulation.state_hash();
+}
+
+std::string digits(std::uint64_t hash) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%016" PRIx64, hash);
+  return text;
+}
+
+void compare(std::string_view scene, std::uint64_t got, std::uint64_t wanted) {
+  const std::string message =
+      std::string(scene) + ": got " + digits(got) + ", wanted " + digits(wanted);
+  CHECK_MESSAGE(got == wanted, message);
+}
+
+}  // namespace
+
+TEST_CASE("hashes: every scene of the gallery") {
+  std::set<std::string_view> scenes;
+  for (const EmbeddedFile& file : embedded_scenes()) {
+    scenes.insert(file.name);
+    const std::uint64_t got = hash_of(load_gallery_scene(file));
+    const auto row = std::ranges::find(kGallery, file.name, &GalleryHash::name);
+    const std::string name(file.name);
+    if (row == std::end(kGallery)) {
+      FAIL_CHECK(name, ": got ", digits(got), ", but the table of hashes lacks the scene");
+    } else {
+      compare(name, got, row->hash);
+    }
+  }
+  for (const GalleryHash& row : kGallery) {
+    const std::string message = std::string(row.name) + " is no scene of the gallery";
+    CHECK_MESSAGE(scenes.contains(row.name), message);
+  }
+}
+
+TEST_CASE("hashes: walls, drives and start states that the gallery lacks") {
+  for (const SceneHash& row : kScenes) {
+    compare(row.what, hash_of(parse_scene(row.scene, row.what)), row.hash);
+  }
+}
