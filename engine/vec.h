@@ -14,4 +14,7 @@ using IntVec = Eigen::Matrix<int, D, 1>;
 
 using Vec2 = Vec<2>;
 
+/// A vector of two or three components, as many as the scene has dimensions.
+using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;
+
 }  // namespace clatter

@@ -40,7 +40,7 @@ Scene scene_of(int count, double area_fraction) {
 }
 
 bool has_room(int count, double area_fraction) {
-  return lattice_capacity(scene_of(count, area_fraction).start_room()) >= count;
+  return lattice_capacity(scene_of(count, area_fraction).start_room<2>()) >= count;
 }
 
 // After a number of collisions of each disk: elastic disks are in equilibrium after ten.
@@ -51,8 +51,8 @@ EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) 
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
   const auto simulation = simulation_of(scene, 1);
-  EngineRate result{scene.particles.count, scene.area_fraction(), 0.0, cpu_seconds() - setup_began,
-                    0.0};
+  EngineRate result{scene.particles.count, scene.packing_fraction(), 0.0,
+                    cpu_seconds() - setup_began, 0.0};
   simulation->run_until(kNever, equilibration * disks / 2);
   const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, disks);
   for (int k = 0; k < kRepetitions; ++k) {
@@ -115,7 +115,7 @@ Json print_inhomogeneous(int count) {
   std::printf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog.");
   Json json = Json::array();
   for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
-    const double homogeneous = measure_engine(scene_of(count, gas.scene.area_fraction())).rate;
+    const double homogeneous = measure_engine(scene_of(count, gas.scene.packing_fraction())).rate;
     const EngineRate r = measure_engine(gas.scene, gas.after);
     std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.area_fraction, r.rate,
                 r.rate / homogeneous);

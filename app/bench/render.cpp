@@ -82,7 +82,7 @@ Scene scene_of(int count) {
   scene.title = "Bench";
   scene.particles.count = count;
   const double area = count * 0.25 * std::numbers::pi / 0.5;
-  scene.box = {std::sqrt(area * 16.0 / 9.0), std::sqrt(area * 9.0 / 16.0)};
+  scene.box = Vec2(std::sqrt(area * 16.0 / 9.0), std::sqrt(area * 9.0 / 16.0));
   scene.view.field = Field::Density;
   return scene;
 }

@@ -18,11 +18,11 @@ void print_parts(const Scene& scene) {
   const std::vector<FeatureCost> parts = feature_costs(scene);
   double bytes = 0.0;
   for (const FeatureCost& part : parts) bytes += part.bytes;
-  std::fprintf(
-      stderr,
-      "Memory: about %.3g MB. Modelled, with bytes a disk, and what CPU time with it is to that "
-      "without:\n",
-      1e-6 * bytes);
+  std::fprintf(stderr,
+               "Memory: about %.3g MB. Modelled, with bytes a particle, and what CPU time with it "
+               "is to that "
+               "without:\n",
+               1e-6 * bytes);
   for (const FeatureCost& part : parts) {
     const double share = part.bytes / std::max(1, scene.particles.count);
     std::fprintf(stderr, "  %-12s %6.0f %5s  %s\n", part.name, share, cost_text(part.price).c_str(),
@@ -32,10 +32,12 @@ void print_parts(const Scene& scene) {
 
 void print_events(const Scene& scene, double end) {
   const double temperature = scene.particles.start.temperature;
-  const double rate = 0.5 * scene.particles.count * enskog_rate(scene.area_fraction(), temperature);
-  std::fprintf(stderr, "Events until t = %g: about %.3g disk-disk collisions", end, rate * end);
+  const double rate = 0.5 * scene.particles.count *
+                      enskog_rate(scene.packing_fraction(), temperature, scene.dimension());
+  std::fprintf(stderr, "Events until t = %g: about %.3g collisions", end, rate * end);
   if (scene.bulk_drive) {
-    std::fprintf(stderr, ", %.3g kicks of all disks", std::floor(end / scene.bulk_drive->interval));
+    std::fprintf(stderr, ", %.3g kicks of all particles",
+                 std::floor(end / scene.bulk_drive->interval));
   }
   std::fprintf(stderr, "; at the start's temperature %g.\n", temperature);
 }
@@ -43,8 +45,9 @@ void print_events(const Scene& scene, double end) {
 int check(const CommonOptions& options) {
   const Scene scene = load(options);
   print(scene_to_toml(scene));
-  std::fprintf(stderr, "The scene is sound: %d disks, area fraction %.4f.\n", scene.particles.count,
-               scene.area_fraction());
+  const bool disks = scene.dimension() == 2;
+  std::fprintf(stderr, "The scene is sound: %d %s, %s fraction %.4f.\n", scene.particles.count,
+               disks ? "disks" : "spheres", disks ? "area" : "volume", scene.packing_fraction());
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
   print_parts(scene);
   return kOk;

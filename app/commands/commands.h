@@ -50,6 +50,8 @@ struct CheckpointOptions {
 
 /// The scene with the flags' settings. Throws UserError.
 Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
+/// The same of a command that takes disks only. Throws UserError for spheres, too.
+Scene load_disks(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
 /// Each adds its subcommand to the program; choosing it runs it and stores its exit code.
 void add_view_command(CLI::App& program, int& exit_code);

@@ -53,7 +53,7 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   if (!scene.contact_time || elastic <= kMaxElastic * all) return;
   std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
                100.0 * elastic / all);
-  const double rate = enskog_rate(scene.area_fraction(), measured.temperature.mean);
+  const double rate = enskog_rate(scene.packing_fraction(), measured.temperature.mean);
   if (*scene.contact_time * rate > kLong) {
     std::fprintf(stderr,
                  "for the gas collides as often; a smaller one, say %.1g, would let it dissipate\n",
@@ -166,7 +166,7 @@ bool goes_on_to(double end, const Resumed& resumed, const CommonOptions& options
 }
 
 int measure(const MeasureOptions& options) {
-  Scene scene = load(options.common, options.checkpoints.start_file());
+  Scene scene = load_disks(options.common, options.checkpoints.start_file());
   const Measure& spec = scene.measure;
   const double end = options.common.until.value_or(spec.burn_in + spec.duration);
   if (!(end > spec.burn_in)) {

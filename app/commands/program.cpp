@@ -24,6 +24,14 @@ Scene load(const CommonOptions& options, StartFile start_file) {
   return load_any_scene(options.scene, overrides, start_file);
 }
 
+Scene load_disks(const CommonOptions& options, StartFile start_file) {
+  Scene scene = load(options, start_file);
+  if (scene.dimension() == 2) return scene;
+  throw UserError({options.scene},
+                  "the box has three dimensions, and this command takes disks only",
+                  "give box.size two numbers, or read the scene with `clatter check`");
+}
+
 void add_scene_flags(CLI::App& command, CommonOptions& options) {
   command
       .add_option("scene", options.scene,

@@ -232,7 +232,7 @@ bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progr
 }
 
 int render(const RenderOptions& options) {
-  Scene scene = load(options.common, options.checkpoints.start_file());
+  Scene scene = load_disks(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.checkpoints, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);

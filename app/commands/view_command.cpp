@@ -22,7 +22,7 @@ int view(const ViewOptions& options) {
                     "write glfw, or let `clatter render` film the scene");
   }
   WindowOptions window;
-  window.scene = load(options.common);
+  window.scene = load_disks(options.common);
   window.seed = options.common.seed.value_or(1);
   window.until = options.common.until;
   window.script_log = options.script_log;

@@ -62,7 +62,7 @@ static std::string maps_table(const FieldMaps& maps) {
     header += "," + name;
   }
   std::string table = units + "\n" + header + "\n";
-  const auto [columns, rows] = maps.maps.front().cells;
+  const int columns = maps.maps.front().cells[0], rows = maps.maps.front().cells[1];
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       append(table, "%.17g,%.17g", (i + 0.5) * maps.cell.x(), (j + 0.5) * maps.cell.y());

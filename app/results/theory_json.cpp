@@ -54,7 +54,7 @@ static bool is_homogeneous_gas(const Scene& scene) {
 // Smooth particles, and rough ones where friction has no limit, so that beta is constant.
 static void add_homogeneous(Json& json, const Scene& scene) {
   const Particles& particles = scene.particles;
-  const double phi = scene.area_fraction();
+  const double phi = scene.packing_fraction();
   json["compressibility"] = compressibility(phi, particles.restitution);
   const bool rough = scene.spins();
   const bool constant_beta = !rough || std::isinf(particles.roughness.friction_in_force());
@@ -80,7 +80,7 @@ static void add_homogeneous(Json& json, const Scene& scene) {
 }
 
 Json theory_json(const Scene& scene) {
-  Json json{{"chi", contact_correlation(scene.area_fraction())}};
+  Json json{{"chi", contact_correlation(scene.packing_fraction())}};
   if (const auto gas = vibrated_gas(scene)) {
     add_vibrated(json, *gas, scene.particles.start.temperature);
   }

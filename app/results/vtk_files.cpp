@@ -88,7 +88,7 @@ std::string head(const std::string& type, const std::string& origin) {
 
 // The values stand raw behind the XML, as VTK's own writer may put them: exact, NaN included.
 std::string image_data(const FieldMaps& maps, const std::string& origin) {
-  const auto [columns, rows] = maps.maps.front().cells;
+  const int columns = maps.maps.front().cells[0], rows = maps.maps.front().cells[1];
   const std::string extent =
       "\"0 " + std::to_string(columns) + " 0 " + std::to_string(rows) + " 0 0\"";
   std::string data;

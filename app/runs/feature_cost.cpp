@@ -42,7 +42,8 @@ FeatureCost fields_of(const Scene& scene) {
 // A kick of a disk costs about half a collision of two; at the start's temperature.
 double kick_cost(const Scene& scene) {
   constexpr double kKick = 0.45;
-  const double rate = enskog_rate(scene.area_fraction(), scene.particles.start.temperature);
+  const double rate =
+      enskog_rate(scene.packing_fraction(), scene.particles.start.temperature, scene.dimension());
   return 1.0 + kKick / (0.5 * rate * scene.bulk_drive->interval);
 }
 
@@ -62,7 +63,7 @@ std::vector<FeatureCost> feature_costs(const Scene& scene) {
   const GasMemory memory = gas_memory(scene);
   const bool moving =
       std::ranges::any_of(scene.walls, [](const auto& wall) { return wall && wall->moves(); });
-  return {{"disks", "yes", memory.particles, 1.0},
+  return {{"particles", "yes", memory.particles, 1.0},
           {"spins", yes(scene.spins()), memory.spins, 1.05},
           {"gravity", yes(scene.gravity.has_value()), 0.0, 1.15},
           {"moving walls", yes(moving), 0.0, 1.0},

@@ -21,7 +21,7 @@ std::string inline_table(Wall wall) {
   return "{ " + lines + " }";
 }
 
-std::string inline_table(const std::array<std::optional<Wall>, 4>& walls) {
+std::string inline_table(const std::array<std::optional<Wall>, 6>& walls) {
   std::string all;
   for (std::size_t side = 0; side < 4; ++side) {
     if (!walls[side]) continue;

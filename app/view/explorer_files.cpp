@@ -45,7 +45,8 @@ Scene Explorer::recorded_beside(const std::string& file) const {
   Start& start = scene.particles.start;
   if (start.layout == Layout::File && start.file.empty()) {
     start.file = std::filesystem::path(file).replace_extension(".csv");
-    write_file(start.file, state_to_csv(start.state));
+    write_file(start.file,
+               std::visit([](const auto& state) { return state_to_csv(state); }, start.state));
   }
   return scene;
 }

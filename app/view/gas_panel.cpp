@@ -45,7 +45,7 @@ void gas_panel(Session& session, Controls& controls) {
   if (!group("Gas")) return;
   const Scene& scene = session.scene();
   if (session.opened().particles.start.layout != Layout::File) {
-    const int most = std::min(lattice_capacity(scene.start_room()), 100'000);
+    const int most = std::min(lattice_capacity(scene.start_room<2>()), 100'000);
     controls.whole({.key = "particles.count",
                     .name = "Disks",
                     .symbol = "N",
@@ -56,7 +56,7 @@ void gas_panel(Session& session, Controls& controls) {
                     .format = "%.0f"},
                    scene.particles.count, session.opened().particles.count);
   }
-  ImGui::TextDisabled("Area fraction φ = %.3f", scene.area_fraction());
+  ImGui::TextDisabled("Area fraction φ = %.3f", scene.packing_fraction());
   controls.law({.key = "particles.restitution",
                 .name = "Restitution",
                 .symbol = "α",

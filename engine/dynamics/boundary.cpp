@@ -63,6 +63,8 @@ double Boundary<D>::innermost_travel(int side) const {
 }
 
 template std::array<WallMotion, 4> wall_motions<2>(const Model<2>&);
+template std::array<WallMotion, 6> wall_motions<3>(const Model<3>&);
 template class Boundary<2>;
+template class Boundary<3>;
 
 }  // namespace clatter

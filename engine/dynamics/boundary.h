@@ -43,5 +43,6 @@ class Boundary {
 };
 
 extern template class Boundary<2>;
+extern template class Boundary<3>;
 
 }  // namespace clatter

@@ -128,13 +128,15 @@ template <class List>
 static std::uint32_t place_of(std::uint32_t neighbour, const List& list) {
   using Four = std::uint32_t __attribute__((vector_size(16)));
   // The last two words of a list hold no neighbours.
-  static constexpr Four kPlaces[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}, {12, 13, 0, 0}};
-  static_assert(List::kCapacity == 14 && sizeof(List) == 4 * sizeof(Four));
+  constexpr std::uint32_t kCapacity = List::kCapacity;
+  static_assert(kCapacity % 4 == 2 && sizeof(List) == (kCapacity + 2) * sizeof(std::uint32_t));
   Four found{};
-  for (int k = 0; k < 4; ++k) {
+  for (std::uint32_t k = 0; k < kCapacity; k += 4) {
     Four four;
-    std::memcpy(&four, reinterpret_cast<const char*>(&list) + k * sizeof four, sizeof four);
-    found |= (four == neighbour) & kPlaces[k];
+    std::memcpy(&four, reinterpret_cast<const char*>(&list) + k * sizeof k, sizeof four);
+    const bool last = k + 4 > kCapacity;
+    const Four places = {k, k + 1, last ? 0 : k + 2, last ? 0 : k + 3};
+    found |= (four == neighbour) & places;
   }
   return (found[0] | found[1]) | (found[2] | found[3]);
 }
@@ -188,5 +190,6 @@ std::uint32_t CellGrid<D>::new_list() {
 }
 
 template class CellGrid<2>;
+template class CellGrid<3>;
 
 }  // namespace clatter

@@ -59,16 +59,17 @@ class CellGrid {
   /// times, seen round different borders, where the box is only one or two cells wide.
   using Neighbour = std::uint32_t;
   static constexpr int kParticleBits = 32 - 2 * D;
-  static_assert(kMaxParticles < std::uint32_t{1} << kParticleBits);  // the last number is kNobody's
+  static_assert(kMaxParticles<D> < (std::uint64_t{1} << kParticleBits));  // the last is kNobody's
   static std::uint32_t particle_of(Neighbour neighbour) { return neighbour & kParticleMask; }
   static int wrap_of(Neighbour neighbour, int axis) {
     // Two bits with their sign.
     return static_cast<std::int32_t>(neighbour << (2 * (D - 1 - axis))) >> 30;
   }
 
-  /// A list of those near a cell, or a part of it: a cache line.
+  /// A list of those near a cell, or a part of it: a cache line, or two where there are 27 cells
+  /// about one.
   struct alignas(64) List {
-    static constexpr int kCapacity = 14;
+    static constexpr int kCapacity = D == 2 ? 14 : 30;
     std::array<Neighbour, kCapacity> neighbours;  ///< those beyond the count are kNobody
     std::uint16_t count = 0;
     bool wraps = false;          ///< whether some may lie round a periodic border
@@ -195,5 +196,6 @@ void CellGrid<D>::visit_moved(const IntVec<D>& cell, int axis, int step, const V
 }
 
 extern template class CellGrid<2>;
+extern template class CellGrid<3>;
 
 }  // namespace clatter

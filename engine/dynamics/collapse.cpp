@@ -87,12 +87,12 @@ double fastest_speed(const Model<D>& model, double start_speed) {
 
 template <int D>
 PhysicalStop divergence(const Model<D>& model, double time, double temperature) {
-  return PhysicalStop(
-      "the temperature diverges at t = " + rounded(time) + ", having reached " +
-      rounded(temperature) + ", a speed of " + rounded(std::sqrt(2.0 * temperature)) +
-      (gains(model) ? "; walls with restitution > 1 give more than the gas loses"
-                    : "; walls give ever more, and nothing loses energy: particles or walls "
-                      "need a restitution below 1"));
+  return PhysicalStop("the temperature diverges at t = " + rounded(time) + ", having reached " +
+                      rounded(temperature) + ", a speed of " + rounded(std::sqrt(D * temperature)) +
+                      (gains(model)
+                           ? "; walls with restitution > 1 give more than the gas loses"
+                           : "; walls give ever more, and nothing loses energy: particles or walls "
+                             "need a restitution below 1"));
 }
 
 // Whether a partner is a wall that emits particles without any speed, which no t_c changes.
@@ -123,7 +123,10 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
 }
 
 template double fastest_speed<2>(const Model<2>&, double);
+template double fastest_speed<3>(const Model<3>&, double);
 template PhysicalStop divergence<2>(const Model<2>&, double, double);
+template PhysicalStop divergence<3>(const Model<3>&, double, double);
 template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double);
+template PhysicalStop standstill<3>(const Model<3>&, const Watchdog&, double, double);
 
 }  // namespace clatter

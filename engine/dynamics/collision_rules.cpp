@@ -89,7 +89,11 @@ Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall
 
 template PairOutcome<2> pair_outcome<2>(const Model<2>&, const Vec<2>&, const Vec<2>&,
                                         const Spin<2>&, bool);
+template PairOutcome<3> pair_outcome<3>(const Model<3>&, const Vec<3>&, const Vec<3>&,
+                                        const Spin<3>&, bool);
 template Departure<2> wall_outcome<2>(const Model<2>&, int, const WallState&, const Arrival<2>&,
+                                      bool);
+template Departure<3> wall_outcome<3>(const Model<3>&, int, const WallState&, const Arrival<3>&,
                                       bool);
 
 }  // namespace clatter

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/dimension.h"
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/particle.h"
@@ -20,28 +21,39 @@ namespace clatter {
 // Besides the particle and its plan: the list of one cell, of up to four and what continues them
 // where particles lie in clusters (Simulation::fit_cells), and two entries of the event queue with
 // room to grow.
-static constexpr double kBytesPerParticle =
-    sizeof(Particle<2>) + sizeof(Plan<2>) + sizeof(CellGrid<2>::List) + 4 * sizeof(Event);
+template <int D>
+static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
+                                            sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event);
+
+template <int D>
+static GasMemory memory_of(const Scene& scene) {
+  const double count = scene.particles.count;
+  return {count * kBytesPerParticle<D>, scene.spins() ? count * sizeof(Spin<D>) : 0.0,
+          scene.contact_time ? count * sizeof(double) : 0.0};
+}
 
 GasMemory gas_memory(const Scene& scene) {
-  const double count = scene.particles.count;
-  return {count * kBytesPerParticle, scene.spins() ? count * sizeof(Spin<2>) : 0.0,
-          scene.contact_time ? count * sizeof(double) : 0.0};
+  return with_dimension(scene.dimension(),
+                        [&](auto dimension) { return memory_of<dimension>(scene); });
+}
+
+static int most_particles(const Scene& scene) {
+  return static_cast<int>(scene.dimension() == 2 ? kMaxParticles<2> : kMaxParticles<3>);
 }
 
 void require_memory(const Scene& scene) {
   const double there =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const double needed = gas_memory(scene).total();
-  if (needed <= there && scene.particles.count <= static_cast<int>(kMaxParticles)) return;
+  if (needed <= there && scene.particles.count <= most_particles(scene)) return;
   const double fitting = std::floor(scene.particles.count * (there / needed));
   const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
   const std::string reason = needed <= there ? " particles are more than can be numbered"
                                              : " particles take about " + gigabytes(needed) +
                                                    " GB, and this machine has " + gigabytes(there);
   throw UserError({"particles.count", 0, 0}, std::to_string(scene.particles.count) + reason,
-                  "choose at most " +
-                      std::to_string(static_cast<int>(std::min<double>(kMaxParticles, fitting))));
+                  "choose at most " + std::to_string(static_cast<int>(
+                                          std::min<double>(most_particles(scene), fitting))));
 }
 
 }  // namespace clatter

@@ -47,7 +47,8 @@ struct Model {
   }
 };
 
-/// The laws that a scene asks for.
-Model<2> model_of(const Scene& scene, std::uint64_t seed);
+/// The laws that a scene of D dimensions asks for.
+template <int D>
+Model<D> model_of(const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

@@ -13,12 +13,15 @@
 namespace clatter {
 
 // Particles are what contact kernels read as rows of doubles.
-static_assert(sizeof(Particle<2>) == kRowLength<2> * sizeof(double));
-static_assert(offsetof(Particle<2>, flight) == 0 && offsetof(Flight<2>, v) == 2 * sizeof(double) &&
-              offsetof(Flight<2>, time) == 4 * sizeof(double) &&
-              offsetof(Particle<2>, image) == 6 * sizeof(double));
-static_assert(Candidates<2>::kCapacity >= CellGrid<2>::List::kCapacity);
-
+template <int D>
+constexpr bool are_rows() {
+  return sizeof(Particle<D>) == kRowLength<D> * sizeof(double) &&
+         offsetof(Particle<D>, flight) == 0 && offsetof(Flight<D>, v) == D * sizeof(double) &&
+         offsetof(Flight<D>, time) == 2 * D * sizeof(double) &&
+         offsetof(Particle<D>, image) == (2 * D + 2) * sizeof(double) &&
+         Candidates<D>::kCapacity >= CellGrid<D>::List::kCapacity;
+}
+static_assert(are_rows<2>() && are_rows<3>());
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
                           const LargeArray<Particle<D>>& particles, const CellGrid<D>& grid)
@@ -277,5 +280,6 @@ typename Prediction<D>::Planners Prediction<D>::widest_planners() {
 }
 
 template class Prediction<2>;
+template class Prediction<3>;
 
 }  // namespace clatter

@@ -112,5 +112,6 @@ class Prediction {
 };
 
 extern template class Prediction<2>;
+extern template class Prediction<3>;
 
 }  // namespace clatter

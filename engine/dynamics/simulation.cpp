@@ -139,9 +139,10 @@ void Simulation<D>::fill_cells() {
 // not depend on it.
 template <int D>
 void Simulation<D>::fit_cells() {
-  // Others near a particle; for points evenly spread: 9 in 2D. Between even and crowded, cells
-  // stay.
-  constexpr double kEven = 9.5, kCrowded = 10.5, kWanted = 5.5;
+  // Others near a particle, over the cells about it; 1 where points are evenly spread. Between even
+  // and crowded, cells stay.
+  constexpr double kCellsAbout = D == 2 ? 9.0 : 27.0;
+  constexpr double kEven = 9.5 / 9.0, kCrowded = 10.5 / 9.0, kWanted = 5.5 / 9.0;
   constexpr double kMax = 4.0;          // cells for each particle
   constexpr double kWorthwhile = 1.25;  // ratio of numbers of cells
   if (particles_.empty()) return;
@@ -149,7 +150,8 @@ void Simulation<D>::fit_cells() {
   double near = -count;  // a particle is near itself
   for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
   const double cells = grid_.counts().template cast<double>().prod();
-  const double crowding = near * cells / (count * count);  // in cells for the mean density
+  const double crowding =
+      near * cells / (count * count * kCellsAbout);  // in cells for the mean density
   const bool fine = crowding > (cells_per_particle_ > kCellsPerParticle ? kEven : kCrowded);
   const double per_particle = fine ? std::min(crowding / kWanted, kMax) : kCellsPerParticle;
   if (std::max(per_particle, cells_per_particle_) <
@@ -303,13 +305,12 @@ double Simulation<D>::next_kick() const {
 
 template <int D>
 void Simulation<D>::stop_at_collapse() const {
-  throw standstill<D>(model_, *watchdog_, time(),
-                      kinetic_energy() / static_cast<double>(particles_.size()));
+  throw standstill<D>(model_, *watchdog_, time(), temperature());
 }
 
 template <int D>
 void Simulation<D>::stop_at_divergence() const {
-  throw divergence<D>(model_, time(), kinetic_energy() / static_cast<double>(particles_.size()));
+  throw divergence<D>(model_, time(), temperature());
 }
 
 template <int D>
@@ -368,10 +369,16 @@ double Simulation<D>::kinetic_energy() const {
 }
 
 template <int D>
+double Simulation<D>::temperature() const {
+  const auto count = static_cast<double>(particles_.size());
+  return count > 0.0 ? 2.0 * kinetic_energy() / (D * count) : 0.0;
+}
+
+template <int D>
 double Simulation<D>::spin_energy() const {
   double squares = 0.0;
   for (const Spin<D>& spin : spins_) squares += spin.squaredNorm();
-  return 0.125 * model_.inertia * model_.diameter * model_.diameter * squares;
+  return 0.5 * moment_of_inertia(model_.inertia, model_.diameter) * squares;
 }
 
 template <int D>
@@ -452,5 +459,6 @@ void Simulation<D>::visit_cells_needed(const Event& event, const Visit& visit) c
 }
 
 template class Simulation<2>;
+template class Simulation<3>;
 
 }  // namespace clatter

@@ -62,6 +62,8 @@ class Simulation {
   std::uint64_t state_hash() const;
   /// Kinetic energy of all particles' centres at time().
   double kinetic_energy() const;
+  /// T = (m/DN) sum v^2 at time(); 0 where there are no particles.
+  double temperature() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
   /// Where a wall is at time(), relative to its resting place, along its inward normal.
@@ -162,5 +164,6 @@ void Simulation<D>::schedule(std::uint32_t particle) {
 }
 
 extern template class Simulation<2>;
+extern template class Simulation<3>;
 
 }  // namespace clatter

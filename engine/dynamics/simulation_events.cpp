@@ -63,7 +63,7 @@ bool Simulation<D>::within_contact_time(std::uint32_t number) const {
 template <int D>
 ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
                                            const Vec<D>& velocity, const Impulse<D>& gain) const {
-  const double half_inertia = 0.125 * model_.inertia * model_.diameter * model_.diameter;
+  const double half_inertia = 0.5 * moment_of_inertia(model_.inertia, model_.diameter);
   const Spin<D> w = spin(number);
   ParticleChange<D> change{number, particles_[number].flight, position, velocity, w, gain};
   // Without the rounding of a difference of two squares.
@@ -182,13 +182,22 @@ void Simulation<D>::kick() {
 }
 
 template void Simulation<2>::enter_next_cell(std::uint32_t);
+template void Simulation<3>::enter_next_cell(std::uint32_t);
 template Spin<2> Simulation<2>::spin(std::uint32_t) const;
+template Spin<3> Simulation<3>::spin(std::uint32_t) const;
 template void Simulation<2>::add_spin(std::uint32_t, const Spin<2>&);
+template void Simulation<3>::add_spin(std::uint32_t, const Spin<3>&);
 template bool Simulation<2>::within_contact_time(std::uint32_t) const;
+template bool Simulation<3>::within_contact_time(std::uint32_t) const;
 template ParticleChange<2> Simulation<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
                                                     const Impulse<2>&) const;
+template ParticleChange<3> Simulation<3>::change_of(std::uint32_t, const Vec<3>&, const Vec<3>&,
+                                                    const Impulse<3>&) const;
 template void Simulation<2>::collide(std::uint32_t, std::uint32_t);
+template void Simulation<3>::collide(std::uint32_t, std::uint32_t);
 template void Simulation<2>::hit_wall(std::uint32_t, int);
+template void Simulation<3>::hit_wall(std::uint32_t, int);
 template void Simulation<2>::kick();
+template void Simulation<3>::kick();
 
 }  // namespace clatter

@@ -27,5 +27,6 @@ std::uint64_t state_hash(const State<D>& state) {
 }
 
 template std::uint64_t state_hash<2>(const State<2>&);
+template std::uint64_t state_hash<3>(const State<3>&);
 
 }  // namespace clatter

@@ -8,29 +8,36 @@
 
 namespace clatter {
 
-State<2> adapt_to_scene(const State<2>& state, const Scene& scene, std::uint64_t seed) {
-  const Vec2 corner = scene.clear_corner();
-  std::vector<Vec2> wanted = state.positions;
-  for (Vec2& position : wanted) position -= corner;
+template <int D>
+State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed) {
+  const Vec<D> corner = scene.clear_corner();
+  std::vector<Vec<D>> wanted = state.positions;
+  for (Vec<D>& position : wanted) position -= corner;
   std::vector<std::size_t> kept;
   Random random(seed, Stream::Placement, 1, 0);
-  State<2> fitted;
+  State<D> fitted;
   fitted.positions =
-      random_insertion(scene.start_room(), scene.particles.count, random, wanted, kept);
-  if (fitted.positions.empty()) return start_state(scene, seed);
+      random_insertion(scene.start_room<D>(), scene.particles.count, random, wanted, kept);
+  if (fitted.positions.empty()) return start_state<D>(scene, seed);
 
   const double speed = std::sqrt(temperature_of(state));
   for (std::size_t i = 0; i < fitted.positions.size(); ++i) {
     fitted.positions[i] += corner;
-    Random of_particle(seed, Stream::Velocity, static_cast<std::uint32_t>(i), 1);
-    const double x = of_particle.normal();
-    fitted.velocities.push_back(i < kept.size() ? state.velocities[kept[i]]
-                                                : Vec2(speed * x, speed * of_particle.normal()));
+    if (i < kept.size()) {
+      fitted.velocities.push_back(state.velocities[kept[i]]);
+    } else {
+      Random random_velocity(seed, Stream::Velocity, static_cast<std::uint32_t>(i), 1);
+      Vec<D>& velocity = fitted.velocities.emplace_back();
+      for (double& component : velocity) component = speed * random_velocity.normal();
+    }
     if (!scene.spins()) continue;
     const bool spun = i < kept.size() && !state.spins.empty();
-    fitted.spins.push_back(spun ? state.spins[kept[i]] : Spin<2>::Zero());
+    fitted.spins.push_back(spun ? state.spins[kept[i]] : Spin<D>::Zero());
   }
   return fitted;
 }
+
+template State<2> adapt_to_scene(const State<2>&, const Scene&, std::uint64_t);
+template State<3> adapt_to_scene(const State<3>&, const Scene&, std::uint64_t);
 
 }  // namespace clatter

@@ -10,6 +10,7 @@ namespace clatter {
 /// its box has room for keep their places, velocities and spins; others come in at random places,
 /// with Gaussian velocities of the same temperature and without spin. Where no room is found for
 /// them it is start_state().
-State<2> adapt_to_scene(const State<2>& state, const Scene& scene, std::uint64_t seed);
+template <int D>
+State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

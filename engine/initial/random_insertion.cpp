@@ -13,24 +13,26 @@ namespace {
 
 // The room cut into cells that hold one centre at most, for their diagonal is one diameter at most,
 // and the open voxels: parts of cells in which a centre may still find room. Tries go to open
-// voxels only; after as many tries as there are voxels, each is split into four and those that one
+// voxels only; after as many tries as there are voxels, each is split into 2^D and those that one
 // particle covers are dropped, so that tries keep succeeding up to the density at which the process
 // jams.
+template <int D>
 class Insertion {
  public:
-  explicit Insertion(const Room& room) : room_(room) {
-    for (int axis = 0; axis < 2; ++axis) {
-      low_[axis] = room.periodic[axis] ? 0.0 : 0.5 * room.diameter;
+  explicit Insertion(const Room<D>& room) : room_(room) {
+    std::size_t cells = 1;
+    for (int axis = 0; axis < D; ++axis) {
+      low_[axis] = room.walled[axis] ? 0.5 * room.diameter : 0.0;
       const double extent = room.box[axis] - 2.0 * low_[axis];
-      const double count = std::ceil(extent / room.diameter * std::sqrt(2.0));
+      const double count = std::ceil(extent / room.diameter * std::sqrt(static_cast<double>(D)));
       counts_[axis] = std::max(1, static_cast<int>(count));
       widths_[axis] = extent / counts_[axis];
+      cells *= static_cast<std::size_t>(counts_[axis]);
     }
-    centres_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1], kEmpty);
-    open_.reserve(centres_.size());
-    for (int y = 0; y < counts_[1]; ++y) {
-      for (int x = 0; x < counts_[0]; ++x) open_.push_back({x, y});
-    }
+    centres_.resize(cells, kEmpty);
+    open_.reserve(cells);
+    collect(
+        Voxel::Zero(), counts_ - Voxel::Ones(), [](const Voxel&) { return false; }, open_);
   }
 
   // Places particles until there are `count`, or no voxel is open or can be split any more.
@@ -47,36 +49,55 @@ class Insertion {
   }
 
   // Places a particle at a point, where there is room; before any of the others.
-  bool place_first(const Vec2& point) {
+  bool place_first(const Vec<D>& point) {
     Voxel voxel;
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < D; ++axis) {
       const double place = std::floor((point[axis] - low_[axis]) / widths_[axis]);
       if (!(place >= 0.0 && place < counts_[axis])) return false;
-      voxel[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(place);
+      voxel[axis] = static_cast<int>(place);
     }
     return place_at(point, voxel);
   }
 
-  std::vector<Vec2>& placed() { return placed_; }
+  std::vector<Vec<D>>& placed() { return placed_; }
 
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
   static constexpr int kLevels = 12;
-  using Voxel = std::array<std::int32_t, 2>;  // its number along each axis at the present level
+  using Voxel = IntVec<D>;  // its number along each axis at the present level
+
+  // Whether is(voxel) for any from `first` to `last`, asked along x first.
+  template <typename Predicate>
+  static bool any_of(const Voxel& first, const Voxel& last, const Predicate& is) {
+    Voxel at = first;
+    while (at[D - 1] <= last[D - 1]) {
+      if (is(at)) return true;
+      for (int k = 0; ++at[k] > last[k] && k < D - 1; ++k) at[k] = first[k];
+    }
+    return false;
+  }
+
+  // Puts the voxels from `first` to `last` that nothing `covers` at the end of `open`.
+  template <typename Predicate>
+  static void collect(const Voxel& first, const Voxel& last, const Predicate& covers,
+                      std::vector<Voxel>& open) {
+    any_of(first, last, [&](const Voxel& voxel) {
+      if (!covers(voxel)) open.push_back(voxel);
+      return false;
+    });
+  }
 
   void try_once(const Voxel& voxel, Random& random) {
-    Vec2 point;
-    for (int axis = 0; axis < 2; ++axis) {
+    Vec<D> point;
+    for (int axis = 0; axis < D; ++axis) {
       point[axis] = low_[axis] + (voxel[axis] + random.uniform()) * widths_[axis];
     }
     place_at(point, voxel);
   }
 
-  bool place_at(const Vec2& point, const Voxel& voxel) {
-    if (any_particle_within(voxel,
-                            [&](const Vec2& centre) { return (centre - point).cwiseAbs(); })) {
-      return false;
-    }
+  bool place_at(const Vec<D>& point, const Voxel& voxel) {
+    const auto offset = [&](const Vec<D>& centre) -> Vec<D> { return (centre - point).cwiseAbs(); };
+    if (any_particle_within(voxel, offset)) return false;
     centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
     placed_.push_back(point);
     return true;
@@ -84,20 +105,19 @@ class Insertion {
 
   void split_voxels() {
     ++level_;
-    for (double& width : widths_) width *= 0.5;
+    widths_ *= 0.5;
     std::vector<Voxel> split;
+    const auto is_covered = [&](const Voxel& voxel) {
+      const Vec<D> half = 0.5 * widths_;
+      Vec<D> middle;
+      for (int k = 0; k < D; ++k) middle[k] = low_[k] + (voxel[k] + 0.5) * widths_[k];
+      // The corner that is farthest from a centre says whether that particle covers the voxel.
+      return any_particle_within(voxel, [&](const Vec<D>& centre) -> Vec<D> {
+        return (centre - middle).cwiseAbs() + half;
+      });
+    };
     for (const Voxel& parent : open_) {
-      for (int child = 0; child < 4; ++child) {
-        const Voxel voxel = {2 * parent[0] + child % 2, 2 * parent[1] + child / 2};
-        const Vec2 half(0.5 * widths_[0], 0.5 * widths_[1]);
-        const Vec2 middle(low_[0] + (voxel[0] + 0.5) * widths_[0],
-                          low_[1] + (voxel[1] + 0.5) * widths_[1]);
-        // The corner that is farthest from a centre says whether that particle covers the voxel.
-        const auto farthest = [&](const Vec2& centre) {
-          return Vec2((centre - middle).cwiseAbs() + half);
-        };
-        if (!any_particle_within(voxel, farthest)) split.push_back(voxel);
-      }
+      collect(2 * parent, 2 * parent + Voxel::Ones(), is_covered, split);
     }
     open_ = std::move(split);
   }
@@ -108,90 +128,101 @@ class Insertion {
   bool any_particle_within(const Voxel& voxel, const Offset& offset) const {
     const double closest = room_.diameter * room_.diameter;
     if (centres_[cell_of(voxel)] != kEmpty) return true;
-    for (int dy = -2; dy <= 2; ++dy) {
-      for (int dx = -2; dx <= 2; ++dx) {
-        Vec2 wrap = Vec2::Zero();
-        const int x = wrapped((voxel[0] >> level_) + dx, 0, wrap);
-        const int y = wrapped((voxel[1] >> level_) + dy, 1, wrap);
-        if (x < 0 || y < 0) continue;
-        const std::uint32_t particle = centres_[static_cast<std::size_t>(y) * counts_[0] + x];
-        if (particle != kEmpty && offset(placed_[particle] + wrap).squaredNorm() < closest)
-          return true;
-      }
+    Voxel own;
+    for (int k = 0; k < D; ++k) own[k] = voxel[k] >> level_;
+    // Cells are at least a diameter over sqrt(D) wide, so two on either side reach a diameter.
+    return any_of(own - 2 * Voxel::Ones(), own + 2 * Voxel::Ones(), [&](Voxel cell) {
+      Vec<D> wrap = Vec<D>::Zero();
+      if (!wrap_into_room(cell, wrap)) return false;
+      const std::uint32_t particle = centres_[index(cell)];
+      return particle != kEmpty && offset(placed_[particle] + wrap).squaredNorm() < closest;
+    });
+  }
+
+  std::size_t index(const IntVec<D>& cell) const {
+    std::size_t number = 0;
+    for (int k = D - 1; k >= 0; --k) {
+      number = number * static_cast<std::size_t>(counts_[k]) + static_cast<std::size_t>(cell[k]);
     }
-    return false;
+    return number;
   }
 
   std::size_t cell_of(const Voxel& voxel) const {
-    return static_cast<std::size_t>(voxel[1] >> level_) * counts_[0] +
-           static_cast<std::size_t>(voxel[0] >> level_);
+    IntVec<D> cell;
+    for (int k = 0; k < D; ++k) cell[k] = voxel[k] >> level_;
+    return index(cell);
   }
 
-  // The cell number in range, its box lengths added to `wrap`; -1 beyond a wall.
-  int wrapped(int number, int axis, Vec2& wrap) const {
-    const int count = counts_[axis];
-    if (number >= 0 && number < count) return number;
-    if (!room_.periodic[axis]) return -1;
-    const int boxes = number < 0 ? -((count - 1 - number) / count) : number / count;
-    wrap[axis] = boxes * room_.box[axis];
-    return number - boxes * count;
+  // Brings a cell into the room round its periodic axes, and adds the box lengths to `wrap`; false
+  // beyond a wall.
+  bool wrap_into_room(IntVec<D>& cell, Vec<D>& wrap) const {
+    for (int k = 0; k < D; ++k) {
+      const int count = counts_[k];
+      if (cell[k] >= 0 && cell[k] < count) continue;
+      if (room_.walled[k]) return false;
+      const int boxes = cell[k] < 0 ? -((count - 1 - cell[k]) / count) : cell[k] / count;
+      wrap[k] = boxes * room_.box[k];
+      cell[k] -= boxes * count;
+    }
+    return true;
   }
 
-  Room room_;
-  double low_[2];
-  int counts_[2];
-  double widths_[2];  // of a voxel
-  int level_ = 0;     // voxels are 2^-level_ of a cell
-  std::vector<Vec2> placed_;
+  Room<D> room_;
+  Vec<D> low_;
+  IntVec<D> counts_;
+  Vec<D> widths_;  // of a voxel
+  int level_ = 0;  // voxels are 2^-level_ of a cell
+  std::vector<Vec<D>> placed_;
   std::vector<std::uint32_t> centres_;  // particle in each cell, or kEmpty
   std::vector<Voxel> open_;
 };
 
 // The same for a few particles in a large room, where almost every try succeeds: memory follows the
 // particles and not the room.
+template <int D>
 class SparseInsertion {
  public:
-  SparseInsertion(const Room& room, std::size_t count)
+  SparseInsertion(const Room<D>& room, std::size_t count)
       : model_(empty(room)), grid_(model_, static_cast<double>(count)) {
     placed_.reserve(count);
   }
 
   void place(std::size_t count, Random& random) {
     while (placed_.size() < count) {
-      Vec2 point;
-      for (int axis = 0; axis < 2; ++axis) {
+      Vec<D> point;
+      for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));
       }
       place_at(point);
     }
   }
 
-  bool place_first(const Vec2& point) {
-    for (int axis = 0; axis < 2; ++axis) {
+  bool place_first(const Vec<D>& point) {
+    for (int axis = 0; axis < D; ++axis) {
       if (!(point[axis] >= low(axis) && point[axis] < model_.box[axis] - low(axis))) return false;
     }
     return place_at(point);
   }
 
-  std::vector<Vec2>& placed() { return placed_; }
+  std::vector<Vec<D>>& placed() { return placed_; }
 
  private:
-  static Model<2> empty(const Room& room) {
-    Model<2> model;
+  static Model<D> empty(const Room<D>& room) {
+    Model<D> model;
     model.box = room.box;
     model.diameter = room.diameter;
-    for (int side = 0; side < 4; ++side) {
-      if (!room.periodic[side / 2]) model.walls[side] = Wall{};
+    for (int side = 0; side < 2 * D; ++side) {
+      if (room.walled[side / 2]) model.walls[side] = Wall{};
     }
     return model;
   }
 
   double low(int axis) const { return model_.periodic(axis) ? 0.0 : model_.wall_plane(axis, 0); }
 
-  bool place_at(const Vec2& point) {
+  bool place_at(const Vec<D>& point) {
     bool overlaps = false;
-    grid_.visit(grid_.cell_at(point), [&](std::uint32_t other, const Vec2& wrap) {
-      const Vec2 x = placed_[other] - point + wrap.cwiseProduct(model_.box);
+    grid_.visit(grid_.cell_at(point), [&](std::uint32_t other, const Vec<D>& wrap) {
+      const Vec<D> x = placed_[other] - point + wrap.cwiseProduct(model_.box);
       overlaps = overlaps || x.norm() < model_.diameter;
     });
     if (overlaps) return false;
@@ -200,15 +231,15 @@ class SparseInsertion {
     return true;
   }
 
-  Model<2> model_;
-  CellGrid<2> grid_;
-  std::vector<Vec2> placed_;
+  Model<D> model_;
+  CellGrid<D> grid_;
+  std::vector<Vec<D>> placed_;
 };
 
 // As many of `wanted` as fit, then random places; empty where there is none for one.
-template <class Places>
-std::vector<Vec2> filled(Places places, int count, Random& random, const std::vector<Vec2>& wanted,
-                         std::vector<std::size_t>& kept) {
+template <int D, class Places>
+std::vector<Vec<D>> filled(Places places, int count, Random& random,
+                           const std::vector<Vec<D>>& wanted, std::vector<std::size_t>& kept) {
   for (std::size_t i = 0; i < wanted.size() && static_cast<int>(kept.size()) < count; ++i) {
     if (places.place_first(wanted[i])) kept.push_back(i);
   }
@@ -219,20 +250,33 @@ std::vector<Vec2> filled(Places places, int count, Random& random, const std::ve
 
 }  // namespace
 
-std::vector<Vec2> random_insertion(const Room& room, int count, Random& random) {
+template <int D>
+std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random) {
   std::vector<std::size_t> none;
-  return random_insertion(room, count, random, {}, none);
+  return random_insertion<D>(room, count, random, {}, none);
 }
 
-std::vector<Vec2> random_insertion(const Room& room, int count, Random& random,
-                                   const std::vector<Vec2>& wanted,
-                                   std::vector<std::size_t>& kept) {
-  constexpr double kSparse = 50.0;  // squares of the diameter per particle: phi below 0.016
-  if (room.box.prod() > kSparse * room.diameter * room.diameter * count) {
+template <int D>
+std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
+                                     const std::vector<Vec<D>>& wanted,
+                                     std::vector<std::size_t>& kept) {
+  constexpr double kSparse = 50.0;  // volumes of the diameter's cube for each particle
+  const double cube =
+      D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
+  if (room.box.prod() > kSparse * cube * count) {
     const auto places = static_cast<std::size_t>(count);
-    return filled(SparseInsertion(room, places), count, random, wanted, kept);
+    return filled<D>(SparseInsertion<D>(room, places), count, random, wanted, kept);
   }
-  return filled(Insertion(room), count, random, wanted, kept);
+  return filled<D>(Insertion<D>(room), count, random, wanted, kept);
 }
+
+template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&);
+template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&);
+template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&,
+                                              const std::vector<Vec<2>>&,
+                                              std::vector<std::size_t>&);
+template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&,
+                                              const std::vector<Vec<3>>&,
+                                              std::vector<std::size_t>&);
 
 }  // namespace clatter

@@ -10,53 +10,62 @@
 #include "engine/initial/random_insertion.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/random.h"
+#include "engine/physics/theory.h"
 
 namespace clatter {
 
-// Random insertion jams at 0.547 (Feder 1980).
-static constexpr double kInsertionFraction = 0.54;
-// Above, the equilibrium fluid of hard disks ends (Bernard & Krauth 2011: 0.700).
-static constexpr double kFluidFraction = 0.7;
+// Packing fractions up to which random insertion is used: it jams at 0.547 for disks (Feder 1980)
+// and 0.384 for spheres (Torquato, Uche & Stillinger 2006).
+template <int D>
+static constexpr double kInsertionFraction = D == 2 ? 0.54 : 0.37;
+// Above, there is no fluid: that of disks ends at 0.700 (Bernard & Krauth 2011), that of spheres
+// crystallises by itself.
+template <int D>
+static constexpr double kFluidFraction = D == 2 ? 0.7 : 0.54;
 
-static std::vector<Vec2> gaussian_velocities(std::size_t count, double temperature,
-                                             std::uint64_t seed) {
-  std::vector<Vec2> velocities(count);
-  Vec2 mean = Vec2::Zero();
+template <int D>
+static std::vector<Vec<D>> gaussian_velocities(std::size_t count, double temperature,
+                                               std::uint64_t seed) {
+  std::vector<Vec<D>> velocities(count);
+  Vec<D> mean = Vec<D>::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     Random random(seed, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
-    const double x = random.normal();
-    velocities[i] = {x, random.normal()};
+    for (double& component : velocities[i]) component = random.normal();
     mean += velocities[i] / static_cast<double>(count);
   }
   double twice_energy = 0.0;
-  for (Vec2& v : velocities) {
+  for (Vec<D>& v : velocities) {
     if (count >= 2) v -= mean;
     twice_energy += v.squaredNorm();
   }
-  const double scale = std::sqrt(2.0 * static_cast<double>(count) * temperature / twice_energy);
-  for (Vec2& v : velocities) v = temperature > 0.0 ? Vec2(v * scale) : Vec2::Zero();
+  const double freedoms = static_cast<double>(D) * static_cast<double>(count);
+  const double scale = std::sqrt(freedoms * temperature / twice_energy);
+  for (Vec<D>& v : velocities) v = temperature > 0.0 ? Vec<D>(v * scale) : Vec<D>::Zero();
   return velocities;
 }
 
 // With the mean that they happen to have: spins have no law of conservation that a mean could
 // break.
-static std::vector<Spin<2>> gaussian_spins(std::size_t count, double temperature, double inertia,
+template <int D>
+static std::vector<Spin<D>> gaussian_spins(std::size_t count, double temperature, double inertia,
                                            std::uint64_t seed) {
-  std::vector<Spin<2>> spins(count, Spin<2>::Zero());
+  std::vector<Spin<D>> spins(count, Spin<D>::Zero());
   if (!(temperature > 0.0)) return spins;
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    spins[i][0] = Random(seed, Stream::StartSpin, static_cast<std::uint32_t>(i), 0).normal();
+    Random random(seed, Stream::StartSpin, static_cast<std::uint32_t>(i), 0);
+    for (double& component : spins[i]) component = random.normal();
     sum += spins[i].squaredNorm();
   }
-  const double moment = 0.25 * inertia;  // I = q m a^2 / 4
-  const double scale = std::sqrt(static_cast<double>(count) * temperature / (moment * sum));
-  for (Spin<2>& spin : spins) spin *= scale;
+  const double freedoms = static_cast<double>(Spin<D>::SizeAtCompileTime * count);
+  const double scale = std::sqrt(freedoms * temperature / (moment_of_inertia(inertia, 1.0) * sum));
+  for (Spin<D>& spin : spins) spin *= scale;
   return spins;
 }
 
 // A random choice of `count` of the sites.
-static void choose(std::vector<Vec2>& sites, std::size_t count, Random& random) {
+template <int D>
+static void choose(std::vector<Vec<D>>& sites, std::size_t count, Random& random) {
   for (std::size_t i = 0; i < count; ++i) {
     std::swap(sites[i], sites[i + random.below(sites.size() - i)]);
   }
@@ -97,85 +106,110 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   return bonds > 0.0 ? sum.norm() / bonds : 0.0;
 }
 
-// Elastic motion from lattice sites until the bond order of the square and of the triangular
-// lattice is that of a fluid, or for long enough that it would have been.
-static std::vector<Vec2> melt(const Room& room, const std::vector<Vec2>& sites,
-                              std::uint64_t seed) {
+// Whether elastic motion from lattice sites has made a fluid. Of disks, the bond order of the
+// square and of the triangular lattice tells; spheres have left their sites by a diameter.
+static bool is_fluid(const Model<2>& model, const State<2>& state, const std::vector<Vec<2>>&) {
+  const double finite = 3.0 / std::sqrt(static_cast<double>(state.positions.size()));
+  return bond_order(model, state, 4) < std::max(0.1, finite) &&
+         bond_order(model, state, 6) < std::max(0.3, finite);
+}
+static bool is_fluid(const Model<3>& model, const State<3>& state,
+                     const std::vector<Vec<3>>& sites) {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    Vec<3> way = state.positions[i] - sites[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!model.periodic(axis)) continue;
+      way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
+    }
+    squares += way.squaredNorm();
+  }
+  return squares > static_cast<double>(sites.size()) * model.diameter * model.diameter;
+}
+
+// Elastic motion from lattice sites until there is a fluid, or for long enough that there would be.
+template <int D>
+static std::vector<Vec<D>> melt(const Room<D>& room, const std::vector<Vec<D>>& sites,
+                                std::uint64_t seed) {
   constexpr int kRounds = 10;
   constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
-  // At T = 1 and above phi = 0.5 these take less than 10; a lone particle never has them.
+  // At T = 1 in a dense gas these take less than 10; a lone particle never has them.
   constexpr double kLongestRound = 100.0;
-  const double count = static_cast<double>(sites.size());
-  const double square_order = std::max(0.1, 3.0 / std::sqrt(count));
-  const double triangular_order = std::max(0.3, 3.0 / std::sqrt(count));
-  Model<2> elastic;
+  Model<D> elastic;
   elastic.box = room.box;
   elastic.diameter = room.diameter;
-  for (int side = 0; side < 4; ++side) {
-    if (!room.periodic[side / 2]) elastic.walls[side] = Wall{};
+  for (int side = 0; side < 2 * D; ++side) {
+    if (room.walled[side / 2]) elastic.walls[side] = Wall{};
   }
-  Simulation<2> simulation(elastic, {sites, gaussian_velocities(sites.size(), 1.0, ~seed)});
+  Simulation<D> simulation(elastic, {sites, gaussian_velocities<D>(sites.size(), 1.0, ~seed)});
   for (int round = 1; round <= kRounds; ++round) {
     simulation.run_until(kLongestRound * round, kCollisionsPerRound * round * sites.size() / 2);
-    const State<2> state = simulation.state();
-    if (bond_order(elastic, state, 4) < square_order &&
-        bond_order(elastic, state, 6) < triangular_order) {
-      break;
-    }
+    if (is_fluid(elastic, simulation.state(), sites)) break;
   }
   return simulation.state().positions;
 }
 
-static std::vector<Vec2> random_positions(const Room& room, int count, std::uint64_t seed) {
+template <int D>
+static std::vector<Vec<D>> random_positions(const Room<D>& room, int count, std::uint64_t seed) {
   Random random(seed, Stream::Placement, 0, 0);
-  const double fraction = count * std::numbers::pi / (4.0 * room.box.x() * room.box.y());
-  if (fraction <= kInsertionFraction) {
-    std::vector<Vec2> placed = random_insertion(room, count, random);
+  const double fraction = packing_fraction(D, count / room.box.prod());
+  if (fraction <= kInsertionFraction<D>) {
+    std::vector<Vec<D>> placed = random_insertion(room, count, random);
     if (static_cast<int>(placed.size()) == count) return placed;
   }
-  std::vector<Vec2> sites = square_lattice(room, count);
-  const bool square = !sites.empty();
-  if (!square) sites = hexagonal_lattice(room, count);
-  choose(sites, static_cast<std::size_t>(count), random);
-  if (!square || fraction > kFluidFraction) return sites;
+  std::vector<Vec<D>> sites = primitive_lattice(room, count);
+  const bool primitive = !sites.empty();
+  if (!primitive) sites = face_centred_lattice(room, count);
+  choose<D>(sites, static_cast<std::size_t>(count), random);
+  if (!primitive || fraction > kFluidFraction<D>) return sites;
   return melt(room, sites, seed);
 }
 
-static std::vector<Vec2> lattice_positions(const Room& room, int count, std::uint64_t seed) {
-  std::vector<Vec2> sites = hexagonal_lattice(room, count);
-  if (sites.empty()) sites = square_lattice(room, count);
+template <int D>
+static std::vector<Vec<D>> lattice_positions(const Room<D>& room, int count, std::uint64_t seed) {
+  std::vector<Vec<D>> sites = face_centred_lattice(room, count);
+  if (sites.empty()) sites = primitive_lattice(room, count);
   Random random(seed, Stream::Placement, 0, 0);
-  choose(sites, static_cast<std::size_t>(count), random);
+  choose<D>(sites, static_cast<std::size_t>(count), random);
   return sites;
 }
 
-// Numbers particles along rows, upwards: those that are near each other then lie near each other in
-// memory too, which large gases gain a quarter of their speed from.
-static void number_by_rows(std::vector<Vec2>& positions) {
+// Numbers particles along rows, and rows one above the other: particles that are near each other
+// then lie near each other in memory too, which speeds large gases up by a quarter.
+template <int D>
+static void number_by_rows(std::vector<Vec<D>>& positions) {
   constexpr double kRowHeight = 1.3;  // diameters: about that of the engine's cells
-  const auto row = [](const Vec2& r) { return std::floor(r.y() / kRowHeight); };
-  std::stable_sort(positions.begin(), positions.end(), [&](const Vec2& a, const Vec2& b) {
-    return std::pair(row(a), a.x()) < std::pair(row(b), b.x());
-  });
+  const auto comes_first = [](const Vec<D>& a, const Vec<D>& b) {
+    for (int k = D - 1; k > 0; --k) {
+      const double row_a = std::floor(a[k] / kRowHeight), row_b = std::floor(b[k] / kRowHeight);
+      if (row_a != row_b) return row_a < row_b;
+    }
+    return a[0] < b[0];
+  };
+  std::stable_sort(positions.begin(), positions.end(), comes_first);
 }
 
-State<2> start_state(const Scene& scene, std::uint64_t seed) {
+template <int D>
+State<D> start_state(const Scene& scene, std::uint64_t seed) {
   const Start& start = scene.particles.start;
-  if (start.layout == Layout::File) return start.state;
-  const Room room = scene.start_room();
+  if (start.layout == Layout::File) return std::get<State<D>>(start.state);
+  const Room<D> room = scene.start_room<D>();
   const int count = scene.particles.count;
-  State<2> state;
+  State<D> state;
   state.positions = start.layout == Layout::Random ? random_positions(room, count, seed)
                                                    : lattice_positions(room, count, seed);
-  number_by_rows(state.positions);
-  const Vec2 corner = scene.clear_corner();
-  for (Vec2& position : state.positions) position += corner;
-  state.velocities = gaussian_velocities(state.positions.size(), start.temperature, seed);
+  number_by_rows<D>(state.positions);
+  const Vec<D> corner = scene.clear_corner();
+  for (Vec<D>& position : state.positions) position += corner;
+  state.velocities = gaussian_velocities<D>(state.positions.size(), start.temperature, seed);
   if (scene.spins()) {
-    state.spins = gaussian_spins(state.positions.size(), start.spin_temperature,
-                                 scene.particles.inertia, seed);
+    state.spins = gaussian_spins<D>(state.positions.size(), start.spin_temperature,
+                                    scene.particles.inertia, seed);
   }
   return state;
 }
+
+template State<2> start_state(const Scene&, std::uint64_t);
+template State<3> start_state(const Scene&, std::uint64_t);
 
 }  // namespace clatter

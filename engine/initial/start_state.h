@@ -12,9 +12,11 @@ namespace clatter {
 /// spins, where the scene has them, Gaussian with exactly their temperature I <omega^2>. Particles
 /// keep clear of wherever a moving wall comes. A scene with layout File has the state itself.
 ///
-/// A random layout is made by random insertion up to phi = 0.54, by melting a square lattice up to
-/// the density at which hard disks freeze, and is a triangular lattice with random vacancies
-/// beyond. The scene has been validated: its count fits one of the lattices.
-State<2> start_state(const Scene& scene, std::uint64_t seed);
+/// A random layout is made by random insertion up to a packing fraction of 0.54 for disks and 0.37
+/// for spheres, by melting a square or cubic lattice while there is a fluid (0.7 and 0.54), and is
+/// a face-centred lattice with random vacancies beyond. The scene has been validated: its count
+/// fits one of the lattices.
+template <int D>
+State<D> start_state(const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

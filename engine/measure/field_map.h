@@ -10,9 +10,10 @@ namespace clatter {
 /// A field on a grid of equal box cells over the whole box, Sec. 4.
 struct FieldMap {
   Field field = Field::Density;
-  std::array<int, 2> cells = {0, 0};  ///< along x and y
-  std::vector<double> values;  ///< [cells_y][cells_x], row by row from y = 0; NaN: never visited
-  bool whole_window = false;   ///< averaged over the whole window, not less for want of time
+  std::vector<int> cells = {0, 0};  ///< [D] along each axis
+  std::vector<double>
+      values;  ///< [cells_z][cells_y][cells_x], of disks without the first; NaN: never visited
+  bool whole_window = false;  ///< averaged over the whole window, not less for want of time
 };
 
 }  // namespace clatter

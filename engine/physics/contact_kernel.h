@@ -19,7 +19,7 @@ inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
 /// row's frame lies off the box.
 template <int D>
 struct Candidates {
-  static constexpr int kCapacity = 16;
+  static constexpr int kCapacity = D == 2 ? 16 : 32;
 
   /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
   static constexpr int kMargin = 4;

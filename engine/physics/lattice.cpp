@@ -4,169 +4,249 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace clatter {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// A grid of points over the room. A rectangular lattice takes them all. A triangular one takes
-/// every second, like the black fields of a chess board: stretched one way or the other, the board
-/// has its close-packed rows along x or along y.
+/// A grid of points over the room. A primitive lattice takes them all. A face-centred one takes
+/// every second, those whose numbers along the axes have an even sum, like the black fields of a
+/// chess board: stretched one way or the other, the board in the plane has its close-packed rows
+/// along x or along y, and the board of cubes in space is the fcc lattice.
+template <int D>
 struct Grid {
-  bool chess = false;
-  std::array<std::int64_t, 2> points = {0, 0};  ///< along x, y
+  bool centred = false;
+  std::array<std::int64_t, D> points{};  ///< along each axis
 };
 
-/// Where centres may lie along an axis: all of a periodic axis, or what the walls leave.
-double span(const Room& room, int axis) {
-  return room.box[axis] - (room.periodic[axis] ? 0.0 : room.diameter);
+/// Where centres may lie along an axis: all of a periodic axis, or the part between the walls.
+template <int D>
+double span(const Room<D>& room, int axis) {
+  return room.box[axis] - (room.walled[axis] ? room.diameter : 0.0);
 }
 
 /// Spacing of n points spread evenly along an axis; a single one between walls has no neighbour.
-double spacing(const Room& room, int axis, std::int64_t n) {
-  const std::int64_t gaps = room.periodic[axis] ? n : n - 1;
+template <int D>
+double spacing(const Room<D>& room, int axis, std::int64_t n) {
+  const std::int64_t gaps = room.walled[axis] ? n - 1 : n;
   return gaps > 0 ? span(room, axis) / static_cast<double>(gaps) : kNever;
 }
 
+/// Distance of two neighbouring sites in a row along an axis of n points. In a face-centred lattice
+/// the next site is two points on; between walls that takes three points.
+template <int D>
+double distance_in_row(const Room<D>& room, bool centred, int axis, std::int64_t n) {
+  if (!centred) return spacing(room, axis, n);
+  return !room.walled[axis] || n > 2 ? 2.0 * spacing(room, axis, n) : kNever;
+}
+
 /// Least distance between two sites of the grid.
-double least_distance(const Room& room, const Grid& grid) {
-  const double dx = spacing(room, 0, grid.points[0]);
-  const double dy = spacing(room, 1, grid.points[1]);
-  if (!grid.chess) return std::min(dx, dy);
-  // Along a row the next site is two points on; between walls that takes three points.
-  const auto two_on = [&](int axis, double step) {
-    return room.periodic[axis] || grid.points[axis] > 2 ? 2.0 * step : kNever;
-  };
-  return std::min({two_on(0, dx), two_on(1, dy), Vec2(dx, dy).norm()});
+template <int D>
+double least_distance(const Room<D>& room, const Grid<D>& grid) {
+  double least = kNever;
+  for (int k = 0; k < D; ++k) {
+    least = std::min(least, distance_in_row(room, grid.centred, k, grid.points[k]));
+    for (int l = 0; grid.centred && l < k; ++l) {
+      const Vec2 diagonal(spacing(room, l, grid.points[l]), spacing(room, k, grid.points[k]));
+      least = std::min(least, diagonal.norm());
+    }
+  }
+  return least;
 }
 
 /// The distance that sites must keep so that their rounded coordinates do not overlap: a coordinate
 /// is off by at most 2 epsilon of the box, and the minimal image of a difference by another one.
 /// So a lattice whose particles would touch exactly does not count as fitting.
-double reach(const Room& room) {
+template <int D>
+double reach(const Room<D>& room) {
   return room.diameter + 16.0 * std::numeric_limits<double>::epsilon() * room.box.maxCoeff();
 }
 
-bool fits(const Room& room, const Grid& grid) {
+template <int D>
+bool fits(const Room<D>& room, const Grid<D>& grid) {
   return room.box.minCoeff() >= room.diameter && least_distance(room, grid) >= reach(room);
 }
 
-std::int64_t site_count(const Grid& grid) {
-  const std::int64_t points = grid.points[0] * grid.points[1];
-  return grid.chess ? (points + 1) / 2 : points;
+template <int D>
+std::int64_t site_count(const Grid<D>& grid) {
+  std::int64_t points = 1;
+  for (const std::int64_t along : grid.points) points *= along;
+  return grid.centred ? (points + 1) / 2 : points;
 }
 
 /// Points along an axis come in multiples of this: around a periodic axis a chess board closes only
 /// with an even number of fields.
-std::int64_t multiple(const Room& room, int axis, bool chess) {
-  return chess && room.periodic[axis] ? 2 : 1;
+template <int D>
+std::int64_t multiple(const Room<D>& room, bool centred, int axis) {
+  return centred && !room.walled[axis] ? 2 : 1;
 }
 
 /// A multiple that no grid exceeds whose points along the axis keep this spacing.
-std::int64_t bound_on_points(const Room& room, int axis, bool chess, double spacing) {
+template <int D>
+std::int64_t bound_on_points(const Room<D>& room, bool centred, int axis, double spacing) {
   constexpr double kMax = 1LL << 32;  // more than any count of particles
   const auto points = static_cast<std::int64_t>(std::min(span(room, axis) / spacing, kMax)) + 2;
-  return points - points % multiple(room, axis, chess);
+  return points - points % multiple(room, centred, axis);
 }
 
-/// Searches run along the axis that holds fewer points.
-int short_axis(const Room& room) {
-  return room.box.x() <= room.box.y() ? 0 : 1;
+/// A multiple that the points along an axis of a grid that fits do not exceed.
+template <int D>
+std::int64_t bound_along(const Room<D>& room, bool centred, int axis) {
+  return bound_on_points(room, centred, axis, room.diameter * (centred ? 0.5 : 1.0));
 }
 
-/// A multiple that the points along the short axis of a grid that fits do not exceed.
-std::int64_t bound_along(const Room& room, bool chess) {
-  return bound_on_points(room, short_axis(room), chess, room.diameter * (chess ? 0.5 : 1.0));
+/// The axes, that of the shortest edge first: searches try every number of points along all axes
+/// but the last, which then follows.
+template <int D>
+using Axes = std::array<int, D>;
+template <int D>
+Axes<D> by_length(const Room<D>& room) {
+  Axes<D> axes;
+  std::iota(axes.begin(), axes.end(), 0);
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](int a, int b) { return room.box[a] < room.box[b]; });
+  return axes;
 }
 
-/// The lattice that square_lattice and hexagonal_lattice look for; no points where there is none.
-Grid widest_grid(const Room& room, bool chess, int count) {
-  const int along = short_axis(room);
-  const int across = 1 - along;
-  const std::int64_t needed = chess ? 2LL * count - 1 : count;  // points, taken or not
-  const std::int64_t most = bound_along(room, chess);
-  const std::int64_t unit = multiple(room, across, chess);
-  const std::int64_t first = multiple(room, along, chess);
-  Grid widest;
-  double distance = 0.0;
-  for (std::int64_t n = first; n <= std::min(most, needed + 1); n += first) {
-    Grid grid{.chess = chess};
-    grid.points[along] = n;
-    grid.points[across] = (needed + n * unit - 1) / (n * unit) * unit;
-    if (!fits(room, grid) || least_distance(room, grid) <= distance) continue;
-    distance = least_distance(room, grid);
-    widest = grid;
+/// Looks for the lattice that primitive_lattice and face_centred_lattice give.
+template <int D>
+class WidestGrid {
+ public:
+  WidestGrid(const Room<D>& room, bool centred, int count)
+      : room_(room),
+        needed_(centred ? 2LL * count - 1 : count),
+        axes_(by_length(room)),
+        widest_{.centred = centred} {
+    search({.centred = centred}, 0, 1);
   }
-  return widest;
-}
 
-/// The most sites of a grid with n points along the short axis; 0 where none fits.
-std::int64_t most_sites(const Room& room, bool chess, std::int64_t n) {
-  const int along = short_axis(room);
-  const int across = 1 - along;
-  const std::int64_t unit = multiple(room, across, chess);
-  Grid grid{.chess = chess};
-  grid.points[along] = n;
-  grid.points[across] = unit;
+  /// No points where there is none.
+  const Grid<D>& grid() const { return widest_; }
+
+ private:
+  // The axes before axes_[k] have their points, `product` of them.
+  void search(Grid<D> grid, int k, std::int64_t product) {
+    const int axis = axes_[k];
+    const std::int64_t unit = multiple(room_, grid.centred, axis);
+    std::int64_t& points = grid.points[axis];
+    if (k == D - 1) {
+      points = (needed_ + product * unit - 1) / (product * unit) * unit;
+      if (!fits(room_, grid) || least_distance(room_, grid) <= distance_) return;
+      distance_ = least_distance(room_, grid);
+      widest_ = grid;
+      return;
+    }
+    const std::int64_t last =
+        std::min(bound_along(room_, grid.centred, axis), needed_ / product + 1);
+    for (points = unit; points <= last; points += unit) {
+      // With more points, sites lie only closer along this axis.
+      if (distance_in_row(room_, grid.centred, axis, points) <= distance_) return;
+      search(grid, k + 1, product * points);
+    }
+  }
+
+  const Room<D>& room_;
+  std::int64_t needed_;  // points, taken or not
+  Axes<D> axes_;
+  Grid<D> widest_;
+  double distance_ = 0.0;
+};
+
+/// The most sites of a grid whose points along all axes but axes[D - 1] are given; 0 where none
+/// fits.
+template <int D>
+std::int64_t most_sites(const Room<D>& room, const Axes<D>& axes, Grid<D> grid) {
+  const int last = axes[D - 1];
+  const std::int64_t unit = multiple(room, grid.centred, last);
+  grid.points[last] = unit;
   if (!fits(room, grid)) return 0;
   const double least = reach(room);
-  const double step = spacing(room, along, n);
-  const double diagonal = step < least ? std::sqrt(least * least - step * step) : 0.0;
-  grid.points[across] =
-      bound_on_points(room, across, chess, chess ? std::max(0.5 * least, diagonal) : least);
-  while (!fits(room, grid)) grid.points[across] -= unit;  // the bound is at most a few too high
+  double closest = grid.centred ? 0.5 * least : least;
+  for (int k = 0; grid.centred && k < D - 1; ++k) {
+    const double step = spacing(room, axes[k], grid.points[axes[k]]);
+    if (step < least) closest = std::max(closest, std::sqrt(least * least - step * step));
+  }
+  grid.points[last] = bound_on_points(room, grid.centred, last, closest);
+  while (!fits(room, grid)) grid.points[last] -= unit;  // the bound is at most a few too high
   return site_count(grid);
 }
 
-int capacity(const Room& room, bool chess) {
+/// The most sites of any such grid, the axes before axes[k] having their points; at most the
+/// largest int.
+template <int D>
+std::int64_t capacity(const Room<D>& room, const Axes<D>& axes, Grid<D> grid, int k) {
   constexpr std::int64_t kMax = std::numeric_limits<int>::max();
-  const int along = short_axis(room);
-  const std::int64_t last = bound_along(room, chess);
-  const std::int64_t first = multiple(room, along, chess);
+  if (k == D - 1) return std::min(most_sites<D>(room, axes, grid), kMax);
+  const std::int64_t unit = multiple(room, grid.centred, axes[k]);
+  const std::int64_t last = bound_along(room, grid.centred, axes[k]);
   std::int64_t most = 0;
-  for (std::int64_t n = first; n <= last && most < kMax; n += first) {
-    most = std::max(most, most_sites(room, chess, n));
+  for (std::int64_t n = unit; n <= last && most < kMax; n += unit) {
+    grid.points[axes[k]] = n;
+    most = std::max(most, capacity<D>(room, axes, grid, k + 1));
   }
-  return static_cast<int>(std::min(most, kMax));
+  return most;
 }
 
 /// Coordinate of the i-th of n points along an axis.
-double coordinate(const Room& room, int axis, std::int64_t i, std::int64_t n) {
+template <int D>
+double coordinate(const Room<D>& room, int axis, std::int64_t i, std::int64_t n) {
   const double step = spacing(room, axis, n);
-  if (room.periodic[axis]) return (static_cast<double>(i) + 0.5) * step;
+  if (!room.walled[axis]) return (static_cast<double>(i) + 0.5) * step;
   if (n == 1) return 0.5 * room.box[axis];
   const double radius = 0.5 * room.diameter;
   return std::min(radius + static_cast<double>(i) * step, room.box[axis] - radius);
 }
 
-std::vector<Vec2> widest_lattice(const Room& room, bool chess, int count) {
-  std::vector<Vec2> sites;
-  if (count <= 0) return sites;
-  const Grid grid = widest_grid(room, chess, count);
-  const auto [columns, rows] = grid.points;
+/// The sites of a grid, row by row along x, then along y.
+template <int D>
+std::vector<Vec<D>> sites_of(const Room<D>& room, const Grid<D>& grid) {
+  std::vector<Vec<D>> sites;
   sites.reserve(static_cast<std::size_t>(site_count(grid)));
-  for (std::int64_t row = 0; row < rows; ++row) {
-    const double y = coordinate(room, 1, row, rows);
-    for (std::int64_t column = chess ? row % 2 : 0; column < columns; column += chess ? 2 : 1) {
-      sites.emplace_back(coordinate(room, 0, column, columns), y);
+  std::array<std::int64_t, D> at{};
+  while (at[D - 1] < grid.points[D - 1]) {
+    const std::int64_t sum = std::accumulate(at.begin(), at.end(), std::int64_t{0});
+    if (!grid.centred || sum % 2 == 0) {
+      Vec<D> site;
+      for (int k = 0; k < D; ++k) site[k] = coordinate(room, k, at[k], grid.points[k]);
+      sites.push_back(site);
     }
+    for (int k = 0; ++at[k] == grid.points[k] && k < D - 1; ++k) at[k] = 0;
   }
   return sites;
 }
 
+template <int D>
+std::vector<Vec<D>> widest_lattice(const Room<D>& room, bool centred, int count) {
+  if (count <= 0) return {};
+  return sites_of(room, WidestGrid<D>(room, centred, count).grid());
+}
+
 }  // namespace
 
-std::vector<Vec2> square_lattice(const Room& room, int count) {
+template <int D>
+std::vector<Vec<D>> primitive_lattice(const Room<D>& room, int count) {
   return widest_lattice(room, false, count);
 }
 
-std::vector<Vec2> hexagonal_lattice(const Room& room, int count) {
+template <int D>
+std::vector<Vec<D>> face_centred_lattice(const Room<D>& room, int count) {
   return widest_lattice(room, true, count);
 }
 
-int lattice_capacity(const Room& room) {
-  return std::max(capacity(room, false), capacity(room, true));
+template <int D>
+int lattice_capacity(const Room<D>& room) {
+  const auto axes = by_length(room);
+  return static_cast<int>(std::max(capacity<D>(room, axes, {.centred = false}, 0),
+                                   capacity<D>(room, axes, {.centred = true}, 0)));
 }
+
+template std::vector<Vec<2>> primitive_lattice(const Room<2>&, int);
+template std::vector<Vec<3>> primitive_lattice(const Room<3>&, int);
+template std::vector<Vec<2>> face_centred_lattice(const Room<2>&, int);
+template std::vector<Vec<3>> face_centred_lattice(const Room<3>&, int);
+template int lattice_capacity(const Room<2>&);
+template int lattice_capacity(const Room<3>&);
 
 }  // namespace clatter

@@ -10,6 +10,11 @@ namespace clatter {
 template <int D>
 using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
 
+/// I = q m a^2/4 of a particle of unit mass, with inertia q = 4I/(m a^2) and diameter a.
+inline double moment_of_inertia(double inertia, double diameter) {
+  return 0.25 * inertia * diameter * diameter;
+}
+
 /// n x omega: a spin of omega moves the point at -n from the centre with this velocity.
 template <int D>
 Vec<D> cross_spin(const Vec<D>& n, const Spin<D>& spin) {

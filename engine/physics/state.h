@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "engine/physics/spin.h"
@@ -14,10 +15,22 @@ struct State {
   std::vector<Vec<D>> positions;    ///< [N] centres inside the box
   std::vector<Vec<D>> velocities;   ///< [N]
   std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
+
+  bool operator==(const State&) const = default;
 };
 
-/// Most particles that there can be.
-inline constexpr std::uint32_t kMaxParticles = (1u << 28) - 1;
+/// The state of disks or of spheres.
+using AnyState = std::variant<State<2>, State<3>>;
+
+/// Number of particles of either state.
+inline std::size_t particle_count(const AnyState& state) {
+  return std::visit([](const auto& any) { return any.positions.size(); }, state);
+}
+
+/// Most particles that there can be: cell lists keep two bits a dimension beside a particle's
+/// number.
+template <int D>
+inline constexpr std::uint32_t kMaxParticles = (std::uint32_t{1} << (32 - 2 * D)) - 1;
 
 /// Overlaps up to this, in diameters, are the rounding of a start state's positions: runs begin
 /// with them.

@@ -4,7 +4,8 @@
 
 namespace clatter {
 
-/// T = (m/2N) sum v^2 of a state; 0 where there are no particles.
-double temperature_of(const State<2>& state);
+/// T = (m/DN) sum v^2 of a state; 0 where there are no particles.
+template <int D>
+double temperature_of(const State<D>& state);
 
 }  // namespace clatter

@@ -8,26 +8,39 @@ namespace clatter {
 
 using std::numbers::pi;
 
-double contact_correlation(double area_fraction) {
-  const double empty = 1.0 - area_fraction;
-  return (1.0 - 7.0 * area_fraction / 16.0) / (empty * empty);
+// Volume of a particle of unit diameter.
+static double particle_volume(int dimension) {
+  return dimension == 2 ? pi / 4.0 : pi / 6.0;
 }
 
-double enskog_rate(double area_fraction, double temperature) {
-  const double density = 4.0 * area_fraction / pi;
-  return 2.0 * std::sqrt(pi * temperature) * contact_correlation(area_fraction) * density;
+double packing_fraction(int dimension, double density) {
+  return particle_volume(dimension) * density;
 }
 
-double compressibility(double area_fraction, double restitution) {
-  return 1.0 + (1.0 + restitution) * area_fraction * contact_correlation(area_fraction);
+double contact_correlation(double packing_fraction, int dimension) {
+  const double empty = 1.0 - packing_fraction;
+  if (dimension == 2) return (1.0 - 7.0 * packing_fraction / 16.0) / (empty * empty);
+  return (1.0 - 0.5 * packing_fraction) / (empty * empty * empty);
 }
 
-double VibratedGas::area_fraction() const {
-  return count * pi / (4.0 * length * width);
+double enskog_rate(double packing_fraction, double temperature, int dimension) {
+  const double density = packing_fraction / particle_volume(dimension);
+  return 2.0 * (dimension - 1) * std::sqrt(pi * temperature) *
+         contact_correlation(packing_fraction, dimension) * density;
+}
+
+double compressibility(double packing_fraction, double restitution, int dimension) {
+  return 1.0 + (dimension - 1) * (1.0 + restitution) * packing_fraction *
+                   contact_correlation(packing_fraction, dimension);
+}
+
+double VibratedGas::packing_fraction() const {
+  return clatter::packing_fraction(dimension, count / (length * wall_size));
 }
 
 double VibratedGas::psi() const {
-  return std::sqrt(2.0) * contact_correlation(area_fraction()) * count / width;
+  return (dimension - 1) * std::sqrt(2.0) * contact_correlation(packing_fraction(), dimension) *
+         count / wall_size;
 }
 
 double VibratedGas::epsilon_effective() const {
@@ -64,7 +77,7 @@ double VibratedGas::temperature_corrected() const {
 }
 
 double VibratedGas::wall_layer_factor() const {
-  return compressibility(area_fraction(), 1.0) * length / (length - 1.0);
+  return compressibility(packing_fraction(), 1.0, dimension) * length / (length - 1.0);
 }
 
 double VibratedGas::wall_hit_rate(double temperature) const {
@@ -72,8 +85,8 @@ double VibratedGas::wall_hit_rate(double temperature) const {
 }
 
 double VibratedGas::collision_rate(double temperature) const {
-  return std::sqrt(pi) * contact_correlation(area_fraction()) *
-         (count * (count - 1.0) / (length * width)) * std::sqrt(temperature);
+  return (dimension - 1) * std::sqrt(pi) * contact_correlation(packing_fraction(), dimension) *
+         (count * (count - 1.0) / (length * wall_size)) * std::sqrt(temperature);
 }
 
 double VibratedGas::energy_per_wall_hit(double temperature) const {
@@ -88,21 +101,22 @@ double VibratedGas::energy_per_collision(double temperature) const {
 }
 
 double VibratedGas::temperature_change_simple(double temperature) const {
-  return std::sqrt(temperature / (2.0 * pi)) / length *
+  return 2.0 / dimension * std::sqrt(temperature / (2.0 * pi)) / length *
          (drive_speed * drive_speed +
           2.0 * wall_restitution * drive_speed * std::sqrt(2.0 * temperature / pi) -
           pi / 2.0 * epsilon_effective() * psi() * temperature);
 }
 
 double VibratedGas::temperature_change_refined(double temperature) const {
-  return std::sqrt(temperature / (2.0 * pi)) / length *
+  return 2.0 / dimension * std::sqrt(temperature / (2.0 * pi)) / length *
          (drive_speed * drive_speed +
           wall_restitution * drive_speed * std::sqrt(2.0 * pi * temperature) -
           pi * epsilon_effective() * psi() * temperature);
 }
 
 double VibratedGas::haff_rate_simple(double initial_temperature) const {
-  return epsilon_effective() * psi() / (4.0 * length) * std::sqrt(pi * initial_temperature / 2.0);
+  return epsilon_effective() * psi() / (2.0 * dimension * length) *
+         std::sqrt(pi * initial_temperature / 2.0);
 }
 
 double VibratedGas::haff_rate_refined(double initial_temperature) const {
@@ -112,7 +126,7 @@ double VibratedGas::haff_rate_refined(double initial_temperature) const {
 double VibratedGas::haff_rate_corrected(double initial_temperature) const {
   const double at_disks = (1.0 - restitution * restitution) * psi();
   const double at_walls = (2.0 / pi) * (1.0 - wall_restitution * wall_restitution);
-  return std::sqrt(pi * initial_temperature / 2.0) / (2.0 * length) *
+  return std::sqrt(pi * initial_temperature / 2.0) / (dimension * length) *
          (at_disks + wall_layer_factor() * at_walls);
 }
 
@@ -121,7 +135,7 @@ double RoughGas::eta() const {
 }
 
 double RoughGas::translational_loss() const {
-  return (1.0 - restitution * restitution) / 2.0 + eta() * (1.0 - eta());
+  return (1.0 - restitution * restitution) / (2.0 * (dimension - 1)) + eta() * (1.0 - eta());
 }
 
 double RoughGas::exchange() const {
@@ -133,34 +147,40 @@ double RoughGas::rotational_loss() const {
 }
 
 double RoughGas::cooling_ratio() const {
-  const double A = translational_loss(), B = exchange(), C = rotational_loss();
-  return ((A - 2.0 * C) + std::sqrt((A - 2.0 * C) * (A - 2.0 * C) + 8.0 * B * B)) / (2.0 * B);
+  const double A = translational_loss(), B = exchange();
+  // Translational over rotational degrees of freedom.
+  const double ratio = 2.0 / (dimension - 1);
+  const double difference = A - ratio * rotational_loss();
+  return (difference + std::sqrt(difference * difference + 4.0 * ratio * B * B)) / (2.0 * B);
 }
 
 double RoughGas::driven_ratio() const {
   return eta() / (1.0 - eta() / inertia);
 }
 
-double RoughGas::driven_temperature(double area_fraction, double power) const {
-  // B^2/C is B times the ratio R = B/C, which smooth disks have too.
-  const double A = translational_loss(), B = exchange();
-  return std::pow(power / (enskog_rate(area_fraction, 1.0) * (A - B * driven_ratio())), 2.0 / 3.0);
+double RoughGas::driven_temperature(double packing_fraction, double power) const {
+  // B^2/C is B times the ratio R = B/C, which smooth particles have too.
+  const double loss = translational_loss() - exchange() * driven_ratio();
+  const double rate = enskog_rate(packing_fraction, 1.0, dimension);
+  return std::pow(power / ((dimension - 1) * rate * loss), 2.0 / 3.0);
 }
 
 double haff_temperature(double initial_temperature, double rate, double time) {
   return initial_temperature / ((1.0 + rate * time) * (1.0 + rate * time));
 }
 
-double haff_rate_periodic(double area_fraction, double restitution, double initial_temperature) {
-  return (1.0 - restitution * restitution) * enskog_rate(area_fraction, initial_temperature) / 4.0;
+double haff_rate_periodic(double packing_fraction, double restitution, double initial_temperature,
+                          int dimension) {
+  return (1.0 - restitution * restitution) *
+         enskog_rate(packing_fraction, initial_temperature, dimension) / (2.0 * dimension);
 }
 
 double divergence_time(double rate) {
   return rate < 0.0 ? -1.0 / rate : std::numeric_limits<double>::infinity();
 }
 
-double bulk_drive_power(double count, double kick_speed, double interval) {
-  return kick_speed * kick_speed * (1.0 - 1.0 / count) / interval;
+double bulk_drive_power(double count, double kick_speed, double interval, int dimension) {
+  return 0.5 * dimension * kick_speed * kick_speed * (1.0 - 1.0 / count) / interval;
 }
 
 }  // namespace clatter

@@ -12,7 +12,7 @@ namespace clatter {
 
 std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed) {
   require_memory(scene);
-  return std::make_unique<Simulation<2>>(model_of(scene, seed), start_state(scene, seed));
+  return std::make_unique<Simulation<2>>(model_of<2>(scene, seed), start_state<2>(scene, seed));
 }
 
 ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed)
@@ -21,7 +21,7 @@ ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed)
 ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<2>& saved)
     : schedule_(scene), seed_(seed) {
   schedule_.skip_to(Clock(saved.base).absolute(saved.now));
-  simulation_ = std::make_unique<Simulation<2>>(model_of(schedule_.scene(), seed), saved);
+  simulation_ = std::make_unique<Simulation<2>>(model_of<2>(schedule_.scene(), seed), saved);
 }
 
 bool ScheduledRun::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
@@ -52,7 +52,8 @@ void ScheduledRun::change(const std::vector<Override>& laws) {
 }
 
 void ScheduledRun::change_laws(Schedule changed) {
-  go_on_as(std::make_unique<Simulation<2>>(model_of(changed.scene(), seed_), simulation_->save()));
+  go_on_as(
+      std::make_unique<Simulation<2>>(model_of<2>(changed.scene(), seed_), simulation_->save()));
   schedule_ = std::move(changed);
 }
 

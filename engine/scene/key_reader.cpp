@@ -124,14 +124,23 @@ static std::optional<double> number_in(const toml::node& node, Limits limits) {
   return limits.allow(number) ? std::optional(number) : std::nullopt;
 }
 
-/// The two numbers of an array; absent where it is anything else.
-static std::optional<std::array<double, 2>> pair_in(const toml::node& node, Limits limits) {
+/// The numbers of an array of `size`; absent where it is anything else.
+static std::optional<VecX> numbers_in(const toml::node& node, Limits limits, Eigen::Index size) {
   const toml::array* array = node.as_array();
-  if (!array || array->size() != 2) return std::nullopt;
-  const auto first = number_in((*array)[0], limits);
-  const auto second = number_in((*array)[1], limits);
-  if (!first || !second) return std::nullopt;
-  return {{*first, *second}};
+  if (!array || static_cast<Eigen::Index>(array->size()) != size) return std::nullopt;
+  VecX numbers(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const auto number = number_in((*array)[static_cast<std::size_t>(k)], limits);
+    if (!number) return std::nullopt;
+    numbers[k] = *number;
+  }
+  return numbers;
+}
+
+/// How many of them there are to be, and along which axes.
+static std::string count_and_axes(const std::string& numbers, Limits limits, Eigen::Index size) {
+  return (size == 2 ? "two " : "three ") + numbers + within("", limits) +
+         (size == 2 ? ", along x and y" : ", along x, y and z");
 }
 
 std::string KeyReader::read(const toml::node& node, Limits limits, double& value) {
@@ -160,35 +169,39 @@ std::string KeyReader::read(const toml::node& node, Limits, std::string& value) 
 }
 
 std::string KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
-  const std::string wanted = "two numbers" + within("", limits) + ", along x and y";
-  const toml::array* array = node.as_array();
-  if (array && array->size() == 3) {
-    return wanted + ": a third asks for spheres, which are not available yet";
-  }
-  const auto pair = pair_in(node, limits);
-  if (!pair) return wanted;
-  value = {(*pair)[0], (*pair)[1]};
+  const auto numbers = numbers_in(node, limits, 2);
+  if (!numbers) return count_and_axes("numbers", limits, 2);
+  value = *numbers;
   return "";
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits, std::array<int, 2>& value) {
-  const auto pair = pair_in(node, limits);
-  if (!pair || !node.as_array()->is_homogeneous(toml::node_type::integer)) {
-    return "two whole numbers" + within("", limits) + ", along x and y";
+// As many numbers as the default has, which are the dimensions of the scene.
+std::string KeyReader::read(const toml::node& node, Limits limits, VecX& value) {
+  const auto numbers = numbers_in(node, limits, value.size());
+  if (!numbers) return count_and_axes("numbers", limits, value.size());
+  value = *numbers;
+  return "";
+}
+
+std::string KeyReader::read(const toml::node& node, Limits limits, std::vector<int>& value) {
+  const auto size = static_cast<Eigen::Index>(value.size());
+  const auto numbers = numbers_in(node, limits, size);
+  if (!numbers || !node.as_array()->is_homogeneous(toml::node_type::integer)) {
+    return count_and_axes("whole numbers", limits, size);
   }
-  value = {static_cast<int>((*pair)[0]), static_cast<int>((*pair)[1])};
+  std::ranges::transform(*numbers, value.begin(), [](double n) { return static_cast<int>(n); });
   return "";
 }
 
 std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& range) {
   const auto name = node.value<std::string_view>();
-  const auto ends = pair_in(node, limits);
+  const auto ends = numbers_in(node, limits, 2);
   if (name == "auto") {
     range = {ColourRange::Auto};
   } else if (name == "locked") {
     range = {ColourRange::Locked};
   } else if (ends && (*ends)[0] < (*ends)[1]) {
-    range = {ColourRange::Given, *ends};
+    range = {ColourRange::Given, {(*ends)[0], (*ends)[1]}};
   } else {
     return "\"auto\", \"locked\" or two numbers [low, high] with low < high";
   }

@@ -134,7 +134,8 @@ class KeyReader {
   static std::string read(const toml::node& node, Limits limits, bool& value);
   static std::string read(const toml::node& node, Limits limits, std::string& value);
   static std::string read(const toml::node& node, Limits limits, Vec2& value);
-  static std::string read(const toml::node& node, Limits limits, std::array<int, 2>& value);
+  static std::string read(const toml::node& node, Limits limits, VecX& value);
+  static std::string read(const toml::node& node, Limits limits, std::vector<int>& value);
   static std::string read(const toml::node& node, Limits limits, ColourRange& range);
   static std::string read(const toml::node& node, Limits limits, Rgb& colour);
 

@@ -26,17 +26,23 @@ std::string value_text(const std::string& text) {
   return in_quotes(text);
 }
 
-template <class T>
-static std::string pair_text(T first, T second) {
-  return '[' + value_text(first) + ", " + value_text(second) + ']';
+template <class Numbers>
+static std::string array_text(const Numbers& numbers) {
+  std::string text;
+  for (const auto number : numbers) text += (text.empty() ? "[" : ", ") + value_text(number);
+  return text + ']';
 }
 
 std::string value_text(const Vec2& vector) {
-  return pair_text(vector.x(), vector.y());
+  return array_text(vector);
 }
 
-std::string value_text(const std::array<int, 2>& numbers) {
-  return pair_text(numbers[0], numbers[1]);
+std::string value_text(const VecX& vector) {
+  return array_text(vector);
+}
+
+std::string value_text(const std::vector<int>& numbers) {
+  return array_text(numbers);
 }
 
 std::string value_text(const ColourRange& range) {
@@ -46,7 +52,7 @@ std::string value_text(const ColourRange& range) {
     case ColourRange::Locked:
       return in_quotes("locked");
     case ColourRange::Given:
-      return pair_text(range.ends[0], range.ends[1]);
+      return array_text(range.ends);
   }
   return "";
 }

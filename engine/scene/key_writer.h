@@ -15,11 +15,12 @@ namespace clatter {
 std::string value_text(double number);  ///< the shortest that reads back to the same bits
 std::string value_text(int number);
 std::string value_text(bool flag);
-std::string value_text(const std::string& text);            ///< quoted, what is special escaped
-std::string value_text(const Vec2& vector);                 ///< as an array
-std::string value_text(const std::array<int, 2>& numbers);  ///< as an array
-std::string value_text(const ColourRange& range);           ///< as the scene file has it
-std::string value_text(const Rgb& colour);                  ///< "#rrggbb", quoted
+std::string value_text(const std::string& text);          ///< quoted, what is special escaped
+std::string value_text(const Vec2& vector);               ///< as an array
+std::string value_text(const VecX& vector);               ///< as an array
+std::string value_text(const std::vector<int>& numbers);  ///< as an array
+std::string value_text(const ColourRange& range);         ///< as the scene file has it
+std::string value_text(const Rgb& colour);                ///< "#rrggbb", quoted
 
 /// Visitor that writes every key which a scene has; the subclasses know the syntax around them.
 class KeyWriter {

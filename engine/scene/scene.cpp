@@ -1,9 +1,9 @@
 #include "engine/scene/scene.h"
 
 #include <limits>
-#include <numbers>
 
 #include "engine/physics/fraction.h"
+#include "engine/physics/theory.h"
 
 namespace clatter {
 
@@ -37,21 +37,21 @@ double Wall::innermost_travel() const {
   return clatter::innermost_travel(motion());
 }
 
-double Scene::area_fraction() const {
-  return particles.count * std::numbers::pi / (4.0 * box.x() * box.y());
+double Scene::packing_fraction() const {
+  return clatter::packing_fraction(dimension(), particles.count / box.prod());
 }
 
-Vec2 Scene::clear_corner() const {
-  Vec2 corner(0.0, 0.0);
-  for (int axis = 0; axis < 2; ++axis) {
+VecX Scene::clear_corner() const {
+  VecX corner = VecX::Zero(dimension());
+  for (int axis = 0; axis < dimension(); ++axis) {
     if (const auto& wall = walls[2 * axis]) corner[axis] = wall->innermost_travel();
   }
   return corner;
 }
 
-Vec2 Scene::clear_box() const {
-  Vec2 size = box - clear_corner();
-  for (int axis = 0; axis < 2; ++axis) {
+VecX Scene::clear_box() const {
+  VecX size = box - clear_corner();
+  for (int axis = 0; axis < dimension(); ++axis) {
     if (const auto& wall = walls[2 * axis + 1]) size[axis] -= wall->innermost_travel();
   }
   return size;
@@ -61,6 +61,15 @@ bool Scene::spins() const {
   bool any = particles.roughness.any();
   for (const auto& wall : walls) any = any || (wall && wall->roughness.any());
   return any;
+}
+
+Scene default_scene(int dimension) {
+  Scene scene;
+  if (dimension == 2) return scene;
+  scene.box = Vec<3>(20.0, 20.0, 20.0);
+  scene.particles.inertia = 0.4;
+  scene.measure.cells = {20, 20, 20};
+  return scene;
 }
 
 }  // namespace clatter

@@ -60,10 +60,11 @@ struct Wall {
 };
 
 /// The sides of the box: axis is side / 2, and the odd ones lie at the axis' far end.
-enum Side { kLeft, kRight, kBottom, kTop };
+enum Side { kLeft, kRight, kBottom, kTop, kBack, kFront };
 
 /// Names of the sides in scene files, indexed by Side.
-inline constexpr std::array<const char*, 4> kSideNames = {"left", "right", "bottom", "top"};
+inline constexpr std::array<const char*, 6> kSideNames = {"left", "right", "bottom",
+                                                          "top",  "back",  "front"};
 
 /// How the particles are placed at time 0.
 enum class Layout { Random, Lattice, File };
@@ -72,7 +73,7 @@ enum class Layout { Random, Lattice, File };
 struct Start {
   Layout layout = Layout::Random;
   std::string file;     ///< of layout File: a CSV, see state_file.h, or its name in the gallery
-  State<2> state = {};  ///< of layout File: what the file says
+  AnyState state = {};  ///< of layout File: what the file says
   double temperature = 1.0;  ///< T >= 0, met exactly for N >= 2: Gaussian velocities, mean removed;
                              ///< of layout File: that of the state
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, met exactly where spins exist
@@ -83,7 +84,7 @@ struct Particles {
   int count = 0;             ///< N >= 0; resolved from area_fraction where the scene gives that
   double restitution = 1.0;  ///< alpha, 0..1
   Roughness roughness = {};
-  double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a sphere
+  double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a uniform sphere
   Start start;
 };
 
@@ -142,16 +143,16 @@ enum class Estimator { Exact, Snapshot };
 enum class Kernel { Box, Gaussian };
 
 /// An axis of the box.
-enum class Axis { X, Y };
+enum class Axis { X, Y, Z };
 
 /// What `clatter measure` averages.
 struct Measure {
-  double burn_in = 100.0;               ///< time before averages start, >= 0
-  double duration = 1000.0;             ///< time averaged over, > 0
-  double series_interval = 1.0;         ///< spacing of temperature_series, > 0
-  std::vector<Field> fields;            ///< profiles and residuals asked for; empty: none
-  std::array<int, 2> cells = {20, 20};  ///< field cells along x and y, each >= 1
-  Axis profile_axis = Axis::X;          ///< along which profiles go
+  double burn_in = 100.0;             ///< time before averages start, >= 0
+  double duration = 1000.0;           ///< time averaged over, > 0
+  double series_interval = 1.0;       ///< spacing of temperature_series, > 0
+  std::vector<Field> fields;          ///< profiles and residuals asked for; empty: none
+  std::vector<int> cells = {20, 20};  ///< [D] field cells along each axis, each >= 1
+  Axis profile_axis = Axis::X;        ///< along which profiles go
   Estimator estimator = Estimator::Exact;
   double interval = 1.0;  ///< between samples of the snapshot estimator, > 0
   Kernel kernel = Kernel::Box;
@@ -257,11 +258,11 @@ struct Scene {
   std::string caption;   ///< what to watch, in a line
   std::string goal;      ///< what there is to learn
   std::string try_this;  ///< what to do to it in the window, and what then happens
-  Vec2 box = {20.0,
-              25.0};  ///< Lx, Ly in particle diameters; particles touch walls with their surface
+  /// Lx, Ly and, of spheres, Lz in particle diameters; particles touch walls with their surface.
+  VecX box = Vec2(20.0, 25.0);
   Particles particles;
-  std::array<std::optional<Wall>, 4> walls;  ///< indexed by Side; a pair absent: periodic
-  std::optional<Vec2> gravity;               ///< acceleration; absent: none
+  std::array<std::optional<Wall>, 6> walls;  ///< indexed by Side; a pair absent: periodic
+  std::optional<VecX> gravity;               ///< acceleration; absent: none
   std::optional<BulkDrive> bulk_drive;       ///< absent: none
   std::optional<double> contact_time;        ///< t_c > 0 of the TC model, section 4; absent: off
   Measure measure;
@@ -270,16 +271,31 @@ struct Scene {
 
   /// Whether particles spin: they or any wall are rough.
   bool spins() const;
-  /// Whether the box is periodic along an axis (0: x, 1: y).
+  /// 2: disks, 3: spheres.
+  int dimension() const { return static_cast<int>(box.size()); }
+  /// Whether the box is periodic along an axis (0: x, 1: y, 2: z).
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// phi = N pi / (4 Lx Ly).
-  double area_fraction() const;
-  /// How far into the box the near walls of both axes move at most.
-  Vec2 clear_corner() const;
+  /// Share of the box that the particles fill: N pi / (4 Lx Ly) of disks, N pi / (6 Lx Ly Lz) of
+  /// spheres.
+  double packing_fraction() const;
+  /// How far into the box the near walls of all axes move at most.
+  VecX clear_corner() const;
   /// The size of that part of the box, from clear_corner() on, which no wall's motion reaches.
-  Vec2 clear_box() const;
+  VecX clear_box() const;
   /// The room for the start state: that part of the box, with its corner at the origin.
-  Room start_room() const { return {clear_box(), {periodic(0), periodic(1)}}; }
+  template <int D>
+  Room<D> start_room() const;
 };
+
+template <int D>
+Room<D> Scene::start_room() const {
+  Room<D> room{.box = clear_box()};
+  for (int axis = 0; axis < D; ++axis) room.walled[axis] = !periodic(axis);
+  return room;
+}
+
+/// A scene without particles in two or three dimensions, whose other members are the defaults
+/// there.
+Scene default_scene(int dimension);
 
 }  // namespace clatter

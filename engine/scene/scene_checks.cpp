@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
+#include "engine/physics/theory.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
 
@@ -112,11 +114,20 @@ static void check_camera(const Scene& scene, const toml::table& root, const std:
   }
 }
 
+/// Throws where profiles go along an axis that the box does not have.
+static void check_axis(const Scene& scene, const toml::table& root, const std::string& file) {
+  if (static_cast<int>(scene.measure.profile_axis) < scene.dimension()) return;
+  throw UserError(place_of(root, "measure.profile_axis", file),
+                  "'measure.profile_axis' cannot be \"z\" of a box of two dimensions",
+                  "choose \"x\" or \"y\", or give box.size a third number");
+}
+
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
   check_pairs(scene, root, file);
   check_speeds(scene, root, file);
   check_room(scene, root, file);
   check_colour(scene, root, file);
+  check_axis(scene, root, file);
   check_fields(scene, root, file);
   check_kernel(scene, root, file);
   check_camera(scene, root, file);
@@ -135,14 +146,15 @@ void check_followed(const Scene& scene, const toml::table& root, const std::stri
 /// The number of particles that a scene's two keys ask for; nothing where there is neither.
 static std::optional<double> asked_count(const SceneInput& input) {
   if (input.count) return *input.count;
-  if (!input.area_fraction) return std::nullopt;
-  const Vec2& box = input.scene.box;
-  return std::round(*input.area_fraction * 4.0 * (box.x() * box.y()) / std::numbers::pi);
+  if (!input.packing_fraction) return std::nullopt;
+  const Scene& scene = input.scene;
+  const double of_one = packing_fraction(scene.dimension(), 1.0 / scene.box.prod());
+  return std::round(*input.packing_fraction / of_one);
 }
 
 static int count_of_file(const SceneInput& input, const Place& place) {
   const Start& start = input.scene.particles.start;
-  const auto count = static_cast<int>(start.state.positions.size());
+  const auto count = static_cast<int>(particle_count(start.state));
   const auto asked = asked_count(input);
   if (!asked || *asked == count) return count;
   throw UserError(place,
@@ -153,20 +165,22 @@ static int count_of_file(const SceneInput& input, const Place& place) {
 
 int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file) {
   const Scene& scene = input.scene;
-  const Place place =
-      place_of(root, input.count ? "particles.count" : "particles.area_fraction", file);
-  if (input.count && input.area_fraction) {
-    throw UserError(place_of(root, "particles.area_fraction", file),
-                    "both 'particles.count' and 'particles.area_fraction' are given",
-                    "give exactly one of 'particles.count' and 'particles.area_fraction'");
+  const std::string packing(input.packing_key());
+  const std::string advice = "give exactly one of 'particles.count' and '" + packing + "'";
+  const Place place = place_of(root, input.count ? "particles.count" : packing, file);
+  if (input.count && input.packing_fraction) {
+    throw UserError(place_of(root, packing, file),
+                    "both 'particles.count' and '" + packing + "' are given", advice);
   }
   if (scene.particles.start.layout == Layout::File) return count_of_file(input, place);
   const auto count = asked_count(input);
   if (!count) {
     throw UserError(place_of(root, "particles", file), "the number of particles is missing",
-                    "give exactly one of 'particles.count' and 'particles.area_fraction'");
+                    advice);
   }
-  const int capacity = lattice_capacity(scene.start_room());
+  const int capacity = with_dimension(scene.dimension(), [&](auto dimension) {
+    return lattice_capacity(scene.start_room<dimension>());
+  });
   if (*count > capacity) {
     const bool walls_move = scene.clear_box() != scene.box;
     throw UserError(place,

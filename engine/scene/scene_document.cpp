@@ -128,6 +128,8 @@ Place place_of(const toml::node& node, const std::string& file) {
 static std::string advice_on(std::string_view path, std::size_t prefix,
                              const std::vector<std::string>& known) {
   if (path == "disks") return "it is called 'particles' now: write particles in place of disks";
+  if (path == "particles.area_fraction") return "a box of three sides has a 'volume_fraction'";
+  if (path == "particles.volume_fraction") return "a box of two sides has an 'area_fraction'";
   const std::string_view key = path.substr(prefix);
   std::vector<std::string> siblings;
   std::string all;

@@ -72,12 +72,18 @@ void load_start_state(Scene& scene, const toml::table& root, const std::string& 
   } else {
     refuse_missing_state(place, path);
   }
-  start.temperature = temperature_of(start.state);
+  start.temperature =
+      std::visit([](const auto& state) { return temperature_of(state); }, start.state);
+}
+
+/// The dimension that a document's box has: 3 where its size has three numbers.
+int dimension_of(const toml::table& root) {
+  const toml::array* size = root.at_path("box.size").as_array();
+  return size && size->size() == 3 ? 3 : 2;
 }
 
 SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {
-  SceneInput input;
-  input.spins = spins;
+  SceneInput input{.spins = spins, .scene = default_scene(dimension_of(root))};
   KeyReader reader(root, file);
   visit_scene(reader, input);
   return input;
@@ -87,7 +93,7 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
 /// is read.
 Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
                  const std::function<void(Scene&)>& load_state) {
-  SceneInput any;
+  SceneInput any{.scene = default_scene(dimension_of(root))};
   KeyLister lister;
   visit_scene(lister, any);
   refuse_unknown_keys(root, lister.keys());
@@ -156,7 +162,7 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
   toml::table root = parse_document(scene_to_toml(without_changes), "");
   for (const Override& setting : settings) apply_override(root, setting);
   const Start& start = scene.particles.start;
-  const bool skipped = start.layout == Layout::File && start.state.positions.empty();
+  const bool skipped = start.layout == Layout::File && particle_count(start.state) == 0;
   const auto keep_state = [&](Scene& read) { read.particles.start.state = start.state; };
   Scene made = read_scene(root, "", skipped ? StartFile::Skip : StartFile::Read, keep_state);
   if (made.particles.start.layout == Layout::File)
@@ -188,8 +194,10 @@ Scene load_scene(const std::string& path_or_name, const std::vector<Override>& o
 
 template <class Writer>
 static std::string written(const Scene& scene) {
-  SceneInput input{
-      .count = scene.particles.count, .area_fraction = {}, .spins = scene.spins(), .scene = scene};
+  SceneInput input{.count = scene.particles.count,
+                   .packing_fraction = {},
+                   .spins = scene.spins(),
+                   .scene = scene};
   Writer writer;
   visit_scene(writer, input);
   return writer.text();

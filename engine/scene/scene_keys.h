@@ -203,7 +203,8 @@ inline constexpr std::array<Named<Field>, 30> kProfiles = {
      {"balance", Field::BalanceMomentumY},
      {"balance", Field::BalanceEnergy}}};
 
-inline constexpr std::array<Named<Axis>, 2> kAxes = {{{"x", Axis::X}, {"y", Axis::Y}}};
+inline constexpr std::array<Named<Axis>, 3> kAxes = {
+    {{"x", Axis::X}, {"y", Axis::Y}, {"z", Axis::Z}}};
 
 inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
     {{"exact", Estimator::Exact}, {"snapshot", Estimator::Snapshot}}};
@@ -217,10 +218,15 @@ inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}
 struct SceneInput {
   int schema = 1;            ///< version of the format
   std::optional<int> count;  ///< the number of particles, given by exactly one of these two
-  std::optional<double> area_fraction;  ///< phi
-  bool spins = true;                    ///< whether the keys of spins are allowed
+  std::optional<double>
+      packing_fraction;  ///< phi: area_fraction of disks, volume_fraction of spheres
+  bool spins = true;     ///< whether the keys of spins are allowed
   Scene scene;
 
+  /// The dotted key of the packing fraction.
+  std::string_view packing_key() const {
+    return scene.dimension() == 2 ? "particles.area_fraction" : "particles.volume_fraction";
+  }
   /// Of a key that spins give its meaning.
   Presence spin_key() const { return spins ? kOptional : kNotWithoutSpins; }
 };
@@ -265,13 +271,14 @@ void visit_start(Visitor& io, Start& start, Presence spin_key) {
            from_file ? kNotBesideFile : spin_key);
 }
 
-/// The keys of [particles]; count and area_fraction are resolved when the whole scene is known.
+/// The keys of [particles]; count and packing fraction are resolved when the whole scene is known.
 template <class Visitor>
 void visit_particles(Visitor& io, SceneInput& input) {
   constexpr double kLargestCount = std::numeric_limits<int>::max();
   Particles& particles = input.scene.particles;
   io.value("count", input.count, between(0, kLargestCount));
-  io.value("area_fraction", input.area_fraction, between(0.0, 1.0));
+  io.value(input.packing_key().substr(std::string_view("particles.").size()),
+           input.packing_fraction, between(0.0, 1.0));
   io.value("restitution", particles.restitution, between(0.0, 1.0));
   visit_roughness(io, particles.roughness, kOptional);
   io.value("inertia", particles.inertia, between(kMinInertia, 1.0), input.spin_key());
@@ -362,12 +369,13 @@ void visit_scene(Visitor& io, SceneInput& input) {
   });
   io.table("particles", [&](auto& io) { visit_particles(io, input); });
   io.table("walls", [&](auto& io) {
-    for (int side = 0; side < 4; ++side) {
+    for (int side = 0; side < 2 * scene.dimension(); ++side) {
       io.table(kSideNames[side], scene.walls[side],
                [](auto& io, Wall& wall) { visit_wall(io, wall); });
     }
   });
-  io.table("gravity", scene.gravity, [](auto& io, Vec2& acceleration) {
+  io.table("gravity", scene.gravity, [&](auto& io, VecX& acceleration) {
+    if (acceleration.size() == 0) acceleration = VecX::Zero(scene.dimension());
     io.value("acceleration", acceleration, between(-kMaxAcceleration, kMaxAcceleration), kRequired);
   });
   io.table("bulk_drive", scene.bulk_drive,

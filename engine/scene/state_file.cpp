@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/text.h"
@@ -17,9 +18,33 @@ namespace clatter {
 
 namespace {
 
-enum Column { kX, kY, kVx, kVy, kOmega, kColumns };
-constexpr std::array<std::string_view, kColumns> kNames = {"x", "y", "vx", "vy", "omega"};
-constexpr const char* kHeaderAdvice = "begin the file with the line x,y,vx,vy";
+// The columns of a state: D coordinates, D velocities, and the components of the spin.
+template <int D>
+constexpr int kSpinColumn = 2 * D;
+template <int D>
+constexpr int kColumns = kSpinColumn<D> + Spin<D>::SizeAtCompileTime;
+template <int D>
+constexpr std::array<std::string_view, kColumns<D>> kNames;
+template <>
+constexpr std::array<std::string_view, kColumns<2>> kNames<2> = {"x", "y", "vx", "vy", "omega"};
+template <>
+constexpr std::array<std::string_view, kColumns<3>> kNames<3> = {
+    "x", "y", "z", "vx", "vy", "vz", "omega_x", "omega_y", "omega_z"};
+
+// The names of the columns from `begin` to before `end`, one after the other.
+template <int D>
+std::string names_of(int begin, int end, const char* between = ", ") {
+  std::string names;
+  for (int k = begin; k < end; ++k) {
+    names += (k > begin ? between : "") + std::string(kNames<D>[static_cast<std::size_t>(k)]);
+  }
+  return names;
+}
+
+template <int D>
+std::string header_advice() {
+  return "begin the file with the line " + names_of<D>(0, kSpinColumn<D>, ",");
+}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -43,6 +68,7 @@ struct Cell {
 };
 
 /// Reads the text from top to bottom.
+template <int D>
 class Reader {
  public:
   Reader(std::string_view csv, const std::string& file, const Scene& scene)
@@ -51,9 +77,9 @@ class Reader {
     if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
   }
 
-  State<2> read() {
+  State<D> read() {
     read_header();
-    State<2> state;
+    State<D> state;
     while (next_line()) read_particle(state);
     refuse_overlaps(state.positions);
     return state;
@@ -66,12 +92,12 @@ class Reader {
   template <class Visit>
   void visit_cells(const Visit& visit);
   void read_header();
-  Column column_of(const Cell& cell) const;
-  void read_particle(State<2>& state);
+  int column_of(const Cell& cell) const;
+  void read_particle(State<D>& state);
   double number_in(const Cell& cell) const;
-  void check_number(const Cell& cell, Column column, double number) const;
+  void check_number(const Cell& cell, int column, double number) const;
   void check_place(const Cell& cell, int axis, double centre) const;
-  void refuse_overlaps(const std::vector<Vec2>& centres) const;
+  void refuse_overlaps(const std::vector<Vec<D>>& centres) const;
   [[noreturn]] void refuse_pair(std::size_t a, std::size_t b, double distance) const;
 
   std::string_view rest_;
@@ -79,12 +105,13 @@ class Reader {
   const Scene& scene_;
   const std::string& file_;
   int number_ = 0;                   // of line_, from 1
-  std::vector<Column> columns_;      // as they stand in the file
+  std::vector<int> columns_;         // as they stand in the file
   std::vector<int> particle_lines_;  // [N] of each particle
 };
 
 /// Moves to the next line that counts; false at the end.
-bool Reader::next_line() {
+template <int D>
+bool Reader<D>::next_line() {
   while (!rest_.empty()) {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     line_ = rest_.substr(0, end);
@@ -97,8 +124,9 @@ bool Reader::next_line() {
 }
 
 /// Calls visit(cell) for the cells of line_.
+template <int D>
 template <class Visit>
-void Reader::visit_cells(const Visit& visit) {
+void Reader<D>::visit_cells(const Visit& visit) {
   Cell cell;
   for (std::size_t begin = 0; begin <= line_.size();) {
     const std::size_t end = std::min(line_.find(',', begin), line_.size());
@@ -111,38 +139,44 @@ void Reader::visit_cells(const Visit& visit) {
   }
 }
 
-Column Reader::column_of(const Cell& cell) const {
-  const auto name = std::ranges::find(kNames, cell.text);
-  if (name == kNames.end()) {
-    const std::vector<std::string> names(kNames.begin(), kNames.end());
+template <int D>
+int Reader<D>::column_of(const Cell& cell) const {
+  const auto name = std::ranges::find(kNames<D>, cell.text);
+  if (name == kNames<D>.end()) {
+    const std::vector<std::string> names(kNames<D>.begin(), kNames<D>.end());
     const std::string near(near_miss(cell.text, names));
     throw UserError(place_of(cell), "unknown column " + in_quotes(cell.text),
-                    near.empty() ? "the columns are x, y, vx, vy and, for spins, omega"
-                                 : "did you mean " + in_quotes(near) + "?");
+                    near.empty()
+                        ? "the columns are " + names_of<D>(0, kSpinColumn<D>) +
+                              " and, for spins, " + names_of<D>(kSpinColumn<D>, kColumns<D>)
+                        : "did you mean " + in_quotes(near) + "?");
   }
-  const auto column = static_cast<Column>(name - kNames.begin());
+  const auto column = static_cast<int>(name - kNames<D>.begin());
   if (std::ranges::find(columns_, column) != columns_.end()) {
     throw UserError(place_of(cell), "a second column " + in_quotes(cell.text),
                     "remove one of them");
   }
-  if (column == kOmega && !scene_.spins()) {
-    throw UserError(place_of(cell), "the column \"omega\" has no meaning where nothing spins",
+  if (column >= kSpinColumn<D> && !scene_.spins()) {
+    throw UserError(place_of(cell),
+                    "the column " + in_quotes(cell.text) + " has no meaning where nothing spins",
                     "remove the column, or make the particles or a wall rough");
   }
   return column;
 }
 
-void Reader::read_header() {
-  if (!next_line()) throw UserError({file_}, "the file has no header line", kHeaderAdvice);
+template <int D>
+void Reader<D>::read_header() {
+  if (!next_line()) throw UserError({file_}, "the file has no header line", header_advice<D>());
   visit_cells([&](const Cell& cell) { columns_.push_back(column_of(cell)); });
-  for (const Column column : {kX, kY, kVx, kVy}) {
+  for (int column = 0; column < kSpinColumn<D>; ++column) {
     if (std::ranges::find(columns_, column) != columns_.end()) continue;
-    throw UserError(place_of(Cell{}), "the column " + in_quotes(kNames[column]) + " is missing",
-                    kHeaderAdvice);
+    throw UserError(place_of(Cell{}), "the column " + in_quotes(kNames<D>[column]) + " is missing",
+                    header_advice<D>());
   }
 }
 
-double Reader::number_in(const Cell& cell) const {
+template <int D>
+double Reader<D>::number_in(const Cell& cell) const {
   double number = 0.0;
   const char* const end = cell.text.data() + cell.text.size();
   const auto [stopped, error] = std::from_chars(cell.text.data(), end, number);
@@ -151,19 +185,21 @@ double Reader::number_in(const Cell& cell) const {
                   "write, say, -0.25 or 1.5e-3");
 }
 
-void Reader::check_number(const Cell& cell, Column column, double number) const {
-  if (column == kX || column == kY) {
-    check_place(cell, column == kX ? 0 : 1, number);
+template <int D>
+void Reader<D>::check_number(const Cell& cell, int column, double number) const {
+  if (column < D) {
+    check_place(cell, column, number);
   } else if (std::fabs(number) > kMaxSpeed) {
-    throw UserError(place_of(cell), std::string(kNames[column]) + " is " + number_text(number),
+    throw UserError(place_of(cell), std::string(kNames<D>[column]) + " is " + number_text(number),
                     "give at most " + number_text(kMaxSpeed) + " either way");
   }
 }
 
 /// A centre lies in the box along a periodic axis, and else between the walls as they are at time
 /// 0, one of which may then have gone out of the box.
-void Reader::check_place(const Cell& cell, int axis, double centre) const {
-  const std::string name(kNames[axis]);
+template <int D>
+void Reader<D>::check_place(const Cell& cell, int axis, double centre) const {
+  const std::string name(kNames<D>[axis]);
   const double length = scene_.box[axis];
   if (scene_.periodic(axis)) {
     if (centre >= 0.0 && centre <= length) return;
@@ -184,27 +220,32 @@ void Reader::check_place(const Cell& cell, int axis, double centre) const {
                       (moves ? ", or the wall the phase that it had" : ""));
 }
 
-void Reader::read_particle(State<2>& state) {
+template <int D>
+void Reader<D>::read_particle(State<D>& state) {
   if (cells_in_line() != columns_.size()) {
     throw UserError(place_of(Cell{}),
                     "this line has " + std::to_string(cells_in_line()) + " cells, the header has " +
                         std::to_string(columns_.size()),
                     "give every column a number");
   }
-  std::array<double, kColumns> numbers{};
+  std::array<double, kColumns<D>> numbers{};
   std::size_t at = 0;
   visit_cells([&](const Cell& cell) {
-    const Column column = columns_[at++];
-    numbers[column] = number_in(cell);
-    check_number(cell, column, numbers[column]);
+    const int column = columns_[at++];
+    double& number = numbers[static_cast<std::size_t>(column)];
+    number = number_in(cell);
+    check_number(cell, column, number);
   });
-  state.positions.emplace_back(numbers[kX], numbers[kY]);
-  state.velocities.emplace_back(numbers[kVx], numbers[kVy]);
-  if (scene_.spins()) state.spins.push_back(Spin<2>(numbers[kOmega]));
+  state.positions.emplace_back(Eigen::Map<const Vec<D>>(&numbers[0]));
+  state.velocities.emplace_back(Eigen::Map<const Vec<D>>(&numbers[D]));
+  if (scene_.spins()) {
+    state.spins.emplace_back(Eigen::Map<const Spin<D>>(&numbers[kSpinColumn<D>]));
+  }
   particle_lines_.push_back(number_);
 }
 
-void Reader::refuse_pair(std::size_t a, std::size_t b, double distance) const {
+template <int D>
+void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double distance) const {
   const auto [first, second] = std::minmax(particle_lines_[a], particle_lines_[b]);
   throw UserError({file_, second, 1},
                   "the particles of lines " + std::to_string(first) + " and " +
@@ -215,10 +256,11 @@ void Reader::refuse_pair(std::size_t a, std::size_t b, double distance) const {
 
 /// Particles sorted by cells a little wider than a diameter, so that particles that overlap lie in
 /// one cell or in neighbours; memory follows the particles and not the box.
+template <int D>
 class Neighbours {
  public:
-  Neighbours(const Scene& scene, const std::vector<Vec2>& centres) : scene_(scene) {
-    for (int axis = 0; axis < 2; ++axis) {
+  Neighbours(const Scene& scene, const std::vector<Vec<D>>& centres) : scene_(scene) {
+    for (int axis = 0; axis < D; ++axis) {
       counts_[axis] = std::max<std::int64_t>(1, static_cast<std::int64_t>(scene.box[axis] / 1.01));
     }
     sorted_.reserve(centres.size());
@@ -230,22 +272,24 @@ class Neighbours {
 
   /// Calls visit(other) for the particles about a centre, some of them more than once.
   template <class Visit>
-  void visit(const Vec2& centre, const Visit& visit) const {
-    const auto [x, y] = cell_at(centre);
-    for (std::int64_t dy = -1; dy <= 1; ++dy) {
-      for (std::int64_t dx = -1; dx <= 1; ++dx) {
-        const auto cell = wrapped({x + dx, y + dy});
-        if (cell) visit_cell(number(*cell), visit);
-      }
+  void visit(const Vec<D>& centre, const Visit& visit) const {
+    const Position own = cell_at(centre);
+    Position step;
+    step.fill(-1);
+    while (step[D - 1] <= 1) {
+      Position at;
+      for (int axis = 0; axis < D; ++axis) at[axis] = own[axis] + step[axis];
+      if (const auto cell = wrapped(at)) visit_cell(number(*cell), visit);
+      for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
     }
   }
 
  private:
-  using Position = std::array<std::int64_t, 2>;
+  using Position = std::array<std::int64_t, D>;
 
-  Position cell_at(const Vec2& centre) const {
+  Position cell_at(const Vec<D>& centre) const {
     Position cell;
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < D; ++axis) {
       const double share = centre[axis] / scene_.box[axis];
       cell[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(share * counts_[axis]), 0,
                                             counts_[axis] - 1);
@@ -254,7 +298,7 @@ class Neighbours {
   }
 
   std::optional<Position> wrapped(Position cell) const {
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < D; ++axis) {
       if (cell[axis] >= 0 && cell[axis] < counts_[axis]) continue;
       if (!scene_.periodic(axis)) return std::nullopt;
       cell[axis] = (cell[axis] + counts_[axis]) % counts_[axis];
@@ -262,7 +306,11 @@ class Neighbours {
     return cell;
   }
 
-  std::int64_t number(const Position& cell) const { return cell[1] * counts_[0] + cell[0]; }
+  std::int64_t number(const Position& cell) const {
+    std::int64_t number = 0;
+    for (int axis = D - 1; axis >= 0; --axis) number = number * counts_[axis] + cell[axis];
+    return number;
+  }
 
   template <class Visit>
   void visit_cell(std::int64_t cell, const Visit& visit) const {
@@ -275,13 +323,14 @@ class Neighbours {
   std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // [N] number of the cell, particle
 };
 
-void Reader::refuse_overlaps(const std::vector<Vec2>& centres) const {
-  const Neighbours neighbours(scene_, centres);
+template <int D>
+void Reader<D>::refuse_overlaps(const std::vector<Vec<D>>& centres) const {
+  const Neighbours<D> neighbours(scene_, centres);
   for (std::uint32_t i = 0; i < centres.size(); ++i) {
     neighbours.visit(centres[i], [&](std::uint32_t j) {
       if (j >= i) return;
-      Vec2 x = centres[i] - centres[j];
-      for (int axis = 0; axis < 2; ++axis) {
+      Vec<D> x = centres[i] - centres[j];
+      for (int axis = 0; axis < D; ++axis) {
         if (!scene_.periodic(axis)) continue;
         x[axis] -= scene_.box[axis] * std::round(x[axis] / scene_.box[axis]);
       }
@@ -293,22 +342,30 @@ void Reader::refuse_overlaps(const std::vector<Vec2>& centres) const {
 
 }  // namespace
 
-State<2> parse_state(std::string_view csv, const std::string& file, const Scene& scene) {
-  return Reader(csv, file, scene).read();
+AnyState parse_state(std::string_view csv, const std::string& file, const Scene& scene) {
+  return with_dimension(scene.dimension(), [&](auto dimension) -> AnyState {
+    return Reader<dimension>(csv, file, scene).read();
+  });
 }
 
-std::string state_to_csv(const State<2>& state) {
+template <int D>
+std::string state_to_csv(const State<D>& state) {
   const bool spins = !state.spins.empty();
-  std::string csv = spins ? "x,y,vx,vy,omega\n" : "x,y,vx,vy\n";
+  std::string csv = names_of<D>(0, spins ? kColumns<D> : kSpinColumn<D>, ",") + '\n';
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const Vec2& r = state.positions[i];
-    const Vec2& v = state.velocities[i];
-    csv += number_text(r.x()) + ',' + number_text(r.y()) + ',' + number_text(v.x()) + ',' +
-           number_text(v.y());
-    if (spins) csv += ',' + number_text(state.spins[i][0]);
-    csv += '\n';
+    std::string line;
+    const auto add = [&](const auto& numbers) {
+      for (const double number : numbers) line += (line.empty() ? "" : ",") + number_text(number);
+    };
+    add(state.positions[i]);
+    add(state.velocities[i]);
+    if (spins) add(state.spins[i]);
+    csv += line + '\n';
   }
   return csv;
 }
+
+template std::string state_to_csv(const State<2>&);
+template std::string state_to_csv(const State<3>&);
 
 }  // namespace clatter

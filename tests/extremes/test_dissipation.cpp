@@ -63,9 +63,9 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" * doctest::test_s
     Sample shorter, longer;
     for (std::uint64_t seed = 1000; seed < 17000; ++seed) {
       const Scene scene = gas_of_fraction(0.5, 200, restitution);
-      const State<2> start = start_state(scene, seed);
+      const State<2> start = start_state<2>(scene, seed);
       for (const double contact_time : {1e-5, 1e-3}) {
-        Model<2> model = model_of(scene, seed);
+        Model<2> model = model_of<2>(scene, seed);
         model.contact_time = contact_time;
         Simulation<2> simulation(model, start);
         simulation.run_until(4.0);
@@ -89,7 +89,7 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
   for (const double restitution : {0.0, 0.1, 0.3}) {
     for (std::uint64_t seed = 930; seed < 934; ++seed) {
       const Scene scene = gas_of_fraction(0.5, 200, restitution);
-      Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+      Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
       const std::string stop = stop_of(simulation, 1000.0);
       if (stop.empty()) CHECK(simulation.time() == 1000.0);
       if (!stop.empty()) CHECK(stop.find("inelastic collapse") != std::string::npos);
@@ -111,8 +111,8 @@ TEST_CASE(
                          "standard errors; the momentum is the sum of the roundings of velocities "
                          "within 1e-10, a random walk's within 5 standard deviations")) {
   const Scene scene = gas_of_fraction(0.1, 64, 0.9);
-  const State<2> start = start_state(scene, 951);
-  Simulation<2> simulation(model_of(scene, 951), start);
+  const State<2> start = start_state<2>(scene, 951);
+  Simulation<2> simulation(model_of<2>(scene, 951), start);
   Roundings roundings;
   simulation.add_observer(roundings);
   // T swings about the law, and half of that is left when time has doubled.

@@ -25,7 +25,7 @@ TEST_CASE("100 particles between walls of restitution 1.05" *
   const double expected = divergence_time(theory.haff_rate_corrected(1.0));
   Sample times;
   for (std::uint64_t seed = 501; seed < 501 + kSeeds; ++seed) {
-    Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+    Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
     const std::string message = stop_of(simulation, 10.0 * expected);
     CHECK(message.find("the temperature diverges") != std::string::npos);
     times.add(simulation.time());

@@ -16,7 +16,7 @@ using namespace clatter;
 namespace {
 
 // More are no other, only slower.
-constexpr int kMaxParticles = 1000;
+constexpr int kMaxParticles<2> = 1000;
 constexpr std::uint64_t kCollisions = 1000, kSteps = 20000;
 // Averages take time where nothing moves, too.
 constexpr double kWindows = 100.0;
@@ -33,7 +33,7 @@ void draw(const Scene& scene, const Snapshot& snapshot) {
 
 void run(const std::string& text) {
   const Scene scene = parse_scene(text, "fuzz.toml", {});
-  if (scene.particles.count > kMaxParticles) return;
+  if (scene.particles.count > kMaxParticles<2>) return;
   ScheduledRun run(scene, 1);
   run.show(scene.view);
   const double end = scene.measure.burn_in + scene.measure.duration;

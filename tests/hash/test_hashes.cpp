@@ -110,7 +110,7 @@ constexpr SceneHash kScenes[] = {
 };
 
 std::uint64_t hash_of(const Scene& scene) {
-  Simulation<2> simulation(model_of(scene, kSeed), start_state(scene, kSeed));
+  Simulation<2> simulation(model_of<2>(scene, kSeed), start_state<2>(scene, kSeed));
   simulation.run_until(kNever, kCollisions);
   return simulation.state_hash();
 }

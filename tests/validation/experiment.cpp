@@ -10,7 +10,7 @@ namespace clatter::testing {
 
 Scene gas(double lx, double ly, int count, double restitution) {
   Scene scene;
-  scene.box = {lx, ly};
+  scene.box = Vec2(lx, ly);
   scene.particles.count = count;
   scene.particles.restitution = restitution;
   return scene;
@@ -36,7 +36,7 @@ Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed) {
   scene.measure.burn_in = burn_in;
   scene.measure.duration = duration;
   const double end = burn_in + duration;
-  Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+  Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
   Measurement measurement(simulation, scene.measure, end);
   simulation.run_until(end);
   CHECK(simulation.checks().deepest_overlap < 1e-9);

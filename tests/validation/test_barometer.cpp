@@ -102,7 +102,7 @@ TEST_CASE("barometer: one particle on a thermal floor has the exponential law of
   constexpr int kBins = 40;
   constexpr double kGravity = 0.5;
   const Scene scene = column(10.0, 160.0, 1, kGravity);
-  Simulation<2> simulation(model_of(scene, 401), start_state(scene, 401));
+  Simulation<2> simulation(model_of<2>(scene, 401), start_state<2>(scene, 401));
   std::vector<double> counts(kBins), speeds(kBins);
   double sum = 0.0;
   const double interval = 40.0 * std::sqrt(kTemperature) / kGravity;
@@ -176,10 +176,10 @@ TEST_CASE("barometer: a thin gas has the barometric profile at one temperature")
   constexpr double kGravity = 0.1;
   constexpr double kCount = 100.0;
   const Scene scene = column(200.0, 160.5, 100, kGravity);
-  const Model<2> model = model_of(scene, 404);
+  const Model<2> model = model_of<2>(scene, 404);
   // Layers counted from the lowest centres at y = 1/2, by samples every 100: almost three times the
   // time of a bounce, and there are enough collisions to mix.
-  Simulation<2> simulation(model, start_state(scene, 404));
+  Simulation<2> simulation(model, start_state<2>(scene, 404));
   std::vector<Sample> densities(kLayers), temperatures(kLayers);
   for (int window = -20; window < kWindows; ++window) {
     simulation.run_until(100.0 * (window + 21));
@@ -216,7 +216,7 @@ TEST_CASE("barometer: the stress of every layer carries the weight above it") {
   constexpr double kWidth = 20.0;
   constexpr double kGravity = 0.2;
   const Scene scene = column(kWidth, kLayers, 160, kGravity);
-  Simulation<2> simulation(model_of(scene, 405), start_state(scene, 405));
+  Simulation<2> simulation(model_of<2>(scene, 405), start_state<2>(scene, 405));
   const Field stress = Field::StressYy, density = Field::Density;
   CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false));
   CellIntegrals<2> densities(simulation, {1, kParts * kLayers},

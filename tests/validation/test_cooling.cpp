@@ -19,7 +19,7 @@ TEST_CASE("cooling gas: Haff's law down to a hundredth of the temperature, withi
   const double k = (1.0 - 0.9 * 0.9) * enskog_rate(0.1, 1.0) / 4.0;
   std::vector<double> sum(kTimes + 1), squares(kTimes + 1);
   for (std::uint64_t seed = 131; seed < 131 + kSeeds; ++seed) {
-    Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+    Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
     for (int step = 0; step <= kTimes; ++step) {
       simulation.run_until(9.0 * step / (kTimes * k));
       const double law = std::pow(1.0 + 9.0 * step / kTimes, -2.0);
@@ -45,14 +45,14 @@ TEST_CASE("cooling gas: walls that lose heat cool elastic particles by Eq. (3.10
   constexpr double kRestitution = 0.98;
   Scene scene = gas(20.0, 25.0, 100, 1.0);
   wall_in(scene, 0, {.kind = WallKind::Static, .restitution = kRestitution});
-  const double phi = scene.area_fraction();
+  const double phi = scene.packing_fraction();
   const double kappa = (1.0 + 2.0 * phi * contact_correlation(phi)) * 20.0 / 19.0;
   const double pi = std::acos(-1.0);
   const double k =
       std::sqrt(0.5 * pi) / (2.0 * 20.0) * kappa * (2.0 / pi) * (1.0 - kRestitution * kRestitution);
   double sum = 0.0, squares = 0.0;
   for (std::uint64_t seed = 231; seed < 231 + kSeeds; ++seed) {
-    Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
+    Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
     simulation.run_until(1.0 / k);  // T = T0/4
     const double ratio = simulation.kinetic_energy() / 100.0 * 4.0;
     sum += ratio;

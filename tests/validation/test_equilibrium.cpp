@@ -68,7 +68,7 @@ TEST_CASE("elastic gas: speeds have Maxwell's distribution") {
   constexpr int kBins = 40;
   constexpr int kSamples = 100;
   const Scene scene = gas_of_fraction(0.3, 2000, 1.0);
-  Simulation<2> simulation(model_of(scene, 105), start_state(scene, 105));
+  Simulation<2> simulation(model_of<2>(scene, 105), start_state<2>(scene, 105));
   std::vector<double> counts(kBins);
   for (int k = 1; k <= kSamples; ++k) {
     simulation.run_until(5.0 * k);

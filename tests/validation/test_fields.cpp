@@ -132,11 +132,11 @@ TEST_CASE("fields: a sheared flow is taken off") {
   scene.measure.fields = kFields;
   scene.measure.cells = {1, 1};
   const std::uint64_t seed = 117;
-  State<2> start = start_state(scene, seed);
+  State<2> start = start_state<2>(scene, seed);
   for (Vec2& v : start.velocities) v += Vec2(3.0, -2.0);
   scene.measure.duration = 1000.0;
   scene.measure.burn_in = 0.0;
-  Simulation<2> simulation(model_of(scene, seed), start);
+  Simulation<2> simulation(model_of<2>(scene, seed), start);
   Measurement measurement(simulation, scene.measure, 1000.0);
   simulation.run_until(1000.0);
   const Measured flowing = measurement.result();

@@ -41,7 +41,7 @@ RoughGas theory(const Pair& pair) {
 
 // Spins of temperature T_rot = I <omega^2>, I = q/4.
 State<2> spinning_start(const Scene& scene, double spin_temperature, std::uint64_t seed) {
-  State<2> state = start_state(scene, seed);
+  State<2> state = start_state<2>(scene, seed);
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     Random random(seed, Stream::Velocity, i, 1);
     state.spins.push_back(
@@ -61,7 +61,7 @@ TEST_CASE("rough gas: free cooling tends to one ratio of the temperatures, from 
     const Scene scene = rough_gas(pair);
     Sample ratios;
     for (std::uint64_t seed = 301; seed < 301 + kSeeds; ++seed) {
-      Simulation<2> simulation(model_of(scene, seed),
+      Simulation<2> simulation(model_of<2>(scene, seed),
                                spinning_start(scene, seed % 2 ? 0.0 : 3.0, seed));
       double spin = 0.0, motion = 0.0;
       for (std::uint64_t collisions = 40; collisions <= 60; collisions += 5) {

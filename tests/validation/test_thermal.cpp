@@ -160,7 +160,7 @@ TEST_CASE("thermal walls: what comes to them is distributed as what leaves") {
   // spins are Gaussian, before a hit as after it. Some 20,000 hits, every seventh; 6 laws.
   constexpr double kTemperature = 2.0;
   const Scene scene = thermal_box(kTemperature, true);
-  Simulation<2> simulation(model_of(scene, 125), start_state(scene, 125));
+  Simulation<2> simulation(model_of<2>(scene, 125), start_state<2>(scene, 125));
   simulation.run_until(100.0);
   WallSpeeds speeds(kTemperature, scene.particles.inertia);
   simulation.add_observer(speeds);

@@ -123,14 +123,14 @@ TEST_CASE("Resume: every scene of the gallery, halfway") {
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_gallery_scene(file);
-    const Model<2> model = model_of(scene, 1);
-    Simulation<2> first(model, start_state(scene, 1));
+    const Model<2> model = model_of<2>(scene, 1);
+    Simulation<2> first(model, start_state<2>(scene, 1));
     first.run_until(kNever, 20 * static_cast<std::uint64_t>(scene.particles.count));
     const double halfway = first.time();
     first.run_until(halfway);
     Simulation<2> second(model, through_file(first));
     second.run_until(2.0 * halfway);
-    Simulation<2> straight(model, start_state(scene, 1));
+    Simulation<2> straight(model, start_state<2>(scene, 1));
     straight.run_until(2.0 * halfway);
     CHECK(second.state_hash() == straight.state_hash());
     CHECK(second.counts().pair_collisions > first.counts().pair_collisions);

@@ -32,7 +32,7 @@ std::size_t kept(const State<2>& before, const State<2>& now) {
 }  // namespace
 
 TEST_CASE("adapt_to_scene: all particles stay that fit, others come, none overlap") {
-  const State<2> before = start_state(box(200, 20.0, 25.0), 3);
+  const State<2> before = start_state<2>(box(200, 20.0, 25.0), 3);
   struct Case {
     Scene scene;
     std::size_t least;
@@ -48,13 +48,13 @@ TEST_CASE("adapt_to_scene: all particles stay that fit, others come, none overla
     REQUIRE(now.positions.size() == static_cast<std::size_t>(scene.particles.count));
     REQUIRE(now.velocities.size() == now.positions.size());
     CHECK(kept(before, now) >= least);
-    CHECK(brute_force_overlap(model_of(scene, 3), now) < 1e-12);
-    CHECK_NOTHROW(Simulation<2>(model_of(scene, 3), now).run_until(1.0));
+    CHECK(brute_force_overlap(model_of<2>(scene, 3), now) < 1e-12);
+    CHECK_NOTHROW(Simulation<2>(model_of<2>(scene, 3), now).run_until(1.0));
   }
 }
 
 TEST_CASE("adapt_to_scene: particles that come have the temperature of the gas") {
-  State<2> before = start_state(box(10, 60.0, 60.0), 4);
+  State<2> before = start_state<2>(box(10, 60.0, 60.0), 4);
   for (Vec2& v : before.velocities) v *= 3.0;
   const State<2> now = adapt_to_scene(before, box(1500, 60.0, 60.0), 4);
   double squares = 0.0;
@@ -64,8 +64,8 @@ TEST_CASE("adapt_to_scene: particles that come have the temperature of the gas")
 }
 
 TEST_CASE("adapt_to_scene: where random places do not suffice the gas starts as the scene says") {
-  const State<2> before = start_state(box(200, 20.0, 25.0), 5);
+  const State<2> before = start_state<2>(box(200, 20.0, 25.0), 5);
   const Scene dense = box(450, 20.0, 25.0);  // phi = 0.71
   const State<2> now = adapt_to_scene(before, dense, 5);
-  CHECK(now.positions == start_state(dense, 5).positions);
+  CHECK(now.positions == start_state<2>(dense, 5).positions);
 }

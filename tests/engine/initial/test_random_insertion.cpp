@@ -19,13 +19,13 @@ Random placement(std::uint64_t seed) {
 }
 
 /// Smallest distance of any two centres, and of any to its own images.
-double least_distance(const Room& room, const std::vector<Vec2>& centres) {
+double least_distance(const Room<2>& room, const std::vector<Vec2>& centres) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < centres.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       Vec2 x = centres[i] - centres[j];
       for (int k = 0; k < 2; ++k) {
-        if (room.periodic[k]) x[k] -= room.box[k] * std::round(x[k] / room.box[k]);
+        if (!room.walled[k]) x[k] -= room.box[k] * std::round(x[k] / room.box[k]);
       }
       least = std::min(least, x.norm());
     }
@@ -34,14 +34,14 @@ double least_distance(const Room& room, const std::vector<Vec2>& centres) {
 }
 
 /// Counts of the centres of many seeds on a grid over all of the places that a centre can take.
-std::vector<double> pooled_counts(const Room& room, int count, int seeds, int cells) {
+std::vector<double> pooled_counts(const Room<2>& room, int count, int seeds, int cells) {
   std::vector<double> counts(static_cast<std::size_t>(cells * cells));
   for (int seed = 1; seed <= seeds; ++seed) {
     Random random = placement(static_cast<std::uint64_t>(seed));
     for (const Vec2& r : random_insertion(room, count, random)) {
       std::array<int, 2> cell;
       for (int k = 0; k < 2; ++k) {
-        const double margin = room.periodic[k] ? 0.0 : 0.5 * room.diameter;
+        const double margin = room.walled[k] ? 0.5 * room.diameter : 0.0;
         cell[k] = static_cast<int>((r[k] - margin) / (room.box[k] - 2.0 * margin) * cells);
         REQUIRE(cell[k] >= 0);
         REQUIRE(cell[k] < cells);
@@ -64,11 +64,11 @@ void check_uniform(const std::vector<double>& counts) {
 }  // namespace
 
 TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
-  for (const bool periodic : {false, true}) {
+  for (const bool walled : {false, true}) {
     for (const double fraction : {0.1, 0.3, 0.5}) {
-      CAPTURE(periodic);
+      CAPTURE(walled);
       CAPTURE(fraction);
-      const Room room{{21.3, 17.9}, {periodic, !periodic}};
+      const Room<2> room{{21.3, 17.9}, {walled, !walled}};
       const int count = static_cast<int>(fraction * room.box.prod() * 4.0 / std::numbers::pi);
       Random random = placement(61);
       const auto centres = random_insertion(room, count, random);
@@ -76,7 +76,7 @@ TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
       CHECK(least_distance(room, centres) >= 1.0);
       for (const Vec2& r : centres) {
         for (int k = 0; k < 2; ++k) {
-          const double margin = room.periodic[k] ? 0.0 : 0.5;
+          const double margin = room.walled[k] ? 0.5 : 0.0;
           CHECK(r[k] >= margin);
           CHECK(r[k] <= room.box[k] - margin);
         }
@@ -88,16 +88,16 @@ TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
 TEST_CASE("random_insertion: a single particle is anywhere alike, up to walls and corners") {
   // 20,000 particles, 100 cells of 200 each: 7 % per cell. The room's sides are no multiples of a
   // cell.
-  for (const bool periodic : {false, true}) {
-    CAPTURE(periodic);
-    const Room room{{5.3, 3.7}, {periodic, periodic}};
+  for (const bool walled : {false, true}) {
+    CAPTURE(walled);
+    const Room<2> room{{5.3, 3.7}, {walled, walled}};
     check_uniform(pooled_counts(room, 1, 20000, 10));
   }
 }
 
 TEST_CASE("random_insertion: no gaps between the cells that it works with") {
   // 20,000 particles along each axis in 200 bins of 100: a gap as wide as a bin would empty one.
-  const Room room{{5.3, 3.7}, {true, false}};
+  const Room<2> room{{5.3, 3.7}, {false, true}};
   const Vec2 low = {0.0, 0.5}, extent = {5.3, 2.7};
   std::array<std::vector<double>, 2> counts = {std::vector(200, 0.0), std::vector(200, 0.0)};
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
@@ -112,20 +112,20 @@ TEST_CASE("random_insertion: no gaps between the cells that it works with") {
 TEST_CASE("random_insertion: a periodic room has no place of its own, however full") {
   // phi = .44 in a box in which a particle feels its images: 9 particles, 2000 seeds, 36 cells of
   // 500 each.
-  check_uniform(pooled_counts({{4.0, 4.0}, {true, true}}, 9, 2000, 6));
+  check_uniform(pooled_counts({{4.0, 4.0}}, 9, 2000, 6));
 }
 
 TEST_CASE("random_insertion: walls and corners get their share of a thin gas") {
   // phi = .004, so that particles hardly keep each other off the middle (the cells' density differs
   // by about phi). 2 particles, 10,000 seeds, 100 cells of 200 each.
-  check_uniform(pooled_counts({{20.0, 20.0}, {false, false}}, 2, 10000, 10));
+  check_uniform(pooled_counts({{20.0, 20.0}, {true, true}}, 2, 10000, 10));
 }
 
 TEST_CASE("random_insertion: two particles are as far apart as chance has it") {
   // In a periodic box the second centre is uniform outside of the first one's circle, so the share
   // of seeds with the two nearer than 1.5 is pi (1.5^2 - 1)/(16 - pi) = .3054. 10,000 seeds.
   constexpr int kSeeds = 10000;
-  const Room room{{4.0, 4.0}, {true, true}};
+  const Room<2> room{{4.0, 4.0}};
   int near = 0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Random random = placement(static_cast<std::uint64_t>(seed));
@@ -137,15 +137,15 @@ TEST_CASE("random_insertion: two particles are as far apart as chance has it") {
 
 TEST_CASE("random_insertion: gives up where it jams") {
   // Random sequential addition jams at phi = .547 (Feder 1980), .60 is out of reach.
-  const Room room{{20.0, 20.0}, {true, true}};
+  const Room<2> room{{20.0, 20.0}};
   Random random = placement(62);
   CHECK(random_insertion(room, 306, random).empty());
   // A second particle never fits here.
-  CHECK(random_insertion({{1.9, 1.9}, {false, false}}, 3, random).empty());
+  CHECK(random_insertion<2>({{1.9, 1.9}, {true, true}}, 3, random).empty());
 }
 
 TEST_CASE("random_insertion: none, one, and a seed says all") {
-  const Room room{{6.0, 6.0}, {true, false}};
+  const Room<2> room{{6.0, 6.0}, {true, false}};
   Random random = placement(63);
   CHECK(random_insertion(room, 0, random).empty());
   CHECK(random_insertion(room, 1, random).size() == 1);

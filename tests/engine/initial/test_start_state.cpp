@@ -28,7 +28,7 @@ const Case kCases[] = {{0.1, "insertion"}, {0.3, "insertion"}, {0.5, "insertion"
 /// About 500 particles; walls reduce what a lattice holds, so the fraction is a little lower there.
 Scene scene_of(double fraction, std::array<bool, 2> walled) {
   Scene scene;
-  scene.box = {25.0, 22.0};
+  scene.box = Vec2(25.0, 22.0);
   for (int axis = 0; axis < 2; ++axis) {
     if (walled[axis]) scene.walls[2 * axis] = scene.walls[2 * axis + 1] = Wall{};
   }
@@ -40,7 +40,7 @@ Scene scene_of(double fraction, std::array<bool, 2> walled) {
 /// Whether such a scene passes the check of scene files.
 bool fits(const Scene& scene) {
   return scene.particles.count <=
-         lattice_capacity({scene.box, {scene.periodic(0), scene.periodic(1)}});
+         lattice_capacity<2>({scene.box, {!scene.periodic(0), !scene.periodic(1)}});
 }
 
 Vec2 nearest(const Scene& scene, Vec2 x) {
@@ -99,7 +99,7 @@ TEST_CASE("start_state: no particles overlap each other or a wall, at any densit
       CAPTURE(walled[0]);
       CAPTURE(walled[1]);
       REQUIRE(fits(scene));
-      const State<2> state = start_state(scene, 71);
+      const State<2> state = start_state<2>(scene, 71);
       REQUIRE(static_cast<int>(state.positions.size()) == scene.particles.count);
       CHECK(least_distance(scene, state.positions) >= 1.0 - 1e-12);
       for (const Vec2& r : state.positions) {
@@ -117,7 +117,7 @@ TEST_CASE("start_state: the temperature is met exactly, the mean velocity is rem
   for (const int count : {2, 3, 10, 400}) {
     Scene scene = scene_of(0.1, {false, true});
     scene.particles.count = count;
-    const State<2> state = start_state(scene, 72);
+    const State<2> state = start_state<2>(scene, 72);
     CAPTURE(count);
     CHECK(temperature(state) == doctest::Approx(1.7).epsilon(1e-14));
     CHECK(momentum(state).norm() < 1e-12);
@@ -128,9 +128,9 @@ TEST_CASE("start_state: velocities are Gaussian") {
   // 5000 particles: kurtosis <v^4>/<v^2>^2 = 3 with standard error sqrt(24/10000) = .049 over both
   // components, <v_x v_y> = 0 with T/sqrt(5000).
   Scene scene;
-  scene.box = {200.0, 200.0};
+  scene.box = Vec2(200.0, 200.0);
   scene.particles.count = 5000;
-  const State<2> state = start_state(scene, 73);
+  const State<2> state = start_state<2>(scene, 73);
   double fourth = 0.0, mixed = 0.0;
   for (const Vec2& v : state.velocities) {
     fourth += v.cwiseAbs2().squaredNorm() / 10000.0;
@@ -144,9 +144,9 @@ TEST_CASE("start_state: a seed gives the same state again, another one another")
   for (const Case& c : kCases) {
     CAPTURE(c.fraction);
     const Scene scene = scene_of(c.fraction, {true, false});
-    const State<2> state = start_state(scene, 74);
-    const State<2> again = start_state(scene, 74);
-    const State<2> other = start_state(scene, 75);
+    const State<2> state = start_state<2>(scene, 74);
+    const State<2> again = start_state<2>(scene, 74);
+    const State<2> other = start_state<2>(scene, 75);
     CHECK(state.positions == again.positions);
     CHECK(state.velocities == again.velocities);
     CHECK(state.positions != other.positions);
@@ -156,9 +156,9 @@ TEST_CASE("start_state: a seed gives the same state again, another one another")
 
 TEST_CASE("start_state: places do not depend on the temperature") {
   Scene scene = scene_of(0.6, {false, false});
-  const State<2> warm = start_state(scene, 76);
+  const State<2> warm = start_state<2>(scene, 76);
   scene.particles.start.temperature = 0.0;
-  const State<2> cold = start_state(scene, 76);
+  const State<2> cold = start_state<2>(scene, 76);
   CHECK(warm.positions == cold.positions);
   CHECK(std::ranges::all_of(cold.velocities, [](const Vec2& v) { return v == Vec2(0.0, 0.0); }));
 }
@@ -172,22 +172,22 @@ TEST_CASE("start_state: what was melted has the order of a fluid") {
       const Scene scene = scene_of(fraction, walled);
       CAPTURE(fraction);
       for (const std::uint64_t seed : {77u, 78u, 79u}) {
-        const State<2> state = start_state(scene, seed);
+        const State<2> state = start_state<2>(scene, seed);
         CHECK(bond_order(scene, state.positions, 4) < 0.15);
       }
     }
   }
   const Scene scene = scene_of(0.6, {false, false});
-  const auto sites = square_lattice({scene.box, {true, true}}, scene.particles.count);
+  const auto sites = primitive_lattice<2>({scene.box}, scene.particles.count);
   CHECK(bond_order(scene, sites, 4) > 0.9);
 }
 
 TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
   Scene scene = scene_of(0.75, {false, false});
-  CHECK(bond_order(scene, start_state(scene, 80).positions, 6) > 0.9);
+  CHECK(bond_order(scene, start_state<2>(scene, 80).positions, 6) > 0.9);
   scene = scene_of(0.2, {true, false});
   scene.particles.start.layout = Layout::Lattice;
-  const State<2> state = start_state(scene, 80);
+  const State<2> state = start_state<2>(scene, 80);
   CHECK(least_distance(scene, state.positions) > 1.5);
   // Few different heights or few different places along x: the sites lie in rows.
   std::set<long> x, y;
@@ -205,7 +205,7 @@ TEST_CASE("start_state: gases of none, one and two") {
       Scene scene = scene_of(0.1, {true, false});
       scene.particles.count = count;
       scene.particles.start.layout = layout;
-      const State<2> state = start_state(scene, 81);
+      const State<2> state = start_state<2>(scene, 81);
       REQUIRE(static_cast<int>(state.positions.size()) == count);
       REQUIRE(static_cast<int>(state.velocities.size()) == count);
       if (count > 0) CHECK(temperature(state) == doctest::Approx(1.7).epsilon(1e-14));
@@ -218,10 +218,10 @@ TEST_CASE("start_state: one particle in a box that it nearly fills") {
   // phi = .55, beyond random insertion; nothing that it could collide with while melting.
   for (const bool walled : {false, true}) {
     Scene scene;
-    scene.box = {1.2, 1.19};
+    scene.box = Vec2(1.2, 1.19);
     scene.particles.count = 1;
     if (walled) scene.walls[kLeft] = scene.walls[kRight] = Wall{};
-    CHECK(start_state(scene, 82).positions.size() == 1);
+    CHECK(start_state<2>(scene, 82).positions.size() == 1);
   }
 }
 
@@ -230,13 +230,13 @@ TEST_CASE("start_state: spins have exactly their temperature, and the mean that 
   // of it shows that none was taken out; the kurtosis is 3 with standard error sqrt(24/5000) =
   // .069.
   Scene scene;
-  scene.box = {200.0, 200.0};
+  scene.box = Vec2(200.0, 200.0);
   scene.particles.count = 5000;
   scene.particles.roughness.friction = 0.5;
   scene.particles.inertia = 0.4;
   scene.particles.start.spin_temperature = 2.3;
   const double moment = 0.1;  // I = q/4
-  const State<2> state = start_state(scene, 83);
+  const State<2> state = start_state<2>(scene, 83);
   REQUIRE(state.spins.size() == 5000);
   double mean = 0.0, square = 0.0, fourth = 0.0, mixed = 0.0;
   for (std::size_t i = 0; i < state.spins.size(); ++i) {
@@ -251,16 +251,16 @@ TEST_CASE("start_state: spins have exactly their temperature, and the mean that 
   CHECK(std::fabs(mean) > 1e-6);
   CHECK(std::fabs(fourth / (square * square) - 3.0) < 5.0 * 0.069);
   CHECK(std::fabs(mixed) < 5.0 * std::sqrt(square / 5000.0));
-  CHECK(start_state(scene, 83).spins == state.spins);
-  CHECK(start_state(scene, 84).spins != state.spins);
+  CHECK(start_state<2>(scene, 83).spins == state.spins);
+  CHECK(start_state<2>(scene, 84).spins != state.spins);
 }
 
 TEST_CASE("start_state: spins are there where the scene has them, and change nothing else") {
   Scene scene = scene_of(0.6, {true, false});
-  const State<2> smooth = start_state(scene, 85);
+  const State<2> smooth = start_state<2>(scene, 85);
   CHECK(smooth.spins.empty());
   scene.walls[kLeft]->roughness.tangential_restitution = 0.5;
-  const State<2> still = start_state(scene, 85);
+  const State<2> still = start_state<2>(scene, 85);
   REQUIRE(still.spins.size() == smooth.positions.size());
   CHECK(std::ranges::all_of(still.spins, [](const Spin<2>& spin) { return spin[0] == 0.0; }));
   CHECK(still.positions == smooth.positions);
@@ -268,7 +268,7 @@ TEST_CASE("start_state: spins are there where the scene has them, and change not
   scene.particles.start.spin_temperature = 1.0;
   scene.particles.count = 1;
   scene.particles.inertia = 0.5;
-  CHECK(std::fabs(start_state(scene, 85).spins[0][0]) == doctest::Approx(std::sqrt(8.0)));
+  CHECK(std::fabs(start_state<2>(scene, 85).spins[0][0]) == doctest::Approx(std::sqrt(8.0)));
 }
 
 TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
@@ -279,11 +279,11 @@ TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
     scene.walls[kLeft] = Wall{.kind = WallKind::Sawtooth, .stroke = 1.5, .frequency = 1.0};
     scene.walls[kTop] = Wall{.kind = WallKind::Sinusoidal, .stroke = 3.0, .frequency = 1.0};
     scene.walls[kBottom] = Wall{.kind = WallKind::Sawtooth, .stroke = 0.25, .frequency = 1.0};
-    scene.box = {26.5, 23.75};
+    scene.box = Vec2(26.5, 23.75);
     CAPTURE(c.fraction);
     CAPTURE(c.how);
-    const State<2> state = start_state(scene, 86);
-    const State<2> expected = start_state(still, 86);
+    const State<2> state = start_state<2>(scene, 86);
+    const State<2> expected = start_state<2>(still, 86);
     REQUIRE(state.positions.size() == expected.positions.size());
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
       CHECK(state.positions[i] == expected.positions[i] + Vec2(1.5, 0.25));
@@ -294,14 +294,14 @@ TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
 
 TEST_CASE("start_state: forces, roughness and driving leave the places as they are") {
   Scene scene = scene_of(0.6, {false, true});
-  const State<2> plain = start_state(scene, 87);
-  scene.gravity = {1.0, -5.0};
+  const State<2> plain = start_state<2>(scene, 87);
+  scene.gravity = Vec2(1.0, -5.0);
   scene.bulk_drive = {.interval = 0.01, .kick_speed = 3.0, .kick_spin = 1.0};
   scene.contact_time = 0.1;
   scene.particles.restitution = 0.5;
   scene.particles.roughness.friction = 0.5;
   scene.particles.start.spin_temperature = 2.0;
-  const State<2> other = start_state(scene, 87);
+  const State<2> other = start_state<2>(scene, 87);
   CHECK(other.positions == plain.positions);
   CHECK(other.velocities == plain.velocities);
 }
@@ -310,19 +310,19 @@ TEST_CASE("start_state: a state that was saved starts a run, bit by bit") {
   const auto restarted = [](Scene scene, const State<2>& saved) {
     scene.particles.start.layout = Layout::File;
     scene.particles.start.state = parse_state(state_to_csv(saved), "a.csv", scene);
-    return start_state(scene, 1);
+    return start_state<2>(scene, 1);
   };
   Scene scene = scene_of(0.3, {true, false});
-  Simulation<2> simulation(model_of(scene, 88), start_state(scene, 88));
+  Simulation<2> simulation(model_of<2>(scene, 88), start_state<2>(scene, 88));
   simulation.run_until(1.7);
   const State<2> state = restarted(scene, simulation.state());
   CHECK(state.positions == simulation.state().positions);
   CHECK(state.velocities == simulation.state().velocities);
   CHECK(state.spins.empty());
-  CHECK(Simulation<2>(model_of(scene, 1), state).state_hash() == simulation.state_hash());
+  CHECK(Simulation<2>(model_of<2>(scene, 1), state).state_hash() == simulation.state_hash());
 
   scene.particles.roughness.friction = 0.5;
   scene.particles.start.spin_temperature = 2.0;
-  const State<2> spinning = start_state(scene, 88);
+  const State<2> spinning = start_state<2>(scene, 88);
   CHECK(restarted(scene, spinning).spins == spinning.spins);
 }

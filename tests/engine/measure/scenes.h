@@ -16,7 +16,7 @@ inline void wall_in(Scene& scene, int axis, const Wall& wall) {
 /// A gas in a periodic box, random start, T = 1.
 inline Scene gas(double lx, double ly, int count, double restitution) {
   Scene scene;
-  scene.box = {lx, ly};
+  scene.box = Vec2(lx, ly);
   scene.particles.count = count;
   scene.particles.restitution = restitution;
   return scene;
@@ -36,7 +36,7 @@ inline Scene rough_mixture(int count) {
 /// One particle in a box, alone: what it does is known at any time.
 inline std::unique_ptr<Simulation<2>> lone_particle(const Scene& scene, const Vec2& r,
                                                     const Vec2& v) {
-  return std::make_unique<Simulation<2>>(model_of(scene, 1), State<2>{{r}, {v}});
+  return std::make_unique<Simulation<2>>(model_of<2>(scene, 1), State<2>{{r}, {v}});
 }
 
 /// Total momentum.

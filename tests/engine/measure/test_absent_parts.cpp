@@ -40,11 +40,11 @@ class EventCounter : public Observer<2> {
 TEST_CASE("absent parts: a smooth gas holds no spins, and without t_c no times of collisions") {
   constexpr std::size_t kCount = 10000;
   const Scene smooth = gas(150.0, 150.0, kCount, 0.9);
-  const State<2> start = start_state(smooth, 121);
+  const State<2> start = start_state<2>(smooth, 121);
   const auto simulation_bytes = [&](const Model<2>& model) {
     return bytes_of([&] { Simulation<2>(model, start); });
   };
-  Model<2> model = model_of(smooth, 121);
+  Model<2> model = model_of<2>(smooth, 121);
   CHECK(Simulation<2>(model, start).spins().capacity() == 0);
   const std::size_t bare = simulation_bytes(model);
   model.contact_time = 1e-6;

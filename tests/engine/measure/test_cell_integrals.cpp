@@ -196,9 +196,9 @@ TEST_CASE("CellIntegrals: cells add up to N Dt, and to the integral of sum v_k^2
 
 TEST_CASE("CellIntegrals: cells add up to the momentum, which a periodic box conserves") {
   Scene scene = gas(8.0, 9.0, 20, 0.9);
-  State<2> start = start_state(scene, 23);
+  State<2> start = start_state<2>(scene, 23);
   for (Vec2& v : start.velocities) v += Vec2(0.5, -0.25);  // a flow: P = (10, -5)
-  Simulation<2> simulation(model_of(scene, 23), start);
+  Simulation<2> simulation(model_of<2>(scene, 23), start);
   CellIntegrals<2> integrals(simulation, {4, 6}, full_layout());
   simulation.add_observer(integrals);
   simulation.run_until(50.0);
@@ -465,7 +465,7 @@ TEST_CASE("CellIntegrals: a Gaussian spreads what box cells hold, and keeps its 
 TEST_CASE("CellIntegrals: a Gaussian along the branch, at its ends, and at the particles") {
   // Head-on at t = 1/2, where the centres are at x = 2.5 and 3.5: 1 gains (-3/2, 0) and loses 3/8.
   Scene scene = gas(6.0, 5.0, 2, 0.5);
-  Simulation<2> simulation(model_of(scene, 1),
+  Simulation<2> simulation(model_of<2>(scene, 1),
                            State<2>{{{2.0, 2.4}, {4.0, 2.4}}, {{1, 0}, {-1, 0}}});
   CellIntegrals<2> integrals(simulation, {6, 5}, full_layout(), {Estimator::Snapshot, 0.8});
   simulation.add_observer(integrals);

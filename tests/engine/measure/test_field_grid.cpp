@@ -14,7 +14,7 @@ using namespace clatter::testing;
 namespace {
 
 FieldGrid<2> grid_in(const Scene& scene, const IntVec<2>& cells) {
-  return {model_of(scene, 1), cells};
+  return {model_of<2>(scene, 1), cells};
 }
 
 /// A box of 5 x 4, walled along x.

@@ -88,7 +88,7 @@ TEST_CASE("Measurement: maps average to the profile, and their parts to the maps
     for (std::size_t f = 0; f < linear.size(); ++f) {
       const FieldMap& map = result.maps->maps[f];
       CHECK(map.field == linear[f]);
-      CHECK(map.cells == std::array{6, 4});
+      CHECK(map.cells == std::vector{6, 4});
       const std::vector<Estimate>& profile = result.profile->at(linear[f]);
       for (int column = 0; column < static_cast<int>(profile.size()); ++column) {
         CHECK(column_mean(map, axis, column) ==

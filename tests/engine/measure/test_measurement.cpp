@@ -312,10 +312,10 @@ TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") 
   measure.fields = {Field::TemperatureY};
   measure.cells = {3, 1};
   const Scene scene = gas(30.0, 30.0, 12, 1.0);
-  State<2> start = start_state(scene, 49);
-  Simulation<2> at_rest(model_of(scene, 49), start);
+  State<2> start = start_state<2>(scene, 49);
+  Simulation<2> at_rest(model_of<2>(scene, 49), start);
   for (Vec2& v : start.velocities) v.y() += 3.0;
-  Simulation<2> flowing(model_of(scene, 49), start);
+  Simulation<2> flowing(model_of<2>(scene, 49), start);
   const Measured expected = measured(at_rest, measure);
   const Measured result = measured(flowing, measure);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -56,7 +56,8 @@ Run started(const Scene& scene, const Measure& measure) {
 
 Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
   const std::string saved = before.measurement->save();
-  Run run{std::make_unique<Simulation<2>>(model_of(scene, 5), before.simulation->save()), nullptr};
+  Run run{std::make_unique<Simulation<2>>(model_of<2>(scene, 5), before.simulation->save()),
+          nullptr};
   run.measurement =
       std::make_unique<Measurement>(*run.simulation, measure, ArchiveReader(saved, "saved"));
   // Saving twice gives the same, and saving is no more than looking.
@@ -171,7 +172,7 @@ TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledg
   REQUIRE(rough.simulation->spin_energy() > 0.1);
   Scene scene = everything(20);
   scene.particles.roughness = {};
-  Run smooth{std::make_unique<Simulation<2>>(model_of(scene, 5), rough.simulation->save()),
+  Run smooth{std::make_unique<Simulation<2>>(model_of<2>(scene, 5), rough.simulation->save()),
              nullptr};
   const std::string saved = rough.measurement->save();
   smooth.measurement =

@@ -131,7 +131,7 @@ TEST_CASE("Measurement: residuals have maps over the whole time, after those of 
   for (std::size_t k = 0; k < kBalance.size(); ++k) {
     const FieldMap& map = alone.maps->maps.at(k);
     CHECK(map.field == kBalance[k]);
-    CHECK(map.cells == std::array{5, 4});
+    CHECK(map.cells == std::vector{5, 4});
     CHECK(map.values == alone.residuals->map(kBalance[k]));
   }
 }

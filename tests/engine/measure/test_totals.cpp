@@ -134,7 +134,7 @@ TEST_CASE("Totals: a head-on collision by hand") {
   // (1 - alpha^2) g_n^2 / 4 = 0.75, Eq. (2.8); impulse and separation are parallel, one diameter.
   const Scene scene = gas(20.0, 20.0, 2, 0.5);
   const State<2> start{{{5.0, 5.0}, {8.0, 5.0}}, {{1.0, 0.0}, {-1.0, 0.0}}};
-  Simulation<2> simulation(model_of(scene, 1), start);
+  Simulation<2> simulation(model_of<2>(scene, 1), start);
   Totals<2> totals(simulation);
   simulation.add_observer(totals);
   simulation.run_until(2.0);  // they meet at time 1

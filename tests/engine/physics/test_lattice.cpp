@@ -16,25 +16,25 @@ double wrapped(double difference, double side, bool periodic) {
 }
 
 /// Over all pairs, and over a site's own images; stops early once it is below `enough`.
-double least_distance(const Room& room, const std::vector<Vec2>& sites, double enough = 0.0) {
+double least_distance(const Room<2>& room, const std::vector<Vec2>& sites, double enough = 0.0) {
   double least = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 2; ++axis) {
-    if (room.periodic[axis]) least = std::min(least, room.box[axis]);
+    if (!room.walled[axis]) least = std::min(least, room.box[axis]);
   }
   for (std::size_t i = 0; i < sites.size() && least >= enough; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Vec2 d = sites[i] - sites[j];
-      least = std::min(least, std::hypot(wrapped(d.x(), room.box.x(), room.periodic[0]),
-                                         wrapped(d.y(), room.box.y(), room.periodic[1])));
+      least = std::min(least, std::hypot(wrapped(d.x(), room.box.x(), !room.walled[0]),
+                                         wrapped(d.y(), room.box.y(), !room.walled[1])));
     }
   }
   return least;
 }
 
-bool inside(const Room& room, const std::vector<Vec2>& sites) {
+bool inside(const Room<2>& room, const std::vector<Vec2>& sites) {
   return std::ranges::all_of(sites, [&](const Vec2& site) {
     for (int axis = 0; axis < 2; ++axis) {
-      const double margin = room.periodic[axis] ? 0.0 : 0.5 * room.diameter;
+      const double margin = !room.walled[axis] ? 0.0 : 0.5 * room.diameter;
       if (site[axis] < margin || site[axis] > room.box[axis] - margin) return false;
     }
     return true;
@@ -43,15 +43,16 @@ bool inside(const Room& room, const std::vector<Vec2>& sites) {
 
 /// Rows of n sites and n or n - 1 in turn along `axis`, or of n each, told as a textbook does and
 /// laid out independently of the code under test; `shift` moves every other row by half a spacing.
-std::vector<Vec2> rows_of(const Room& room, int axis, int rows, int n, bool shift, bool shorter) {
+std::vector<Vec2> rows_of(const Room<2>& room, int axis, int rows, int n, bool shift,
+                          bool shorter) {
   std::vector<Vec2> sites;
   const int across = 1 - axis;
   const auto at = [&](int k, double i, double places) {
-    if (room.periodic[k]) return i * room.box[k] / places;
+    if (!room.walled[k]) return i * room.box[k] / places;
     return places > 1.0 ? 0.5 * room.diameter + i * (room.box[k] - room.diameter) / (places - 1.0)
                         : 0.5 * room.box[k];
   };
-  const double places = n + (shift && !shorter && !room.periodic[axis] ? 0.5 : 0.0);
+  const double places = n + (shift && !shorter && !!room.walled[axis] ? 0.5 : 0.0);
   for (int row = 0; row < rows; ++row) {
     const bool odd = shift && row % 2 == 1;
     for (int i = 0; i < n - (odd && shorter ? 1 : 0); ++i) {
@@ -65,7 +66,7 @@ std::vector<Vec2> rows_of(const Room& room, int axis, int rows, int n, bool shif
 }
 
 /// The most particles over all such arrangements, trying every one.
-int brute_capacity(const Room& room) {
+int brute_capacity(const Room<2>& room) {
   const int most = 2 * static_cast<int>(room.box.maxCoeff() / room.diameter) + 3;
   std::size_t best = 0;
   for (const int axis : {0, 1}) {
@@ -73,8 +74,8 @@ int brute_capacity(const Room& room) {
       for (int n = 1; n <= most; ++n) {
         for (const bool shift : {false, true}) {
           for (const bool shorter : {false, true}) {
-            if (shorter && (!shift || room.periodic[axis] || n == 1)) continue;
-            if (shift && room.periodic[1 - axis] && rows % 2 == 1) continue;
+            if (shorter && (!shift || !room.walled[axis] || n == 1)) continue;
+            if (shift && !room.walled[1 - axis] && rows % 2 == 1) continue;
             const auto sites = rows_of(room, axis, rows, n, shift, shorter);
             if (sites.size() <= best) continue;
             if (least_distance(room, sites, room.diameter) >= room.diameter) best = sites.size();
@@ -86,8 +87,8 @@ int brute_capacity(const Room& room) {
   return static_cast<int>(best);
 }
 
-std::vector<Room> rooms(std::initializer_list<Vec2> boxes) {
-  std::vector<Room> all;
+std::vector<Room<2>> rooms(std::initializer_list<Vec2> boxes) {
+  std::vector<Room<2>> all;
   for (const Vec2& box : boxes) {
     for (const bool x : {false, true}) {
       for (const bool y : {false, true}) all.push_back({box, {x, y}, 1.0});
@@ -101,7 +102,7 @@ std::vector<Room> rooms(std::initializer_list<Vec2> boxes) {
 TEST_CASE("a lattice has sites enough, inside the room and never closer than a diameter") {
   const auto all =
       rooms({{20.0, 25.0}, {7.3, 7.3}, {1.2, 40.7}, {33.3, 1.9}, {11.0, 4.0}, {3.1, 2.7}});
-  for (Room room : all) {
+  for (Room<2> room : all) {
     for (const double diameter : {1.0, 0.37}) {
       room.diameter = diameter;
       const int capacity = lattice_capacity(room);
@@ -110,7 +111,8 @@ TEST_CASE("a lattice has sites enough, inside the room and never closer than a d
         CAPTURE(room.box.transpose());
         CAPTURE(count);
         bool held = false;
-        for (const auto& sites : {square_lattice(room, count), hexagonal_lattice(room, count)}) {
+        for (const auto& sites :
+             {primitive_lattice(room, count), face_centred_lattice(room, count)}) {
           if (sites.empty()) continue;
           held = true;
           CHECK(static_cast<int>(sites.size()) >= count);
@@ -124,68 +126,68 @@ TEST_CASE("a lattice has sites enough, inside the room and never closer than a d
 }
 
 TEST_CASE("the capacity is that of the best arrangement, and one more is refused") {
-  for (const Room& room : rooms({{5.3, 6.1},
-                                 {7.77, 3.21},
-                                 {1.5, 9.2},
-                                 {2.05, 6.6},
-                                 {4.4, 4.4},
-                                 {8.1, 1.05},
-                                 {6.93, 6.07}})) {
+  for (const Room<2>& room : rooms({{5.3, 6.1},
+                                    {7.77, 3.21},
+                                    {1.5, 9.2},
+                                    {2.05, 6.6},
+                                    {4.4, 4.4},
+                                    {8.1, 1.05},
+                                    {6.93, 6.07}})) {
     CAPTURE(room.box.transpose());
-    CAPTURE(room.periodic[0]);
-    CAPTURE(room.periodic[1]);
+    CAPTURE(!room.walled[0]);
+    CAPTURE(!room.walled[1]);
     const int capacity = lattice_capacity(room);
     CHECK(capacity == brute_capacity(room));
-    CHECK(square_lattice(room, capacity + 1).empty());
-    CHECK(hexagonal_lattice(room, capacity + 1).empty());
+    CHECK(primitive_lattice(room, capacity + 1).empty());
+    CHECK(face_centred_lattice(room, capacity + 1).empty());
   }
 }
 
 TEST_CASE("the perfect hexagonal packing is found where the box is commensurate with it") {
   for (const bool turned : {false, true}) {
-    Room room{.box = {10.0 * 1.0000001, 10.0 * std::sqrt(0.75) * 1.0000001}};
+    Room<2> room{.box = {10.0 * 1.0000001, 10.0 * std::sqrt(0.75) * 1.0000001}};
     if (turned) std::swap(room.box.x(), room.box.y());
     CHECK(lattice_capacity(room) == 100);
-    const auto sites = hexagonal_lattice(room, 100);
+    const auto sites = face_centred_lattice(room, 100);
     REQUIRE(sites.size() == 100);
     CHECK(least_distance(room, sites) == doctest::Approx(1.0000001).epsilon(1e-12));
   }
 }
 
 TEST_CASE("sites are spread as far apart as the lattice allows") {
-  CHECK(least_distance({.box = {10.0, 10.0}}, square_lattice({.box = {10.0, 10.0}}, 25)) ==
+  CHECK(least_distance({.box = {10.0, 10.0}}, primitive_lattice<2>({.box = {10.0, 10.0}}, 25)) ==
         doctest::Approx(2.0));
-  const Room walled{.box = {9.0, 5.0}, .periodic = {false, false}};
-  CHECK(least_distance(walled, square_lattice(walled, 15)) == doctest::Approx(2.0));
+  const Room<2> walled{.box = {9.0, 5.0}, .walled = {true, true}};
+  CHECK(least_distance(walled, primitive_lattice(walled, 15)) == doctest::Approx(2.0));
   // Four corners and the centre.
-  const Room square{.box = {5.0, 5.0}, .periodic = {false, false}};
-  CHECK(least_distance(square, hexagonal_lattice(square, 5)) == doctest::Approx(std::sqrt(8.0)));
+  const Room<2> square{.box = {5.0, 5.0}, .walled = {true, true}};
+  CHECK(least_distance(square, face_centred_lattice(square, 5)) == doctest::Approx(std::sqrt(8.0)));
 }
 
 TEST_CASE("particles that would touch exactly do not fit, for rounding would make some overlap") {
-  const Room row{.box = {50.0, 1.0}, .periodic = {true, false}};
+  const Room<2> row{.box = {50.0, 1.0}, .walled = {false, true}};
   CHECK(lattice_capacity(row) == 49);
   for (int n = 2; n < 400; ++n) {
     // The narrowest box that 0.1 n leaves for n particles of diameter 0.1, and one a little wider.
     for (const double width : {0.1 * n, 0.1 * n * (1.0 + 1e-15), 0.1 * n * (1.0 + 1e-13)}) {
-      const Room room{.box = {width, 0.15}, .diameter = 0.1};
-      const auto sites = square_lattice(room, lattice_capacity(room));
+      const Room<2> room{.box = {width, 0.15}, .diameter = 0.1};
+      const auto sites = primitive_lattice(room, lattice_capacity(room));
       CHECK(least_distance(room, sites) >= room.diameter);
     }
   }
 }
 
 TEST_CASE("rooms of any size have a capacity, at once") {
-  CHECK(lattice_capacity({.box = {1e6, 1e6}}) == INT_MAX);
-  CHECK(lattice_capacity({.box = {1e300, 1e300}}) == INT_MAX);
-  CHECK(lattice_capacity({.box = {1e6, 1.5}, .periodic = {false, false}}) == 1'154'700);
-  CHECK(lattice_capacity({.box = {1.5, 1e6}, .periodic = {false, false}}) == 1'154'700);
+  CHECK(lattice_capacity<2>({.box = {1e6, 1e6}}) == INT_MAX);
+  CHECK(lattice_capacity<2>({.box = {1e300, 1e300}}) == INT_MAX);
+  CHECK(lattice_capacity<2>({.box = {1e6, 1.5}, .walled = {true, true}}) == 1'154'700);
+  CHECK(lattice_capacity<2>({.box = {1.5, 1e6}, .walled = {true, true}}) == 1'154'700);
   // Two staggered rows 0.75 apart, sites 2 sqrt(1 - 0.75^2) apart along each.
-  CHECK(lattice_capacity({.box = {1e9, 1.5}}) == doctest::Approx(2e9 / (2 * std::sqrt(0.4375))));
-  CHECK(lattice_capacity({.box = {1e12, 2.0}}) == INT_MAX);
-  CHECK(lattice_capacity({.box = {0.5, 9.0}, .periodic = {false, false}}) == 0);
+  CHECK(lattice_capacity<2>({.box = {1e9, 1.5}}) == doctest::Approx(2e9 / (2 * std::sqrt(0.4375))));
+  CHECK(lattice_capacity<2>({.box = {1e12, 2.0}}) == INT_MAX);
+  CHECK(lattice_capacity<2>({.box = {0.5, 9.0}, .walled = {true, true}}) == 0);
 }
 
 TEST_CASE("ten million sites are laid out") {
-  CHECK(hexagonal_lattice({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
+  CHECK(face_centred_lattice<2>({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
 }

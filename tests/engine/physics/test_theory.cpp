@@ -97,7 +97,7 @@ TEST_CASE("enskog_rate: Eq. (3.5)") {
 
 TEST_CASE("VibratedGas: the parameters of Eqs. (3.8) and (3.9)") {
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
-  CHECK(gas.area_fraction() == doctest::Approx(pi / 10.0).epsilon(1e-15));
+  CHECK(gas.packing_fraction() == doctest::Approx(pi / 10.0).epsilon(1e-15));
   // sqrt(2) * 1.8337511829 * 200/25
   CHECK(gas.psi() == doctest::Approx(20.746526342878).epsilon(1e-12));
   // .19 + (2/pi) * .0975/psi
@@ -177,7 +177,7 @@ TEST_CASE("VibratedGas: rates and energies of Eqs. (3.2)-(3.5)") {
   CHECK(gas.temperature_change_simple(1.7) == doctest::Approx(-0.20065736919313).epsilon(1e-13));
   // Each collision is that of two particles, and of N - 1 others.
   CHECK(gas.collision_rate(1.7) ==
-        doctest::Approx(0.5 * 199.0 * enskog_rate(gas.area_fraction(), 1.7)).epsilon(1e-13));
+        doctest::Approx(0.5 * 199.0 * enskog_rate(gas.packing_fraction(), 1.7)).epsilon(1e-13));
 }
 
 TEST_CASE("VibratedGas: Eq. (3.7) is the balance of Eqs. (3.2)-(3.5)") {
@@ -244,7 +244,7 @@ TEST_CASE("VibratedGas: Haff's rates, Eq. (3.10)") {
   CHECK(heating.haff_rate_corrected(1.7) == doctest::Approx(-0.0081164204562660).epsilon(1e-12));
   // Walls that lose nothing do not matter: the periodic box cools alike.
   const VibratedGas lossless = vibrated(100.0, 0.9, 1.0);
-  const double periodic = haff_rate_periodic(lossless.area_fraction(), 0.9, 1.7);
+  const double periodic = haff_rate_periodic(lossless.packing_fraction(), 0.9, 1.7);
   CHECK(lossless.haff_rate_refined(1.7) == doctest::Approx(periodic).epsilon(1e-13));
   CHECK(lossless.haff_rate_corrected(1.7) == doctest::Approx(periodic).epsilon(1e-13));
   // .19 * 2 * .5328457177951/4, see enskog_rate above.

@@ -87,7 +87,7 @@ TEST_CASE("FlightRecorder: paths go on across other laws and another span") {
   FlightRecorder first(*before, 1.0);
   before->run_until(4.0);
   scene.gravity = Vec2(0.5, 0.9);
-  Simulation<2> after(model_of(scene, 7), before->save());
+  Simulation<2> after(model_of<2>(scene, 7), before->save());
   FlightRecorder second(after, 2.0, std::move(first));
   check_paths(second, after, 1.0);
   after.run_until(4.3);
@@ -104,7 +104,7 @@ TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {
   ArchiveWriter writer;
   writer(recorder);
 
-  Simulation<2> resumed(model_of(scene, 8), simulation->save());
+  Simulation<2> resumed(model_of<2>(scene, 8), simulation->save());
   FlightRecorder again(resumed, 1.0);
   ArchiveReader reader(writer.written(), "");
   reader(again);

@@ -71,12 +71,12 @@ TEST_CASE("SpinAngles: a run that goes on has its angles, from a checkpoint or u
   ArchiveWriter writer;
   writer(angles);
 
-  Simulation<2> resumed(model_of(scene, 5), simulation->save());
+  Simulation<2> resumed(model_of<2>(scene, 5), simulation->save());
   SpinAngles read(resumed);
   ArchiveReader reader(writer.written(), "");
   reader(read);
   reader.finish();
-  Simulation<2> handed(model_of(scene, 5), simulation->save());
+  Simulation<2> handed(model_of<2>(scene, 5), simulation->save());
   SpinAngles moved(handed, SpinAngles(read));
   CHECK(read.angles() == angles.angles());
   CHECK(moved.angles() == angles.angles());

@@ -73,9 +73,7 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.particles.inertia == b.particles.inertia);
   CHECK(a.particles.start.layout == b.particles.start.layout);
   CHECK(a.particles.start.file == b.particles.start.file);
-  CHECK(a.particles.start.state.positions == b.particles.start.state.positions);
-  CHECK(a.particles.start.state.velocities == b.particles.start.state.velocities);
-  CHECK(a.particles.start.state.spins == b.particles.start.state.spins);
+  CHECK(a.particles.start.state == b.particles.start.state);
   CHECK(a.particles.start.temperature == b.particles.start.temperature);
   CHECK(a.particles.start.spin_temperature == b.particles.start.spin_temperature);
   for (int side = 0; side < 4; ++side) check_equal(a.walls[side], b.walls[side]);
@@ -125,7 +123,7 @@ Scene unusual_scene() {
   scene.caption = "\x1b[31m #not a comment = {}";
   scene.goal = "to see";
   scene.try_this = "to do";
-  scene.box = {123456.7, 0.1 + 0.2 + 1.0};
+  scene.box = Vec2(123456.7, 0.1 + 0.2 + 1.0);
   scene.particles.count = 17;
   scene.particles.restitution = 1.0 / 3.0;
   scene.particles.roughness = {.friction = std::numeric_limits<double>::infinity(),
@@ -144,7 +142,7 @@ Scene unusual_scene() {
                               .phase = -0.3};
   scene.walls[kTop] =
       Wall{.kind = WallKind::Sinusoidal, .restitution = 1.5, .stroke = 0.05, .frequency = 2.0};
-  scene.gravity = {0.1, -1.0 / 3.0};
+  scene.gravity = Vec2(0.1, -1.0 / 3.0);
   scene.bulk_drive = {.interval = 0.05, .kick_speed = 0.12, .kick_spin = 0.3};
   scene.contact_time = 1e-6;
   scene.measure.burn_in = 0.0;
@@ -257,7 +255,7 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.view.camera[1].width == 4.0);
   const std::vector<Field> fields = {Field::VelocityX, Field::VelocityY, Field::Density};
   CHECK(scene.measure.fields == fields);
-  CHECK(scene.measure.cells == std::array{4, 5});
+  CHECK(scene.measure.cells == std::vector{4, 5});
   CHECK(scene.measure.profile_axis == Axis::Y);
   CHECK(scene.measure.estimator == Estimator::Snapshot);
   CHECK(scene.measure.interval == 0.5);

@@ -75,9 +75,15 @@ TEST_CASE("mistakes are told with their place and what to do") {
       {"[box]\nsize = [1, 5]\n" + kParticles,
        "s.toml:2:1: 'box.size' cannot be [1, 5]; give two numbers greater than 1 and at most "
        "1e+06"},
-      {"[box]\nsize = [20, 20, 20]\n" + kParticles,
-       "s.toml:2:1: 'box.size' cannot be [20, 20, 20]; give two numbers greater than 1 and at most "
-       "1e+06, along x and y: a third asks for spheres, which are not available yet"},
+      {"[box]\nsize = [20, 20, 1]\n" + kParticles,
+       "s.toml:2:1: 'box.size' cannot be [20, 20, 1]; give three numbers greater than 1 and at "
+       "most "
+       "1e+06, along x, y and z"},
+      {"[box]\nsize = [20, 20, 20]\n[measure]\ncells = [3, 3]\n" + kParticles,
+       "s.toml:4:1: 'measure.cells' cannot be [3, 3]; give three whole numbers between 1 and 2000, "
+       "along x, y and z"},
+      {"[box]\nsize = [20, 20, 20]\n[particles]\narea_fraction = 0.1\n",
+       "s.toml:4:1: unknown key 'area_fraction'; a box of three sides has a 'volume_fraction'"},
       {kParticles + "[measure]\ncells = [0, 3]\n",
        "s.toml:4:1: 'measure.cells' cannot be [0, 3]; give two whole numbers between 1 and "
        "2000"},
@@ -120,7 +126,8 @@ TEST_CASE("mistakes are told with their place and what to do") {
                     "width = 0.25\n",
        "s.toml:7:1: the Gaussian falls between the centres of cells of 1"},
       {kParticles + "[measure]\nprofile_axis = \"z\"\n",
-       "s.toml:4:1: 'measure.profile_axis' cannot be \"z\"; give one of \"x\", \"y\""},
+       "s.toml:4:1: 'measure.profile_axis' cannot be \"z\" of a box of two dimensions; "
+       "choose \"x\" or \"y\", or give box.size a third number"},
       // walls
       {kParticles + "[walls.left]\nkind = \"static\"\n",
        "s.toml:3:1: [walls.left] has no wall opposite; add [walls.right], or remove this one"},
