@@ -16,7 +16,7 @@ TEST_CASE("The gallery is listed, one scene a line, each of which is sound") {
   CHECK(std::ranges::count(outcome.out, '\n') == 12);
   for (const std::string name : {"conduction", "cooling", "dense", "equilibrium", "vibrated"}) {
     CAPTURE(name);
-    CHECK(("\n" + outcome.out).find("\n" + name + " ") != std::string::npos);
+    CHECK(says(("\n" + outcome.out), "\n" + name + " "));
     CHECK(shell.run("clatter check " + name).code == 0);
   }
 }
@@ -72,7 +72,7 @@ TEST_CASE("A flag wins over the scene") {
   for (const char* line :
        {"count = 50\n", "overlay = false\n", "title = \"Mine\"\n", "layout = \"lattice\"\n"}) {
     CAPTURE(line);
-    CHECK(outcome.out.find(line) != std::string::npos);
+    CHECK(says(outcome.out, line));
   }
 }
 
@@ -81,8 +81,8 @@ TEST_CASE("Scenes with a title of any script and lines of any ending are read") 
   shell.write("s.toml", "title = \"气体 ρ\"\r\ncaption = \"\"\r\n[particles]\r\ncount = 3\r\n");
   const Outcome outcome = shell.run("clatter check s.toml");
   CHECK(outcome.code == 0);
-  CHECK(outcome.out.find("title = \"气体 ρ\"\n") != std::string::npos);
-  CHECK(outcome.out.find("caption = \"\"\n") != std::string::npos);
+  CHECK(says(outcome.out, "title = \"气体 ρ\"\n"));
+  CHECK(says(outcome.out, "caption = \"\"\n"));
 }
 
 TEST_CASE("Output that is not taken is a failure") {
@@ -92,7 +92,7 @@ TEST_CASE("Output that is not taken is a failure") {
     CAPTURE(line);
     const Outcome outcome = shell.run(line);
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("cannot write stdout") != std::string::npos);
+    CHECK(says(outcome.err, "cannot write stdout"));
   }
 }
 
@@ -156,9 +156,9 @@ TEST_CASE("Every command explains each of its flags") {
     if (command.has_scene) flags.insert(flags.end(), common.begin(), common.end());
     for (const std::string& flag : flags) {
       CAPTURE(flag);
-      CHECK(outcome.out.find(flag) != std::string::npos);
+      CHECK(says(outcome.out, flag));
     }
-    CHECK(shell.run("clatter --help").out.find("\n  " + command.name + " ") != std::string::npos);
+    CHECK(says(shell.run("clatter --help").out, "\n  " + command.name + " "));
   }
 }
 

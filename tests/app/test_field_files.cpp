@@ -96,7 +96,7 @@ TEST_CASE("Maps as tables agree with the profiles, and have nan where no disk ca
   const json profile = json::parse(shell.read("r.json")).at("profile");
   const Table maps = table_in(shell.read("tables/maps.csv"));
   CHECK(maps.units.starts_with("# units"));
-  CHECK(maps.units.find("stress_xy: m/t^2") != std::string::npos);
+  CHECK(says(maps.units, "stress_xy: m/t^2"));
   CHECK(maps.columns.at("x")[1] == 0.75);
   CHECK(maps.columns.at("y")[kColumns] == 1.875);
   for (const char* linear : {"density", "stress_xy_collisional", "dissipation"}) {

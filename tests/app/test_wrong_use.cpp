@@ -114,7 +114,7 @@ TEST_CASE("Where nothing can be written, nothing is run") {
                   {flag, "missing"});
     const Outcome outcome = shell.run("clatter measure vibrated --until 1e6 " + flag + " /proc/x");
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("cannot make the folder /proc/x") != std::string::npos);
+    CHECK(says(outcome.err, "cannot make the folder /proc/x"));
   }
   check_refused(shell, "clatter render vibrated --to 1e5 --out missing/x.mp4",
                 {"--out", "missing"});
@@ -129,7 +129,7 @@ TEST_CASE("What cannot be written ends with exit code 1 and says so") {
         "--set measure.cells=[40,40] --until 5 --quiet " +
         flag + " /dev/full");
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("cannot write /dev/full: ") != std::string::npos);
+    CHECK(says(outcome.err, "cannot write /dev/full: "));
   }
 }
 

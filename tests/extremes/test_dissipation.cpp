@@ -7,6 +7,7 @@
 #include "engine/physics/theory.h"
 #include "tests/engine/support/gas.h"
 #include "tests/extremes/figure.h"
+#include "tests/support/messages.h"
 #include "tests/support/statistics.h"
 #include "tests/validation/experiment.h"
 
@@ -92,7 +93,7 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
       Simulation<2> simulation(model_of(scene, seed), start_state(scene, seed));
       const std::string stop = stop_of(simulation, 1000.0);
       if (stop.empty()) CHECK(simulation.time() == 1000.0);
-      if (!stop.empty()) CHECK(stop.find("inelastic collapse") != std::string::npos);
+      if (!stop.empty()) CHECK(says(stop, "inelastic collapse"));
       CHECK(finite_and_inside(simulation.model(), simulation.state()));
       deepest = std::max(deepest, simulation.checks().deepest_overlap);
       stops += !stop.empty();

@@ -10,8 +10,8 @@
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
 #include "engine/scene/scene_file.h"
-#include "tests/engine/checkpoint/scratch_folder.h"
 #include "tests/engine/support/gas.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -19,7 +19,7 @@ using namespace clatter::testing;
 namespace {
 
 RunState<2> through_file(const Simulation<2>& simulation) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   Checkpoint checkpoint;
   checkpoint.saved = simulation.save();
   write_checkpoint(folder / "a", checkpoint);

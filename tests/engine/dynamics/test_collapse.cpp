@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/simulation.h"
 #include "tests/engine/support/gas.h"
+#include "tests/support/messages.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -15,10 +16,6 @@ namespace {
 
 const Wall kShaking{
     .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 1e-4, .frequency = 1e4};
-
-bool says(const std::string& stop, const std::string& words) {
-  return stop.find(words) != std::string::npos;
-}
 
 }  // namespace
 

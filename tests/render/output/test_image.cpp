@@ -2,15 +2,15 @@
 #include <libdeflate.h>
 #include <stb_image.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "engine/error.h"
 #include "render/output/image.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 
@@ -78,9 +78,8 @@ TEST_CASE("A PNG file is there whole, or an error and nothing") {
   const TemporaryFolder folder;
   const Image image = gradient({16, 9});
   write_png(folder / "a.png", image);
-  std::ifstream file(folder / "a.png", std::ios::binary);
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), {}};
-  CHECK(bytes == encode_png(image));
+  const std::vector<unsigned char> png = encode_png(image);
+  CHECK(bytes_of(folder / "a.png") == std::string(png.begin(), png.end()));
   std::filesystem::remove(folder / "a.png");
 
   CHECK_THROWS_WITH_AS(write_png(folder / "missing/a.png", image),

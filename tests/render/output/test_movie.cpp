@@ -1,13 +1,15 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "engine/error.h"
 #include "render/output/movie.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 
@@ -44,18 +46,13 @@ long frames_of(const std::filesystem::path& path) {
   return at == std::string::npos ? -1 : std::stol(facts.substr(at + 15));
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void write_film(Movie& movie, int frames) {
   for (int i = 0; i < frames; ++i) movie.add(frame(i), {});
   movie.finish(Ending::Whole);
 }
 
 std::filesystem::path make_encoder(const std::filesystem::path& path, const std::string& script) {
-  std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+  write_bytes(path, "#!/bin/sh\n" + script + "\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   return path;
 }
@@ -79,17 +76,17 @@ TEST_CASE("A film has its frames, its codec, even sides and its texts") {
     write_film(movie, 20);
     const std::string facts = probe(folder / kind.name);
     CAPTURE(facts);
-    CHECK(facts.find(kind.codec) != std::string::npos);
-    CHECK(facts.find(kind.size) != std::string::npos);
-    CHECK(facts.find("nb_read_frames=20\n") != std::string::npos);
-    CHECK(facts.find("r_frame_rate=25/1\n") != std::string::npos);
+    CHECK(says(facts, kind.codec));
+    CHECK(says(facts, kind.size));
+    CHECK(says(facts, "nb_read_frames=20\n"));
+    CHECK(says(facts, "r_frame_rate=25/1\n"));
     const std::string extension = std::filesystem::path(kind.name).extension();
     if (extension == ".mp4" || extension == ".webm") {
-      CHECK(facts.find("pix_fmt=yuv420p\n") != std::string::npos);
+      CHECK(says(facts, "pix_fmt=yuv420p\n"));
     }
     if (extension != ".gif") {
-      CHECK(facts.find("Gas ρ") != std::string::npos);
-      CHECK(facts.find("a \"comment\"") != std::string::npos);
+      CHECK(says(facts, "Gas ρ"));
+      CHECK(says(facts, "a \"comment\""));
     }
     std::filesystem::remove(folder / kind.name);
     CHECK(folder.empty());
@@ -124,7 +121,7 @@ TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
   write_film(movie, 5);
   const std::string bytes = bytes_of(folder / "film.mp4");
   CHECK(bytes.find("moov") < bytes.find("mdat"));
-  CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
+  CHECK_FALSE(says(bytes, "moof"));  // whole, no longer in fragments
 }
 
 TEST_CASE("Where pieces cannot be joined, they stay, and the error names them") {
