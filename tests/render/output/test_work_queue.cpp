@@ -66,22 +66,23 @@ TEST_CASE("A queue that is dropped ends the job under way and drops those that w
   std::atomic<int> done = 0;
   std::promise<void> started;
   {
-    WorkQueue queue(1, 100);
+    WorkQueue queue(1, 1000);
     queue.add([&] {
       started.set_value();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       ++done;
     });
-    for (int i = 0; i < 50; ++i) {
+    // They would take seconds, however late the queue is dropped.
+    for (int i = 0; i < 500; ++i) {
       queue.add([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
         ++done;
       });
     }
     started.get_future().wait();
   }
   CHECK(done >= 1);
-  CHECK(done < 51);
+  CHECK(done < 501);
 }
 
 }  // namespace clatter
