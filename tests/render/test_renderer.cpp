@@ -5,17 +5,6 @@
 
 namespace clatter {
 
-TEST_CASE("The same snapshot gives the same picture") {
-  const auto context = open_context(Backend::Osmesa);
-  const Snapshot snapshot = driven_box();
-  const Size size{640, 360};
-  const View view = view_with_field();
-  Renderer first(context->gl()), second(context->gl());
-  const Camera camera = first.fit(snapshot, size, view, kText);
-  CHECK(difference(draw(first, context->gl(), snapshot, camera, size, view),
-                   draw(second, context->gl(), snapshot, camera, size, view)) == 0);
-}
-
 TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
@@ -260,7 +249,6 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);
     const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
-    CHECK(structural_similarity(one, one) == 1.0);
     for (const int samples : {2, 4}) {
       CAPTURE(size.width);
       CAPTURE(samples);
