@@ -20,19 +20,6 @@ void report(const Measured& result, double expected) {
           ", Eq. (3.14) ", expected);
 }
 
-/// What walls give is what collisions lose, once the gas is stationary: but for the energy that the
-/// gas itself holds, which bounds the difference far more tightly than its error.
-void check_balance(const Measured& result) {
-  REQUIRE(result.walls_in);
-  const double error =
-      std::hypot(result.walls_in->standard_error, result.dissipated.standard_error);
-  MESSAGE("walls in = ", result.walls_in->mean, ", dissipated = ", result.dissipated.mean, " +- ",
-          error);
-  const double difference = std::fabs(result.walls_in->mean - result.dissipated.mean);
-  CHECK(difference < 3.0 * error);
-  CHECK(difference * result.duration < 100.0 * result.temperature.mean);
-}
-
 }  // namespace
 
 TEST_CASE("vibrated gas: elastic particles between lossy walls, Eq. (3.14) within 1 %") {
@@ -45,7 +32,7 @@ TEST_CASE("vibrated gas: elastic particles between lossy walls, Eq. (3.14) withi
   report(result, expected);
   CHECK(relative_error(result.temperature) < 0.004);
   CHECK(std::fabs(relative(result.temperature, expected)) < 0.01);
-  check_balance(result);
+  check_energy_balance(result, 100);
   CHECK(result.dissipated.mean < 1e-9);
 }
 
@@ -55,13 +42,8 @@ TEST_CASE("vibrated gas: inelastic particles between elastic walls, Eq. (3.14) w
   report(result, expected);
   CHECK(relative_error(result.temperature) < 0.004);
   CHECK(std::fabs(relative(result.temperature, expected)) < 0.04);
-  check_balance(result);
+  check_energy_balance(result, 100);
   CHECK(result.dissipated.mean > 0.1);
-}
-
-TEST_CASE("vibrated gas: both losses together balance the drive") {
-  const Measured result = run(vibrated_gas(0.95, 0.95), 300.0, 10000.0, 113);
-  check_balance(result);
 }
 
 TEST_CASE("vibrated gas: inelastic particles between lossy walls, Eq. (3.14) within 5 %") {
@@ -70,7 +52,7 @@ TEST_CASE("vibrated gas: inelastic particles between lossy walls, Eq. (3.14) wit
   report(result, expected);
   CHECK(relative_error(result.temperature) < 0.006);
   CHECK(std::fabs(relative(result.temperature, expected)) < 0.05);
-  check_balance(result);
+  check_energy_balance(result, 100);
 }
 
 TEST_CASE("vibrated gas: walls push along x, collisions share with y") {

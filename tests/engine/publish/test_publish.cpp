@@ -58,18 +58,6 @@ TEST_CASE("snapshot_of: centres lie in the box, wherever their flights began") {
   CHECK(snapshot.positions[0] == Vec2(1.75, 0.25));
 }
 
-TEST_CASE("snapshot_of: drawing changes nothing") {
-  const Scene scene = rough_mixture(20);
-  const auto alone = simulation_of(scene, 53);
-  alone->run_until(40.0);
-  const auto drawn = simulation_of(scene, 53);
-  for (int frame = 0; frame <= 1200; ++frame) {
-    drawn->run_until(frame / 30.0);
-    snapshot_of(*drawn);
-  }
-  CHECK(drawn->state_hash() == alone->state_hash());
-}
-
 TEST_CASE("snapshot_of: an empty gas") {
   const Snapshot snapshot = snapshot_of(*simulation_of(gas(5.0, 5.0, 0, 1.0), 1));
   CHECK(snapshot.positions.empty());
