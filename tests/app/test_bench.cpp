@@ -10,7 +10,7 @@ namespace clatter {
 
 using nlohmann::json;
 
-TEST_CASE("The table of what fields cost has a row of each estimator, and of the balances") {
+TEST_CASE("Bench: the table of fields has a row for each estimator and one for the balances") {
   const Shell shell;
   const Outcome outcome = shell.run("clatter bench fields --duration 300 --json t.json");
   CAPTURE(outcome.err);
@@ -59,7 +59,7 @@ double error(const json& setting, const std::string& quantity) {
 
 }  // namespace
 
-TEST_CASE("The table of accuracy compares each setting of a dial with the finest") {
+TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the finest") {
   const Shell shell;
   shell.write("page.md", "before\n<!-- tables -->\nold\n<!-- end of tables -->\nafter\n");
   const Outcome outcome = shell.run(
@@ -103,7 +103,7 @@ TEST_CASE("The table of accuracy compares each setting of a dial with the finest
                 {"no dial 'colour'", "contact_time"});
 }
 
-TEST_CASE("A time-stepped gas is the exact one in the limit of short steps only") {
+TEST_CASE("Bench: a time-stepped gas is exact only in the limit of short steps") {
   const Shell shell;
   shell.write("elastic.toml",
               "box.size = [10, 10]\nparticles = { count = 40, restitution = 1.0 }\n"
@@ -129,7 +129,7 @@ TEST_CASE("A time-stepped gas is the exact one in the limit of short steps only"
   CHECK(bias(steps[6], "stress") < -0.1);
 }
 
-TEST_CASE("Coarser pictures are less like the best" * doctest::test_suite("slow")) {
+TEST_CASE("Bench: coarser pictures resemble the best one less" * doctest::test_suite("slow")) {
   const Shell shell;
   const Outcome outcome = shell.run(
       "clatter bench accuracy --duration 20 --dial antialiasing --dial picture_size "
@@ -150,7 +150,7 @@ TEST_CASE("Coarser pictures are less like the best" * doctest::test_suite("slow"
   }
 }
 
-TEST_CASE("The table of features has each as a share of the bare run") {
+TEST_CASE("Bench: the table of features has a rate for each") {
   const Shell shell;
   const Outcome outcome = shell.run("clatter bench features --count 50 --json t.json");
   CAPTURE(outcome.err);
@@ -163,6 +163,26 @@ TEST_CASE("The table of features has each as a share of the bare run") {
     CAPTURE(row.dump());
     CHECK(row.at("rate_over_bare") > 0.0);
   }
+}
+
+TEST_CASE("Bench: the table of render has the cost of each stage, for pictures of two sizes") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter bench render --count 500 --json table.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(std::ranges::count(outcome.out, '\n') == 3);
+  const json rows = json::parse(shell.read("table.json"));
+  REQUIRE(rows.size() == 2);
+  for (const json& row : rows) {
+    CHECK(row["count"] == 500);
+    for (const std::string stage :
+         {"simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"}) {
+      CAPTURE(stage);
+      CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
+    }
+  }
+  CHECK(rows[0]["width"] == 1280);
+  CHECK(rows[1]["width"] == 1920);
 }
 
 }  // namespace clatter

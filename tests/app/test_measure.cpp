@@ -21,7 +21,7 @@ static double mean(const json& estimate) {
   return estimate.at("mean");
 }
 
-TEST_CASE("A measurement prints one JSON object with what the scene has, and nothing else") {
+TEST_CASE("Measure: it prints one JSON object, with everything that the scene has") {
   const Shell shell;
   const Outcome outcome = shell.run(kMeasure + "--seed 7");
   CAPTURE(outcome.err);
@@ -85,7 +85,7 @@ TEST_CASE("A measurement prints one JSON object with what the scene has, and not
   CHECK(result.at("performance").at("peak_memory_bytes") > 1'000'000);
 }
 
-TEST_CASE("A result has only what its scene has") {
+TEST_CASE("Measure: a result has only what its scene has") {
   const Shell shell;
   const json cooling =
       json::parse(shell.run("clatter measure cooling --until 5 --set measure.fields=[]").out);
@@ -97,7 +97,7 @@ TEST_CASE("A result has only what its scene has") {
   CHECK_FALSE(cooling.contains("spin_temperature"));
 }
 
-TEST_CASE("A result says what theory predicts of a gas in a periodic box") {
+TEST_CASE("Measure: the result has the predictions of theory for a gas in a periodic box") {
   const Shell shell;
   const auto theory = [&](const std::string& line) {
     const Outcome outcome = shell.run("clatter measure " + line + " --quiet --until 5");
@@ -126,7 +126,8 @@ TEST_CASE("A result says what theory predicts of a gas in a periodic box") {
   CHECK_FALSE(theory("vibrated --set measure.burn_in=0").contains("compressibility"));
 }
 
-TEST_CASE("The seed is 1 unless given; another seed gives another run, other averages do not") {
+TEST_CASE(
+    "Measure: the seed is 1 unless given; another seed changes the run, other averages do not") {
   const Shell shell;
   const auto hash = [&](const std::string& flags) {
     return json::parse(shell.run(kMeasure + flags).out).at("state_hash");
@@ -137,7 +138,7 @@ TEST_CASE("The seed is 1 unless given; another seed gives another run, other ave
   CHECK(hash("--set measure.fields=[] --set measure.series_interval=7") == first);
 }
 
-TEST_CASE("Results and tables go into the files asked for") {
+TEST_CASE("Measure: results and tables go into the files asked for") {
   const Shell shell;
   const Outcome outcome = shell.run(kMeasure + "--quiet --out r.json --csv tables");
   CHECK(outcome.code == 0);
@@ -168,7 +169,7 @@ TEST_CASE("Results and tables go into the files asked for") {
   CHECK(std::ranges::count(profile, '\n') == 22);
 }
 
-TEST_CASE("Profiles have every field that was asked for, and no other") {
+TEST_CASE("Measure: profiles have every field that was asked for, and no other") {
   const Shell shell;
   const auto profile = [&](const std::string& flags) {
     const Outcome outcome = shell.run(
@@ -225,7 +226,7 @@ TEST_CASE("Profiles have every field that was asked for, and no other") {
   CHECK(disks > 150.0);
 }
 
-TEST_CASE("A state that was saved is where another run starts") {
+TEST_CASE("Measure: a run can start from a saved state") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--quiet --out r.json --save-state end.csv").code == 0);
   CHECK(shell.read("end.csv").starts_with("x,y,vx,vy\n"));
@@ -252,7 +253,7 @@ TEST_CASE("A state that was saved is where another run starts") {
   CHECK(says(shell.run("clatter check from/s.toml").out, "count = 200\n"));
 }
 
-TEST_CASE("Where t_c makes all collisions elastic, it is said which other one would help") {
+TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is advised") {
   const Shell shell;
   const Outcome frozen = shell.run(
       "clatter measure cooling --set collapse.contact_time=100 --set measure.burn_in=1 --until 20");
@@ -268,7 +269,7 @@ TEST_CASE("Where t_c makes all collisions elastic, it is said which other one wo
   CHECK(says(resting.err, "a larger one, say 0.1, would run faster"));
 }
 
-TEST_CASE("An interrupted measurement keeps what it has") {
+TEST_CASE("Measure: an interrupted measurement keeps what it has") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";
   SUBCASE("while it averages") {
@@ -297,7 +298,7 @@ TEST_CASE("An interrupted measurement keeps what it has") {
   CHECK(shell.files() == std::vector<std::string>{"r.checkpoint", "r.json"});
 }
 
-TEST_CASE("A measurement ends once its mean is as precise as asked, and says how precise") {
+TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how precise") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.fields=[] ";
   const Outcome enough = shell.run(line + "--accuracy 3%");
@@ -326,7 +327,7 @@ TEST_CASE("A measurement ends once its mean is as precise as asked, and says how
   check_refused(shell, line + "--accuracy 100%", {"a share such as 1% or 0.01"});
 }
 
-TEST_CASE("Replicas measured at once have the numbers of those measured one by one") {
+TEST_CASE("Measure: replicas measured at once have the numbers of those measured one by one") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.burn_in=10 --until 40 ";
   const Outcome outcome = shell.run(line + "--replicas 3 --seed 5 --out all.json");
@@ -348,7 +349,7 @@ TEST_CASE("Replicas measured at once have the numbers of those measured one by o
 
 // At alpha = 0.9975 disks lose what walls give to a gas as dense everywhere, but not what they give
 // to one that is denser at the walls.
-TEST_CASE("A gas that its walls heat without bound has no temperature in theory") {
+TEST_CASE("Measure: theory has no temperature for a gas that its walls heat without bound") {
   const Shell shell;
   const auto theory = [&](const std::string& settings) {
     const std::string line =
@@ -369,7 +370,7 @@ TEST_CASE("A gas that its walls heat without bound has no temperature in theory"
 }
 
 // Seed 7 gets through, seed 8 collapses. Were all that follow run, too, it would take hours.
-TEST_CASE("Of replicas that stop the first seed is named, and the rest is left out") {
+TEST_CASE("Measure: where replicas stop, the first seed is named, and no more are run") {
   const Shell shell;
   for (const std::string replicas : {"2", "100000"}) {
     const Outcome outcome = shell.run(
@@ -382,7 +383,7 @@ TEST_CASE("Of replicas that stop the first seed is named, and the rest is left o
   }
 }
 
-TEST_CASE("Of a gas that cools it is said that it is not stationary") {
+TEST_CASE("Measure: a gas that cools is reported as not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
   CHECK(says(cooling.err, "temperature is not stationary: in the second half"));
@@ -392,7 +393,7 @@ TEST_CASE("Of a gas that cools it is said that it is not stationary") {
   CHECK_FALSE(says(equilibrium.err, "stationary"));
 }
 
-TEST_CASE("Progress is told on stderr as asked") {
+TEST_CASE("Measure: progress is written to stderr as asked") {
   const Shell shell;
   const std::string interrupted =
       "timeout --preserve-status -s INT 8 clatter measure vibrated --until 1e6 ";
@@ -405,7 +406,7 @@ TEST_CASE("Progress is told on stderr as asked") {
   CHECK(json::accept(outcome.out));
 }
 
-TEST_CASE("Checking a scene foretells the memory that its measurement takes") {
+TEST_CASE("Measure: check predicts the memory that a measurement takes") {
   if (!std::string(CLATTER_SANITIZE).empty()) {
     MESSAGE("[skipped] a sanitizer takes several times the memory for itself");
     return;

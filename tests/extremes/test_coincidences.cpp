@@ -12,7 +12,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("Newton's cradle of ten touching particles between walls" *
+TEST_CASE("Coincidences: Newton's cradle of ten touching particles between walls" *
           doctest::description("exact to the last bit for fifty passes, overlap 0")) {
   // Every number is a multiple of 1/4, so nothing is rounded: the eleventh particle flies 2, hands
   // on its velocity through ten that touch, the last flies 3 to the wall and 3 back, and so on.
@@ -74,7 +74,7 @@ double energy_of(const State<2>& state) {
 
 }  // namespace
 
-TEST_CASE("a lattice whose rows and columns all meet at once" *
+TEST_CASE("Coincidences: a lattice whose rows and columns all meet at once" *
           doctest::description("the same bits by brute force; energy and momentum within "
                                "1e-13")) {
   // Neighbours approach along x, or rest: 32 collisions at each of the first times.
@@ -96,7 +96,7 @@ TEST_CASE("a lattice whose rows and columns all meet at once" *
   CHECK(momentum_off < 1e-13);
 }
 
-TEST_CASE("one particle hits two that touch, at once" *
+TEST_CASE("Coincidences: one particle hits two that touch, at once" *
           doctest::description("the same bits by brute force; energy and momentum within "
                                "1e-15, inelastic ones lose energy")) {
   double energy_off = 0.0, momentum_off = 0.0;
@@ -131,7 +131,7 @@ TEST_CASE("one particle hits two that touch, at once" *
 }
 
 TEST_CASE(
-    "a row of inelastic particles in contact is hit" *
+    "Coincidences: a row of inelastic particles in contact is hit" *
     doctest::description("it ends or is told to collapse; momentum within 1e-14, overlap below "
                          "1e-12")) {
   double momentum_off = 0.0, deepest = 0.0;
@@ -156,7 +156,7 @@ TEST_CASE(
   CHECK(deepest < 1e-12);
 }
 
-TEST_CASE("a particle flies into a corner" *
+TEST_CASE("Coincidences: a particle flies into a corner" *
           doctest::description(
               "it comes back on its way, speed and place exact; so does a particle whose "
               "way through the corner two walls share with another particle")) {

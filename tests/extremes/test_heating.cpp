@@ -14,7 +14,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("100 particles between walls of restitution 1.05" *
+TEST_CASE("Heating: 100 particles between walls of restitution 1.05" *
           doctest::description("a clean stop, time within 5 % of t* of Eq. (3.10)")) {
   // alpha = 1, alpha_w = 1.05, no drive, N = 100, 20 x 25: T = T_0/(1 + k t)^2 with k < 0,
   // corrected for the layer at the walls, section 5, so t* = 1/|k|. 6 seeds, mean t* to 1 %, within
@@ -41,7 +41,7 @@ TEST_CASE("100 particles between walls of restitution 1.05" *
   CHECK(std::fabs(times.mean() / expected - 1.0) < 0.05);
 }
 
-TEST_CASE("one particle between walls of restitution 1.05" *
+TEST_CASE("Heating: one particle between walls of restitution 1.05" *
           doctest::description("a clean stop, time within 1e-5 of the sum of its crossings")) {
   // v grows by 1.05 with each crossing of 9: the times sum to 9/v (1 + 1/1.05 + ...) = 21 * 9/v.
   const Wall gaining{.restitution = 1.05};
@@ -56,7 +56,7 @@ TEST_CASE("one particle between walls of restitution 1.05" *
   CHECK(simulation.state().velocities[0].y() == 0.25);
 }
 
-TEST_CASE("one elastic particle between elastic walls that drive, or move as a saw-tooth" *
+TEST_CASE("Heating: one elastic particle between elastic walls that drive, or move as a saw-tooth" *
           doctest::description("its growth without bound ends in a clean stop that says time and "
                                "speed, after at most 3e6 hits, also from a resumed run")) {
   const Wall pushes{.kind = WallKind::Driven, .drive_speed = 1.0};
@@ -81,7 +81,7 @@ TEST_CASE("one elastic particle between elastic walls that drive, or move as a s
 
 // A drive that is nothing to the particles is no growth; nor is one whose particles, or walls,
 // lose.
-TEST_CASE("gases that do not heat without bound" *
+TEST_CASE("Heating: gases that do not heat without bound" *
           doctest::description("hot ones of a weak drive, swung ones and lossy ones run on")) {
   Wall weak{.kind = WallKind::Driven, .drive_speed = 1e-9};
   Wall swings{.kind = WallKind::Sinusoidal, .stroke = 0.1, .frequency = 1.0};

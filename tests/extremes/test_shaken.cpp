@@ -74,19 +74,19 @@ void shake_at(std::initializer_list<double> speeds) {
 
 }  // namespace
 
-TEST_CASE("walls 10^3, 10^6 times as fast as the particles" *
+TEST_CASE("Shaken: walls 10^3, 10^6 times as fast as the particles" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   shake_at({1e3, 1e6});
 }
 
-TEST_CASE("walls 10^-3, 10^-6 times as fast as the particles" *
+TEST_CASE("Shaken: walls 10^-3, 10^-6 times as fast as the particles" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   shake_at({1e-3, 1e-6});
 }
 
-TEST_CASE("a frequency of 10^6 at strokes of 1e-6 to .1" *
+TEST_CASE("Shaken: a frequency of 10^6 at strokes of 1e-6 to .1" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   Figures figures;
@@ -96,7 +96,7 @@ TEST_CASE("a frequency of 10^6 at strokes of 1e-6 to .1" *
   report(figures);
 }
 
-TEST_CASE("strokes as long as the box leaves" *
+TEST_CASE("Shaken: strokes as long as the box leaves" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   Figures figures;

@@ -169,12 +169,12 @@ void check_geometry(Backend backend) {
 
 }  // namespace
 
-TEST_CASE("Geometry: centres, radii, colours and count are the snapshot's; a pixel off is seen") {
+TEST_CASE("Geometry: OSMesa draws centres, radii, colours and count of the snapshot") {
   check_geometry(Backend::Osmesa);
 }
 
 // CTest reports the case as skipped where it says so.
-TEST_CASE("Geometry: likewise by EGL") {
+TEST_CASE("Geometry: EGL draws centres, radii, colours and count of the snapshot") {
   try {
     open_context(Backend::Egl);
   } catch (const RunError& error) {

@@ -164,7 +164,7 @@ TEST_CASE("Golden pictures: EGL draws them") {
   compare(context->gl());
 }
 
-TEST_CASE("Golden pictures: a disk a quarter of a pixel off is seen") {
+TEST_CASE("Golden pictures: a disk a quarter of a pixel off is detected") {
   const auto context = open_context(Backend::Osmesa);
   const Golden& golden = kGolden.front();
   const Scene scene = parse_scene(golden.scene, golden.name);

@@ -11,7 +11,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("cooling gas: Haff's law down to a hundredth of the temperature, within 4 %") {
+TEST_CASE("Cooling gas: Haff's law holds down to a hundredth of the temperature, within 4 %") {
   // phi = .1, alpha = .9, N = 100, periodic. T = T0/(1 + k t)^2 with k = eps omega_E(T0)/4,
   // refined, section 5; 1 + k t = 10 at the end. Mean over 64 seeds.
   constexpr int kSeeds = 64;
@@ -36,7 +36,7 @@ TEST_CASE("cooling gas: Haff's law down to a hundredth of the temperature, withi
   }
 }
 
-TEST_CASE("cooling gas: walls that lose heat cool elastic particles by Eq. (3.10)") {
+TEST_CASE("Cooling gas: walls that lose heat cool elastic particles by Eq. (3.10)") {
   // The refined rate with the wall layer: k = kappa (1 - alpha_w^2)/(pi Lx) sqrt(pi T0/2), where
   // kappa = (1 + 2 phi chi) Lx/(Lx - a) counts the hits of dense particles on walls.
   constexpr int kSeeds = 64;

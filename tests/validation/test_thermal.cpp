@@ -81,7 +81,7 @@ class WallSpeeds : public Observer<2> {
 
 }  // namespace
 
-TEST_CASE("thermal walls: a gas between two of one temperature takes it") {
+TEST_CASE("Thermal walls: a gas between two of one temperature takes it") {
   constexpr double kTemperature = 2.0;
   Scene scene = between(kTemperature, kTemperature);
   scene.particles.start.temperature = 0.5;  // to be forgotten in the burn-in
@@ -105,7 +105,7 @@ TEST_CASE("thermal walls: a gas between two of one temperature takes it") {
   CHECK(std::fabs(result.walls_in->mean) < 3.0 * result.walls_in->standard_error);
 }
 
-TEST_CASE("thermal walls: heat flows from the hot one to the cold one, and matter does not") {
+TEST_CASE("Thermal walls: heat flows from the hot one to the cold one, matter does not") {
   const Measured result = run(between(3.0, 1.0), 200.0, 10000.0, 122);
   const auto& profile = *result.profile;
   for (std::size_t i = 0; i + 1 < profile.at(Field::Density).size(); ++i) {
@@ -125,7 +125,7 @@ TEST_CASE("thermal walls: heat flows from the hot one to the cold one, and matte
   CHECK(std::fabs(result.walls_in->mean) < 3.0 * result.walls_in->standard_error);
 }
 
-TEST_CASE("thermal walls: all round, particles take their temperature, in motion and in spin") {
+TEST_CASE("Thermal walls: a gas among four takes their temperature, in motion and in spin") {
   // alpha = beta = 1 conserves energy, so that spins have T_w too, however they get it.
   constexpr double kTemperature = 2.0;
   for (const bool rough : {false, true}) {
@@ -150,7 +150,7 @@ TEST_CASE("thermal walls: all round, particles take their temperature, in motion
   }
 }
 
-TEST_CASE("thermal walls: what comes to them is distributed as what leaves") {
+TEST_CASE("Thermal walls: arriving particles are distributed like leaving ones") {
   // Detailed balance: normal velocities have the flux-weighted law, those along the wall and the
   // spins are Gaussian, before a hit as after it. Some 20,000 hits, every seventh; 6 laws.
   constexpr double kTemperature = 2.0;

@@ -22,7 +22,7 @@ void report(const Measured& result, double expected) {
 
 }  // namespace
 
-TEST_CASE("vibrated gas: elastic particles between lossy walls, Eq. (3.14) within 1 %") {
+TEST_CASE("Vibrated gas: Eq. (3.14) holds for elastic particles between lossy walls, within 1 %") {
   // All the loss is at the walls, so that the density there, which theory takes for uniform,
   // cancels from the balance of Eq. (3.2).
   const double expected = refined(1.0, 0.9);
@@ -36,7 +36,8 @@ TEST_CASE("vibrated gas: elastic particles between lossy walls, Eq. (3.14) withi
   CHECK(result.dissipated.mean < 1e-9);
 }
 
-TEST_CASE("vibrated gas: inelastic particles between elastic walls, Eq. (3.14) within 4 %") {
+TEST_CASE(
+    "Vibrated gas: Eq. (3.14) holds for inelastic particles between elastic walls, within 4 %") {
   const double expected = refined(0.9, 1.0);
   const Measured result = run(vibrated_gas(0.9, 1.0), 300.0, 20000.0, 112);
   report(result, expected);
@@ -46,7 +47,8 @@ TEST_CASE("vibrated gas: inelastic particles between elastic walls, Eq. (3.14) w
   CHECK(result.dissipated.mean > 0.1);
 }
 
-TEST_CASE("vibrated gas: inelastic particles between lossy walls, Eq. (3.14) within 5 %") {
+TEST_CASE(
+    "Vibrated gas: Eq. (3.14) holds for inelastic particles between lossy walls, within 5 %") {
   const double expected = refined(0.9, 0.9);
   const Measured result = run(vibrated_gas(0.9, 0.9), 300.0, 10000.0, 115);
   report(result, expected);
@@ -55,7 +57,7 @@ TEST_CASE("vibrated gas: inelastic particles between lossy walls, Eq. (3.14) wit
   check_energy_balance(result, 100);
 }
 
-TEST_CASE("vibrated gas: walls push along x, collisions share with y") {
+TEST_CASE("Vibrated gas: it is hottest along x at the walls, and densest in the middle") {
   // The walls only heat the x direction, so it is the hotter one, and the middle is the coldest.
   Scene scene = vibrated_gas(0.9, 1.0);
   scene.measure.fields = {Field::Density, Field::TemperatureX};

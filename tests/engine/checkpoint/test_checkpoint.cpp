@@ -118,7 +118,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
   }
 }
 
-TEST_CASE("Checkpoint: the one before is kept, and nothing else is left") {
+TEST_CASE("Checkpoint: the previous one is kept, and no other file") {
   const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -130,7 +130,7 @@ TEST_CASE("Checkpoint: the one before is kept, and nothing else is left") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder / ""), {}) == 2);
 }
 
-TEST_CASE("Checkpoint: one that cannot be written is an error and leaves the one before") {
+TEST_CASE("Checkpoint: a failure to write is an error and leaves the previous one") {
   const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   CHECK_THROWS_AS(write_checkpoint(folder / "missing/a", checkpoint), RunError);
@@ -140,7 +140,7 @@ TEST_CASE("Checkpoint: one that cannot be written is an error and leaves the one
   CHECK(read_checkpoint(folder / "a").seed == 42);
 }
 
-TEST_CASE("Checkpoint: any byte changed, any length cut, anything added is refused") {
+TEST_CASE("Checkpoint: a file with any byte changed, cut off or added is refused") {
   const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   write_checkpoint(folder / "a", checkpoint);
@@ -163,7 +163,7 @@ TEST_CASE("Checkpoint: any byte changed, any length cut, anything added is refus
   CHECK(refusal(folder / "a").empty());
 }
 
-TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is") {
+TEST_CASE("Checkpoint: a refusal says what is wrong, and where the previous one is") {
   const TemporaryFolder folder;
   CHECK(says(refusal(folder / "a"), "there is no such file"));
   CHECK(says(refusal(folder / ""), "this is no file"));
@@ -190,7 +190,7 @@ TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is
   CHECK(says(refusal(folder / "a"), "a.previous"));
 }
 
-TEST_CASE("Checkpoint: one of another version names the program that wrote it") {
+TEST_CASE("Checkpoint: a file of another version names the program that wrote it") {
   const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   write_checkpoint(folder / "a", checkpoint);
@@ -207,7 +207,7 @@ TEST_CASE("Checkpoint: one of another version names the program that wrote it") 
 }
 
 // As a file of another program's structs would, were its checksum right.
-TEST_CASE("Checkpoint: lengths that nothing stands behind are refused, not allocated") {
+TEST_CASE("Checkpoint: lengths beyond the end of the file are refused, not allocated") {
   std::uint64_t length = ~std::uint64_t{0} / 16;
   ArchiveWriter writer;
   writer(length, length);

@@ -119,7 +119,7 @@ TEST_CASE("Resume: a halt right after any collision changes no bit") {
   }
 }
 
-TEST_CASE("Resume: every scene of the gallery, halfway") {
+TEST_CASE("Resume: every scene of the gallery continues from halfway to the same bits") {
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_gallery_scene(file);
@@ -167,7 +167,7 @@ TEST_CASE("Resume: laws may change, and the particles stay where they are") {
   }
 }
 
-TEST_CASE("Resume: kicks at another interval are counted from where the run is taken up") {
+TEST_CASE("Resume: kicks at another interval are counted from the time of resuming") {
   Model<2> model = periodic_box(20.0, 25.0);
   model.bulk_drive = BulkDrive{.interval = 0.5, .kick_speed = 0.1};
   Simulation<2> simulation(model, random_gas(model, 50, 304));
@@ -187,7 +187,7 @@ TEST_CASE("Resume: kicks at another interval are counted from where the run is t
 }
 
 // Many dissipative particles: the first collapse comes after some hundred thousand collisions.
-TEST_CASE("Resume: a run that collapsed goes on with a contact time") {
+TEST_CASE("Resume: a run that collapsed continues with a contact time") {
   Model<2> model = periodic_box(20.0, 20.0);
   model.restitution = 0.1;
   Simulation<2> simulation(model, random_gas(model, 200, 305));
@@ -209,7 +209,7 @@ TEST_CASE("Resume: a run that collapsed goes on with a contact time") {
 
 // A ball comes to rest on the floor. Of 64 runs that differ in when the base moves, one stops just
 // where it does.
-TEST_CASE("Resume: a stop leaves a base that moves on") {
+TEST_CASE("Resume: a run that stops when its base should move can be resumed") {
   Model<2> model =
       with_walls(periodic_box(20.0, 20.0), 1, {.kind = WallKind::Static, .restitution = 0.5});
   model.gravity = {0.0, -1.0};
@@ -222,7 +222,7 @@ TEST_CASE("Resume: a stop leaves a base that moves on") {
   }
 }
 
-TEST_CASE("Resume: overlaps that a run bore do not keep it from going on") {
+TEST_CASE("Resume: overlaps that a run had do not keep it from continuing") {
   const Model<2> model = periodic_box(20.0, 20.0);
   RunState<2> saved =
       Simulation<2>(model, {{{5.0, 5.0}, {6.0, 5.0}}, {{0.0, 0.0}, {1.0, 0.0}}}).save();

@@ -87,7 +87,7 @@ void compare(std::size_t pending, const NextTime& next, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("event queue: the order of the standard queue over 10^6 operations and more") {
+TEST_CASE("EventQueue: events come in the order of the standard queue, over 10^6 operations") {
   const auto exponential = [](Random& random) { return -std::log(random.uniform()); };
   const std::vector<std::pair<std::string, NextTime>> kinds = {
       {"like collisions", [&](double now, Random& r) { return now + exponential(r); }},
@@ -126,7 +126,8 @@ TEST_CASE("event queue: the order of the standard queue over 10^6 operations and
   }
 }
 
-TEST_CASE("event queue: ties go to particles, then walls, then cell borders, and to low numbers") {
+TEST_CASE(
+    "EventQueue: at equal times particles come before walls and cell borders, low numbers first") {
   std::vector<Event> events = {{1.0, 0, kCellBorder}, {1.0, 1, kWall + 2}, {1.0, 1, kWall + 0},
                                {1.0, 9, 2},           {1.0, 3, 4},         {0.5, 7, kCellBorder}};
   EventQueue queue;
@@ -141,13 +142,13 @@ TEST_CASE("event queue: ties go to particles, then walls, then cell borders, and
         std::vector<std::uint32_t>{kCellBorder, 2, 4, kWall + 0, kWall + 2, kCellBorder});
 }
 
-TEST_CASE("event queue: a pair counts the same from either side") {
+TEST_CASE("EventQueue: a pair counts the same from either side") {
   CHECK_FALSE(before({1.0, 3, 5}, {1.0, 5, 3}));
   CHECK_FALSE(before({1.0, 5, 3}, {1.0, 3, 5}));
   CHECK(before({1.0, 5, 3}, {1.0, 4, 5}));
 }
 
-TEST_CASE("event queue: events come after an empty start") {
+TEST_CASE("EventQueue: events come after an empty start") {
   EventQueue queue;
   std::vector<Event> none;
   queue.rebuild(none);

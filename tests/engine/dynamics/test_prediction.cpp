@@ -71,7 +71,7 @@ struct Planned {
 
 }  // namespace
 
-TEST_CASE("prediction: no two particles touch before the plan of one of them, by brute force") {
+TEST_CASE("Prediction: no two particles touch before the plan of one of them, by brute force") {
   for (const auto& [name, scene] : scenes()) {
     CAPTURE(name);
     const Planned gas(scene);
@@ -97,8 +97,7 @@ TEST_CASE("prediction: no two particles touch before the plan of one of them, by
   }
 }
 
-TEST_CASE(
-    "prediction: two particles planned at once are planned as one after the other, to the bit") {
+TEST_CASE("Prediction: two particles planned together have the plans of each alone, to the bit") {
   for (const auto& [name, scene] : scenes()) {
     CAPTURE(name);
     const Planned gas(scene);

@@ -11,7 +11,7 @@ using namespace clatter::testing;
 
 // N = 1000 at phi = .5. Energy and momentum are of order 1000; each collision rounds them by some
 // 1e-16, with either sign.
-TEST_CASE("conservation: 10^6 elastic collisions keep energy and momentum") {
+TEST_CASE("Conservation: 10^6 elastic collisions keep energy and momentum") {
   constexpr int kCount = 1000;
   constexpr std::uint64_t kCollisions = 1000000;
   const double edge = std::sqrt(kCount * std::numbers::pi / (4.0 * 0.5));
@@ -29,7 +29,7 @@ TEST_CASE("conservation: 10^6 elastic collisions keep energy and momentum") {
 }
 
 // Eq. (2.8): an inelastic collision takes (1/4)(1 - alpha^2) g_n^2; the books must balance.
-TEST_CASE("conservation: what collisions take is what is lost") {
+TEST_CASE("Conservation: collisions take the energy that the gas loses") {
   class Ledger : public Observer<2> {
    public:
     double taken = 0.0;
@@ -56,7 +56,7 @@ TEST_CASE("conservation: what collisions take is what is lost") {
 
 // A collision that is missed lets two particles pass through each other, which takes them a time of
 // order 1: looking every .1 finds them.
-TEST_CASE("conservation: particles never overlap, by brute force over all images") {
+TEST_CASE("Conservation: particles never overlap, by brute force over all images") {
   const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
   const Wall thermal{.kind = WallKind::Thermal, .temperature = 2.0};
   const Model<2> models[] = {

@@ -50,7 +50,7 @@ std::uint64_t hash_with_frames(const Model<2>& model, const State<2>& start, int
 
 }  // namespace
 
-TEST_CASE("hash: the same at 0, 30 and 240 frames per unit of time") {
+TEST_CASE("State hash: it is the same at 0, 30 and 240 frames per unit of time") {
   for (const Model<2>& model : models()) {
     for (const State<2>& start : {random_gas(model, 150, 101), symmetric_start()}) {
       const std::uint64_t plain = hash_with_frames(model, start, 0);
@@ -60,7 +60,7 @@ TEST_CASE("hash: the same at 0, 30 and 240 frames per unit of time") {
   }
 }
 
-TEST_CASE("hash: the same with timers, observers and halts at every collision") {
+TEST_CASE("State hash: it is the same with timers, observers and halts at every collision") {
   for (const Model<2>& model : models()) {
     const State<2> start = random_gas(model, 150, 102);
     const std::uint64_t plain = hash_with_frames(model, start, 0);
@@ -76,7 +76,7 @@ TEST_CASE("hash: the same with timers, observers and halts at every collision") 
   }
 }
 
-TEST_CASE("hash: it tells any change of any number, and 0 from -0 it does not") {
+TEST_CASE("State hash: any change of any number changes it, but the sign of a zero does not") {
   const Model<2> model = periodic_box(20.0, 25.0);
   const State<2> state = random_gas(model, 20, 105);
   const std::uint64_t hash = state_hash<2>(state);
@@ -98,7 +98,7 @@ TEST_CASE("hash: it tells any change of any number, and 0 from -0 it does not") 
 
 // A crystal that flies apart in a wide box: its cells are fine at first and wider once it has,
 // which a run that goes on from where it was saved finds out earlier.
-TEST_CASE("hash: the same whenever cells are fitted to a cluster") {
+TEST_CASE("State hash: it is the same whenever cells are fitted to a cluster") {
   const Model<2> model = periodic_box(150.0, 140.0);
   State<2> start;
   for (int i = 0; i < 900; ++i) {

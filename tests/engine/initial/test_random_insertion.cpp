@@ -49,7 +49,7 @@ void check_uniform(const std::vector<double>& counts) {
 
 }  // namespace
 
-TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
+TEST_CASE("Random insertion: no two centres overlap, all lie in the room") {
   for (const bool periodic : {false, true}) {
     for (const double fraction : {0.1, 0.3, 0.5}) {
       CAPTURE(periodic);
@@ -65,7 +65,8 @@ TEST_CASE("random_insertion: no two centres overlap, all lie in the room") {
   }
 }
 
-TEST_CASE("random_insertion: a single particle is anywhere alike, up to walls and corners") {
+TEST_CASE(
+    "Random insertion: a single particle is equally likely everywhere, up to walls and corners") {
   // 20,000 particles, 100 cells of 200 each: 7 % per cell. The room's sides are no multiples of a
   // cell.
   for (const bool periodic : {false, true}) {
@@ -75,7 +76,7 @@ TEST_CASE("random_insertion: a single particle is anywhere alike, up to walls an
   }
 }
 
-TEST_CASE("random_insertion: no gaps between the cells that it works with") {
+TEST_CASE("Random insertion: there are no gaps between its cells") {
   // 20,000 particles along each axis in 200 bins of 100: a gap as wide as a bin would empty one.
   const Room room{{5.3, 3.7}, {true, false}};
   const Vec2 low = {0.0, 0.5}, extent = {5.3, 2.7};
@@ -89,19 +90,20 @@ TEST_CASE("random_insertion: no gaps between the cells that it works with") {
   check_uniform(counts[1]);
 }
 
-TEST_CASE("random_insertion: a periodic room has no place of its own, however full") {
+TEST_CASE("Random insertion: all places of a periodic room are alike, however full it is") {
   // phi = .44 in a box in which a particle feels its images: 9 particles, 2000 seeds, 36 cells of
   // 500 each.
   check_uniform(pooled_counts({{4.0, 4.0}, {true, true}}, 9, 2000, 6));
 }
 
-TEST_CASE("random_insertion: walls and corners get their share of a thin gas") {
+TEST_CASE("Random insertion: walls and corners get their share of a thin gas") {
   // phi = .004, so that particles hardly keep each other off the middle (the cells' density differs
   // by about phi). 2 particles, 10,000 seeds, 100 cells of 200 each.
   check_uniform(pooled_counts({{20.0, 20.0}, {false, false}}, 2, 10000, 10));
 }
 
-TEST_CASE("random_insertion: two particles are as far apart as chance has it") {
+TEST_CASE(
+    "Random insertion: the distance of two particles has the distribution of independent ones") {
   // In a periodic box the second centre is uniform outside of the first one's circle, so the share
   // of seeds with the two nearer than 1.5 is pi (1.5^2 - 1)/(16 - pi) = .3054. 10,000 seeds.
   constexpr int kSeeds = 10000;
@@ -115,7 +117,7 @@ TEST_CASE("random_insertion: two particles are as far apart as chance has it") {
   CHECK(std::fabs(near - kSeeds * share) < 5.0 * std::sqrt(kSeeds * share * (1.0 - share)));
 }
 
-TEST_CASE("random_insertion: gives up where it jams") {
+TEST_CASE("Random insertion: it gives up where it jams") {
   // Random sequential addition jams at phi = .547 (Feder 1980), .60 is out of reach.
   const Room room{{20.0, 20.0}, {true, true}};
   Random random = placement(62);
@@ -124,7 +126,7 @@ TEST_CASE("random_insertion: gives up where it jams") {
   CHECK(random_insertion({{1.9, 1.9}, {false, false}}, 3, random).empty());
 }
 
-TEST_CASE("random_insertion: none, one, and another seed gives other places") {
+TEST_CASE("Random insertion: another seed gives other places") {
   const Room room{{6.0, 6.0}, {true, false}};
   Random random = placement(63);
   CHECK(random_insertion(room, 0, random).empty());

@@ -73,7 +73,7 @@ double temperature(const State<2>& state) {
 
 }  // namespace
 
-TEST_CASE("start_state: no particles overlap each other or a wall, at any density") {
+TEST_CASE("Start state: no particles overlap each other or a wall, at any density") {
   for (const std::array<bool, 2> walled : {std::array{false, false}, {true, false}, {true, true}}) {
     for (const Case& c : kCases) {
       const Scene scene = scene_of(c.fraction, walled);
@@ -90,7 +90,7 @@ TEST_CASE("start_state: no particles overlap each other or a wall, at any densit
   }
 }
 
-TEST_CASE("start_state: the temperature is met exactly, the mean velocity is removed") {
+TEST_CASE("Start state: the temperature is met exactly, the mean velocity is removed") {
   for (const int count : {2, 3, 10, 400}) {
     Scene scene = scene_of(0.1, {false, true});
     scene.particles.count = count;
@@ -101,7 +101,7 @@ TEST_CASE("start_state: the temperature is met exactly, the mean velocity is rem
   }
 }
 
-TEST_CASE("start_state: velocities are Gaussian") {
+TEST_CASE("Start state: velocities are Gaussian") {
   // 5000 particles: kurtosis <v^4>/<v^2>^2 = 3 with standard error sqrt(24/10000) = .049 over both
   // components, <v_x v_y> = 0 with T/sqrt(5000).
   Scene scene;
@@ -117,7 +117,7 @@ TEST_CASE("start_state: velocities are Gaussian") {
   CHECK(std::fabs(mixed) < 5.0 / std::sqrt(5000.0));
 }
 
-TEST_CASE("start_state: another seed gives another state") {
+TEST_CASE("Start state: another seed gives another state") {
   for (const Case& c : kCases) {
     CAPTURE(c.fraction);
     const Scene scene = scene_of(c.fraction, {true, false});
@@ -128,7 +128,7 @@ TEST_CASE("start_state: another seed gives another state") {
   }
 }
 
-TEST_CASE("start_state: places do not depend on the temperature") {
+TEST_CASE("Start state: places do not depend on the temperature") {
   Scene scene = scene_of(0.6, {false, false});
   const State<2> warm = start_state(scene, 76);
   scene.particles.start.temperature = 0.0;
@@ -137,7 +137,7 @@ TEST_CASE("start_state: places do not depend on the temperature") {
   CHECK(std::ranges::all_of(cold.velocities, [](const Vec2& v) { return v == Vec2(0.0, 0.0); }));
 }
 
-TEST_CASE("start_state: what was melted has the order of a fluid") {
+TEST_CASE("Start state: a melted lattice has no more order than a fluid") {
   // Without order |psi_m| = 1/sqrt(independent bonds), for 500 particles about .03; a hard-particle
   // fluid near freezing is correlated over some diameters. The lattice that is melted has |psi_4|
   // near 1.
@@ -156,7 +156,7 @@ TEST_CASE("start_state: what was melted has the order of a fluid") {
   CHECK(bond_order(scene, sites, 4) > 0.9);
 }
 
-TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
+TEST_CASE("Start state: a lattice stays a lattice if asked for, or too dense to melt") {
   Scene scene = scene_of(0.75, {false, false});
   CHECK(bond_order(scene, start_state(scene, 80).positions, 6) > 0.9);
   scene = scene_of(0.2, {true, false});
@@ -172,7 +172,7 @@ TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
   CHECK(std::min(x.size(), y.size()) < state.positions.size() / 4);
 }
 
-TEST_CASE("start_state: gases of none, one and two") {
+TEST_CASE("Start state: there may be no particle, one or two") {
   for (const Layout layout : {Layout::Random, Layout::Lattice}) {
     for (const int count : {0, 1, 2}) {
       CAPTURE(count);
@@ -188,7 +188,7 @@ TEST_CASE("start_state: gases of none, one and two") {
   }
 }
 
-TEST_CASE("start_state: one particle in a box that it nearly fills") {
+TEST_CASE("Start state: one particle may nearly fill its box") {
   // phi = .55, beyond random insertion; nothing that it could collide with while melting.
   for (const bool walled : {false, true}) {
     Scene scene;
@@ -199,7 +199,7 @@ TEST_CASE("start_state: one particle in a box that it nearly fills") {
   }
 }
 
-TEST_CASE("start_state: spins have exactly their temperature, and the mean that chance gives") {
+TEST_CASE("Start state: spins have exactly their temperature, and a random mean") {
   // 5000 particles: the mean of omega is 0 with standard error sqrt(T_rot/(I N)), and what is left
   // of it shows that none was taken out; the kurtosis is 3 with standard error sqrt(24/5000) =
   // .069.
@@ -228,7 +228,7 @@ TEST_CASE("start_state: spins have exactly their temperature, and the mean that 
   CHECK(start_state(scene, 84).spins != state.spins);
 }
 
-TEST_CASE("start_state: spins are there where the scene has them, and change nothing else") {
+TEST_CASE("Start state: spins exist only where the scene has them, and change nothing else") {
   Scene scene = scene_of(0.6, {true, false});
   const State<2> smooth = start_state(scene, 85);
   CHECK(smooth.spins.empty());
@@ -244,7 +244,7 @@ TEST_CASE("start_state: spins are there where the scene has them, and change not
   CHECK(std::fabs(start_state(scene, 85).spins[0][0]) == doctest::Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
+TEST_CASE("Start state: particles keep clear of moving walls, at any density") {
   for (const Case& c : kCases) {
     // The room of 25 x 22 that other cases fill, and what the walls sweep around it.
     const Scene still = scene_of(c.fraction, {true, true});
@@ -265,7 +265,7 @@ TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
   }
 }
 
-TEST_CASE("start_state: forces, roughness and driving leave the places as they are") {
+TEST_CASE("Start state: forces, roughness and driving do not change the places") {
   Scene scene = scene_of(0.6, {false, true});
   const State<2> plain = start_state(scene, 87);
   scene.gravity = {1.0, -5.0};
@@ -279,7 +279,7 @@ TEST_CASE("start_state: forces, roughness and driving leave the places as they a
   CHECK(other.velocities == plain.velocities);
 }
 
-TEST_CASE("start_state: a state that was saved starts a run, bit by bit") {
+TEST_CASE("Start state: a saved state starts a run, bit for bit") {
   const auto restarted = [](Scene scene, const State<2>& saved) {
     scene.particles.start.layout = Layout::File;
     scene.particles.start.state = parse_state(state_to_csv(saved), "a.csv", scene);

@@ -86,7 +86,7 @@ bool same_bits(const Vector& a, const Vector& b) {
 }  // namespace
 
 // Eq. (2.4), (2.8) with beta = -1 and m = 1.
-TEST_CASE("collision: momentum, energy and the tangential velocity over random pairs") {
+TEST_CASE("Collision: smooth pairs lose the energy of Eq. (2.8) and keep the tangential velocity") {
   double energy_off = 0.0, tangential_off = 0.0, normal_off = 0.0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Random random(31, Stream::Velocity, i, 0);
@@ -113,14 +113,14 @@ TEST_CASE("collision: momentum, energy and the tangential velocity over random p
   CHECK(tangential_off < 1e-13);
 }
 
-TEST_CASE("collision: exact cases") {
+TEST_CASE("Collision: smooth pairs have the velocities computed by hand") {
   // Head on, elastic: velocities are exchanged. Wholly inelastic: both move on together.
   CHECK(collision_impulse<2>({1.0, 0.0}, {-2.0, 5.0}, 1.0) == Vec2(2.0, 0.0));
   CHECK(collision_impulse<2>({1.0, 0.0}, {-2.0, 5.0}, 0.0) == Vec2(1.0, 0.0));
   CHECK(collision_impulse<2>({0.0, -1.0}, {0.0, 4.0}, 0.5) == Vec2(0.0, -3.0));
 }
 
-TEST_CASE_TEMPLATE("collision: rough pairs keep their angular momentum", Dimension, Plane, Space) {
+TEST_CASE_TEMPLATE("Collision: rough pairs keep their angular momentum", Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
   double angular_off = 0.0;
   for (std::uint32_t i = 0; i < kPairs; ++i) {
@@ -137,7 +137,7 @@ TEST_CASE_TEMPLATE("collision: rough pairs keep their angular momentum", Dimensi
   CHECK(angular_off < 1e-14);
 }
 
-TEST_CASE_TEMPLATE("collision: what rough pairs dissipate is what their energies lose", Dimension,
+TEST_CASE_TEMPLATE("Collision: what rough pairs dissipate is what their energies lose", Dimension,
                    Plane, Space) {
   constexpr int D = Dimension::value;
   double off = 0.0;
@@ -158,7 +158,7 @@ TEST_CASE_TEMPLATE("collision: what rough pairs dissipate is what their energies
   CHECK(conserving > 10000);
 }
 
-TEST_CASE_TEMPLATE("collision: the impulse between rough pairs is Walton's and Coulomb's",
+TEST_CASE_TEMPLATE("Collision: the impulse between rough pairs is Walton's and Coulomb's",
                    Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
   double impulse_off = 0.0, coulomb_excess = -1.0;
@@ -181,8 +181,9 @@ TEST_CASE_TEMPLATE("collision: the impulse between rough pairs is Walton's and C
   CHECK(coulomb_excess > -1e-13);  // sliding pairs use all of it
 }
 
-TEST_CASE_TEMPLATE("collision: without friction, or with beta_0 = -1, the bits of smooth pairs",
-                   Dimension, Plane, Space) {
+TEST_CASE_TEMPLATE(
+    "Collision: without friction, or with beta_0 = -1, rough pairs have the bits of smooth ones",
+    Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
   int different = 0;
   for (std::uint32_t i = 0; i < kPairs; ++i) {
@@ -197,7 +198,7 @@ TEST_CASE_TEMPLATE("collision: without friction, or with beta_0 = -1, the bits o
   CHECK(different == 0);
 }
 
-TEST_CASE_TEMPLATE("collision: either partner reckons the same bits for rough pairs", Dimension,
+TEST_CASE_TEMPLATE("Collision: exchanging the partners of rough pairs changes no bit", Dimension,
                    Plane, Space) {
   constexpr int D = Dimension::value;
   int different = 0;
@@ -214,8 +215,8 @@ TEST_CASE_TEMPLATE("collision: either partner reckons the same bits for rough pa
   CHECK(different == 0);
 }
 
-TEST_CASE_TEMPLATE("collision: units that are powers of two keep the bits of rough pairs",
-                   Dimension, Plane, Space) {
+TEST_CASE_TEMPLATE("Collision: scaling rough pairs by powers of two changes no bit", Dimension,
+                   Plane, Space) {
   constexpr int D = Dimension::value;
   constexpr double kLength = 0x1p-7, kSpeed = 0x1p-45;
   int different = 0;
@@ -233,7 +234,7 @@ TEST_CASE_TEMPLATE("collision: units that are powers of two keep the bits of rou
   CHECK(different == 0);
 }
 
-TEST_CASE("collision: rough pairs, exact cases") {
+TEST_CASE("Collision: rough pairs have the impulses computed by hand") {
   // n = (1,0), a = 1, q = 1/2, and g_t = v_y - (omega_1 + omega_2)/2.
   const ContactLaw perfectly_rough = {1.0, kInfinity, 1.0};
   const auto collide = [](const ContactLaw& law, Vec2 v, double spin_sum) {

@@ -68,7 +68,7 @@ std::vector<Room> rooms(std::initializer_list<Vec2> boxes) {
 
 }  // namespace
 
-TEST_CASE("a lattice has sites enough, inside the room and never closer than a diameter") {
+TEST_CASE("Lattice: there are enough sites, inside the room and never closer than a diameter") {
   const auto all =
       rooms({{20.0, 25.0}, {7.3, 7.3}, {1.2, 40.7}, {33.3, 1.9}, {11.0, 4.0}, {3.1, 2.7}});
   for (Room room : all) {
@@ -93,7 +93,7 @@ TEST_CASE("a lattice has sites enough, inside the room and never closer than a d
   }
 }
 
-TEST_CASE("the capacity is that of the best arrangement, and one more is refused") {
+TEST_CASE("Lattice: the capacity is that of the best arrangement, and one more is refused") {
   for (const Room& room : rooms({{5.3, 6.1},
                                  {7.77, 3.21},
                                  {1.5, 9.2},
@@ -111,7 +111,7 @@ TEST_CASE("the capacity is that of the best arrangement, and one more is refused
   }
 }
 
-TEST_CASE("the perfect hexagonal packing is found where the box is commensurate with it") {
+TEST_CASE("Lattice: the perfect hexagonal packing is found where the box is commensurate with it") {
   for (const bool turned : {false, true}) {
     Room room{.box = {10.0 * 1.0000001, 10.0 * std::sqrt(0.75) * 1.0000001}};
     if (turned) std::swap(room.box.x(), room.box.y());
@@ -122,7 +122,7 @@ TEST_CASE("the perfect hexagonal packing is found where the box is commensurate 
   }
 }
 
-TEST_CASE("sites are spread as far apart as the lattice allows") {
+TEST_CASE("Lattice: sites are spread as far apart as the lattice allows") {
   CHECK(least_distance({.box = {10.0, 10.0}}, square_lattice({.box = {10.0, 10.0}}, 25)) ==
         doctest::Approx(2.0));
   const Room walled{.box = {9.0, 5.0}, .periodic = {false, false}};
@@ -132,7 +132,9 @@ TEST_CASE("sites are spread as far apart as the lattice allows") {
   CHECK(least_distance(square, hexagonal_lattice(square, 5)) == doctest::Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("particles that would touch exactly do not fit, for rounding would make some overlap") {
+TEST_CASE(
+    "Lattice: particles that would touch exactly do not fit, for rounding would make some "
+    "overlap") {
   const Room row{.box = {50.0, 1.0}, .periodic = {true, false}};
   CHECK(lattice_capacity(row) == 49);
   for (int n = 2; n < 400; ++n) {
@@ -145,7 +147,7 @@ TEST_CASE("particles that would touch exactly do not fit, for rounding would mak
   }
 }
 
-TEST_CASE("rooms of any size have a capacity, at once") {
+TEST_CASE("Lattice: rooms of any size have a capacity") {
   CHECK(lattice_capacity({.box = {1e6, 1e6}}) == INT_MAX);
   CHECK(lattice_capacity({.box = {1e300, 1e300}}) == INT_MAX);
   CHECK(lattice_capacity({.box = {1e6, 1.5}, .periodic = {false, false}}) == 1'154'700);
@@ -156,6 +158,6 @@ TEST_CASE("rooms of any size have a capacity, at once") {
   CHECK(lattice_capacity({.box = {0.5, 9.0}, .periodic = {false, false}}) == 0);
 }
 
-TEST_CASE("ten million sites are laid out") {
+TEST_CASE("Lattice: ten million sites are laid out") {
   CHECK(hexagonal_lattice({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
 }

@@ -64,7 +64,7 @@ constexpr std::uint32_t kHits = 100000;
 }  // namespace
 
 // Eq. (3.1): v_n' = alpha_w |v_n| + v_dr, along the normal into the box.
-TEST_CASE("walls: reflection off each of the four walls") {
+TEST_CASE("Walls: reflection off each of the four walls is that of Eq. (3.1)") {
   CHECK(reflect<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
   CHECK(reflect<2>({2.0, 3.0}, 0, -1.0, 0.5, 0.0) == Vec2(-1.0, 3.0));
   CHECK(reflect<2>({-2.0, -3.0}, 1, 1.0, 0.5, 0.25) == Vec2(-2.0, 1.75));
@@ -74,7 +74,7 @@ TEST_CASE("walls: reflection off each of the four walls") {
 
 // Section 3: v_n has the flux-weighted density (v/T) exp(-v^2/2T): mean sqrt(pi T/2), mean square
 // 2 T, variance of the square 4 T^2, share below v 1 - exp(-v^2/2T); v_t is Gaussian of variance T.
-TEST_CASE("walls: a thermal wall emits flux-weighted velocities") {
+TEST_CASE("Walls: a thermal wall emits flux-weighted velocities") {
   constexpr int kSamples = 400000, kBins = 50;
   constexpr double kT = 2.25;
   std::vector<double> normal_bins(kBins), tangential_bins(kBins);
@@ -105,13 +105,13 @@ TEST_CASE("walls: a thermal wall emits flux-weighted velocities") {
   CHECK(std::fabs(standard_errors_off(tangential_squares, kSamples, kT, 2.0 * kT * kT)) < 5.0);
 }
 
-TEST_CASE("walls: a thermal wall at T_w = 0 stops the particle") {
+TEST_CASE("Walls: a thermal wall at T_w = 0 stops the particle") {
   const double normal = -1.5;
   CHECK(emit<2>(0, 1.0, 0.0, 0.3, &normal) == Vec2(0.0, 0.0));
 }
 
 // Section 3: in the wall's frame v_n' = -alpha_w v_n.
-TEST_CASE("walls: a wall that moves, and hits from behind") {
+TEST_CASE("Walls: a moving wall reflects in its own frame, also from behind") {
   CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
   CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 0.5, 1.0) == Vec2(2.5, 3.0));
   CHECK(reflect_moving<2>({3.0, 2.0}, 1, -1.0, 0.5, 1.0) == Vec2(3.0, -2.5));
@@ -123,7 +123,7 @@ TEST_CASE("walls: a wall that moves, and hits from behind") {
         reflect<2>({-1.25, 3.0}, 0, 1.0, 0.5, 1.125));
 }
 
-TEST_CASE_TEMPLATE("walls: friction is Walton's and Coulomb's at a wall of infinite mass",
+TEST_CASE_TEMPLATE("Walls: friction is Walton's and Coulomb's at a wall of infinite mass",
                    Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
   double impulse_off = 0.0, torque_off = 0.0, coulomb_excess = -1.0;
@@ -156,7 +156,7 @@ TEST_CASE_TEMPLATE("walls: friction is Walton's and Coulomb's at a wall of infin
   CHECK(coulomb_excess > -1e-13);  // sliding particles use all of it
 }
 
-TEST_CASE_TEMPLATE("walls: friction takes energy, or turns the slip round without loss", Dimension,
+TEST_CASE_TEMPLATE("Walls: friction takes energy, or turns the slip round without loss", Dimension,
                    Plane, Space) {
   constexpr int D = Dimension::value;
   double gained = 0.0, lost_without_loss = 0.0;
@@ -180,8 +180,8 @@ TEST_CASE_TEMPLATE("walls: friction takes energy, or turns the slip round withou
   CHECK(conserving > 10000);
 }
 
-TEST_CASE_TEMPLATE("walls: units that are powers of two keep the bits of friction", Dimension,
-                   Plane, Space) {
+TEST_CASE_TEMPLATE("Walls: scaling by powers of two changes no bit of friction", Dimension, Plane,
+                   Space) {
   constexpr int D = Dimension::value;
   constexpr double kLength = 0x1p-7, kSpeed = 0x1p-45;
   int different = 0;
@@ -198,7 +198,7 @@ TEST_CASE_TEMPLATE("walls: units that are powers of two keep the bits of frictio
   CHECK(different == 0);
 }
 
-TEST_CASE("walls: friction, exact cases") {
+TEST_CASE("Walls: friction has the impulses computed by hand") {
   // n = (-1,0), a = 1, q = 1/2: g_t = v_y + omega/2.
   const double infinity = std::numeric_limits<double>::infinity();
   const auto hit = [](const ContactLaw& law, Vec2 v, double spin, double normal_after) {
@@ -223,7 +223,7 @@ TEST_CASE("walls: friction, exact cases") {
 }
 
 // T_rot = I <omega^2> = T_w, I = q a^2/4: variance 4 T_w/(q a^2).
-TEST_CASE_TEMPLATE("walls: a thermal wall emits spins at its temperature", Dimension, Plane,
+TEST_CASE_TEMPLATE("Walls: a thermal wall emits spins at its temperature", Dimension, Plane,
                    Space) {
   constexpr int D = Dimension::value, kSpins = D * (D - 1) / 2;
   constexpr int kSamples = 100000;

@@ -70,7 +70,7 @@ TEST_CASE("Worker: frames follow each other, and none comes before the speed ask
   CHECK(frame.message.empty());
 }
 
-TEST_CASE("Worker: says what share of the speed it holds where it cannot") {
+TEST_CASE("Worker: it reports the share of the speed that it holds") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 1e7)});
   const Frame& frame = wait_for(worker, [](const Frame& frame) { return frame.held < 1.0; });
@@ -94,7 +94,7 @@ TEST_CASE("Worker: runs played, stepped and made without it have the same hash a
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
 
-TEST_CASE("Worker: plays up to a time where it halts, and goes on from there when asked") {
+TEST_CASE("Worker: it plays up to a time, halts there, and plays on when asked") {
   const Scene scene = scene_at_speed("vibrated", 20.0);
   Worker worker(60.0);
   worker.send(command::Open{scene, 24, false});
@@ -110,7 +110,7 @@ TEST_CASE("Worker: plays up to a time where it halts, and goes on from there whe
   wait_for(worker, [](const Frame& frame) { return frame.snapshot.time > 2.0; });
 }
 
-TEST_CASE("Worker: steps to a frame, and to a collision of the pair that it names") {
+TEST_CASE("Worker: it steps to a frame, and to a collision, whose pair it names") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 1, false});
   CHECK(wait_for_handled(worker, 1).snapshot.time == 0.0);
@@ -130,7 +130,7 @@ TEST_CASE("Worker: steps to a frame, and to a collision of the pair that it name
   CHECK(apart.norm() == doctest::Approx(1.0).epsilon(1e-12));
 }
 
-TEST_CASE("Worker: laws that are set hold from then on, and the scene it tells plays them back") {
+TEST_CASE("Worker: laws that are set hold from then on, and its scene plays them back") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 10.0), 22});
   for (int i = 1; i <= 5; ++i) {
@@ -153,7 +153,7 @@ TEST_CASE("Worker: laws that are set hold from then on, and the scene it tells p
   CHECK(played.simulation().state_hash() == *frame.state_hash);
 }
 
-TEST_CASE("Worker: of laws set faster than they can change only the last ones count") {
+TEST_CASE("Worker: if laws are set faster than they can change, the last ones count") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("cooling"), 1, false});
   for (int i = 1; i <= 200; ++i) {
@@ -164,8 +164,7 @@ TEST_CASE("Worker: of laws set faster than they can change only the last ones co
   CHECK(frame.scene->changes.size() < 200);
 }
 
-TEST_CASE(
-    "Worker: profiles come when asked for, start anew with laws, and leave the run as it is") {
+TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
   const Scene scene = scene_at_speed("vibrated", 50.0);
   Worker worker(60.0);
   worker.send(command::Open{scene, 25});
@@ -190,7 +189,7 @@ TEST_CASE(
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
 
-TEST_CASE("Worker: balance residuals along x come when asked for, and are of rounding size") {
+TEST_CASE("Worker: balance residuals come when asked for, and are roundings") {
   const Scene scene = scene_at_speed("vibrated", 50.0);
   Worker worker(60.0);
   worker.send(command::Open{scene, 29});
@@ -213,8 +212,7 @@ TEST_CASE("Worker: balance residuals along x come when asked for, and are of rou
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
 
-TEST_CASE(
-    "Worker: of a picked particle it tells the next collision, and the last once it has been") {
+TEST_CASE("Worker: it predicts the next collision of a picked particle, then reports it") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 26, false});
   worker.send(command::Pick{7});
@@ -238,7 +236,7 @@ TEST_CASE(
   CHECK(after.next_collision->time > time);
 }
 
-TEST_CASE("Worker: while the gas plays, too, the next collision of a picked particle comes true") {
+TEST_CASE("Worker: the predicted collision of a picked particle comes true while the gas plays") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 30});
   worker.send(command::Pick{11});
@@ -270,7 +268,7 @@ TEST_CASE("Worker: while the gas plays, too, the next collision of a picked part
   CHECK(alone.simulation().state_hash() == *halted.state_hash);
 }
 
-TEST_CASE("Worker: of a picked particle at rest there is no next collision") {
+TEST_CASE("Worker: a picked particle at rest has no next collision") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("equilibrium", {{"particles.start.temperature", "0.0"}}), 27,
                             false});
@@ -278,7 +276,7 @@ TEST_CASE("Worker: of a picked particle at rest there is no next collision") {
   CHECK_FALSE(wait_for_handled(worker, 2).next_collision);
 }
 
-TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
+TEST_CASE("Worker: mistakes and stops are reported, and the gas halts") {
   Worker worker(60.0);
   worker.send(command::Open{load_scene("vibrated"), 1, false});
   worker.send(command::SetLaws{{{"particles.restitution", "7"}}});
@@ -303,7 +301,7 @@ TEST_CASE("Worker: what goes wrong is told, and the gas stands") {
         }).messages == 2);
 }
 
-TEST_CASE("Worker: where the run stops before the next collision, it tells of none") {
+TEST_CASE("Worker: if the run stops before the next collision, it reports none") {
   // A stroke that would put the bottom among the particles, before long.
   Scene scene = load_scene("shaker");
   scene.changes = {{.time = 0.05, .set = {{"walls.bottom.stroke", "40"}}}};
@@ -325,7 +323,7 @@ TEST_CASE("Worker: where the run stops before the next collision, it tells of no
 }
 
 // A law that is none, and comes into force with the very collision that is stepped to.
-TEST_CASE("Worker: what goes wrong once it halts is told, too") {
+TEST_CASE("Worker: a mistake found when it halts is reported, too") {
   Scene scene = scene_at_speed("vibrated", 2.0);
   const auto hit = [](const Frame& frame) { return frame.handled == 2 && frame.partners; };
   double time = 0.0;
@@ -344,7 +342,7 @@ TEST_CASE("Worker: what goes wrong once it halts is told, too") {
   CHECK(says(there.message, "between 0 and 1"));
 }
 
-TEST_CASE("Worker: a gas that is kept starts with the temperature that it has") {
+TEST_CASE("Worker: a gas that is kept starts with its own temperature") {
   Worker worker(60.0);
   worker.send(
       command::Open{load_scene("vibrated", {{"particles.start.temperature", "4"}}), 1, false});

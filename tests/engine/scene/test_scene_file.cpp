@@ -160,13 +160,13 @@ Scene unusual_scene() {
 
 }  // namespace
 
-TEST_CASE("a short scene has the defaults") {
+TEST_CASE("Scene file: a short scene has the defaults") {
   Scene expected;
   expected.particles.count = 10;
   check_equal(parse_scene(kParticles, "s.toml"), expected);
 }
 
-TEST_CASE("every key arrives at its place") {
+TEST_CASE("Scene file: every key arrives at its place") {
   const Scene scene = parse_scene(R"(
     schema = 1
     title = "T"
@@ -249,12 +249,12 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.view.field_range.kind == ColourRange::Locked);
 }
 
-TEST_CASE("area_fraction becomes the nearest count") {
+TEST_CASE("Scene file: area_fraction becomes the nearest count") {
   const Scene scene = parse_scene("box.size = [10, 10]\nparticles.area_fraction = 0.3\n", "s.toml");
   CHECK(scene.particles.count == 38);  // 0.3 * 400 / pi = 38.197
 }
 
-TEST_CASE("a name of a field stands for its components, and each may stand alone") {
+TEST_CASE("Scene file: a name of a field stands for its components, and each may stand alone") {
   const auto fields = [](const std::string& list) {
     return parse_scene(kParticles + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;
@@ -274,14 +274,14 @@ TEST_CASE("a name of a field stands for its components, and each may stand alone
   }
 }
 
-TEST_CASE("a scene in which all differs from the defaults survives writing and reading") {
+TEST_CASE("Scene file: a scene unlike the defaults in every key survives writing and reading") {
   check_equal(parse_scene(scene_to_toml(unusual_scene()), "s.toml"), unusual_scene());
   Scene plain;
   plain.particles.count = 10;
   check_equal(parse_scene(scene_to_toml(plain), "s.toml"), plain);
 }
 
-TEST_CASE("a scene as JSON has the keys of the file") {
+TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
   Scene scene = parse_scene(R"(
     title = "a \"b\"\n\u0007"
     box.size = [2.5, 20]
@@ -306,7 +306,8 @@ TEST_CASE("a scene as JSON has the keys of the file") {
       R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
 }
 
-TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
+TEST_CASE(
+    "Scene file: a scene as JSON has the keys of rough and driven gases, and infinity as a text") {
   const std::string json = scene_to_json(parse_scene(R"(
     particles = { count = 3, friction = inf, start.spin_temperature = 2 }
     walls.left = { kind = "sawtooth", stroke = 0.5, frequency = 3, friction = 0.5 }
@@ -330,7 +331,7 @@ TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as 
   }
 }
 
-TEST_CASE("overrides replace values, and their mistakes name the flag") {
+TEST_CASE("Scene file: overrides replace values, and their mistakes name the flag") {
   const std::string text =
       "[particles]\narea_fraction = 0.3\n[walls.left]\nkind = \"driven\"\n"
       "drive_speed = 1\n[walls.right]\nkind = \"static\"\n[view]\nspeed = 2\n";
@@ -375,7 +376,7 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
   CHECK(says(refusal(text, {{"", "1"}}), "cannot be a key"));
 }
 
-TEST_CASE("scene files are found, or it is said why not") {
+TEST_CASE("Scene file: a file is found by path or name, or the reason why not is given") {
   CHECK(load_scene("vibrated").title == "Vibrated box");
   CHECK(load_scene("vibrated.toml", {{"particles.count", "7"}}).particles.count == 7);
   CHECK(load_refusal("vibratd") ==
@@ -392,7 +393,7 @@ TEST_CASE("scene files are found, or it is said why not") {
   CHECK(says(load_refusal(large), large + ": the file is larger than 1 MB"));
 }
 
-TEST_CASE("the gallery's scenes are sound and presented") {
+TEST_CASE("Scene file: the gallery's scenes are sound and presented") {
   CHECK(embedded_scenes().size() == 12);
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);

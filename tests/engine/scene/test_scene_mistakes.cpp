@@ -10,7 +10,7 @@ using namespace clatter::testing;
 
 // Whatever is wrong in a scene's text is refused, with its place and what to do.
 
-TEST_CASE("mistakes are told with their place and what to do") {
+TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
   struct Case {
     std::string text;
     std::string message;
@@ -255,7 +255,7 @@ TEST_CASE("mistakes are told with their place and what to do") {
   }
 }
 
-TEST_CASE("huge boxes overflow nothing and huge counts allocate nothing") {
+TEST_CASE("Scene file: huge boxes overflow nothing and huge counts allocate nothing") {
   const std::string box = "box.size = [1e6, 1e6]\n";
   CHECK(parse_scene(box + "particles.count = 2000000000\n", "s.toml").particles.count ==
         2'000'000'000);
@@ -263,7 +263,7 @@ TEST_CASE("huge boxes overflow nothing and huge counts allocate nothing") {
              "give two numbers greater than 1 and at most 1e+06"));
 }
 
-TEST_CASE("hostile nesting is refused, quickly and without a crash") {
+TEST_CASE("Scene file: hostile nesting is refused without a crash") {
   std::string arrays = "x = ", tables = "x = ", dotted, header,
               hidden = "x = {b = \"\"\"a\"\"\"\", ";
   for (int i = 0; i < 100'000; ++i) {

@@ -20,7 +20,7 @@ Scene scene_with(const std::string& changes) {
 
 }  // namespace
 
-TEST_CASE("Changes come into force in the order of their times, all keys of one at once") {
+TEST_CASE("Schedule: changes apply in the order of their times, all keys of one together") {
   const Scene scene = scene_with(
       "[[change]]\ntime = 7\nset = { 'walls.left' = { kind = 'thermal', temperature = 2.0 } }\n"
       "[[change]]\ntime = 3\nset = { 'particles.restitution' = 0.5, collapse.contact_time = 1e-3 "
@@ -43,7 +43,7 @@ TEST_CASE("Changes come into force in the order of their times, all keys of one 
   CHECK(schedule.scene().changes.size() == 3);
 }
 
-TEST_CASE("A ramp goes from the value in force to its own in equal steps, and arrives") {
+TEST_CASE("Schedule: a ramp goes from the value in force to its own in equal steps, and arrives") {
   Schedule schedule(
       scene_with("[[change]]\ntime = 10\nset = { 'particles.restitution' = 0.3 }\n"
                  "ramp = 'linear'\nuntil = 74\n"));
@@ -57,7 +57,7 @@ TEST_CASE("A ramp goes from the value in force to its own in equal steps, and ar
   CHECK(schedule.next() == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("A change that is added while the run goes on comes before those to come") {
+TEST_CASE("Schedule: a change added during the run comes before later ones") {
   Schedule schedule(scene_with("[[change]]\ntime = 5\nset = { 'particles.restitution' = 0.5 }\n"));
   schedule.add({.time = 2.0, .set = {{"walls.left.drive_speed", "3.0"}}});
   CHECK(schedule.next() == 2.0);
@@ -66,7 +66,7 @@ TEST_CASE("A change that is added while the run goes on comes before those to co
   CHECK(schedule.scene().particles.restitution == 0.9);
 }
 
-TEST_CASE("Changes are written as a scene file that reads back") {
+TEST_CASE("Schedule: changes are written as a scene file that reads back") {
   const Scene scene = scene_with(
       "[[change]]\ntime = 1.5\nset = { 'particles.restitution' = 0.5, walls.left = {kind = "
       "'static'} "
@@ -83,7 +83,7 @@ TEST_CASE("Changes are written as a scene file that reads back") {
   CHECK(says(scene_to_json(scene), "\"change\": [{\"time\": 1.5, \"set\": {"));
 }
 
-TEST_CASE("What no change can be is told with its place") {
+TEST_CASE("Schedule: impossible changes are refused with their place") {
   const std::string head = "[[change]]\ntime = 1\n";
   const std::vector<std::pair<std::string, std::vector<const char*>>> wrong = {
       {"[[change]]\nset = {}\n", {"s.toml:9:1", "'change.time' is missing"}},

@@ -44,7 +44,7 @@ const std::string kHeader = "x,y,vx,vy\n";
 
 }  // namespace
 
-TEST_CASE("a state is read whatever the order of its columns") {
+TEST_CASE("State file: a state is read whatever the order of its columns") {
   const State<2> state = parse_state(
       "\xef\xbb\xbf# saved\r\n\r\nvy, x ,y,vx\r\n  # a comment\r\n4,1, 2\t,-3e-1\r\n\r\n"
       "8,5.5,6,7",
@@ -54,7 +54,8 @@ TEST_CASE("a state is read whatever the order of its columns") {
   CHECK(state.spins.empty());
 }
 
-TEST_CASE("spins are read where the scene has them, and are zero where the file has none") {
+TEST_CASE(
+    "State file: spins are read where the scene has them, and are zero where the file has none") {
   const State<2> spinning = parse_state("x,y,vx,vy,omega\n1,2,3,4,-5\n", "a.csv", rough_scene());
   REQUIRE(spinning.spins.size() == 1);
   CHECK(spinning.spins[0][0] == -5.0);
@@ -63,11 +64,11 @@ TEST_CASE("spins are read where the scene has them, and are zero where the file 
   CHECK(still.spins[0][0] == 0.0);
 }
 
-TEST_CASE("a state of no particles is one") {
+TEST_CASE("State file: a state may have no particles") {
   CHECK(parse_state(kHeader, "a.csv", smooth_scene()).positions.empty());
 }
 
-TEST_CASE("what is written reads back to the same bits") {
+TEST_CASE("State file: a state that was written reads back to the same bits") {
   State<2> state;
   state.positions = {{0.1 + 0.2, 5e-324}, {10.0 - 1e-15, 8.0}, {3.0, 1.0 / 3.0}};
   state.velocities = {{-0.0, 1e15}, {-1e-300, 123456789.123456789}, {2.0 / 3.0, -1e-17}};
@@ -92,7 +93,7 @@ TEST_CASE("what is written reads back to the same bits") {
   }
 }
 
-TEST_CASE("mistakes in a state are told with their place and what to do") {
+TEST_CASE("State file: mistakes are reported with their place and what to do") {
   struct Case {
     std::string csv;
     std::string message;
@@ -156,7 +157,7 @@ TEST_CASE("mistakes in a state are told with their place and what to do") {
   }
 }
 
-TEST_CASE("particles that touch each other or a wall, up to rounding, are sound") {
+TEST_CASE("State file: particles may touch each other or a wall, up to rounding") {
   CHECK(state_refusal(kHeader + "5,2,0,0\n5,2.9999999999995,0,0\n6,2,0,0\n") == "");
   CHECK(state_refusal(kHeader + "1.9999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
   CHECK(state_refusal(kHeader + "9.75,2,3,4\n0.5,7,3,4\n0.75,2,0,0\n") == "");
@@ -165,7 +166,8 @@ TEST_CASE("particles that touch each other or a wall, up to rounding, are sound"
         "");
 }
 
-TEST_CASE("particles may lie wherever the walls are not at time 0, out of the box too") {
+TEST_CASE(
+    "State file: particles may lie wherever the walls are not at time 0, also outside the box") {
   CHECK(state_refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // where the wall will come
   Scene scene = walled_scene();
   scene.walls[kRight] =
@@ -175,7 +177,7 @@ TEST_CASE("particles may lie wherever the walls are not at time 0, out of the bo
   CHECK(says(state_refusal(kHeader + "10.4,2,0,0\n10.4,2.9,0,0\n", scene), "overlap by 0.1"));
 }
 
-TEST_CASE("no overlap hides, in boxes of any shape") {
+TEST_CASE("State file: no overlap hides, in boxes of any shape") {
   for (const Vec2& box : {Vec2(1.2, 40.0), Vec2(2.5, 30.0), Vec2(3.1, 3.2), Vec2(1e6, 1e6)}) {
     CAPTURE(box.x());
     Scene scene;
@@ -197,7 +199,7 @@ TEST_CASE("no overlap hides, in boxes of any shape") {
 }
 
 // Every pair looked at would take hours.
-TEST_CASE("a million particles are read, each compared with its neighbours only") {
+TEST_CASE("State file: a million particles are read, each compared with its neighbours only") {
   Scene scene;
   scene.box = {1100.0, 1100.0};
   State<2> state;
@@ -209,7 +211,7 @@ TEST_CASE("a million particles are read, each compared with its neighbours only"
   CHECK(parse_state(csv, "a.csv", scene).positions == state.positions);
 }
 
-TEST_CASE("a scene names its state relative to its own folder") {
+TEST_CASE("State file: a scene names its state relative to its own folder") {
   const TemporaryFolder folder;
   const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   const std::string scene_path = folder.write("s.toml", start);
@@ -234,7 +236,7 @@ TEST_CASE("a scene names its state relative to its own folder") {
              "--set particles.start.file: there is no file 'a.csv'; "));
 }
 
-TEST_CASE("a count beside a state is that of its particles") {
+TEST_CASE("State file: a count beside a state must be that of its particles") {
   const TemporaryFolder folder;
   const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");
@@ -247,7 +249,7 @@ TEST_CASE("a count beside a state is that of its particles") {
   CHECK(says(load_refusal(path), "a.csv has 2; remove the key, or choose the file that you mean"));
 }
 
-TEST_CASE("a state that is not there gets a suggestion, and one that is wrong its own place") {
+TEST_CASE("State file: a missing file gets a suggestion, and a mistake its own place") {
   const TemporaryFolder folder;
   const std::string path =
       folder.write("s.toml", "[particles.start]\nlayout = \"file\"\nfile = \"pol.csv\"\n");

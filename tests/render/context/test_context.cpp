@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-TEST_CASE("OSMesa opens OpenGL 3.3 core, again and again") {
+TEST_CASE("Context: OSMesa opens OpenGL 3.3 core, again and again") {
   for (int i = 0; i < 3; ++i) {
     const auto context = open_context(Backend::Osmesa);
     CHECK(std::string(context->name()) == "osmesa");
@@ -20,11 +20,11 @@ TEST_CASE("OSMesa opens OpenGL 3.3 core, again and again") {
   }
 }
 
-TEST_CASE("Auto opens what works") {
+TEST_CASE("Context: Auto opens a context that works") {
   CHECK_NOTHROW(open_context(Backend::Auto)->gl());
 }
 
-TEST_CASE("Missing functions of OpenGL are named") {
+TEST_CASE("Context: missing functions of OpenGL are named") {
   auto nothing = [](const char*) -> void* { return nullptr; };
   CHECK_THROWS_WITH_AS(load_gl(nothing), doctest::Contains("glDrawArrays"), RunError);
 }

@@ -58,7 +58,7 @@ Circle measure(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("A disk that follows a wall out of the box is no ghost") {
+TEST_CASE("Disk layer: a disk that follows a wall out of the box is drawn there only") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-4.0 + 100.0, 60.0}, 40.0);
   snapshot.box = {100.0, kSize.height};
@@ -70,7 +70,7 @@ TEST_CASE("A disk that follows a wall out of the box is no ghost") {
   CHECK(difference(pixel(still, 104, 60), kDarkTheme.disk) > 50);
 }
 
-TEST_CASE("A disk is drawn where it is and as large as it is") {
+TEST_CASE("Disk layer: a disk is drawn where it is and as large as it is") {
   const auto context = open_context(Backend::Osmesa);
   for (double largest_point : {kAlwaysPoints, kAlwaysSquares}) {
     CAPTURE(largest_point);
@@ -84,7 +84,7 @@ TEST_CASE("A disk is drawn where it is and as large as it is") {
   }
 }
 
-TEST_CASE("Points and squares give the same picture") {
+TEST_CASE("Disk layer: points and squares give the same picture") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({60.2, 50.7}, 31.0);
   for (double x : {0.0, 15.6, 120.0, 190.1}) {
@@ -99,7 +99,7 @@ TEST_CASE("Points and squares give the same picture") {
   }
 }
 
-TEST_CASE("Particles whose angles are known have a mark that turns with them") {
+TEST_CASE("Disk layer: particles whose angles are known have a mark that turns with them") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({100.0, 60.0}, 40.0);
   const Image unmarked = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -119,7 +119,7 @@ TEST_CASE("Particles whose angles are known have a mark that turns with them") {
   CHECK(difference(draw(context->gl(), snapshot, kAlwaysPoints), unmarked) == 0);
 }
 
-TEST_CASE("Particles beyond the largest point of the driver are drawn as well") {
+TEST_CASE("Disk layer: particles beyond the largest point of the driver are drawn as well") {
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
   Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
@@ -134,7 +134,7 @@ TEST_CASE("Particles beyond the largest point of the driver are drawn as well") 
   CHECK(pixel(image, 1010, 700) == kDarkTheme.background);
 }
 
-TEST_CASE("A disk whose centre lies outside the picture shows its part inside") {
+TEST_CASE("Disk layer: a disk whose centre lies outside the picture shows its part inside") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
   const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -142,7 +142,7 @@ TEST_CASE("A disk whose centre lies outside the picture shows its part inside") 
   CHECK(pixel(image, 6, 60) == kDarkTheme.background);
 }
 
-TEST_CASE("A disk on a periodic border is drawn on both sides of the box") {
+TEST_CASE("Disk layer: a disk on a periodic border is drawn on both sides of the box") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({2.0, 60.0}, 20.0);
   CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == kDarkTheme.background);
@@ -158,7 +158,7 @@ TEST_CASE("A disk on a periodic border is drawn on both sides of the box") {
   }
 }
 
-TEST_CASE("A disk's colour shows its velocity") {
+TEST_CASE("Disk layer: a disk's colour shows its velocity") {
   const auto context = open_context(Backend::Osmesa);
   const ColourScale scale{colour_map(Palette::Viridis)};
   Snapshot snapshot = one_disk({60.0, 60.0}, 40.0);
@@ -172,7 +172,7 @@ TEST_CASE("A disk's colour shows its velocity") {
   CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
 }
 
-TEST_CASE("Particles smaller than a pixel send the light of their area") {
+TEST_CASE("Disk layer: particles smaller than a pixel send the light of their area") {
   const auto context = open_context(Backend::Osmesa);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
   const double area = M_PI / 16.0;
@@ -210,7 +210,9 @@ std::array<double, 3> mean_colour(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("Particles look the same on both sides of the radius below which they have no shape") {
+TEST_CASE(
+    "Disk layer: particles look the same on both sides of the radius below which they have no "
+    "shape") {
   const auto context = open_context(Backend::Osmesa);
   const double switch_over = 2.0 * Coverage::kLargestRadius;
   Snapshot snapshot = many_disks(switch_over);
@@ -227,7 +229,8 @@ TEST_CASE("Particles look the same on both sides of the radius below which they 
   }
 }
 
-TEST_CASE("The light of small disks is that of their shapes, drawn larger and averaged") {
+TEST_CASE(
+    "Disk layer: the light of small disks is that of their shapes, drawn larger and averaged") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   for (const double diameter : {0.8, 1.5, 2.5}) {

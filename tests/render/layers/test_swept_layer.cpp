@@ -85,7 +85,7 @@ double off_instants(const Gl& gl, const Snapshot& blurred) {
 
 }  // namespace
 
-TEST_CASE("Shutter: a disk at rest looks as at an instant") {
+TEST_CASE("Swept layer: a disk at rest looks like a disk at an instant") {
   const auto context = open_context(Backend::Osmesa);
   DiskLayer layer(context->gl());
   for (const double diameter : {2.0, 3.5, 8.0, 40.0}) {
@@ -100,7 +100,7 @@ TEST_CASE("Shutter: a disk at rest looks as at an instant") {
   }
 }
 
-TEST_CASE("Shutter: a moving disk keeps its area and its light") {
+TEST_CASE("Swept layer: a moving disk keeps its area and its light") {
   const auto context = open_context(Backend::Osmesa);
   DiskLayer layer(context->gl());
   for (const double diameter : {2.0, 6.0, 30.0}) {
@@ -123,7 +123,7 @@ TEST_CASE("Shutter: a moving disk keeps its area and its light") {
 }
 
 TEST_CASE(
-    "Shutter: at constant speed the opacity is the share of time in which a pixel is covered") {
+    "Swept layer: at constant speed the opacity is the share of time in which a pixel is covered") {
   const auto context = open_context(Backend::Osmesa);
   DiskLayer layer(context->gl());
   constexpr double kLength = 80.0, kRadius = 15.0;
@@ -141,7 +141,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Shutter: a collision shows both flights, and all is what instants average to") {
+TEST_CASE("Swept layer: paths with collisions and borders look like the average of instants") {
   const auto context = open_context(Backend::Osmesa);
   for (const double diameter : {2.0, 5.0, 30.0}) {
     CAPTURE(diameter);

@@ -21,7 +21,7 @@ Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
 
 }  // namespace
 
-TEST_CASE("Trails lie on the paths and fade out as far back as they reach") {
+TEST_CASE("Trail layer: trails lie on the paths and fade out as far back as they reach") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
   snapshot.box = {kSize.width, kSize.height};

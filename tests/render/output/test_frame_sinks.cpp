@@ -39,7 +39,7 @@ std::vector<int> greys_of(const std::string& input) {
 }  // namespace
 
 // As the thread that simulates and draws does it. The thread sanitizer watches this case, too.
-TEST_CASE("Sinks: pictures that wait for encoders beside them come whole and in order") {
+TEST_CASE("Frame sinks: pictures that wait for encoders come whole and in order") {
   const TemporaryFolder folder;
   SinkOptions options;
   options.size = kSize;
