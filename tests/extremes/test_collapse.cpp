@@ -207,7 +207,8 @@ TEST_CASE("Collapse: a standstill is looked for" *
   model.contact_time = 1e-9;
   const State<2> start = row(8, 1.5);
   Simulation<2> simulation(model, start);
-  Reference reference(model, start);
+  const BaseMoves moves(simulation);
+  Reference reference(model, start, moves);
   simulation.run_until(kNever, 8000);
   reference.run_until_collisions(8000);
   CHECK(simulation.counts().elasticised > 1000);
