@@ -86,7 +86,7 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
   CHECK(contact_time[6].at("elasticised_share") > 0.1);
   CHECK(contact_time[6].at("error") > 0.5);
 
-  // Snapshots leave the run as it is.
+  // Snapshots do not change the run.
   const json& estimator = dial_of(table, "estimator");
   CHECK(bias(estimator[5], "temperature") == 0.0);
   CHECK(bias(estimator[5], "dissipation") == 0.0);
@@ -116,14 +116,14 @@ TEST_CASE("Bench: a time-stepped gas is exact only in the limit of short steps")
   const json& steps = dial_of(table, "time_step");
   CHECK(steps[0].at("deepest_overlap") < 1e-12);
   for (std::size_t k = 1; k < steps.size(); ++k) {
-    // Bounces of elastic disks conserve their energy whatever the step.
+    // Bounces of elastic disks conserve their energy at any step.
     CHECK(std::fabs(bias(steps[k], "temperature")) < 1e-9);
     CHECK(steps[k].at("deepest_overlap") > steps[k - 1].at("deepest_overlap"));
-    // What is compared leaves out dissipation, of which the exact gas has none.
+    // The error leaves out dissipation: the exact gas has none.
     CHECK(steps[k].at("error").is_number());
   }
   CHECK_FALSE(says(outcome.out, "inf"));
-  // 8 runs, as above, and what is left of the error at dt = 0.001 and 0.003.
+  // 8 runs, as above, and the remaining error at dt = 0.001 and 0.003.
   CHECK(std::fabs(bias(steps[2], "pressure")) < 7.0 * error(steps[2], "pressure") + 0.02);
   CHECK(std::fabs(bias(steps[2], "stress")) < 7.0 * error(steps[2], "stress") + 0.02);
   CHECK(bias(steps[6], "stress") < -0.1);

@@ -178,7 +178,7 @@ TEST_CASE("Render: arrows need no heatmap, and take none along") {
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
   }
-  // Most of the picture lies beside the arrows and stays as it is.
+  // Most of the picture lies beside the arrows and does not change.
   const std::string ssim =
       shell
           .run(

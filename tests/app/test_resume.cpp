@@ -160,7 +160,7 @@ TEST_CASE("Resume: laws may change at a checkpoint, and are named") {
   CHECK(json::parse(fallen.out).at("time").at("burn_in") == 5.0);
 }
 
-// Where walls move otherwise, flights begin anew; where they only give otherwise, none does.
+// A wall that moves differently starts new flights; one with another gain does not.
 TEST_CASE(
     "Resume: averages continue if a wall changes its gain, and restart if it moves differently") {
   const Shell shell;

@@ -216,7 +216,7 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
     const double grown = wider["box"][axis].get<double>() - before["box"][axis].get<double>();
     CHECK(grown > 1.0);
     CHECK(wider["box"][1 - axis] == before["box"][1 - axis]);
-    // The disks are where they were: what is new of the box begins without any.
+    // The disks are where they were: the new part of the box is empty.
     const std::string saved = saved_start(driver);
     const bool low = right + down == (axis == 0 ? -75 : 75);
     const auto [least, most] = std::ranges::minmax(column_of(saved, column));

@@ -153,8 +153,7 @@ TEST_CASE("Collapse: rows of particles in one dimension" *
   }
 }
 
-// The run that goes on stands still from its first collision; its own mean time would be far too
-// short.
+// The resumed run stands still from its first collision; its own mean time would be far too short.
 TEST_CASE("Collapse: a run that goes on from where time stood still" *
           doctest::description("it stops again, advised the same t_c")) {
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);

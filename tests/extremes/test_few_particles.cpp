@@ -238,7 +238,7 @@ TEST_CASE("Few particles: a free flight through many boxes" *
     simulation.run_until(1234.75);
     const Vec2 r = simulation.state().positions[0];
     for (int k = 0; k < 2; ++k) {
-      // Twice the rounding of the way, of which the box takes whole lengths.
+      // Twice the rounding of the way, from which whole lengths of the box are subtracted.
       const double way = start.positions[0][k] + v[k] * 1234.75;
       const double off = std::remainder(r[k] - way, model.box[k]);
       CHECK(std::fabs(off) <= 0x1p-52 * std::fabs(way));

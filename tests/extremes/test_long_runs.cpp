@@ -9,7 +9,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// What very many events leave of what is conserved. Those of minutes are opt-in: --no-skip.
+// Conserved quantities after very many events. Cases that take minutes need --no-skip.
 
 namespace {
 

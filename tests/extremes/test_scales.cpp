@@ -18,7 +18,7 @@ TEST_CASE(
     "Scales: a graze at b = 1 - 1e-12" *
     doctest::description("deflected as Eq. (2.4) says within 1e-4, which is the rounding of b")) {
   // The impulse (1 + alpha)/2 |g_n| along n has the part (1 + alpha)/2 sqrt((1-b)(1+b)) b across
-  // the flight. b is what is stored; 1 - b is exact.
+  // the flight. b is the stored one; 1 - b is exact.
   double worst = 0.0;
   for (const double restitution : {1.0, 0.9, 0.0}) {
     for (const double distance : {1.25, 3.0, 25.0}) {

@@ -15,8 +15,7 @@ using namespace clatter::testing;
 
 TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
           doctest::description("nothing moves, to the bit, and time goes on")) {
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-  const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, driven);
+  const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, kDriven);
   State<2> start = random_gas(model, 20, 121);
   for (Vec2& v : start.velocities) v.setZero();
   Simulation<2> simulation(model, start);
@@ -56,7 +55,7 @@ namespace {
 
 using nlohmann::json;
 
-// How many numbers a result has; null stands for what is none.
+// How many numbers a result has; null would stand for NaN.
 int numbers_in(const json& value) {
   int numbers = value.is_number() ? 1 : 0;
   REQUIRE_FALSE(value.is_null());

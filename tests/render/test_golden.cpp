@@ -13,7 +13,7 @@
 
 // Pictures of five scenes, kept in assets/golden. Where a change of the looks is meant,
 //   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*OSMesa*'
-// draws them anew; look at each before it is kept.
+// draws them again; look at each before it is kept.
 
 namespace clatter {
 

@@ -37,8 +37,8 @@ inline ContactLaw random_law(Random& random) {
   return law;
 }
 
-/// Whether contacts under this law leave the energy of slip and spins as it is: there is no
-/// friction, or so much that it turns the slip round.
+/// Whether contacts under this law keep the energy of slip and spins: there is no friction, or so
+/// much that it turns the slip round.
 inline bool keeps_spin_and_slip_energy(const ContactLaw& law) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double beta_0 = law.tangential_restitution;

@@ -10,7 +10,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Stationary temperature that Eq. (3.14) gives for such a gas.
+/// Stationary temperature of this gas, Eq. (3.14).
 double refined(double restitution, double wall_restitution) {
   return VibratedGas{100.0, 20.0, 25.0, restitution, wall_restitution, 1.0}.temperature_refined();
 }

@@ -75,7 +75,7 @@ TEST_CASE("Checkpoint: all that is written is read back, bit for bit") {
   CHECK(archived(read) == archived(written));
 }
 
-// Each member is changed alone: one that is told but not passed on would come back as it was.
+// Each member is changed alone: a forgotten one would leave the file the same.
 TEST_CASE("Checkpoint: a change of any one member changes the file") {
   const std::vector<std::function<void(Checkpoint&)>> changes = {
       [](Checkpoint& c) { c.program += '!'; },

@@ -36,16 +36,15 @@ struct Laws {
 std::vector<Laws> all_laws() {
   Model<2> gas = periodic_box(20.0, 25.0);
   gas.restitution = 0.9;
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
   std::vector<Laws> laws = {
       {"cooling", gas},
-      {"driven", with_walls(gas, 0, driven)},
-      {"thermal", with_walls(gas, 1, {.kind = WallKind::Thermal, .temperature = 2.0})},
+      {"driven", with_walls(gas, 0, kDriven)},
+      {"thermal", with_walls(gas, 1, kThermal)},
       {"sawtooth",
        with_walls(gas, 0, {.kind = WallKind::Sawtooth, .stroke = 0.3, .frequency = 1.75})},
       {"sinusoidal",
        with_walls(gas, 1, {.kind = WallKind::Sinusoidal, .stroke = 0.4, .frequency = 0.875})}};
-  Model<2> model = with_walls(gas, 1, driven);
+  Model<2> model = with_walls(gas, 1, kDriven);
   model.gravity = {0.0, -0.1};
   laws.push_back({"gravity", model});
   model = gas;

@@ -73,8 +73,8 @@ TEST_CASE("Clock: the phase at the base is exact for up to 1e18 periods") {
   CHECK(Clock(1.0).periods(3.5, 0.5) == 0.0);
   CHECK(Clock(1e12).periods(1e6, 0.625) == 0.625);
   CHECK(Clock(-0.25).periods(1.0, 0.0) == 0.75);
-  // Frequencies of whole multiples of 2^-20 below 2^20, a base of such of 2^-40: the product in
-  // units of 2^-60 fits 128 bits.
+  // Frequencies of whole multiples of 2^-20 below 2^20, a base of multiples of 2^-40: the product
+  // in units of 2^-60 fits 128 bits.
   constexpr Integer period = static_cast<Integer>(1) << 60;
   for (const std::int64_t start : {0ll, 1000000000ll, 1000000000000ll}) {
     Random random(54, Stream::Velocity, 0, 0);

@@ -57,11 +57,9 @@ TEST_CASE("Conservation: collisions take the energy that the gas loses") {
 // A collision that is missed lets two particles pass through each other, which takes them a time of
 // order 1: looking every .1 finds them.
 TEST_CASE("Conservation: particles never overlap, by brute force over all images") {
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-  const Wall thermal{.kind = WallKind::Thermal, .temperature = 2.0};
   const Model<2> models[] = {
-      periodic_box(14.0, 13.0), with_walls(periodic_box(14.0, 13.0), 0, driven),
-      with_walls(with_walls(periodic_box(14.0, 13.0), 0, driven), 1, thermal),
+      periodic_box(14.0, 13.0), with_walls(periodic_box(14.0, 13.0), 0, kDriven),
+      with_walls(with_walls(periodic_box(14.0, 13.0), 0, kDriven), 1, kThermal),
       periodic_box(90.0, 2.05), periodic_box(150.0, 1.2)};
   for (Model<2> model : models) {
     CAPTURE(model.box);

@@ -14,9 +14,6 @@ using namespace clatter::testing;
 
 namespace {
 
-const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-const Wall kThermal{.kind = WallKind::Thermal, .temperature = 2.0};
-
 std::vector<Model<2>> models() {
   std::vector<Model<2>> models = {
       periodic_box(20.0, 25.0), with_walls(periodic_box(20.0, 25.0), 0, kDriven),
@@ -96,8 +93,8 @@ TEST_CASE("State hash: any change of any number changes it, but the sign of a ze
   CHECK(state_hash<2>(zero) == state_hash<2>(negative));
 }
 
-// A crystal that flies apart in a wide box: its cells are fine at first and wider once it has,
-// which a run that goes on from where it was saved finds out earlier.
+// A crystal flies apart in a wide box: its cells are fine at first and wider later. A resumed run
+// widens them earlier.
 TEST_CASE("State hash: it is the same whenever cells are fitted to a cluster") {
   const Model<2> model = periodic_box(150.0, 140.0);
   State<2> start;

@@ -19,8 +19,7 @@ struct BaseMoves : Observer<2> {
 };
 
 Model<2> driven_box() {
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-  return with_walls(periodic_box(9.0, 8.0), 0, driven);
+  return with_walls(periodic_box(9.0, 8.0), 0, kDriven);
 }
 
 }  // namespace

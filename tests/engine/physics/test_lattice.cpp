@@ -34,7 +34,7 @@ std::vector<Vec2> rows_of(const Room& room, int axis, int rows, int n, bool shif
   return sites;
 }
 
-/// The most particles over all such arrangements, trying every one.
+/// The most particles over all these arrangements, by trying every one.
 int brute_capacity(const Room& room) {
   const int most = 2 * static_cast<int>(room.box.maxCoeff() / room.diameter) + 3;
   std::size_t best = 0;

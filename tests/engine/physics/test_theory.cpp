@@ -38,7 +38,7 @@ Temperatures rough_change(const RoughGas& gas, const Temperatures& T, double pow
 }
 
 /// The temperatures after 1000 collisions of a particle at T_tr = 1, by Runge and Kutta's fourth
-/// order; unless driven, T_tr is kept at 1, which leaves the ratio's course as it is.
+/// order; unless driven, T_tr is kept at 1, which does not change the ratio.
 Temperatures evolved(const RoughGas& gas, Temperatures T, double power) {
   const double step = 0.05 / enskog_rate(0.2, 1.0);
   const auto ahead = [](const Temperatures& T, const Temperatures& change, double time) {
@@ -297,7 +297,7 @@ TEST_CASE("RoughGas: temperatures tend to the ratios, whatever they begin with")
 
 TEST_CASE("RoughGas: energy is shared evenly without loss, and smooth particles have no spin") {
   // Where collisions conserve energy or perfect roughness passes all of it on, energy is shared
-  // evenly: elastic perfectly rough particles, and driven perfectly rough ones whatever alpha.
+  // evenly: elastic perfectly rough particles, and driven perfectly rough ones for any alpha.
   for (const double q : {0.4, 0.5, 1.0}) {
     CHECK(RoughGas{1.0, 1.0, q}.cooling_ratio() == doctest::Approx(1.0).epsilon(1e-14));
     CHECK(RoughGas{0.7, 1.0, q}.driven_ratio() == doctest::Approx(1.0).epsilon(1e-14));

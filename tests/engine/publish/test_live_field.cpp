@@ -96,7 +96,7 @@ TEST_CASE("LiveField: of snapshots it is the average of samples, also across cha
     CHECK(std::isnan(map.values[i]) == std::isnan(expected));
     if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
   }
-  // It goes on with the sample that is due next, handed over or saved.
+  // It continues with the next sample, handed over or saved.
   const std::string saved = live.save();
   Simulation<2> next(simulation->model(), simulation->save());
   LiveField handed(next, view, std::move(live));

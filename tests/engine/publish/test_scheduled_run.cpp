@@ -98,7 +98,7 @@ TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and parti
   CHECK(plain.snapshot().angles.empty());
   CHECK(shown.snapshot().angles.size() == shown.simulation().particles().size());
   CHECK(shown.snapshot().flights.empty());
-  // Whatever is shown from now on: nothing of the former view may be told of events any more.
+  // Observers of a former view must not be called any more.
   View view = scene.view;
   for (int k = 1; k <= 20; ++k) {
     view.field = k % 2 == 0 ? std::optional(Field::Density) : std::nullopt;

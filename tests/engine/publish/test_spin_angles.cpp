@@ -23,7 +23,7 @@ Scene rough_gas() {
   return scene;
 }
 
-// Difference of two angles, whatever whole turns lie between.
+// Difference of two angles, without whole turns.
 double between(double a, double b) {
   return std::fabs(std::remainder(a - b, 2.0 * std::numbers::pi));
 }

@@ -258,7 +258,7 @@ TEST_CASE("Worker: the predicted collision of a picked particle comes true while
     CHECK(after.last_collision->partner == expected.partner);
     CHECK(after.last_collision->side == expected.side);
   }
-  // To look ahead leaves the run as it is.
+  // To look ahead does not change the run.
   worker.send(command::Play{false});
   const Frame halted = wait_for_handled(worker, 8);
   Scene scene = *halted.started;
@@ -293,7 +293,7 @@ TEST_CASE("Worker: mistakes and stops are reported, and the gas halts") {
   // To halt there is nothing to tell again.
   worker.send(command::Play{false});
   CHECK(wait_for_handled(worker, 4).messages == 2);
-  // It goes on once a contact time lets it.
+  // It continues with a contact time.
   worker.send(command::SetLaws{{{"collapse.contact_time", "1e-5"}}});
   worker.send(command::Play{true});
   CHECK(wait_for(worker, [&](const Frame& frame) {

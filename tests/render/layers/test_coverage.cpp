@@ -76,7 +76,7 @@ TEST_CASE("Coverage: a small disk covers the part of each pixel that lies in it"
           worst = std::max(worst, std::abs(area - area_in(x, y, centre, radius)));
         }
       }
-      // Places are told apart to a sixteenth of a pixel, so an edge is off by up to 0.045.
+      // Places are resolved to a sixteenth of a pixel, so an edge is off by up to 0.045.
       CHECK(worst < 0.07);
     }
   }

@@ -11,25 +11,11 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{200, 120};
-
-// One disk in a walled box that fills the picture: a world unit is a pixel.
-Snapshot one_disk(Vec2 centre, double diameter) {
-  Snapshot snapshot;
-  snapshot.box = {kSize.width, kSize.height};
-  snapshot.diameter = diameter;
-  snapshot.walls.fill(Wall{});
-  snapshot.positions = {centre};
-  snapshot.velocities = {{0.0, 0.0}};
-  return snapshot;
-}
-
-const Projection kUnitProjection{{{100.0, 60.0}, 200.0}, kSize};
 constexpr double kAlwaysPoints = 1e9, kAlwaysSquares = 0.0;
 
 Image draw(const Gl& gl, const Snapshot& snapshot, double largest_point,
            ColourBy colour_by = ColourBy::None) {
-  const Canvas canvas = blank_canvas(gl, kSize);
+  const Canvas canvas = blank_canvas(gl, kUnitSize);
   DiskLayer(gl, largest_point)
       .draw(snapshot, kUnitProjection,
             {colour_by, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
@@ -61,7 +47,7 @@ Circle measure(const Image& image) {
 TEST_CASE("Disk layer: a disk that follows a wall out of the box is drawn there only") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-4.0 + 100.0, 60.0}, 40.0);
-  snapshot.box = {100.0, kSize.height};
+  snapshot.box = {100.0, kUnitSize.height};
   const Image still = draw(context->gl(), snapshot, kAlwaysPoints);
   snapshot.wall_displacement[kRight] = -16.0;
   const Image swung = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -191,8 +177,8 @@ Snapshot many_disks(double diameter) {
   snapshot.positions.clear();
   snapshot.velocities.clear();
   const double apart = 1.26 * diameter;
-  for (double y = diameter; y < kSize.height - diameter; y += apart) {
-    for (double x = diameter; x < kSize.width - diameter; x += apart) {
+  for (double y = diameter; y < kUnitSize.height - diameter; y += apart) {
+    for (double x = diameter; x < kUnitSize.width - diameter; x += apart) {
       snapshot.positions.push_back({x + 0.1 * std::sin(7.0 * y), y + 0.1 * std::cos(5.0 * x)});
       snapshot.velocities.push_back({0.5 + 0.5 * std::sin(0.2 * x) * std::cos(0.3 * y), 0.0});
     }
@@ -237,11 +223,11 @@ TEST_CASE(
     CAPTURE(diameter);
     const Snapshot snapshot = many_disks(diameter);
     const Image light = draw(gl, snapshot, kAlwaysPoints, ColourBy::Speed);
-    const Canvas fine = blank_canvas(gl, {4 * kSize.width, 4 * kSize.height});
+    const Canvas fine = blank_canvas(gl, {4 * kUnitSize.width, 4 * kUnitSize.height});
     DiskLayer(gl, kAlwaysPoints)
-        .draw(snapshot, {kUnitProjection.camera, kSize, 4},
+        .draw(snapshot, {kUnitProjection.camera, kUnitSize, 4},
               {ColourBy::Speed, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
-    const Canvas canvas = blank_canvas(gl, kSize);
+    const Canvas canvas = blank_canvas(gl, kUnitSize);
     AverageLayer(gl).draw(fine, 4);
     const Image shapes = canvas.read();
     for (int channel : {0, 1, 2}) {

@@ -55,7 +55,8 @@ TEST_CASE("Plot: a plot has panels of the same axes, and none where there is not
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const PlotPanel point{"", {{1.0, 1.0, "", false}}}, far{"", {{1e3, 1.0, "", false}}};
-  // The left panel's point is at the left of it, since the right one's axis goes on to the right.
+  // The left panel's point stands at its left, because the axes reach as far as the right panel's
+  // point.
   const Mark beside_far = mark_of(plotted(gl, {point, far}));
   const Mark beside_same = mark_of(plotted(gl, {point, point}));
   CHECK(beside_far.pixels == doctest::Approx(beside_same.pixels).epsilon(0.1));
