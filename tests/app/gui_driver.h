@@ -37,7 +37,7 @@ class GuiDriver {
   nlohmann::json wait_for(
       const std::string& event, std::size_t after = 0,
       const std::function<bool(const nlohmann::json&)>& is_it = [](auto&) { return true; }) const;
-  /// The events told so far, or those of one name.
+  /// The events logged so far, or those of one name.
   std::vector<nlohmann::json> events(const std::string& name = "") const;
   /// How many there are.
   std::size_t told() const { return events().size(); }

@@ -4,7 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
+
 namespace clatter {
+
+using testing::says;
 
 /// What a command line left: its exit code and what it wrote.
 struct Outcome {
@@ -18,9 +23,6 @@ struct Outcome {
 class Shell {
  public:
   Shell();
-  Shell(const Shell&) = delete;
-  Shell& operator=(const Shell&) = delete;
-  ~Shell();
 
   /// Runs a line of POSIX shell, for so many seconds at most (exit code 124).
   Outcome run(const std::string& line, int seconds = 60) const;
@@ -30,16 +32,13 @@ class Shell {
   /// The bytes of a file in the folder.
   std::string read(const std::string& name) const;
   /// Where a file of the folder is.
-  std::filesystem::path path(const std::string& name) const { return folder_ / "here" / name; }
+  std::filesystem::path path(const std::string& name) const { return folder_ / ("here/" + name); }
   /// The names in the folder, sorted.
   std::vector<std::string> files() const;
 
  private:
-  std::filesystem::path folder_;
+  testing::TemporaryFolder folder_;
 };
-
-/// Whether a text has a part.
-bool says(const std::string& text, const std::string& part);
 
 /// Runs a line that must be refused: exit code 2, a message that holds all of `parts`, nothing on
 /// stdout and no file.

@@ -16,7 +16,7 @@ const std::string kBalance = " --quiet --set 'measure.fields=[\"balance\"]' ";
 
 }  // namespace
 
-TEST_CASE("The balance equations close in every cell, whatever acts") {
+TEST_CASE("Balance: the equations close in every cell, whatever acts on the gas") {
   const Shell shell;
   for (const std::string scene :
        {"equilibrium --set particles.restitution=0.9",  // smooth
@@ -45,7 +45,7 @@ TEST_CASE("The balance equations close in every cell, whatever acts") {
   }
 }
 
-TEST_CASE("Balances close beside fields, by the same numbers, and only where asked for") {
+TEST_CASE("Balance: residuals are the same beside fields, and absent unless asked for") {
   const Shell shell;
   const auto measure = [&](const std::string& fields) {
     return json::parse(shell
@@ -62,7 +62,7 @@ TEST_CASE("Balances close beside fields, by the same numbers, and only where ask
   CHECK_FALSE(measure("\"density\"").contains("balance"));
 }
 
-TEST_CASE("A balance goes on from a checkpoint, anew where cells hold another energy") {
+TEST_CASE("Balance: it continues from a checkpoint, or restarts where cells hold another energy") {
   const Shell shell;
   const std::string line =
       "clatter measure rough_driven --set measure.burn_in=1" + kBalance + "--out r.json ";
@@ -77,7 +77,7 @@ TEST_CASE("A balance goes on from a checkpoint, anew where cells hold another en
 
 // A lone disk far from all faces, to which nothing is booked but what gravity does: less than the
 // last digit of its velocity, or more.
-TEST_CASE("A gravity too weak to change velocities is no balance that does not close") {
+TEST_CASE("Balance: the equations close under a gravity too weak to change velocities") {
   const Shell shell;
   for (const std::string gravity : {"1e-20", "1e-17", "1e-13", "1e-10", "1e-7", "1e-3"}) {
     CAPTURE(gravity);
@@ -94,7 +94,7 @@ TEST_CASE("A gravity too weak to change velocities is no balance that does not c
   }
 }
 
-TEST_CASE("A film shows residuals") {
+TEST_CASE("Balance: pictures show residuals") {
   const Shell shell;
   for (const std::string field :
        {"balance_mass", "balance_momentum_x", "balance_momentum_y", "balance_energy"}) {

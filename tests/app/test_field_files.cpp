@@ -90,13 +90,13 @@ void check_columns(const json& map, const json& profile) {
 
 }  // namespace
 
-TEST_CASE("Maps as tables agree with the profiles, and have nan where no disk came by") {
+TEST_CASE("Field files: tables of maps agree with the profiles, and have nan where no disk came") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--out r.json --csv tables").code == 0);
   const json profile = json::parse(shell.read("r.json")).at("profile");
   const Table maps = table_in(shell.read("tables/maps.csv"));
   CHECK(maps.units.starts_with("# units"));
-  CHECK(maps.units.find("stress_xy: m/t^2") != std::string::npos);
+  CHECK(says(maps.units, "stress_xy: m/t^2"));
   CHECK(maps.columns.at("x")[1] == 0.75);
   CHECK(maps.columns.at("y")[kColumns] == 1.875);
   for (const char* linear : {"density", "stress_xy_collisional", "dissipation"}) {
@@ -115,7 +115,7 @@ TEST_CASE("Maps as tables agree with the profiles, and have nan where no disk ca
   CHECK(gaps < kColumns * kRows / 2);
 }
 
-TEST_CASE("VTK reads the maps with their vectors, tensors, units and gaps") {
+TEST_CASE("Field files: VTK reads the maps with their vectors, tensors, units and gaps") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--out r.json --csv tables --vtk maps").code == 0);
   const auto columns = table_in(shell.read("tables/maps.csv")).columns;
@@ -151,7 +151,7 @@ TEST_CASE("VTK reads the maps with their vectors, tensors, units and gaps") {
   CHECK(arrays.at("heat_flux").at("units") == "m a/t^3");
 }
 
-TEST_CASE("VTK reads the series of maps, whose parts make up the whole") {
+TEST_CASE("Field files: VTK reads the series of maps, and its parts add up to the whole") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--out r.json --vtk maps").code == 0);
   const json whole = read(shell, "read_vtk.py", "maps/fields.vti");
@@ -176,7 +176,7 @@ TEST_CASE("VTK reads the series of maps, whose parts make up the whole") {
   }
 }
 
-TEST_CASE("A series of maps replaces a longer one, and leaves the files of others") {
+TEST_CASE("Field files: a series of maps replaces a longer one, and leaves the files of others") {
   const Shell shell;
   REQUIRE(shell.run("mkdir maps && cd maps && touch note series_40.vti series_50.vti").code == 0);
   shell.write("maps/series.pvd",
@@ -199,7 +199,7 @@ TEST_CASE("A series of maps replaces a longer one, and leaves the files of other
   }
 }
 
-TEST_CASE("h5py reads the whole result, the scene as attributes, and the maps") {
+TEST_CASE("Field files: h5py reads the whole result, the scene as attributes, and the maps") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--seed 9223372036854775809 --out r.json --csv tables --hdf5 r.h5")
               .code == 0);
@@ -246,7 +246,7 @@ TEST_CASE("h5py reads the whole result, the scene as attributes, and the maps") 
         doctest::Approx(file.at("maps").at("density").at("values")[7][5].get<double>()));
 }
 
-TEST_CASE("Residuals have maps of numbers in all files, and no series") {
+TEST_CASE("Field files: residuals have maps of numbers in all files, and no series") {
   const Shell shell;
   const std::string files = "--out r.json --csv tables --vtk maps --hdf5 r.h5 ";
   std::string fields = "\"balance\"";
@@ -279,7 +279,7 @@ TEST_CASE("Residuals have maps of numbers in all files, and no series") {
   CHECK((shell.run("ls maps").out == "fields.vti\n") == alone);
 }
 
-TEST_CASE("A scene without fields has no maps, and leaves the rest to HDF5") {
+TEST_CASE("Field files: without fields there are no maps, and HDF5 has all the rest") {
   const Shell shell;
   const std::string line =
       "clatter measure cooling --quiet --until 2 --set measure.fields=[] "
@@ -292,7 +292,7 @@ TEST_CASE("A scene without fields has no maps, and leaves the rest to HDF5") {
   CHECK(shell.run("ls tables").out == "temperature_series.csv\n");
 }
 
-TEST_CASE("Tables of an earlier run that this one has not are gone") {
+TEST_CASE("Field files: a run removes tables of an earlier run that it does not write") {
   const Shell shell;
   const auto tables = [&](const std::string& fields) {
     const Outcome outcome = shell.run(

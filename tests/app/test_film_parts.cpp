@@ -52,7 +52,9 @@ void check_goes_on_to_whole(const Shell& shell) {
 
 }  // namespace
 
-TEST_CASE("Parts of a film, and one that goes on from another's checkpoint, are the film") {
+TEST_CASE(
+    "Film parts: the parts of a film, also when resumed from each other's checkpoints, are the "
+    "film") {
   const Shell shell;
   write_scene(shell);
   REQUIRE(shell.run(kFilm + "--out whole.mkv").code == 0);
@@ -80,7 +82,7 @@ TEST_CASE("Parts of a film, and one that goes on from another's checkpoint, are 
   CHECK((says(lossy, part)));
 }
 
-TEST_CASE("A film goes on with the flags it began with, and refuses others") {
+TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses others") {
   const Shell shell;
   write_scene(shell);
   REQUIRE(shell.run(kFilm + "--out whole.mp4").code == 0);
@@ -104,7 +106,8 @@ TEST_CASE("A film goes on with the flags it began with, and refuses others") {
   CHECK(shell.run(on + "--from 7 --to 7.2 --out other.mp4").code == 0);
 }
 
-TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes on") {
+TEST_CASE(
+    "Film parts: a film whose encoder is killed keeps its frames, says where, and can be resumed") {
   const Shell shell;
   write_scene(shell);
   REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
@@ -121,7 +124,8 @@ TEST_CASE("A film whose encoder is killed keeps its frames, says where, and goes
 }
 
 // The first run's encoder opens its file only when the second has filmed the same frames.
-TEST_CASE("An encoder that outlives a killed run does not touch the film made after it") {
+TEST_CASE(
+    "Film parts: an encoder that outlives a killed run does not touch the film made after it") {
   const Shell shell;
   write_scene(shell);
   shell.run("mkdir late");
@@ -142,7 +146,7 @@ TEST_CASE("An encoder that outlives a killed run does not touch the film made af
   CHECK(hashes(shell, "-i film.mp4").size() == 150 * 33);
 }
 
-TEST_CASE("A batch system that ends the encoder, too, leaves a film that plays and goes on") {
+TEST_CASE("Film parts: a film whose encoder is ended with it plays, and can be resumed") {
   const Shell shell;
   write_scene(shell);
   REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
@@ -157,7 +161,7 @@ TEST_CASE("A batch system that ends the encoder, too, leaves a film that plays a
 TEST_SUITE_BEGIN("slow");
 
 // Instants drawn from the film's usual time, seed 6; some fall before the first frame.
-TEST_CASE("A film that is interrupted or killed at any time goes on to the same bytes") {
+TEST_CASE("Film parts: a film interrupted or killed at any time is resumed to the same bytes") {
   const Shell shell;
   write_scene(shell);
   for (const std::string out : {"film.mp4", "film.mkv", "film"}) {

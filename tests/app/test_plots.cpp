@@ -32,7 +32,7 @@ void go_on(ScheduledRun& run, double time) {
 
 }  // namespace
 
-TEST_CASE("Plots: of a gas without motion, or that comes to rest, all axes are finite") {
+TEST_CASE("Plots: all axes are finite for a gas without motion, or one that comes to rest") {
   using Settings = std::vector<Override>;
   const Override cold{"particles.start.temperature", "0.0"};
   const Override still{"walls.left.drive_speed", "0.0"}, too{"walls.right.drive_speed", "0.0"};

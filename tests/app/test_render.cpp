@@ -20,7 +20,12 @@ static std::string probe(const Shell& shell, const std::string& file) {
       .out;
 }
 
-TEST_CASE("A film has the frames, the rate and the size asked for") {
+// The pixels of a picture, as a hash of what ffmpeg decodes.
+static std::string pixels_of(const Shell& shell, const std::string& file) {
+  return shell.run("ffmpeg -v error -i " + file + " -f md5 -").out;
+}
+
+TEST_CASE("Render: a film has the frames, the rate and the size asked for") {
   const Shell shell;
   const Outcome outcome = shell.run(kRender + "--from 1 --to 2 --speed 2 --fps 20 --out film.mp4");
   CAPTURE(outcome.err);
@@ -31,7 +36,7 @@ TEST_CASE("A film has the frames, the rate and the size asked for") {
   CHECK(shell.files() == Files{"film.mp4"});
 }
 
-TEST_CASE("A quality stands for a size and a rate, before which those asked for go") {
+TEST_CASE("Render: a quality sets size and rate, unless these are given") {
   const Shell shell;
   const std::string line = "clatter render vibrated --quiet --to 0.1 --speed 1 --out ";
   struct Asked {
@@ -50,17 +55,18 @@ TEST_CASE("A quality stands for a size and a rate, before which those asked for 
   CHECK(shell.run(line + "film.mp4 -qx").code == 2);
 }
 
-TEST_CASE("A picture has the size asked for and says which scene and seed it shows") {
+TEST_CASE("Render: a picture has the size asked for and says which scene and seed it shows") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --seed 42 --out picture.png").code == 0);
   CHECK(probe(shell, "picture.png") == "160,120,1\n");
   const std::string bytes = shell.read("picture.png");
-  CHECK(bytes.find(std::string("Seed\0\0\0\0\0", 9) + "42") != std::string::npos);
-  CHECK(bytes.find("drive_speed = 1") != std::string::npos);
+  CHECK(says(bytes, std::string("Seed\0\0\0\0\0", 9) + "42"));
+  CHECK(says(bytes, "drive_speed = 1"));
   CHECK(shell.files() == Files{"picture.png"});
 }
 
-TEST_CASE("Pictures and films say which scene, seed and state they show, and what drew them") {
+TEST_CASE(
+    "Render: pictures and films say which scene, seed and state they show, and what drew them") {
   const Shell shell;
   const Outcome measured = shell.run(
       "clatter measure vibrated --seed 5 --set measure.burn_in=0 --until 2 --quiet | "
@@ -85,19 +91,7 @@ TEST_CASE("Pictures and films say which scene, seed and state they show, and wha
   CHECK_FALSE(says(shell.read("frames/frame_000007.png"), hash));
 }
 
-TEST_CASE("A picture is the same whenever it is drawn, another seed draws another") {
-  const Shell shell;
-  shell.run(kRender + "--to 1 --out a.png && " + kRender + "--to 1 --out b.png && " + kRender +
-            "--to 1 --seed 2 --out c.png");
-  REQUIRE_FALSE(shell.read("a.png").empty());
-  const auto pixels = [&](const std::string& file) {
-    return shell.run("ffmpeg -v error -i " + file + " -f md5 -").out;
-  };
-  CHECK(shell.read("a.png") == shell.read("b.png"));
-  CHECK(pixels("a.png") != pixels("c.png"));
-}
-
-TEST_CASE("A picture stands for its scene and seed, wherever it is drawn again") {
+TEST_CASE("Render: a picture holds the scene and seed to draw it again") {
   const Shell shell;
   shell.run(kRender + "--to 1 --seed 7 --set particles.count=50 --out a.png");
   REQUIRE(shell.run("clatter render a.png --size 160x120 --quiet --to 1 --out b.png").code == 0);
@@ -106,6 +100,7 @@ TEST_CASE("A picture stands for its scene and seed, wherever it is drawn again")
   CHECK(shell.run("clatter render a.png --size 160x120 --quiet --to 1 --seed 8 --out b.png").code ==
         0);
   CHECK(says(shell.read("b.png"), std::string("Seed\0\0\0\0\0", 9) + "8"));
+  CHECK(pixels_of(shell, "a.png") != pixels_of(shell, "b.png"));
   CHECK(says(shell.run("clatter check a.png --set particles.count=51").out, "count = 51"));
   // A picture from elsewhere.
   shell.run("ffmpeg -v error -f lavfi -i color -frames:v 1 other.png");
@@ -114,23 +109,23 @@ TEST_CASE("A picture stands for its scene and seed, wherever it is drawn again")
   CHECK(says(other.err, "other.png"));
 }
 
-TEST_CASE("A picture of several samples a pixel has the size asked for, and other edges") {
+TEST_CASE("Render: a picture of several samples a pixel has the size asked for, and other edges") {
   const Shell shell;
   shell.run(kRender + "--to 1 --out a.png && " + kRender + "--to 1 --supersample 3 --out b.png");
   CHECK(probe(shell, "b.png") == "160,120,1\n");
   CHECK(shell.read("a.png") != shell.read("b.png"));
   const Outcome outcome = shell.run(kRender + "--to 1 --supersample 5 --out c.png");
   CHECK(outcome.code == 2);
-  CHECK(outcome.err.find("--supersample") != std::string::npos);
+  CHECK(says(outcome.err, "--supersample"));
 }
 
-TEST_CASE("Shutter, trails and camera change pictures, but not the run") {
+TEST_CASE("Render: shutter, trails and camera change pictures, but not the run") {
   const Shell shell;
   const auto drawn = [&](const std::string& flags) {
     const Outcome outcome = shell.run(kRender + "--no-overlay --to 2 --out a.png " + flags);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    return shell.run("ffmpeg -v error -i a.png -f md5 -").out;
+    return pixels_of(shell, "a.png");
   };
   const std::string plain = drawn("");
   CHECK(drawn("--shutter 0") == plain);
@@ -141,42 +136,38 @@ TEST_CASE("Shutter, trails and camera change pictures, but not the run") {
   CHECK(shell.run(kRender + "--shutter 1.5 --out b.png").code == 2);
 }
 
-TEST_CASE("A film begins with its title where a card is asked for") {
+TEST_CASE("Render: a film begins with its title where a card is asked for") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --speed 1 --fps 4 --set view.card=0.5 --out card").code == 0);
   CHECK(shell.run(kRender + "--to 1 --speed 1 --fps 4 --out plain").code == 0);
-  const auto hash = [&](const std::string& file) {
-    return shell.run("ffmpeg -v error -i " + file + " -f md5 -").out;
+  const auto frame = [&](const std::string& film, int number) {
+    return pixels_of(shell, film + "/frame_00000" + std::to_string(number) + ".png");
   };
-  CHECK(hash("card/frame_000000.png") != hash("plain/frame_000000.png"));
-  CHECK(hash("card/frame_000001.png") != hash("plain/frame_000001.png"));
-  for (const char* frame : {"frame_000002", "frame_000003"}) {
-    CHECK(hash("card/" + std::string(frame) + ".png") ==
-          hash("plain/" + std::string(frame) + ".png"));
-  }
+  for (const int number : {0, 1}) CHECK(frame("card", number) != frame("plain", number));
+  for (const int number : {2, 3}) CHECK(frame("card", number) == frame("plain", number));
 }
 
-TEST_CASE("A picture without a background is no film") {
+TEST_CASE("Render: a picture may have no background, a film must have one") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --transparent --out a.png").code == 0);
   // Some of it is seen through, some not.
   const std::string alpha =
       "ffmpeg -v error -i a.png -vf alphaextract -f rawvideo - | od -An -v -tu1 -w1 | sort -nu | ";
-  CHECK(shell.run(alpha + "head -1").out.find(" 0\n") != std::string::npos);
-  CHECK(shell.run(alpha + "tail -1").out.find("255\n") != std::string::npos);
+  CHECK(says(shell.run(alpha + "head -1").out, " 0\n"));
+  CHECK(says(shell.run(alpha + "tail -1").out, "255\n"));
   const Outcome film = shell.run(kRender + "--to 1 --transparent --out a.mp4");
   CHECK(film.code == 2);
-  CHECK(film.err.find("--transparent") != std::string::npos);
+  CHECK(says(film.err, "--transparent"));
 }
 
-TEST_CASE("A picture from a time is the picture at that time") {
+TEST_CASE("Render: a picture from a time is the picture at that time") {
   const Shell shell;
   shell.run(kRender + "--from 3 --out from.png && " + kRender + "--to 3 --out to.png");
   REQUIRE_FALSE(shell.read("to.png").empty());
   CHECK(shell.read("from.png") == shell.read("to.png"));
 }
 
-TEST_CASE("Arrows need no heatmap, and take none along") {
+TEST_CASE("Render: arrows need no heatmap, and take none along") {
   const Shell shell;
   const std::string empty = "box.size = [9, 9]\nparticles.count = 4\nview.colour_by = \"none\"\n";
   shell.write("plain.toml", empty);
@@ -187,7 +178,7 @@ TEST_CASE("Arrows need no heatmap, and take none along") {
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
   }
-  // Most of the picture lies beside the arrows and stays as it is.
+  // Most of the picture lies beside the arrows and does not change.
   const std::string ssim =
       shell
           .run(
@@ -201,7 +192,9 @@ TEST_CASE("Arrows need no heatmap, and take none along") {
   CHECK(value("YAVG") < 30.0);
 }
 
-TEST_CASE("A folder takes a picture for each frame, and keeps what it has unless told otherwise") {
+TEST_CASE(
+    "Render: a folder gets a picture for each frame, and keeps older ones unless --overwrite is "
+    "given") {
   const Shell shell;
   const std::string line = kRender + "--to 1 --speed 1 --fps 4 --out frames/";
   CHECK(shell.run(line).code == 0);
@@ -212,7 +205,7 @@ TEST_CASE("A folder takes a picture for each frame, and keeps what it has unless
   const std::string before = shell.run("ls -l --full-time frames").out;
   const Outcome refused = shell.run(line);
   CHECK(refused.code == 2);
-  CHECK(refused.err.find("--overwrite") != std::string::npos);
+  CHECK(says(refused.err, "--overwrite"));
   CHECK(shell.run("ls -l --full-time frames").out == before);
 
   CHECK(shell.run(line + " --overwrite --seed 2").code == 0);
@@ -220,17 +213,17 @@ TEST_CASE("A folder takes a picture for each frame, and keeps what it has unless
   CHECK(shell.run("ls -l --full-time frames").out != before);
 }
 
-TEST_CASE("Without ffmpeg a film fails, says what to install and leaves nothing") {
+TEST_CASE("Render: without ffmpeg a film fails, says what to install and leaves nothing") {
   const Shell shell;
   const Outcome outcome = shell.run(
       "program=$(command -v clatter); PATH=/nowhere\n"
       "\"$program\" render vibrated --to 1 --out film.mp4");
   CHECK(outcome.code == 1);
-  CHECK(outcome.err.find("apt install ffmpeg") != std::string::npos);
+  CHECK(says(outcome.err, "apt install ffmpeg"));
   CHECK(shell.files().empty());
 }
 
-TEST_CASE("On a full disk rendering fails, says so and keeps what is of use") {
+TEST_CASE("Render: on a full disk it fails, says so and keeps what can be used") {
   const Shell shell;
   // In a namespace of its own, so that the mount goes with the command.
   const std::string small_disk =
@@ -247,8 +240,8 @@ TEST_CASE("On a full disk rendering fails, says so and keeps what is of use") {
         "; code=$?; find small -type f; exit $code'");
     CAPTURE(outcome.err);
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("space") != std::string::npos);
-    CHECK(outcome.err.find("small/" + name) != std::string::npos);
+    CHECK(says(outcome.err, "space"));
+    CHECK(says(outcome.err, "small/" + name));
     CHECK_FALSE(says(outcome.out, "picture.png"));
     CHECK_FALSE(says(outcome.out, ".png.part"));
     for (const std::string kept : {"film.mp4.part", "frames"}) {
@@ -259,7 +252,7 @@ TEST_CASE("On a full disk rendering fails, says so and keeps what is of use") {
   }
 }
 
-TEST_CASE("An mp4 whose run and encoder are killed at once can be played as far as it got") {
+TEST_CASE("Render: an mp4 plays as far as it got when run and encoder are killed at once") {
   const Shell shell;
   shell.run(kRender +
             "--to 1e5 --out film.mp4 & pid=$!\n"
@@ -270,7 +263,7 @@ TEST_CASE("An mp4 whose run and encoder are killed at once can be played as far 
   CHECK(probe(shell, "film.mp4.part/000060.mp4") == "160,120,60\n");
 }
 
-TEST_CASE("An interrupted film plays up to where it got") {
+TEST_CASE("Render: an interrupted film plays up to where it got") {
   const Shell shell;
   const Outcome outcome =
       shell.run("timeout --preserve-status -s INT 4 " + kRender + "--to 1e5 --out film.mp4");

@@ -34,7 +34,7 @@ const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --un
 
 }  // namespace
 
-TEST_CASE("A measurement that was interrupted or killed goes on to the same result") {
+TEST_CASE("Resume: a measurement that was interrupted or killed ends in the same result") {
   const Shell shell;
   REQUIRE(shell.run(kRun + "--seed 7 --out whole.json --vtk whole").code == 0);
   int code = 0;
@@ -54,7 +54,7 @@ TEST_CASE("A measurement that was interrupted or killed goes on to the same resu
   CHECK(shell.run("diff -r whole resumed").code == 0);
 }
 
-TEST_CASE("A measurement of a given accuracy goes on to the same result") {
+TEST_CASE("Resume: a measurement of a given accuracy ends in the same result") {
   const Shell shell;
   const std::string line = kRun + "--accuracy 0.5% ";
   REQUIRE(shell.run(line + "--out whole.json").code == 0);
@@ -65,7 +65,7 @@ TEST_CASE("A measurement of a given accuracy goes on to the same result") {
   CHECK(result_of(shell, "resumed.json") == whole);
 }
 
-TEST_CASE("An interrupted run leaves a checkpoint beside its result and names it") {
+TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and names it") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 1 ";
   const auto leaves = [&](const std::string& line, const std::string& file) {
@@ -89,7 +89,7 @@ TEST_CASE("An interrupted run leaves a checkpoint beside its result and names it
   leaves("clatter render vibrated --size 64x64 --to 1e5 --out frames/", "frames.checkpoint");
 }
 
-TEST_CASE("A run may go on for longer, and is then one run") {
+TEST_CASE("Resume: a run that is continued for longer equals one long run") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.burn_in=20 --quiet ";
   CHECK(shell.run(line + "--until 60 --out a.json --checkpoint c").code == 0);
@@ -110,7 +110,8 @@ TEST_CASE("A run may go on for longer, and is then one run") {
 }
 
 TEST_CASE(
-    "A film goes on from a checkpoint, also of a measurement, and a measurement from a film") {
+    "Resume: films continue from checkpoints of measurements, and measurements from those of "
+    "films") {
   const Shell shell;
   const std::string render = "clatter render vibrated --size 64x64 --quiet ";
   CHECK(shell.run(render + "--to 30 --out whole.png").code == 0);
@@ -137,7 +138,7 @@ TEST_CASE(
   CHECK(result_of(shell, "m.json").at("time").at("burn_in") == 25.75);
 }
 
-TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
+TEST_CASE("Resume: laws may change at a checkpoint, and are named") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.burn_in=1 ";
   REQUIRE(shell.run(line + "--until 5 --checkpoint c --out a.json").code == 0);
@@ -159,8 +160,9 @@ TEST_CASE("Other laws may hold from a checkpoint on, and are named") {
   CHECK(json::parse(fallen.out).at("time").at("burn_in") == 5.0);
 }
 
-// Where walls move otherwise, flights begin anew; where they only give otherwise, none does.
-TEST_CASE("Averages go on between walls that give more, and start anew between others") {
+// A wall that moves differently starts new flights; one with another gain does not.
+TEST_CASE(
+    "Resume: averages continue if a wall changes its gain, and restart if it moves differently") {
   const Shell shell;
   const std::string line =
       "clatter measure vibrated --set measure.burn_in=1 --set 'walls.left={kind=\"sawtooth\","
@@ -187,7 +189,7 @@ TEST_CASE("Averages go on between walls that give more, and start anew between o
   }
 }
 
-TEST_CASE("A run goes on without the file of its start state") {
+TEST_CASE("Resume: a run continues without the file of its start state") {
   const Shell shell;
   shell.run("clatter measure vibrated --until 501 --out r.json --save-state start.csv --quiet");
   shell.write("s.toml",
@@ -210,7 +212,7 @@ TEST_CASE("A run goes on without the file of its start state") {
 }
 
 // What a run has found of itself goes with it, so a checkpoint may stand for a run that overlapped.
-TEST_CASE("A film of disks that overlapped is written, and the run fails") {
+TEST_CASE("Resume: a picture of disks that overlapped is written, and the run fails") {
   const Shell shell;
   REQUIRE(shell.run("clatter measure vibrated --until 501 --checkpoint c --out r.json").code == 0);
   Checkpoint checkpoint = read_checkpoint(shell.path("c"));
@@ -228,7 +230,7 @@ TEST_CASE("A film of disks that overlapped is written, and the run fails") {
   }
 }
 
-TEST_CASE("A checkpoint that does not fit is refused") {
+TEST_CASE("Resume: a checkpoint that does not fit is refused") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.burn_in=1 --until 9 --resume c ";
   check_refused(shell, line, {"c: ", "there is no such file"});
@@ -260,7 +262,7 @@ TEST_CASE("A checkpoint that does not fit is refused") {
 }
 
 // Cools without end: at a restitution of 0.1 disks soon collide without end in a finite time.
-TEST_CASE("A collapse leaves results, a checkpoint and the way on") {
+TEST_CASE("Resume: a collapse leaves results, a checkpoint and the command that continues") {
   const Shell shell;
   const std::string scene =
       "cooling --set particles.restitution=0.1 --set particles.count=300 "
@@ -289,7 +291,7 @@ TEST_CASE("A collapse leaves results, a checkpoint and the way on") {
   CHECK_FALSE(shell.read("film.mp4").empty());
 }
 
-TEST_CASE("A checkpoint that cannot be written costs no result") {
+TEST_CASE("Resume: a checkpoint that cannot be written costs no result") {
   const Shell shell;
   const Outcome outcome = shell.run(
       "mkdir vibrated.checkpoint.part; timeout --preserve-status -s INT 1 clatter measure "

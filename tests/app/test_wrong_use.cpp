@@ -17,7 +17,7 @@ std::string scene(const std::string& line_4 = "count = 10",
 
 }  // namespace
 
-TEST_CASE("Mistakes in a scene are refused at their line and column") {
+TEST_CASE("Wrong use: mistakes in a scene are refused at their line and column") {
   const Shell shell;
   struct Mistake {
     std::string scene;
@@ -45,7 +45,7 @@ TEST_CASE("Mistakes in a scene are refused at their line and column") {
   }
 }
 
-TEST_CASE("Mistakes in a start state are refused at their line and column") {
+TEST_CASE("Wrong use: mistakes in a start state are refused at their line and column") {
   const Shell shell;
   shell.write("s.toml", "[particles.start]\nlayout = 'file'\nfile = 'a.csv'\n");
   struct Mistake {
@@ -63,7 +63,7 @@ TEST_CASE("Mistakes in a start state are refused at their line and column") {
   }
 }
 
-TEST_CASE("What is no scene is refused") {
+TEST_CASE("Wrong use: scenes that do not exist are refused") {
   const Shell shell;
   check_refused(shell, "clatter check nowhere.toml", {"nowhere.toml: ", "clatter scenes"});
   check_refused(shell, "clatter check vibratd", {"did you mean the gallery scene 'vibrated'?"});
@@ -71,7 +71,7 @@ TEST_CASE("What is no scene is refused") {
   check_refused(shell, "clatter check ''", {"there is no such scene"});
 }
 
-TEST_CASE("Wrong flags are refused") {
+TEST_CASE("Wrong use: wrong flags are refused") {
   const Shell shell;
   check_refused(shell, "clatter check vibrated --set particles.count", {"--set key=value"});
   check_refused(shell, "clatter check vibrated --set =5", {"--set key=value"});
@@ -86,7 +86,7 @@ TEST_CASE("Wrong flags are refused") {
   check_refused(shell, "clatter check", {"scene is required"});
 }
 
-TEST_CASE("What would fill the memory or never end is refused") {
+TEST_CASE("Wrong use: runs that would fill the memory or never end are refused") {
   const Shell shell;
   check_refused(shell, "clatter measure vibrated --set measure.series_interval=1e-300",
                 {"measure.series_interval", "samples", "choose at least"});
@@ -99,7 +99,7 @@ TEST_CASE("What would fill the memory or never end is refused") {
                 {"view.window", "choose at least"});
 }
 
-TEST_CASE("Where nothing can be written, nothing is run") {
+TEST_CASE("Wrong use: no run starts if its output cannot be written") {
   const Shell shell;
   shell.run("mkdir folder");
   for (const std::string out : {"missing/x", "folder", "folder/"}) {
@@ -114,14 +114,14 @@ TEST_CASE("Where nothing can be written, nothing is run") {
                   {flag, "missing"});
     const Outcome outcome = shell.run("clatter measure vibrated --until 1e6 " + flag + " /proc/x");
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("cannot make the folder /proc/x") != std::string::npos);
+    CHECK(says(outcome.err, "cannot make the folder /proc/x"));
   }
   check_refused(shell, "clatter render vibrated --to 1e5 --out missing/x.mp4",
                 {"--out", "missing"});
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.avi", {"x.avi", ".mp4"});
 }
 
-TEST_CASE("What cannot be written ends with exit code 1 and says so") {
+TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a message") {
   const Shell shell;
   for (const std::string flag : {"--out", "--hdf5", "--save-state"}) {
     const Outcome outcome = shell.run(
@@ -129,11 +129,11 @@ TEST_CASE("What cannot be written ends with exit code 1 and says so") {
         "--set measure.cells=[40,40] --until 5 --quiet " +
         flag + " /dev/full");
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("cannot write /dev/full: ") != std::string::npos);
+    CHECK(says(outcome.err, "cannot write /dev/full: "));
   }
 }
 
-TEST_CASE("Outputs that would replace each other are refused") {
+TEST_CASE("Wrong use: outputs that would replace each other are refused") {
   const Shell shell;
   shell.run("mkdir folder && ln -s folder link");
   const std::vector<std::string> flags = {"--out",  "--csv",        "--vtk",
@@ -170,13 +170,13 @@ TEST_CASE("Outputs that would replace each other are refused") {
             .code == 0);
 }
 
-TEST_CASE("Maps of no fields are refused") {
+TEST_CASE("Wrong use: maps of no fields are refused") {
   const Shell shell;
   check_refused(shell, "clatter measure vibrated --set measure.fields=[] --vtk maps",
                 {"--vtk", "no fields", "measure.fields="});
 }
 
-TEST_CASE("A picture or film that cannot be is refused") {
+TEST_CASE("Wrong use: impossible pictures and films are refused") {
   const Shell shell;
   for (const std::string size : {"nonsense", "1280", "1280x", "x720", "0x0", "-64x64", "64x64x64",
                                  "1e3x1e3", "99999x99999", "640x480px"}) {
@@ -193,7 +193,7 @@ TEST_CASE("A picture or film that cannot be is refused") {
   check_refused(shell, "clatter render vibrated", {"--out"});
 }
 
-TEST_CASE("A command that is none is refused, and so is none") {
+TEST_CASE("Wrong use: unknown commands are refused") {
   const Shell shell;
   check_refused(shell, "clatter mesure vibrated", {"mesure", "measure"});
   check_refused(shell, "clatter bench nonsense", {"nonsense", "engine"});

@@ -33,7 +33,7 @@ bool depend(const Vec2& a, const Vec2& b, const Vec2& box) {
   return x.norm() < kReach;
 }
 
-// Mean number of successive collisions of which none depends on an earlier one.
+// Mean number of successive, mutually independent collisions.
 double independent_collisions(int count, double area_fraction) {
   Scene scene;
   scene.particles.count = count;

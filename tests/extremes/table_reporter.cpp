@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cctype>
-#include <filesystem>
 #include <ostream>
 #include <string>
 
@@ -15,12 +13,14 @@ std::string escaped(const std::string& text) {
   return cell;
 }
 
-// What a file of cases is about, as its name says: "few_particles" is "Few particles".
-std::string heading_of(const char* file) {
-  std::string name = std::filesystem::path(file).stem();
-  for (char& c : name) c = c == '_' ? ' ' : c;
-  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  return name;
+// The name of a case is "<Subject>: <what happens>".
+struct Name {
+  std::string subject, event;
+};
+
+Name parted(const std::string& name) {
+  const std::size_t colon = name.find(": ");
+  return {name.substr(0, colon), name.substr(colon + 2)};
 }
 
 /// Writes what was run as tables in Markdown: each case, the invariant that it checks, which is its
@@ -45,12 +45,13 @@ class TableReporter : public doctest::IReporter {
     figures_ += message.m_string.c_str();
   }
   void test_case_end(const doctest::CurrentTestCaseStats& result) override {
-    if (const std::string heading = heading_of(test_->m_file.c_str()); heading != heading_) {
-      heading_ = heading;
-      out_ << "\n## " << heading << "\n\n| case | holds when | reached |\n|---|---|---|\n";
+    const Name name = parted(test_->m_name);
+    if (name.subject != subject_) {
+      subject_ = name.subject;
+      out_ << "\n## " << subject_ << "\n\n| case | holds when | reached |\n|---|---|---|\n";
     }
     const char* invariant = test_->m_description ? test_->m_description : "";
-    out_ << "| " << escaped(test_->m_name) << " | " << escaped(invariant) << " | "
+    out_ << "| " << escaped(name.event) << " | " << escaped(invariant) << " | "
          << (result.testCaseSuccess ? "" : "**does not hold**; ") << escaped(figures_) << " |"
          << std::endl;
   }
@@ -67,7 +68,7 @@ class TableReporter : public doctest::IReporter {
  private:
   std::ostream& out_;
   const doctest::TestCaseData* test_ = nullptr;
-  std::string heading_;
+  std::string subject_;
   std::string figures_;
 };
 

@@ -54,29 +54,30 @@ void check_elastic(const Crystal& crystal) {
 
 }  // namespace
 
-TEST_CASE("phi = .70, where a fluid begins to freeze" *
+TEST_CASE("Dense: phi = .70, where a fluid begins to freeze" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(Crystal(spacing_of(0.70)));
 }
 
-TEST_CASE("phi = .716, where a crystal begins to melt" *
+TEST_CASE("Dense: phi = .716, where a crystal begins to melt" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(Crystal(spacing_of(0.716)));
 }
 
-TEST_CASE("phi = .88, three per cent below the densest packing" *
+TEST_CASE("Dense: phi = .88, three per cent below the densest packing" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(Crystal(spacing_of(0.88)));
 }
 
-TEST_CASE("hexagonal at spacing 1 + 1e-11" *
+TEST_CASE("Dense: a hexagonal crystal at spacing 1 + 1e-11" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(Crystal(1.0 + 1e-11));
 }
 
 // Kolafa & Rottner 2006: Z(.69) = 10.23. Relaxation is slow at the edge of freezing, and
 // finite-size effects of 4000 particles are below .1 %.
-TEST_CASE("equation of state at phi = .69, by the edge of freezing" * doctest::test_suite("slow") *
+TEST_CASE("Dense: equation of state at phi = .69, by the edge of freezing" *
+          doctest::test_suite("slow") *
           doctest::description("Z within .5 % of 10.23 (Kolafa & Rottner 2006)")) {
   const Measured result = run(gas_of_fraction(0.69, 4000, 1.0), 100.0, 400.0, 922);
   REQUIRE(result.compressibility);

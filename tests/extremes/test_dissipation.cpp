@@ -7,6 +7,7 @@
 #include "engine/physics/theory.h"
 #include "tests/engine/support/gas.h"
 #include "tests/extremes/figure.h"
+#include "tests/support/messages.h"
 #include "tests/support/statistics.h"
 #include "tests/validation/experiment.h"
 
@@ -57,7 +58,8 @@ Vec2 exact_momentum(const State<2>& state) {
 
 // Of 200 particles each T(4) varies by some 16 %, the ratio of means over 16000 seeds by .18 %: 2 %
 // is more than 5 standard errors from a ratio that is 1 % off.
-TEST_CASE("alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" * doctest::test_suite("slow") *
+TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" *
+          doctest::test_suite("slow") *
           doctest::description("T(4) the same for both within 2 %, by 5 standard errors")) {
   for (const double restitution : {0.0, 0.1, 0.3}) {
     Sample shorter, longer;
@@ -82,7 +84,7 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" * doctest::test_s
   }
 }
 
-TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
+TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5 without t_c" *
           doctest::description("a clean stop or completion, never a hang; overlap below 1e-9")) {
   int stops = 0, runs = 0;
   double deepest = 0.0;
@@ -92,7 +94,7 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
       Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
       const std::string stop = stop_of(simulation, 1000.0);
       if (stop.empty()) CHECK(simulation.time() == 1000.0);
-      if (!stop.empty()) CHECK(stop.find("inelastic collapse") != std::string::npos);
+      if (!stop.empty()) CHECK(says(stop, "inelastic collapse"));
       CHECK(finite_and_inside(simulation.model(), simulation.state()));
       deepest = std::max(deepest, simulation.checks().deepest_overlap);
       stops += !stop.empty();
@@ -106,7 +108,7 @@ TEST_CASE("alpha = 0, .1, .3 at phi = .5 without t_c" *
 // While velocities are 1, each collision rounds four of their components by some 3e-17; at the end
 // they are 3e-16, and what those roundings added up to remains as a drift of the centre.
 TEST_CASE(
-    "Haff's cooling down to T = 1e-30" *
+    "Dissipation: Haff's cooling down to T = 1e-30" *
     doctest::description("T = T_0/(1 + k t)^2, so T t^2 = T_0/k^2 below T = 1e-10 within 5 "
                          "standard errors; the momentum is the sum of the roundings of velocities "
                          "within 1e-10, a random walk's within 5 standard deviations")) {

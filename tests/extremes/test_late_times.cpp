@@ -12,7 +12,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("an elastic gas from t = 1e6, 1e9 and 1e12" *
+TEST_CASE("Late times: an elastic gas from t = 1e6, 1e9 and 1e12" *
           doctest::description("the same bits as from 0, so gaps as at 0; overlap below 1e-12")) {
   const Model<2> models[] = {periodic_box(14.0, 13.0),
                              with_walls(periodic_box(14.0, 13.0), 0, kStatic)};
@@ -34,7 +34,7 @@ TEST_CASE("an elastic gas from t = 1e6, 1e9 and 1e12" *
   CHECK(deepest < 1e-12);
 }
 
-TEST_CASE("moving walls at t = 1e9" *
+TEST_CASE("Late times: moving walls at t = 1e9" *
           doctest::description("they are where they are at 0; overlap below 1e-12")) {
   double deepest = 0.0;
   for (const Wall& wall : {kSawtooth, kSinusoidal}) {
@@ -60,7 +60,7 @@ TEST_CASE("moving walls at t = 1e9" *
   CHECK(deepest <= 1e-12);
 }
 
-TEST_CASE("everything at once from t = 1e12" *
+TEST_CASE("Late times: everything at once from t = 1e12" *
           doctest::description("the same bits and kicks as from 0")) {
   Model<2> model = everything();
   const State<2> start = clear_gas(model, 20, 905);

@@ -27,7 +27,7 @@ State<2> without_spins(State<2> state) {
 }  // namespace
 
 TEST_CASE(
-    "beta = -1, and mu = 0, with spins that turn" *
+    "Laws: beta = -1, and mu = 0, with spins that turn" *
     doctest::description("places and velocities identical to smooth particles bit for bit, spins "
                          "as at the start")) {
   const Model<2> smooth = inelastic(four(kDriven, kLossy), 0.9);
@@ -49,7 +49,7 @@ TEST_CASE(
   MESSAGE(collisions, " collisions, the same bits");
 }
 
-TEST_CASE("beta = +1 with alpha = 1" *
+TEST_CASE("Laws: beta = +1 with alpha = 1" *
           doctest::description("energy of motion and spin conserved to 1e-12")) {
   double worst = 0.0;
   for (const bool walled : {false, true}) {
@@ -66,7 +66,7 @@ TEST_CASE("beta = +1 with alpha = 1" *
   CHECK(worst < 1e-12);
 }
 
-TEST_CASE("beta = 0, and mu = inf, with alpha = 1" *
+TEST_CASE("Laws: beta = 0, and mu = inf, with alpha = 1" *
           doctest::description("energy falls only; mu = 1e300 is mu = inf bit for bit")) {
   const auto gas_of = [](double friction) { return rough(four(kStatic, kStatic), friction, 0.0); };
   const State<2> start = clear_gas(gas_of(kInfinity), 30, 954);
@@ -83,9 +83,10 @@ TEST_CASE("beta = 0, and mu = inf, with alpha = 1" *
   check_sound(unlimited);
 }
 
-TEST_CASE("alpha_w = 0" * doctest::description(
-                              "particles leave such walls with v_dr, or slide along; overlap below "
-                              "1e-12")) {
+TEST_CASE(
+    "Laws: alpha_w = 0" *
+    doctest::description("particles leave such walls with v_dr, or slide along; overlap below "
+                         "1e-12")) {
   double deepest = 0.0;
   for (const double drive : {0.0, 1.0}) {
     const Wall wall{.kind = WallKind::Driven, .restitution = 0.0, .drive_speed = drive};

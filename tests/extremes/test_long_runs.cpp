@@ -9,7 +9,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// What very many events leave of what is conserved. Those of minutes are opt-in: --no-skip.
+// Conserved quantities after very many events. Cases that take minutes need --no-skip.
 
 namespace {
 
@@ -83,22 +83,22 @@ void balance(std::uint64_t events) {
 
 }  // namespace
 
-TEST_CASE("elastic, 10^7 events" * doctest::test_suite("slow") *
+TEST_CASE("Long runs: elastic, 10^7 events" * doctest::test_suite("slow") *
           doctest::description("energy 1e-10, momentum 1e-10, wall momentum ledger 1e-10")) {
   conserve(10'000'000);
 }
 
-TEST_CASE("elastic, 10^9 events" * doctest::skip() *
+TEST_CASE("Long runs: elastic, 10^9 events" * doctest::skip() *
           doctest::description("energy 1e-10, momentum 1e-10, wall momentum ledger 1e-10")) {
   conserve(1'000'000'000);
 }
 
-TEST_CASE("driven, 10^7 events" * doctest::test_suite("slow") *
+TEST_CASE("Long runs: driven, 10^7 events" * doctest::test_suite("slow") *
           doctest::description("ledger per type of event closes to 1e-10 of the dissipated")) {
   balance(10'000'000);
 }
 
-TEST_CASE("driven, 10^8 events" * doctest::skip() *
+TEST_CASE("Long runs: driven, 10^8 events" * doctest::skip() *
           doctest::description("ledger per type of event closes to 1e-10 of the dissipated")) {
   balance(100'000'000);
 }

@@ -15,10 +15,10 @@ using namespace clatter;
 using namespace clatter::testing;
 
 TEST_CASE(
-    "a graze at b = 1 - 1e-12" *
+    "Scales: a graze at b = 1 - 1e-12" *
     doctest::description("deflected as Eq. (2.4) says within 1e-4, which is the rounding of b")) {
   // The impulse (1 + alpha)/2 |g_n| along n has the part (1 + alpha)/2 sqrt((1-b)(1+b)) b across
-  // the flight. b is what is stored; 1 - b is exact.
+  // the flight. b is the stored one; 1 - b is exact.
   double worst = 0.0;
   for (const double restitution : {1.0, 0.9, 0.0}) {
     for (const double distance : {1.25, 3.0, 25.0}) {
@@ -50,7 +50,7 @@ TEST_CASE(
   CHECK(worst < 1e-4);
 }
 
-TEST_CASE("particles that meet, or miss, after 1000 diameters" *
+TEST_CASE("Scales: particles that meet, or miss, after 1000 diameters" *
           doctest::description("contact within 1e-10 of a diameter, none missed or invented beyond "
                                "rounding of b")) {
   // The discriminant is the difference of two numbers of 10^6; b is within 10^-k of grazing.
@@ -82,7 +82,7 @@ TEST_CASE("particles that meet, or miss, after 1000 diameters" *
   CHECK(worst <= 1e-10);
 }
 
-TEST_CASE("lengths scaled by 2^+-40 and speeds by 2^+-30, everything at once" *
+TEST_CASE("Scales: lengths scaled by 2^+-40 and speeds by 2^+-30, everything at once" *
           doctest::description("bit-identical runs")) {
   const Model<2> model = everything();
   const State<2> start = clear_gas(model, 20, 906);
@@ -127,7 +127,7 @@ TEST_CASE("lengths scaled by 2^+-40 and speeds by 2^+-30, everything at once" *
 
 // The first particles reach the walls late after the start and leave them fast: times there are
 // rounded by as much as these particles fly in 1e-10 diameters' time, unless the base moves.
-TEST_CASE("a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
+TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
           doctest::description("same bits as brute force, overlap below 1e-12")) {
   double deepest = 0.0;
   for (const double speed : {1e-4, 1e-8, 1e-12}) {
@@ -137,7 +137,8 @@ TEST_CASE("a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
     State<2> start = random_gas(model, 100, 912);
     for (Vec2& v : start.velocities) v *= speed;
     Simulation<2> simulation(model, start);
-    Reference reference(model, start);
+    const BaseMoves moves(simulation);
+    Reference reference(model, start, moves);
     simulation.run_until(kNever, 100);
     reference.run_until_collisions(100);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
@@ -148,7 +149,7 @@ TEST_CASE("a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
   MESSAGE("deepest overlap ", brief(deepest));
 }
 
-TEST_CASE("speeds that differ by 1e12" *
+TEST_CASE("Scales: speeds that differ by 1e12" *
           doctest::description("same bits as brute force; energy 1e-12, overlap below 1e-10")) {
   double energy_off = 0.0, deepest = 0.0;
   // One particle at 1e6 among others at 1e-6, which it sets in motion one after the other; and with
@@ -165,7 +166,8 @@ TEST_CASE("speeds that differ by 1e12" *
     start.velocities[5] *= 1e12;
     Simulation<2> simulation(model, start);
     const double energy = simulation.kinetic_energy();
-    Reference reference(model, start);
+    const BaseMoves moves(simulation);
+    Reference reference(model, start, moves);
     simulation.run_until(kNever, 300);
     reference.run_until_collisions(300);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));

@@ -26,7 +26,8 @@ struct Figures {
 void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   const State<2> start = clear_gas(model, 10, 956);
   Simulation<2> simulation(model, start);
-  Reference reference(model, start);
+  const BaseMoves moves(simulation);
+  Reference reference(model, start, moves);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
   CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
@@ -74,19 +75,19 @@ void shake_at(std::initializer_list<double> speeds) {
 
 }  // namespace
 
-TEST_CASE("walls 10^3, 10^6 times as fast as the particles" *
+TEST_CASE("Shaken: walls 10^3, 10^6 times as fast as the particles" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   shake_at({1e3, 1e6});
 }
 
-TEST_CASE("walls 10^-3, 10^-6 times as fast as the particles" *
+TEST_CASE("Shaken: walls 10^-3, 10^-6 times as fast as the particles" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   shake_at({1e-3, 1e-6});
 }
 
-TEST_CASE("a frequency of 10^6 at strokes of 1e-6 to .1" *
+TEST_CASE("Shaken: a frequency of 10^6 at strokes of 1e-6 to .1" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   Figures figures;
@@ -96,7 +97,7 @@ TEST_CASE("a frequency of 10^6 at strokes of 1e-6 to .1" *
   report(figures);
 }
 
-TEST_CASE("strokes as long as the box leaves" *
+TEST_CASE("Shaken: strokes as long as the box leaves" *
           doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
                                "1e-10")) {
   Figures figures;

@@ -25,7 +25,7 @@ json measured(const Shell& shell, const std::string& scene_and_flags, int second
 }  // namespace
 
 // At area fraction .68: two collisions of each particle.
-TEST_CASE("10^7 particles" * doctest::test_suite("slow") *
+TEST_CASE("Sizes: 10^7 particles" * doctest::test_suite("slow") *
           doctest::description("10^7 collisions in less than 4 GB; T constant to 1e-12, overlap "
                                "below 1e-9")) {
   const Shell shell;
@@ -47,7 +47,7 @@ TEST_CASE("10^7 particles" * doctest::test_suite("slow") *
   CHECK(overlap < 1e-9);
 }
 
-TEST_CASE("2 * 10^9 particles" *
+TEST_CASE("Sizes: 2 * 10^9 particles" *
           doctest::description("refused with the memory that they take, before it is allocated, or "
                                "as too many for the box")) {
   const Shell shell;
@@ -62,7 +62,7 @@ TEST_CASE("2 * 10^9 particles" *
 }
 
 TEST_CASE(
-    "boxes of 10^6 x 2 and 2 x 10^6" *
+    "Sizes: boxes of 10^6 x 2 and 2 x 10^6" *
     doctest::description("they run and are drawn; overlap below 1e-9, of which the rounding of "
                          "places is 1e-10")) {
   const Shell shell;
@@ -84,7 +84,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" *
+TEST_CASE("Sizes: pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" *
           doctest::description("drawn, or refused with the sizes that there are")) {
   const Shell shell;
   for (const std::string size : {"1x1", "0x0", "-5x7", "16385x64", "99999999999x64"}) {
@@ -101,7 +101,7 @@ TEST_CASE("pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" *
   MESSAGE("1 x 1 refused, the others drawn");
 }
 
-TEST_CASE("windows of 1 x 1 and 16384 x 64 pixels" *
+TEST_CASE("Sizes: windows of 1 x 1 and 16384 x 64 pixels" *
           doctest::description("refused with what a size is, before a window opens")) {
   const Shell shell;
   check_refused(shell, "clatter view vibrated --size 1x1",

@@ -13,10 +13,9 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("a gas at T = 0 between driven walls" *
+TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
           doctest::description("nothing moves, to the bit, and time goes on")) {
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-  const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, driven);
+  const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, kDriven);
   State<2> start = random_gas(model, 20, 121);
   for (Vec2& v : start.velocities) v.setZero();
   Simulation<2> simulation(model, start);
@@ -29,7 +28,7 @@ TEST_CASE("a gas at T = 0 between driven walls" *
 }
 
 TEST_CASE(
-    "walls that give nothing back: v_dr = 0, T_w = 0, alpha_w = 0" *
+    "Without motion: walls that give nothing back: v_dr = 0, T_w = 0, alpha_w = 0" *
     doctest::description("energy constant to 1e-12 or lost, all finite, overlap below 1e-12")) {
   const Wall walls[] = {{.kind = WallKind::Driven, .drive_speed = 0.0},
                         {.kind = WallKind::Driven, .restitution = 0.0, .drive_speed = 0.0},
@@ -56,7 +55,7 @@ namespace {
 
 using nlohmann::json;
 
-// How many numbers a result has; null stands for what is none.
+// How many numbers a result has; null would stand for NaN.
 int numbers_in(const json& value) {
   int numbers = value.is_number() ? 1 : 0;
   REQUIRE_FALSE(value.is_null());
@@ -92,7 +91,7 @@ const std::string kStill[] = {
 }  // namespace
 
 TEST_CASE(
-    "results at T_w = 0, T = 0, v_dr = 0, and of few particles" *
+    "Without motion: results at T_w = 0, T = 0, v_dr = 0, and of few particles" *
     doctest::description("every number of the result is finite; tables have nan only where no "
                          "particle ever was, with density 0")) {
   const Shell shell;
@@ -123,7 +122,7 @@ TEST_CASE(
   MESSAGE(numbers, " numbers and ", lines, " lines of tables of ", std::size(kStill), " scenes");
 }
 
-TEST_CASE("pictures at T_w = 0, T = 0, v_dr = 0, and of few particles" *
+TEST_CASE("Without motion: pictures at T_w = 0, T = 0, v_dr = 0, and of few particles" *
           doctest::description("every field, colour and arrow is drawn")) {
   const Shell shell;
   const std::string views[] = {"--set view.field=temperature --set view.colour_by=speed",

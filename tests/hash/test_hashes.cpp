@@ -129,7 +129,7 @@ void compare(std::string_view scene, std::uint64_t got, std::uint64_t wanted) {
 
 }  // namespace
 
-TEST_CASE("hashes: every scene of the gallery") {
+TEST_CASE("Hashes: every scene of the gallery has its pinned hash") {
   std::set<std::string_view> scenes;
   for (const EmbeddedFile& file : embedded_scenes()) {
     scenes.insert(file.name);
@@ -148,7 +148,7 @@ TEST_CASE("hashes: every scene of the gallery") {
   }
 }
 
-TEST_CASE("hashes: walls, drives and start states that the gallery lacks") {
+TEST_CASE("Hashes: scenes with what the gallery lacks have their pinned hashes") {
   for (const SceneHash& row : kScenes) {
     compare(row.what, hash_of(parse_scene(row.scene, row.what)), row.hash);
   }

@@ -68,6 +68,21 @@ inline Snapshot driven_box() {
   return snapshot;
 }
 
+/// For tests that measure shapes: a picture in which a world unit is a pixel.
+inline constexpr Size kUnitSize{200, 120};
+inline const Projection kUnitProjection{{{100.0, 60.0}, 200.0}, kUnitSize};
+
+/// One disk at rest in a walled box that fills that picture.
+inline Snapshot one_disk(Vec2 centre, double diameter) {
+  Snapshot snapshot;
+  snapshot.box = {kUnitSize.width, kUnitSize.height};
+  snapshot.diameter = diameter;
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = {centre};
+  snapshot.velocities = {{0.0, 0.0}};
+  return snapshot;
+}
+
 /// What overlays of pictures say.
 inline const OverlayText kText{"Vibrated box",
                                "Watch the cold dense band form between the hot walls."};

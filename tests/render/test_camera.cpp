@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-TEST_CASE("A fitted camera puts the box between the margins, as large as they allow") {
+TEST_CASE("Camera: a fitted camera puts the box between the margins, as large as they allow") {
   const Size size{1280, 720};
   const Margins margins{100, 40, 80, 20};
   const Camera camera = Camera::fit({-1, 0}, {19, 25}, size, margins);
@@ -16,7 +16,7 @@ TEST_CASE("A fitted camera puts the box between the margins, as large as they al
   CHECK((high - low).x() / 20 == doctest::Approx((high - low).y() / 25));
 }
 
-TEST_CASE("Pixels stay exact far from the origin") {
+TEST_CASE("Camera: pixels stay exact far from the origin") {
   const Projection projection{{{1e9, -1e9}, 64.0}, {640, 480}};
   const Vec2 pixel = projection.pixels({1e9 + 1.0, -1e9 + 2.0});
   CHECK(pixel.x() == doctest::Approx(330).epsilon(1e-9));

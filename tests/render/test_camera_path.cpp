@@ -22,7 +22,7 @@ void check(const Camera& camera, const Vec2& centre, double width) {
 
 }  // namespace
 
-TEST_CASE("A camera's path passes its keys, and stays at its ends") {
+TEST_CASE("Camera path: a camera's path passes its keys, and stays at its ends") {
   const std::vector<CameraKey> keys = {
       {.time = 2.0, .centre = {}, .follow = {}, .width = {}},
       {.time = 4.0, .centre = Vec2(2.0, 3.0), .follow = {}, .width = 10.0},
@@ -36,7 +36,7 @@ TEST_CASE("A camera's path passes its keys, and stays at its ends") {
   for (const double time : {6.0, 9.0}) check(camera_at(keys, at(time), kWhole), {6.0, 3.0}, 10.0);
 }
 
-TEST_CASE("A zoom keeps a point where it is on the picture") {
+TEST_CASE("Camera path: a zoom keeps a point where it is on the picture") {
   const std::vector<CameraKey> keys = {
       {.time = 0.0, .centre = {}, .follow = {}, .width = {}},
       {.time = 1.0, .centre = Vec2(2.0, 3.0), .follow = {}, .width = 10.0}};
@@ -49,7 +49,7 @@ TEST_CASE("A zoom keeps a point where it is on the picture") {
   }
 }
 
-TEST_CASE("A camera goes to a disk and follows it") {
+TEST_CASE("Camera path: a camera goes to a disk and follows it") {
   const std::vector<CameraKey> keys = {
       {.time = 0.0, .centre = Vec2(0.0, 0.0), .follow = {}, .width = 8.0},
       {.time = 2.0, .centre = {}, .follow = 1, .width = 8.0}};

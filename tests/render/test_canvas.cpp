@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-TEST_CASE("A canvas has the size asked for, and its first row is the top one") {
+TEST_CASE("Canvas: a canvas has the size asked for, and its first row is the top one") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const Canvas canvas = blank_canvas(gl, {7, 5});
@@ -23,7 +23,7 @@ TEST_CASE("A canvas has the size asked for, and its first row is the top one") {
   CHECK(pixel(image, 2, 4) == kDarkTheme.background);
 }
 
-TEST_CASE("A canvas larger than OpenGL allows is refused") {
+TEST_CASE("Canvas: a canvas larger than OpenGL allows is refused") {
   const auto context = open_context(Backend::Osmesa);
   CHECK_THROWS_WITH_AS(Canvas(context->gl(), {1 << 20, 10}), doctest::Contains("too large"),
                        RunError);

@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-TEST_CASE("A robust extent ignores outliers, signs and NaNs") {
+TEST_CASE("Colour range: a robust extent ignores outliers, signs and NaNs") {
   std::vector<double> values(100, -1.0);
   values[7] = 1000.0;
   values[8] = std::nan("");
@@ -16,7 +16,7 @@ TEST_CASE("A robust extent ignores outliers, signs and NaNs") {
   CHECK(robust_extent({std::nan("")}) == 0.0);
 }
 
-TEST_CASE("A robust extent is finite, whatever the values") {
+TEST_CASE("Colour range: a robust extent is finite, whatever the values") {
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(robust_extent({infinity, 2.0, -infinity}) == 2.0);
   CHECK(robust_extent({infinity, -infinity}) == 0.0);
@@ -30,14 +30,14 @@ TEST_CASE("A robust extent is finite, whatever the values") {
   }
 }
 
-TEST_CASE("Ranges end at round numbers") {
+TEST_CASE("Colour range: ranges end at round numbers") {
   CHECK(round_up(1.0) == doctest::Approx(1.0));
   CHECK(round_up(2.1) == doctest::Approx(3.0));
   CHECK(round_up(0.0083) == doctest::Approx(0.01));
   CHECK(round_up(130.0) == doctest::Approx(150.0));
 }
 
-TEST_CASE("A steady extent moves only when it must") {
+TEST_CASE("Colour range: a steady extent moves only when it must") {
   SteadyExtent extent;
   CHECK(extent.follow(0.0) == 1.0);
   CHECK(extent.follow(1.9) == 2.0);
@@ -49,7 +49,7 @@ TEST_CASE("A steady extent moves only when it must") {
   CHECK(extent.follow(0.0) == doctest::Approx(0.8));
 }
 
-TEST_CASE("A held extent stays as it was first seen") {
+TEST_CASE("Colour range: a held extent stays as it was first seen") {
   SteadyExtent extent;
   CHECK(extent.follow(0.0, true) == 1.0);
   CHECK_FALSE(extent.held());  // nothing seen yet
@@ -63,7 +63,7 @@ TEST_CASE("A held extent stays as it was first seen") {
   CHECK_FALSE(extent.held());
 }
 
-TEST_CASE("Ticks are round and say no more digits than they need") {
+TEST_CASE("Colour range: ticks are round and say no more digits than they need") {
   CHECK(round_ticks(0.0, 3.0, 4) == std::vector<double>{0, 1, 2, 3});
   CHECK(round_ticks(-2.0, 2.0, 5) == std::vector<double>{-2, -1, 0, 1, 2});
   // Steps of 5 would leave 0 alone.

@@ -11,6 +11,7 @@
 #include "engine/scene/scene_file.h"
 #include "render/renderer.h"
 #include "tests/render/picture.h"
+#include "tests/support/messages.h"
 
 // What can be measured in a picture is what the snapshot says.
 
@@ -156,7 +157,7 @@ void check_geometry(Backend backend) {
     }
     Snapshot wider = snapshot;
     wider.diameter += 2.0 * pixel;
-    CHECK(disagreement_with(wider).find("has the radius") != std::string::npos);
+    CHECK(says(disagreement_with(wider), "has the radius"));
     Snapshot faster = snapshot;
     faster.velocities[5] *= 1.2;
     CHECK(disagreement_with(faster) == "disk 5 has another colour");
@@ -168,12 +169,12 @@ void check_geometry(Backend backend) {
 
 }  // namespace
 
-TEST_CASE("Geometry: centres, radii, colours and count are the snapshot's; a pixel off is seen") {
+TEST_CASE("Geometry: OSMesa draws centres, radii, colours and count of the snapshot") {
   check_geometry(Backend::Osmesa);
 }
 
 // CTest reports the case as skipped where it says so.
-TEST_CASE("Geometry: likewise by EGL") {
+TEST_CASE("Geometry: EGL draws centres, radii, colours and count of the snapshot") {
   try {
     open_context(Backend::Egl);
   } catch (const RunError& error) {

@@ -13,7 +13,7 @@
 
 // Pictures of five scenes, kept in assets/golden. Where a change of the looks is meant,
 //   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*OSMesa*'
-// draws them anew; look at each before it is kept.
+// draws them again; look at each before it is kept.
 
 namespace clatter {
 
@@ -164,7 +164,7 @@ TEST_CASE("Golden pictures: EGL draws them") {
   compare(context->gl());
 }
 
-TEST_CASE("Golden pictures: a disk a quarter of a pixel off is seen") {
+TEST_CASE("Golden pictures: a disk a quarter of a pixel off is detected") {
   const auto context = open_context(Backend::Osmesa);
   const Golden& golden = kGolden.front();
   const Scene scene = parse_scene(golden.scene, golden.name);

@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-TEST_CASE("A scale gives the map's ends at its ends and beyond, and mixes between") {
+TEST_CASE("Palette: a scale gives the map's ends at its ends and beyond, and mixes between") {
   const ColourScale scale{colour_map(Palette::Viridis), 2.0, 4.0};
   CHECK(scale(2.0) == Colour{0x44, 0x01, 0x54});
   CHECK(scale(4.0) == Colour{0xfd, 0xe7, 0x25});
@@ -14,7 +14,7 @@ TEST_CASE("A scale gives the map's ends at its ends and beyond, and mixes betwee
   CHECK(scale(3.0) == Colour{0x21, 0x90, 0x8c});
 }
 
-TEST_CASE("The bright end of a scale may stand for the lowest value") {
+TEST_CASE("Palette: the bright end of a scale may stand for the lowest value") {
   const ColourScale scale{colour_map(Palette::Cividis), 0.0, -2.0};
   CHECK(scale(0.0) == Colour{0x00, 0x22, 0x4e});
   CHECK(scale(-2.0) == Colour{0xfe, 0xe8, 0x38});
@@ -23,14 +23,14 @@ TEST_CASE("The bright end of a scale may stand for the lowest value") {
   CHECK(scale(-1.0) == Colour{0x7c, 0x7b, 0x78});
 }
 
-TEST_CASE("Zero keeps its colour between ends that differ") {
+TEST_CASE("Palette: zero keeps its colour between ends that differ") {
   const ColourScale scale{.map = diverging_map(), .low = -1.0, .high = 3.0, .about_zero = true};
   const ColourScale symmetric{diverging_map(), -3.0, 3.0};
   for (const double value : {-1.0, 0.0, 0.5, 3.0}) CHECK(scale(value) == symmetric(value));
   CHECK(scale(-2.0) == symmetric(-1.0));
 }
 
-TEST_CASE("Zero is grey on the diverging map") {
+TEST_CASE("Palette: zero is grey on the diverging map") {
   const Colour grey = ColourScale{diverging_map(), -1.0, 1.0}(0.0);
   CHECK(grey.red == grey.green);
   CHECK(grey.green == grey.blue);

@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-TEST_CASE("Quantities have a symbol and a unit") {
+TEST_CASE("Quantity: quantities have a symbol and a unit") {
   CHECK(quantity_of(Field::TemperatureX) ==
         Quantity{"temperature T", "x", Sign::Positive, "m a²/t²"});
   CHECK(quantity_of(Field::HeatFluxY) == Quantity{"heat flux q", "y", Sign::Either, "m a/t³"});

@@ -5,18 +5,7 @@
 
 namespace clatter {
 
-TEST_CASE("The same snapshot gives the same picture") {
-  const auto context = open_context(Backend::Osmesa);
-  const Snapshot snapshot = driven_box();
-  const Size size{640, 360};
-  const View view = view_with_field();
-  Renderer first(context->gl()), second(context->gl());
-  const Camera camera = first.fit(snapshot, size, view, kText);
-  CHECK(difference(draw(first, context->gl(), snapshot, camera, size, view),
-                   draw(second, context->gl(), snapshot, camera, size, view)) == 0);
-}
-
-TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
+TEST_CASE("Renderer: a fixed range decides the colour, and the picture is opaque") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
@@ -31,7 +20,7 @@ TEST_CASE("A fixed range decides the colour, and the picture is opaque") {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
 }
 
-TEST_CASE("A picture has room for a wall that swings out of the box") {
+TEST_CASE("Renderer: a picture has room for a wall that swings out of the box") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot = driven_box();
@@ -64,7 +53,7 @@ TEST_CASE("A picture has room for a wall that swings out of the box") {
   }
 }
 
-TEST_CASE("Spins are coloured by their sense") {
+TEST_CASE("Renderer: spins are coloured by their sense") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
@@ -113,7 +102,7 @@ View view_of(Field field) {
 
 }  // namespace
 
-TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
+TEST_CASE("Renderer: the colours of a heatmap follow, or are locked, or are given") {
   const auto context = open_context(Backend::Osmesa);
   const ColourMap map = colour_map(Palette::Viridis);
   View view = view_of(Field::Temperature);
@@ -134,7 +123,7 @@ TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
   CHECK(colours()[3] == middle);
 }
 
-TEST_CASE("Ranges that are fixed follow no more, but for those that are given") {
+TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
   const auto context = open_context(Backend::Osmesa);
   View view = view_of(Field::Temperature);
   Snapshot snapshot;
@@ -155,7 +144,7 @@ TEST_CASE("Ranges that are fixed follow no more, but for those that are given") 
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == top);
 }
 
-TEST_CASE("A locked range is found anew for another field") {
+TEST_CASE("Renderer: another field locks a range of its own") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   View view = view_of(Field::Temperature);
@@ -166,7 +155,9 @@ TEST_CASE("A locked range is found anew for another field") {
         colour_map(Palette::Viridis).back());
 }
 
-TEST_CASE("Magnitudes have the palette, their bright end far from zero; signed fields have two") {
+TEST_CASE(
+    "Renderer: magnitudes have the palette, their bright end far from zero; signed fields have "
+    "two") {
   const auto context = open_context(Backend::Osmesa);
   const auto colour = [&](Field field, double value) {
     Renderer renderer(context->gl());
@@ -183,7 +174,7 @@ TEST_CASE("Magnitudes have the palette, their bright end far from zero; signed f
   }
 }
 
-TEST_CASE("Arrows lie over the box as long as their legend says") {
+TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
@@ -204,7 +195,7 @@ TEST_CASE("Arrows lie over the box as long as their legend says") {
   CHECK(std::abs(width_of_arrow() - 160) <= 4);
 }
 
-TEST_CASE("A theme has its colours, and a background of one's own goes before them") {
+TEST_CASE("Renderer: a theme sets the colours, and a background of the view precedes it") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
@@ -234,7 +225,7 @@ TEST_CASE("A theme has its colours, and a background of one's own goes before th
   CHECK(pixel(drawn(), 399, 200) == Colour{1, 2, 3});
 }
 
-TEST_CASE("A grid is drawn where it is asked for") {
+TEST_CASE("Renderer: a grid is drawn where it is asked for") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
@@ -248,7 +239,7 @@ TEST_CASE("A grid is drawn where it is asked for") {
         20);
 }
 
-TEST_CASE("A picture of several samples a pixel looks like the one of one sample") {
+TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of one sample") {
   const auto context = open_context(Backend::Osmesa);
   View view = view_with_field();
   view.grid = true;
@@ -260,7 +251,6 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);
     const Image one = draw(normal, context->gl(), snapshot, camera, size, view);
-    CHECK(structural_similarity(one, one) == 1.0);
     for (const int samples : {2, 4}) {
       CAPTURE(size.width);
       CAPTURE(samples);
@@ -273,7 +263,7 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
   }
 }
 
-TEST_CASE("Blur, trails and marks look the same with several samples a pixel") {
+TEST_CASE("Renderer: blur, trails and marks look the same with several samples a pixel") {
   const auto context = open_context(Backend::Osmesa);
   const Size size{1280, 720};
   View view;
@@ -296,7 +286,7 @@ TEST_CASE("Blur, trails and marks look the same with several samples a pixel") {
   }
 }
 
-TEST_CASE("An empty box is drawn too") {
+TEST_CASE("Renderer: an empty box is drawn too") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;

@@ -19,7 +19,9 @@ Colour over(Colour picture, Colour background) {
 
 }  // namespace
 
-TEST_CASE("A picture without a background has its own colours, and opacity where something is") {
+TEST_CASE(
+    "Transparency: a picture without a background has its own colours, and opacity where something "
+    "is") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
@@ -60,7 +62,8 @@ TEST_CASE("A picture without a background has its own colours, and opacity where
   }
 }
 
-TEST_CASE("Small disks, and trails, have their own colours without a background, too") {
+TEST_CASE(
+    "Transparency: small disks, and trails, have their own colours without a background, too") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};

@@ -37,6 +37,14 @@ inline ContactLaw random_law(Random& random) {
   return law;
 }
 
+/// Whether contacts under this law keep the energy of slip and spins: there is no friction, or so
+/// much that it turns the slip round.
+inline bool keeps_spin_and_slip_energy(const ContactLaw& law) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double beta_0 = law.tangential_restitution;
+  return law.friction == 0.0 || beta_0 == -1.0 || (law.friction == kInfinity && beta_0 == 1.0);
+}
+
 /// Uniform particle, sphere, or anything.
 inline double random_inertia(Random& random) {
   return std::array{0.5, 0.4, 0.01 + random.uniform()}[random.below(3)];

@@ -1,6 +1,6 @@
-// Linked into a program under the address sanitizer, it keeps what is loaded at run time loaded to
-// the end: a driver that is gone when the sanitizer looks for leaks has taken along the pointers to
-// what it holds for good, and the names of its functions, by which leaks are known as its own.
+// Keeps libraries loaded to the end of a program under the address sanitizer. A driver unloaded
+// before the search for leaks would take along the pointers to its memory, and the names of its
+// functions, by which leaks.supp recognises its leaks.
 
 #include <dlfcn.h>
 

@@ -8,21 +8,9 @@
 
 namespace clatter::testing {
 
-Scene gas(double lx, double ly, int count, double restitution) {
-  Scene scene;
-  scene.box = Vec2(lx, ly);
-  scene.particles.count = count;
-  scene.particles.restitution = restitution;
-  return scene;
-}
-
 Scene gas_of_fraction(double area_fraction, int count, double restitution) {
   const double side = std::sqrt(count * std::numbers::pi / (4.0 * area_fraction));
   return gas(side, side, count, restitution);
-}
-
-void wall_in(Scene& scene, int axis, const Wall& wall) {
-  scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;
 }
 
 Scene vibrated_gas(double restitution, double wall_restitution) {

@@ -4,18 +4,12 @@
 #include <cstdint>
 
 #include "engine/measure/measurement.h"
-#include "engine/scene/scene.h"
+#include "tests/support/scenes.h"
 
 namespace clatter::testing {
 
-/// A random start at T = 1 in a periodic box.
-Scene gas(double lx, double ly, int count, double restitution);
-
-/// The same of the given area fraction, in a square box.
+/// A gas of the given area fraction in a square, periodic box.
 Scene gas_of_fraction(double area_fraction, int count, double restitution);
-
-/// The same wall at both ends of an axis (0: x, 1: y).
-void wall_in(Scene& scene, int axis, const Wall& wall);
 
 /// The gas of the thesis' figures, N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
 Scene vibrated_gas(double restitution, double wall_restitution);

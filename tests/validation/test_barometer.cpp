@@ -94,7 +94,7 @@ Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
 
 }  // namespace
 
-TEST_CASE("barometer: one particle on a thermal floor has the exponential law of height, exactly") {
+TEST_CASE("Barometer: the height of one particle on a thermal floor is exponentially distributed") {
   // Height above the floor over T/g: exponential of mean 1. The lid at 40 of these is never met
   // (e^-40). Bounces take 2.5 sqrt(T)/g on average; samples every 40 sqrt(T)/g are independent,
   // for a bounce that long has the probability e^-200. 40 bins of equal probability.
@@ -129,7 +129,7 @@ TEST_CASE("barometer: one particle on a thermal floor has the exponential law of
   CHECK(simulation.counts().pair_collisions == 0);
 }
 
-TEST_CASE("barometer: averages over time of one particle are those of the law") {
+TEST_CASE("Barometer: one particle has the temperature of the floor and presses with its weight") {
   const Scene scene = column(10.0, 160.0, 1, 0.5);
   const Measured result = run(scene, 100.0, 400000.0, 402);
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error, ", pressure ",
@@ -143,7 +143,7 @@ TEST_CASE("barometer: averages over time of one particle are those of the law") 
   check_energy_balance(result, 1);
 }
 
-TEST_CASE("barometer: a dense gas weighs upon the floor what it is, and is at T_w throughout") {
+TEST_CASE("Barometer: a dense gas presses on the floor with its weight, and has its temperature") {
   // 120 particles in 15 x 15 (phi = .42), g Ly = 3.75 T.
   constexpr int kCount = 120;
   constexpr double kGravity = 0.5;
@@ -166,7 +166,7 @@ TEST_CASE("barometer: a dense gas weighs upon the floor what it is, and is at T_
   check_energy_balance(result, kCount);
 }
 
-TEST_CASE("barometer: a thin gas has the barometric profile at one temperature") {
+TEST_CASE("Barometer: a thin gas has the barometric profile at one temperature") {
   // 100 particles over 200 wide, T/g = 20: rho = .025 at the floor, 1.5 e^-8 of it at the lid. 16
   // layers of 10; those that hold less than a particle on average are left out. The two virial
   // coefficients of the law change a layer by up to 8 %, the next one by .3 %; the layers next to
@@ -203,7 +203,7 @@ TEST_CASE("barometer: a thin gas has the barometric profile at one temperature")
   }
 }
 
-TEST_CASE("barometer: the stress of every layer carries the weight above it") {
+TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
   // dp/dy = -rho g. 160 particles over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04
   // below the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum
   // forgets itself within some collisions, the column its swinging. Densities in sub-layers of

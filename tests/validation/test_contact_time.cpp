@@ -26,7 +26,7 @@ Measured with_contact_time(double contact_time, double duration, std::uint64_t s
 
 }  // namespace
 
-TEST_CASE("t_c: what it does vanishes with it, in proportion") {
+TEST_CASE("Contact time: its effect vanishes with it, in proportion") {
   // A particle meets another within a short t_c after the last with a probability proportional to
   // it, either of two: the share of elasticised collisions is about 2 t_c/(mean time), and thrice
   // as long gives about thrice the share. (From .3 on the gas runs away: hotter, it collides more
@@ -51,7 +51,7 @@ TEST_CASE("t_c: what it does vanishes with it, in proportion") {
   CHECK(undissipated < 1.2e-3);
 }
 
-TEST_CASE("t_c: at 10^-4 mean collision times the temperature is that without it, within 3 %") {
+TEST_CASE("Contact time: 10^-4 mean collision times change the temperature by less than 3 %") {
   const double contact_time = 1e-4 * mean_collision_time();
   const Measured with = with_contact_time(contact_time, 6000.0, 711);
   const Measured without = run(vibrated_gas(0.9, 1.0), 300.0, 6000.0, 712);
@@ -62,7 +62,7 @@ TEST_CASE("t_c: at 10^-4 mean collision times the temperature is that without it
   CHECK(std::fabs(relative(with.temperature, without.temperature.mean)) < 0.03);
 }
 
-TEST_CASE("t_c: at 10^-4 mean collision times the temperature is that without it, within 1 %" *
+TEST_CASE("Contact time: 10^-4 mean collision times change the temperature by less than 1 %" *
           doctest::test_suite("slow")) {
   const double contact_time = 1e-4 * mean_collision_time();
   const Measured with = with_contact_time(contact_time, 100000.0, 713);

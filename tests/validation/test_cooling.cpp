@@ -5,32 +5,30 @@
 
 #include "engine/initial/start_state.h"
 #include "engine/physics/theory.h"
+#include "tests/support/statistics.h"
 #include "tests/validation/experiment.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("cooling gas: Haff's law down to a hundredth of the temperature, within 4 %") {
+TEST_CASE("Cooling gas: Haff's law holds down to a hundredth of the temperature, within 4 %") {
   // phi = .1, alpha = .9, N = 100, periodic. T = T0/(1 + k t)^2 with k = eps omega_E(T0)/4,
   // refined, section 5; 1 + k t = 10 at the end. Mean over 64 seeds.
   constexpr int kSeeds = 64;
   constexpr int kTimes = 20;
   const Scene scene = gas_of_fraction(0.1, 100, 0.9);
   const double k = (1.0 - 0.9 * 0.9) * enskog_rate(0.1, 1.0) / 4.0;
-  std::vector<double> sum(kTimes + 1), squares(kTimes + 1);
+  std::vector<Sample> ratios(kTimes + 1);
   for (std::uint64_t seed = 131; seed < 131 + kSeeds; ++seed) {
     Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
     for (int step = 0; step <= kTimes; ++step) {
       simulation.run_until(9.0 * step / (kTimes * k));
       const double law = std::pow(1.0 + 9.0 * step / kTimes, -2.0);
-      const double ratio = simulation.kinetic_energy() / 100.0 / law;
-      sum[step] += ratio;
-      squares[step] += ratio * ratio;
+      ratios[step].add(simulation.kinetic_energy() / 100.0 / law);
     }
   }
   for (int step = 0; step <= kTimes; ++step) {
-    const double mean = sum[step] / kSeeds;
-    const double error = std::sqrt((squares[step] / kSeeds - mean * mean) / (kSeeds - 1));
+    const double mean = ratios[step].mean(), error = ratios[step].standard_error();
     CAPTURE(step);
     if (step % 5 == 0) MESSAGE("T over Haff's law = ", mean, " +- ", error);
     CHECK((error < 0.01 || step == 0));
@@ -38,7 +36,7 @@ TEST_CASE("cooling gas: Haff's law down to a hundredth of the temperature, withi
   }
 }
 
-TEST_CASE("cooling gas: walls that lose heat cool elastic particles by Eq. (3.10)") {
+TEST_CASE("Cooling gas: walls that lose heat cool elastic particles by Eq. (3.10)") {
   // The refined rate with the wall layer: k = kappa (1 - alpha_w^2)/(pi Lx) sqrt(pi T0/2), where
   // kappa = (1 + 2 phi chi) Lx/(Lx - a) counts the hits of dense particles on walls.
   constexpr int kSeeds = 64;
@@ -50,16 +48,13 @@ TEST_CASE("cooling gas: walls that lose heat cool elastic particles by Eq. (3.10
   const double pi = std::acos(-1.0);
   const double k =
       std::sqrt(0.5 * pi) / (2.0 * 20.0) * kappa * (2.0 / pi) * (1.0 - kRestitution * kRestitution);
-  double sum = 0.0, squares = 0.0;
+  Sample ratios;
   for (std::uint64_t seed = 231; seed < 231 + kSeeds; ++seed) {
     Simulation<2> simulation(model_of<2>(scene, seed), start_state<2>(scene, seed));
     simulation.run_until(1.0 / k);  // T = T0/4
-    const double ratio = simulation.kinetic_energy() / 100.0 * 4.0;
-    sum += ratio;
-    squares += ratio * ratio;
+    ratios.add(simulation.kinetic_energy() / 100.0 * 4.0);
   }
-  const double mean = sum / kSeeds;
-  const double error = std::sqrt((squares / kSeeds - mean * mean) / (kSeeds - 1));
+  const double mean = ratios.mean(), error = ratios.standard_error();
   MESSAGE("T over Eq. (3.10) = ", mean, " +- ", error);
   CHECK(error < 0.01);
   CHECK(std::fabs(mean - 1.0) < 0.04);

@@ -31,15 +31,15 @@ void check_compressibility(double area_fraction, double literature, double durat
 }  // namespace
 
 // Kolafa & Rottner 2006, Mol. Phys. 104, 3435: molecular dynamics and virial series of hard disks.
-TEST_CASE("elastic gas: the equation of state at phi = .31416") {
+TEST_CASE("Elastic gas: Z is that of the literature at phi = .31416") {
   check_compressibility(0.31416, 2.15144, 240.0, 101);
 }
 
-TEST_CASE("elastic gas: the equation of state at phi = .47124") {
+TEST_CASE("Elastic gas: Z is that of the literature at phi = .47124") {
   check_compressibility(0.47124, 3.66369, 160.0, 102);
 }
 
-TEST_CASE("elastic gas: Enskog's collision rate at phi = .1") {
+TEST_CASE("Elastic gas: the collision rate is Enskog's at phi = .1") {
   // Henderson's chi is good to 0.05 % here; at T = E/N (N = 4000) the rate is exact up to 1/N.
   const Measured result = run(gas_of_fraction(0.1, 4000, 1.0), 20.0, 1200.0, 103);
   const double expected = enskog_rate(0.1, 1.0);
@@ -49,7 +49,7 @@ TEST_CASE("elastic gas: Enskog's collision rate at phi = .1") {
   CHECK(std::fabs(relative(result.collision_rate, expected)) < 0.005);
 }
 
-TEST_CASE("elastic gas: the kurtosis of the velocities is that of a Gaussian") {
+TEST_CASE("Elastic gas: the kurtosis of the velocities is that of a Gaussian") {
   // Energy and both momenta are fixed, so each component is one coordinate on a sphere in n =
   // 2(N-1) dimensions: <v^4>/(3 <v^2>^2) - 1 = -2/(n + 2) = -1/N exactly.
   const Measured result = run(gas_of_fraction(0.3, 400, 1.0), 20.0, 1000.0, 104);
@@ -61,7 +61,7 @@ TEST_CASE("elastic gas: the kurtosis of the velocities is that of a Gaussian") {
   }
 }
 
-TEST_CASE("elastic gas: speeds have Maxwell's distribution") {
+TEST_CASE("Elastic gas: speeds have Maxwell's distribution") {
   // Of 2000 particles every 5 time units, some ten collisions of each, 100 times: 200,000 speeds in
   // 40 bins of equal probability, exp(-v^2/2T) = k/40. The 1/N of the fixed energy is below chi^2's
   // resolution: it shifts a bin by at most 0.05 %, a seventh of a standard error.
@@ -84,7 +84,7 @@ TEST_CASE("elastic gas: speeds have Maxwell's distribution") {
   for (const double count : counts) CHECK(std::fabs(count - mean) < 5.0 * std::sqrt(mean));
 }
 
-TEST_CASE("elastic gas: directions and components are alike") {
+TEST_CASE("Elastic gas: both components have the same temperature") {
   const Measured result = run(gas(30.0, 20.0, 200, 1.0), 20.0, 1000.0, 106);
   // The energy is constant, so T_x and T_y have opposite deviations, and their errors add up.
   const double error = result.temperature_x.standard_error + result.temperature_y.standard_error;
@@ -94,7 +94,7 @@ TEST_CASE("elastic gas: directions and components are alike") {
   CHECK(result.temperature.mean == doctest::Approx(1.0).epsilon(1e-12));
 }
 
-TEST_CASE("elastic gas: the pressure on walls is that of the equation of state") {
+TEST_CASE("Elastic gas: the pressure on walls is that of the equation of state") {
   // Between two walls p = Z rho T with the density of the middle, where no wall is near: 60 long,
   // 12 of them at each end left out. Z from Kolafa & Rottner's table would need the density it
   // holds; Henderson's is good to 0.1 % at phi = .25.

@@ -42,7 +42,7 @@ double agreement_p(const std::vector<Estimate>& a, const std::vector<Estimate>& 
 
 }  // namespace
 
-TEST_CASE("fields: the vibrated gas passes on what the walls give, from wall to wall") {
+TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to wall") {
   // Cells of a quarter: in the outermost two columns no centre ever is.
   Scene scene = vibrated_gas(0.9, 1.0);
   scene.measure.fields = kFields;
@@ -90,7 +90,7 @@ TEST_CASE("fields: the vibrated gas passes on what the walls give, from wall to 
   }
 }
 
-TEST_CASE("fields: an elastic gas at rest conducts and dissipates nothing") {
+TEST_CASE("Fields: an elastic gas at rest conducts and dissipates nothing") {
   Scene scene = gas_of_fraction(0.1, 200, 1.0);
   scene.measure.fields = kFields;
   scene.measure.cells = {10, 4};
@@ -125,7 +125,7 @@ TEST_CASE("fields: an elastic gas at rest conducts and dissipates nothing") {
   }
 }
 
-TEST_CASE("fields: a sheared flow is taken off") {
+TEST_CASE("Fields: temperature and stress are those about the mean velocity") {
   // Two halves of a gas that stream against each other mix; T stays that about V, and the stress
   // of the flow is none of the gas.
   Scene scene = gas_of_fraction(0.1, 200, 1.0);
@@ -153,7 +153,7 @@ TEST_CASE("fields: a sheared flow is taken off") {
   CHECK(q.standard_error < 0.01);
 }
 
-TEST_CASE("fields: snapshots agree with the exact estimator") {
+TEST_CASE("Fields: snapshots agree with the exact estimator") {
   Scene scene = vibrated_gas(0.9, 1.0);
   scene.measure.fields = kFields;
   scene.measure.cells = {20, 1};
@@ -171,7 +171,7 @@ TEST_CASE("fields: snapshots agree with the exact estimator") {
   MESSAGE("least p of ", kFields.size(), " fields: ", least);
 }
 
-TEST_CASE("fields: profiles along y, where gravity layers the gas") {
+TEST_CASE("Fields: the stress along y carries the weight above it") {
   Scene scene = gas(15.0, 12.0, 60, 1.0);
   wall_in(scene, 1, {.kind = WallKind::Thermal, .temperature = 1.0});
   scene.gravity = Vec2(0.0, -0.3);

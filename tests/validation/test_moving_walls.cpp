@@ -42,18 +42,18 @@ void compare_with_limit(double restitution, double wall_restitution, double star
 
 }  // namespace
 
-TEST_CASE("moving walls: a short saw-tooth is the driven wall, within 3 %") {
+TEST_CASE("Moving walls: a short saw-tooth heats like the driven wall, within 3 %") {
   compare_with_limit(0.9, 1.0, 0.7, 5000.0, 601, 0.01, 0.03);
   compare_with_limit(0.9, 0.9, 0.6, 5000.0, 603, 0.01, 0.03);
 }
 
-TEST_CASE("moving walls: a short saw-tooth is the driven wall, within 1 %" *
+TEST_CASE("Moving walls: a short saw-tooth heats like the driven wall, within 1 %" *
           doctest::test_suite("slow")) {
   compare_with_limit(0.9, 1.0, 0.7, 100000.0, 605, 0.003, 0.01);
   compare_with_limit(0.9, 0.9, 0.6, 100000.0, 607, 0.003, 0.01);
 }
 
-TEST_CASE("moving walls: what sinusoidal walls give is what collisions lose") {
+TEST_CASE("Moving walls: sinusoidal walls give the energy that collisions dissipate") {
   Scene scene = vibrated_gas(0.9, 0.95);
   wall_in(scene, 0,
           {.kind = WallKind::Sinusoidal, .restitution = 0.95, .stroke = 0.5, .frequency = 0.7});
@@ -63,7 +63,7 @@ TEST_CASE("moving walls: what sinusoidal walls give is what collisions lose") {
   check_energy_balance(result, 100);
 }
 
-TEST_CASE("moving walls: a shaken floor carries a rough gas under gravity, kicked as well") {
+TEST_CASE("Moving walls: a shaken floor carries the weight of a rough, kicked gas") {
   // Everything that gives or takes energy at once; gravity gives nothing on average. t_c keeps
   // particles from collapsing onto the floor while it recedes.
   Scene scene = gas(12.0, 30.0, 40, 0.9);

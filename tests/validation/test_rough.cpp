@@ -52,7 +52,7 @@ State<2> spinning_start(const Scene& scene, double spin_temperature, std::uint64
 
 }  // namespace
 
-TEST_CASE("rough gas: free cooling tends to one ratio of the temperatures, from both sides") {
+TEST_CASE("Rough gas: free cooling tends to one ratio of the temperatures, from both sides") {
   // phi = .1, N = 100, 32 seeds: half start without spin, half with T_rot = 3 T_tr. The ratio is
   // looked at five times from 40 to 60 collisions per particle: by then the slowest of these pairs
   // is within e^-5 of its limit, and nothing has clustered in so small a box.
@@ -80,7 +80,7 @@ TEST_CASE("rough gas: free cooling tends to one ratio of the temperatures, from 
   }
 }
 
-TEST_CASE("rough gas: kicks of the motion alone set both temperatures") {
+TEST_CASE("Rough gas: kicks of the motion alone set both temperatures") {
   // H = s^2 (1 - 1/N)/dt = .099, and T is of order 1: a particle is kicked some ten times between
   // two collisions. T is predicted with Enskog's rate at phi = .1.
   std::uint64_t seed = 341;
@@ -108,7 +108,7 @@ TEST_CASE("rough gas: kicks of the motion alone set both temperatures") {
   }
 }
 
-TEST_CASE("driven gas: smooth particles have the temperature at which kicks balance the loss") {
+TEST_CASE("Driven gas: smooth particles have the temperature at which kicks balance the loss") {
   // beta = -1 in the theory of rough particles: A = (1 - alpha^2)/2, B = C = 0.
   Scene scene = gas_of_fraction(0.1, 100, 0.9);
   scene.bulk_drive = BulkDrive{.interval = 0.2, .kick_speed = std::sqrt(0.02)};

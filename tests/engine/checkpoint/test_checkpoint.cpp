@@ -1,26 +1,17 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
 #include <functional>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
-#include "tests/engine/checkpoint/scratch_folder.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 std::string archived(Checkpoint& checkpoint) {
   auto& [program, command, scene, start_temperature, seed, saved, measurement, film] = checkpoint;
@@ -51,12 +42,7 @@ Checkpoint example() {
 
 // What reading the file says; empty where it is read.
 std::string refusal(const std::filesystem::path& file) {
-  try {
-    read_checkpoint(file);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal_of([&] { read_checkpoint(file); });
 }
 
 std::uint32_t crc_32(const std::string& bytes) {
@@ -68,14 +54,10 @@ std::uint32_t crc_32(const std::string& bytes) {
   return ~crc;
 }
 
-bool says(const std::string& message, const std::string& part) {
-  return message.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("Checkpoint: all that is written is read back, bit for bit") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   Checkpoint written = example();
   write_checkpoint(folder / "a", written);
   Checkpoint read = read_checkpoint(folder / "a");
@@ -93,7 +75,7 @@ TEST_CASE("Checkpoint: all that is written is read back, bit for bit") {
   CHECK(archived(read) == archived(written));
 }
 
-// Each member is changed alone: one that is told but not passed on would come back as it was.
+// Each member is changed alone: a forgotten one would leave the file the same.
 TEST_CASE("Checkpoint: a change of any one member changes the file") {
   const std::vector<std::function<void(Checkpoint&)>> changes = {
       [](Checkpoint& c) { c.program += '!'; },
@@ -136,8 +118,8 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
   }
 }
 
-TEST_CASE("Checkpoint: the one before is kept, and nothing else is left") {
-  const ScratchFolder folder;
+TEST_CASE("Checkpoint: the previous one is kept, and no other file") {
+  const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   for (const std::uint64_t seed : {1, 2, 3}) {
     checkpoint.seed = seed;
@@ -148,8 +130,8 @@ TEST_CASE("Checkpoint: the one before is kept, and nothing else is left") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder / ""), {}) == 2);
 }
 
-TEST_CASE("Checkpoint: one that cannot be written is an error and leaves the one before") {
-  const ScratchFolder folder;
+TEST_CASE("Checkpoint: a failure to write is an error and leaves the previous one") {
+  const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   CHECK_THROWS_AS(write_checkpoint(folder / "missing/a", checkpoint), RunError);
   write_checkpoint(folder / "a", checkpoint);
@@ -158,8 +140,8 @@ TEST_CASE("Checkpoint: one that cannot be written is an error and leaves the one
   CHECK(read_checkpoint(folder / "a").seed == 42);
 }
 
-TEST_CASE("Checkpoint: any byte changed, any length cut, anything added is refused") {
-  const ScratchFolder folder;
+TEST_CASE("Checkpoint: a file with any byte changed, cut off or added is refused") {
+  const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   write_checkpoint(folder / "a", checkpoint);
   const std::string sound = bytes_of(folder / "a");
@@ -181,8 +163,8 @@ TEST_CASE("Checkpoint: any byte changed, any length cut, anything added is refus
   CHECK(refusal(folder / "a").empty());
 }
 
-TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is") {
-  const ScratchFolder folder;
+TEST_CASE("Checkpoint: a refusal says what is wrong, and where the previous one is") {
+  const TemporaryFolder folder;
   CHECK(says(refusal(folder / "a"), "there is no such file"));
   CHECK(says(refusal(folder / ""), "this is no file"));
   write_bytes(folder / "a", "schema = 1\n");
@@ -208,8 +190,8 @@ TEST_CASE("Checkpoint: a refusal says what is wrong, and where the one before is
   CHECK(says(refusal(folder / "a"), "a.previous"));
 }
 
-TEST_CASE("Checkpoint: one of another version names the program that wrote it") {
-  const ScratchFolder folder;
+TEST_CASE("Checkpoint: a file of another version names the program that wrote it") {
+  const TemporaryFolder folder;
   Checkpoint checkpoint = example();
   write_checkpoint(folder / "a", checkpoint);
   std::string bytes = bytes_of(folder / "a");
@@ -225,7 +207,7 @@ TEST_CASE("Checkpoint: one of another version names the program that wrote it") 
 }
 
 // As a file of another program's structs would, were its checksum right.
-TEST_CASE("Checkpoint: lengths that nothing stands behind are refused, not allocated") {
+TEST_CASE("Checkpoint: lengths beyond the end of the file are refused, not allocated") {
   std::uint64_t length = ~std::uint64_t{0} / 16;
   ArchiveWriter writer;
   writer(length, length);

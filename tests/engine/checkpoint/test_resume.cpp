@@ -10,8 +10,8 @@
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
 #include "engine/scene/scene_file.h"
-#include "tests/engine/checkpoint/scratch_folder.h"
 #include "tests/engine/support/gas.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -19,7 +19,7 @@ using namespace clatter::testing;
 namespace {
 
 RunState<2> through_file(const Simulation<2>& simulation) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   Checkpoint checkpoint;
   checkpoint.saved = simulation.save();
   write_checkpoint(folder / "a", checkpoint);
@@ -36,16 +36,15 @@ struct Laws {
 std::vector<Laws> all_laws() {
   Model<2> gas = periodic_box(20.0, 25.0);
   gas.restitution = 0.9;
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
   std::vector<Laws> laws = {
       {"cooling", gas},
-      {"driven", with_walls(gas, 0, driven)},
-      {"thermal", with_walls(gas, 1, {.kind = WallKind::Thermal, .temperature = 2.0})},
+      {"driven", with_walls(gas, 0, kDriven)},
+      {"thermal", with_walls(gas, 1, kThermal)},
       {"sawtooth",
        with_walls(gas, 0, {.kind = WallKind::Sawtooth, .stroke = 0.3, .frequency = 1.75})},
       {"sinusoidal",
        with_walls(gas, 1, {.kind = WallKind::Sinusoidal, .stroke = 0.4, .frequency = 0.875})}};
-  Model<2> model = with_walls(gas, 1, driven);
+  Model<2> model = with_walls(gas, 1, kDriven);
   model.gravity = {0.0, -0.1};
   laws.push_back({"gravity", model});
   model = gas;
@@ -119,7 +118,7 @@ TEST_CASE("Resume: a halt right after any collision changes no bit") {
   }
 }
 
-TEST_CASE("Resume: every scene of the gallery, halfway") {
+TEST_CASE("Resume: every scene of the gallery continues from halfway to the same bits") {
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_gallery_scene(file);
@@ -167,7 +166,7 @@ TEST_CASE("Resume: laws may change, and the particles stay where they are") {
   }
 }
 
-TEST_CASE("Resume: kicks at another interval are counted from where the run is taken up") {
+TEST_CASE("Resume: kicks at another interval are counted from the time of resuming") {
   Model<2> model = periodic_box(20.0, 25.0);
   model.bulk_drive = BulkDrive{.interval = 0.5, .kick_speed = 0.1};
   Simulation<2> simulation(model, random_gas(model, 50, 304));
@@ -187,7 +186,7 @@ TEST_CASE("Resume: kicks at another interval are counted from where the run is t
 }
 
 // Many dissipative particles: the first collapse comes after some hundred thousand collisions.
-TEST_CASE("Resume: a run that collapsed goes on with a contact time") {
+TEST_CASE("Resume: a run that collapsed continues with a contact time") {
   Model<2> model = periodic_box(20.0, 20.0);
   model.restitution = 0.1;
   Simulation<2> simulation(model, random_gas(model, 200, 305));
@@ -209,7 +208,7 @@ TEST_CASE("Resume: a run that collapsed goes on with a contact time") {
 
 // A ball comes to rest on the floor. Of 64 runs that differ in when the base moves, one stops just
 // where it does.
-TEST_CASE("Resume: a stop leaves a base that moves on") {
+TEST_CASE("Resume: a run that stops when its base should move can be resumed") {
   Model<2> model =
       with_walls(periodic_box(20.0, 20.0), 1, {.kind = WallKind::Static, .restitution = 0.5});
   model.gravity = {0.0, -1.0};
@@ -222,7 +221,7 @@ TEST_CASE("Resume: a stop leaves a base that moves on") {
   }
 }
 
-TEST_CASE("Resume: overlaps that a run bore do not keep it from going on") {
+TEST_CASE("Resume: overlaps that a run had do not keep it from continuing") {
   const Model<2> model = periodic_box(20.0, 20.0);
   RunState<2> saved =
       Simulation<2>(model, {{{5.0, 5.0}, {6.0, 5.0}}, {{0.0, 0.0}, {1.0, 0.0}}}).save();

@@ -109,8 +109,7 @@ int wander(const Model<2>& model, CellGrid<2>& grid, std::uint32_t particle, Gue
 
 }  // namespace
 
-TEST_CASE(
-    "cell grid: a list holds those about its cell that came and did not leave, chained or not") {
+TEST_CASE("CellGrid: a list holds the particles about its cell, however many") {
   CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
   REQUIRE(grid.counts() == IntVec<2>(7, 7));
   Random random(61, Stream::Placement, 0, 0);
@@ -137,7 +136,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("cell grid: a list tells that some lie round a border, whoever leaves it") {
+TEST_CASE("CellGrid: a list marks that some particles lie across a periodic border") {
   CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
   const IntVec<2> first = {0, 2}, last = {6, 2};
   // Those beyond the border come where others were.
@@ -150,7 +149,7 @@ TEST_CASE("cell grid: a list tells that some lie round a border, whoever leaves 
   CHECK(near(grid, first).count({39, -1, 0}) == 1);
 }
 
-TEST_CASE("cell grid: who moves is listed as if put where it is") {
+TEST_CASE("CellGrid: a particle that moves is listed as if inserted there") {
   Random random(62, Stream::Placement, 1, 0);
   for (int i = 0; i < 300; ++i) {
     const Model<2> model = random_box(random);
@@ -173,7 +172,7 @@ TEST_CASE("cell grid: who moves is listed as if put where it is") {
   }
 }
 
-TEST_CASE("cell grid: every position lies in a cell, within its borders") {
+TEST_CASE("CellGrid: every position lies in a cell, within its borders") {
   Random random(62, Stream::Placement, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     const Model<2> model = random_box(random);
@@ -199,7 +198,7 @@ TEST_CASE("cell grid: every position lies in a cell, within its borders") {
   }
 }
 
-TEST_CASE("cell grid: no image of a particle within one diameter is missed, and none comes twice") {
+TEST_CASE("CellGrid: no image within one diameter is missed, and none comes twice") {
   Random random(63, Stream::Placement, 0, 0);
   int overhanging = 0;
   for (int i = 0; i < 10000; ++i) {

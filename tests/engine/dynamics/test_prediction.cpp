@@ -12,15 +12,14 @@
 #include "engine/physics/contact.h"
 #include "engine/physics/random.h"
 #include "engine/publish/scheduled_run.h"
+#include "tests/support/scenes.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
-Scene gas(int count, const Vec2& box, const Vec2& gravity = Vec2::Zero()) {
-  Scene scene;
-  scene.particles.count = count;
-  scene.box = box;
+Scene falling(Scene scene, const Vec2& gravity) {
   scene.gravity = gravity;
   return scene;
 }
@@ -31,11 +30,12 @@ Scene walled(Scene scene) {
 }
 
 std::vector<std::pair<std::string, Scene>> scenes() {
-  return {{"periodic", gas(400, {25.0, 25.0})},
-          {"dilute", gas(400, {70.0, 70.0})},
-          {"round a narrow box", gas(60, {2.3, 40.0})},
-          {"falling round the box", gas(300, {20.0, 20.0}, {0.2, -0.5})},
-          {"falling between walls", walled(gas(300, {20.0, 20.0}, {0.0, -0.5}))}};
+  const Scene dense = gas(20.0, 20.0, 300, 1.0);
+  return {{"periodic", gas(25.0, 25.0, 400, 1.0)},
+          {"dilute", gas(70.0, 70.0, 400, 1.0)},
+          {"round a narrow box", gas(2.3, 40.0, 60, 1.0)},
+          {"falling round the box", falling(dense, {0.2, -0.5})},
+          {"falling between walls", falling(walled(dense), {0.0, -0.5})}};
 }
 
 // A gas after some collisions, and all its particles' plans.
@@ -71,7 +71,7 @@ struct Planned {
 
 }  // namespace
 
-TEST_CASE("prediction: no two particles touch before the plan of one of them, by brute force") {
+TEST_CASE("Prediction: no two particles touch before the plan of one of them, by brute force") {
   for (const auto& [name, scene] : scenes()) {
     CAPTURE(name);
     const Planned gas(scene);
@@ -97,8 +97,7 @@ TEST_CASE("prediction: no two particles touch before the plan of one of them, by
   }
 }
 
-TEST_CASE(
-    "prediction: two particles planned at once are planned as one after the other, to the bit") {
+TEST_CASE("Prediction: two particles planned together have the plans of each alone, to the bit") {
   for (const auto& [name, scene] : scenes()) {
     CAPTURE(name);
     const Planned gas(scene);

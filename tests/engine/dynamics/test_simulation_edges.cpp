@@ -9,7 +9,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("edges: wholly inelastic particles collide once and move on together") {
+TEST_CASE("Simulation: wholly inelastic particles collide once and move on together") {
   int collisions = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Model<2> model = periodic_box(9.0, 8.0);
@@ -25,7 +25,7 @@ TEST_CASE("edges: wholly inelastic particles collide once and move on together")
   CHECK(collisions > 200);
 }
 
-TEST_CASE("edges: a start with overlap is refused, one that touches is not") {
+TEST_CASE("Simulation: a start with overlap is refused, one that touches is not") {
   const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, Wall{});
   const auto start = [](Vec2 a, Vec2 b) { return State<2>{{a, b}, {Vec2::Zero(), Vec2::Zero()}}; };
   CHECK_NOTHROW(Simulation<2>(model, start({2.0, 3.0}, {3.0, 3.0})));
@@ -38,7 +38,7 @@ TEST_CASE("edges: a start with overlap is refused, one that touches is not") {
 
 // Dropped from rest at the border of two cells, an elastic particle turns there again and again,
 // above or below it by rounding; so late on the base that it may cross twice at one time.
-TEST_CASE("edges: a particle that falls and turns on a border of its cell") {
+TEST_CASE("Simulation: a particle may turn round on a border of its cell") {
   for (const double height : {1.5, 2.0, 3.0, 4.0, 5.25}) {
     Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, Wall{});
     model.gravity = {0.0, -1.0};
@@ -56,7 +56,7 @@ TEST_CASE("edges: a particle that falls and turns on a border of its cell") {
 // As above, where cells are so narrow that they have no overhang, as those about a crystal in a
 // wide box are made (Simulation::fit_cells): all particles lie on borders, rise, and are back
 // within the least time that there is.
-TEST_CASE("edges: particles that turn right beyond a border of narrow cells") {
+TEST_CASE("Simulation: particles may turn round just beyond a border of narrow cells") {
   Model<2> model = periodic_box(20.2, 20.2);
   model.gravity = {0.0, -1e4};
   RunState<2> saved;

@@ -23,7 +23,8 @@ struct Case {
 // The state after 2000 collisions must be that of the reference to the last bit.
 void compare(const Model<2>& model, const State<2>& start, std::uint64_t collisions = 2000) {
   Simulation<2> simulation(model, start);
-  Reference reference(model, start);
+  const BaseMoves moves(simulation);
+  Reference reference(model, start, moves);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
   CHECK(simulation.counts().pair_collisions == reference.collisions());
@@ -108,7 +109,8 @@ TEST_CASE("reference: a first contact after many box lengths") {
   start.positions = {{1.0, 1.0}, {4.0, 6.0}};
   start.velocities = {{0.0, 0.0}, {1.0, -0.001}};
   Simulation<2> simulation(model, start);
-  Reference reference(model, start);
+  const BaseMoves moves(simulation);
+  Reference reference(model, start, moves);
   simulation.run_until(kNever, 1);
   reference.run_until_collisions(1);
   CHECK(simulation.time() > 1000.0);

@@ -19,13 +19,12 @@ struct BaseMoves : Observer<2> {
 };
 
 Model<2> driven_box() {
-  const Wall driven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
-  return with_walls(periodic_box(9.0, 8.0), 0, driven);
+  return with_walls(periodic_box(9.0, 8.0), 0, kDriven);
 }
 
 }  // namespace
 
-TEST_CASE("timers: they fire at start + count * interval, all of them, across base moves") {
+TEST_CASE("Timers: they fire at start + count * interval, all of them, across base moves") {
   for (const double from : {0.0, 1e9}) {
     CAPTURE(from);
     Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 111), from);
@@ -50,7 +49,7 @@ TEST_CASE("timers: they fire at start + count * interval, all of them, across ba
   }
 }
 
-TEST_CASE("timers: all fire in the order of time, and in that of registration at the same time") {
+TEST_CASE("Timers: all fire in the order of time, and in that of registration at the same time") {
   Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 112));
   std::vector<std::pair<double, int>> log;
   const auto note = [&](int who) { return [&log, who](double t) { log.push_back({t, who}); }; };
@@ -68,7 +67,7 @@ TEST_CASE("timers: all fire in the order of time, and in that of registration at
   CHECK(log == expected);
 }
 
-TEST_CASE("timers: physical events of the same time come first") {
+TEST_CASE("Timers: physical events of the same time come first") {
   State<2> start;
   start.positions = {{2.0, 2.0}, {7.0, 2.0}};
   start.velocities = {{1.0, 0.0}, {-1.0, 0.0}};  // a gap of 4, closed at speed 2
@@ -82,7 +81,7 @@ TEST_CASE("timers: physical events of the same time come first") {
   CHECK(simulation.time() == 2.0);
 }
 
-TEST_CASE("timers: run_until_collisions fires what comes before") {
+TEST_CASE("Timers: those before the last collision fire in a run up to it") {
   Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 113));
   std::vector<double> times;
   simulation.every(0.1, 0.1, [&](double time) { times.push_back(time); });
@@ -93,7 +92,7 @@ TEST_CASE("timers: run_until_collisions fires what comes before") {
   CHECK(std::fabs(times.back() - 0.1 * static_cast<double>(times.size())) < 1e-9);
 }
 
-TEST_CASE("timers: an action may start others") {
+TEST_CASE("Timers: an action may start others") {
   Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 114));
   std::vector<double> times;
   simulation.every(1.0, 0.0, [&simulation, &times](double time) {

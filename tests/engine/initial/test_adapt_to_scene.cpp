@@ -31,7 +31,7 @@ std::size_t kept(const State<2>& before, const State<2>& now) {
 
 }  // namespace
 
-TEST_CASE("adapt_to_scene: all particles stay that fit, others come, none overlap") {
+TEST_CASE("Adapted state: particles that fit stay, others are added, none overlap") {
   const State<2> before = start_state<2>(box(200, 20.0, 25.0), 3);
   struct Case {
     Scene scene;
@@ -53,7 +53,7 @@ TEST_CASE("adapt_to_scene: all particles stay that fit, others come, none overla
   }
 }
 
-TEST_CASE("adapt_to_scene: particles that come have the temperature of the gas") {
+TEST_CASE("Adapted state: added particles have the temperature of the gas") {
   State<2> before = start_state<2>(box(10, 60.0, 60.0), 4);
   for (Vec2& v : before.velocities) v *= 3.0;
   const State<2> now = adapt_to_scene(before, box(1500, 60.0, 60.0), 4);
@@ -63,7 +63,7 @@ TEST_CASE("adapt_to_scene: particles that come have the temperature of the gas")
   CHECK(squares / (2.0 * 1500) == doctest::Approx(9.0).epsilon(0.13));
 }
 
-TEST_CASE("adapt_to_scene: where random places do not suffice the gas starts as the scene says") {
+TEST_CASE("Adapted state: without room at random places, the gas starts as the scene says") {
   const State<2> before = start_state<2>(box(200, 20.0, 25.0), 5);
   const Scene dense = box(450, 20.0, 25.0);  // phi = 0.71
   const State<2> now = adapt_to_scene(before, dense, 5);

@@ -7,12 +7,13 @@
 #include <set>
 #include <vector>
 
-#include "engine/dynamics/simulation.h"
 #include "engine/initial/start_state.h"
-#include "engine/physics/lattice.h"
 #include "engine/scene/state_file.h"
+#include "tests/engine/support/gas.h"
+#include "tests/engine/support/rooms.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
@@ -37,10 +38,8 @@ Scene scene_of(double fraction, std::array<bool, 2> walled) {
   return scene;
 }
 
-/// Whether such a scene passes the check of scene files.
-bool fits(const Scene& scene) {
-  return scene.particles.count <=
-         lattice_capacity<2>({scene.box, {!scene.periodic(0), !scene.periodic(1)}});
+Room<2> room_of(const Scene& scene) {
+  return {scene.box, {!scene.periodic(0), !scene.periodic(1)}};
 }
 
 Vec2 nearest(const Scene& scene, Vec2 x) {
@@ -48,16 +47,6 @@ Vec2 nearest(const Scene& scene, Vec2 x) {
     if (scene.periodic(k)) x[k] -= scene.box[k] * std::round(x[k] / scene.box[k]);
   }
   return x;
-}
-
-double least_distance(const Scene& scene, const std::vector<Vec2>& centres) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      least = std::min(least, nearest(scene, centres[i] - centres[j]).norm());
-    }
-  }
-  return least;
 }
 
 /// |<exp(i m theta)>| over all pairs closer than 1.5: 1 for a lattice, about 1/sqrt(bonds) without
@@ -82,15 +71,9 @@ double temperature(const State<2>& state) {
   return sum / (2.0 * static_cast<double>(state.velocities.size()));
 }
 
-Vec2 momentum(const State<2>& state) {
-  Vec2 sum = Vec2::Zero();
-  for (const Vec2& v : state.velocities) sum += v;
-  return sum;
-}
-
 }  // namespace
 
-TEST_CASE("start_state: no particles overlap each other or a wall, at any density") {
+TEST_CASE("Start state: no particles overlap each other or a wall, at any density") {
   for (const std::array<bool, 2> walled : {std::array{false, false}, {true, false}, {true, true}}) {
     for (const Case& c : kCases) {
       const Scene scene = scene_of(c.fraction, walled);
@@ -98,22 +81,16 @@ TEST_CASE("start_state: no particles overlap each other or a wall, at any densit
       CAPTURE(c.how);
       CAPTURE(walled[0]);
       CAPTURE(walled[1]);
-      REQUIRE(fits(scene));
+      REQUIRE(scene.particles.count <= lattice_capacity(room_of(scene)));
       const State<2> state = start_state<2>(scene, 71);
       REQUIRE(static_cast<int>(state.positions.size()) == scene.particles.count);
-      CHECK(least_distance(scene, state.positions) >= 1.0 - 1e-12);
-      for (const Vec2& r : state.positions) {
-        for (int k = 0; k < 2; ++k) {
-          const double margin = walled[k] ? 0.5 - 1e-12 : 0.0;
-          CHECK(r[k] >= margin);
-          CHECK(r[k] <= scene.box[k] - margin);
-        }
-      }
+      CHECK(least_distance(room_of(scene), state.positions) >= 1.0 - 1e-12);
+      CHECK(all_inside(room_of(scene), state.positions, 1e-12));
     }
   }
 }
 
-TEST_CASE("start_state: the temperature is met exactly, the mean velocity is removed") {
+TEST_CASE("Start state: the temperature is met exactly, the mean velocity is removed") {
   for (const int count : {2, 3, 10, 400}) {
     Scene scene = scene_of(0.1, {false, true});
     scene.particles.count = count;
@@ -124,7 +101,7 @@ TEST_CASE("start_state: the temperature is met exactly, the mean velocity is rem
   }
 }
 
-TEST_CASE("start_state: velocities are Gaussian") {
+TEST_CASE("Start state: velocities are Gaussian") {
   // 5000 particles: kurtosis <v^4>/<v^2>^2 = 3 with standard error sqrt(24/10000) = .049 over both
   // components, <v_x v_y> = 0 with T/sqrt(5000).
   Scene scene;
@@ -140,21 +117,18 @@ TEST_CASE("start_state: velocities are Gaussian") {
   CHECK(std::fabs(mixed) < 5.0 / std::sqrt(5000.0));
 }
 
-TEST_CASE("start_state: a seed gives the same state again, another one another") {
+TEST_CASE("Start state: another seed gives another state") {
   for (const Case& c : kCases) {
     CAPTURE(c.fraction);
     const Scene scene = scene_of(c.fraction, {true, false});
     const State<2> state = start_state<2>(scene, 74);
-    const State<2> again = start_state<2>(scene, 74);
     const State<2> other = start_state<2>(scene, 75);
-    CHECK(state.positions == again.positions);
-    CHECK(state.velocities == again.velocities);
     CHECK(state.positions != other.positions);
     CHECK(state.velocities != other.velocities);
   }
 }
 
-TEST_CASE("start_state: places do not depend on the temperature") {
+TEST_CASE("Start state: places do not depend on the temperature") {
   Scene scene = scene_of(0.6, {false, false});
   const State<2> warm = start_state<2>(scene, 76);
   scene.particles.start.temperature = 0.0;
@@ -163,7 +137,7 @@ TEST_CASE("start_state: places do not depend on the temperature") {
   CHECK(std::ranges::all_of(cold.velocities, [](const Vec2& v) { return v == Vec2(0.0, 0.0); }));
 }
 
-TEST_CASE("start_state: what was melted has the order of a fluid") {
+TEST_CASE("Start state: a melted lattice has no more order than a fluid") {
   // Without order |psi_m| = 1/sqrt(independent bonds), for 500 particles about .03; a hard-particle
   // fluid near freezing is correlated over some diameters. The lattice that is melted has |psi_4|
   // near 1.
@@ -178,17 +152,17 @@ TEST_CASE("start_state: what was melted has the order of a fluid") {
     }
   }
   const Scene scene = scene_of(0.6, {false, false});
-  const auto sites = primitive_lattice<2>({scene.box}, scene.particles.count);
+  const auto sites = primitive_lattice(room_of(scene), scene.particles.count);
   CHECK(bond_order(scene, sites, 4) > 0.9);
 }
 
-TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
+TEST_CASE("Start state: a lattice stays a lattice if asked for, or too dense to melt") {
   Scene scene = scene_of(0.75, {false, false});
   CHECK(bond_order(scene, start_state<2>(scene, 80).positions, 6) > 0.9);
   scene = scene_of(0.2, {true, false});
   scene.particles.start.layout = Layout::Lattice;
   const State<2> state = start_state<2>(scene, 80);
-  CHECK(least_distance(scene, state.positions) > 1.5);
+  CHECK(least_distance(room_of(scene), state.positions) > 1.5);
   // Few different heights or few different places along x: the sites lie in rows.
   std::set<long> x, y;
   for (const Vec2& r : state.positions) {
@@ -198,7 +172,7 @@ TEST_CASE("start_state: a lattice asked for, or too dense to melt, is one") {
   CHECK(std::min(x.size(), y.size()) < state.positions.size() / 4);
 }
 
-TEST_CASE("start_state: gases of none, one and two") {
+TEST_CASE("Start state: there may be no particle, one or two") {
   for (const Layout layout : {Layout::Random, Layout::Lattice}) {
     for (const int count : {0, 1, 2}) {
       CAPTURE(count);
@@ -214,7 +188,7 @@ TEST_CASE("start_state: gases of none, one and two") {
   }
 }
 
-TEST_CASE("start_state: one particle in a box that it nearly fills") {
+TEST_CASE("Start state: one particle may nearly fill its box") {
   // phi = .55, beyond random insertion; nothing that it could collide with while melting.
   for (const bool walled : {false, true}) {
     Scene scene;
@@ -225,7 +199,7 @@ TEST_CASE("start_state: one particle in a box that it nearly fills") {
   }
 }
 
-TEST_CASE("start_state: spins have exactly their temperature, and the mean that chance gives") {
+TEST_CASE("Start state: spins have exactly their temperature, and a random mean") {
   // 5000 particles: the mean of omega is 0 with standard error sqrt(T_rot/(I N)), and what is left
   // of it shows that none was taken out; the kurtosis is 3 with standard error sqrt(24/5000) =
   // .069.
@@ -251,11 +225,10 @@ TEST_CASE("start_state: spins have exactly their temperature, and the mean that 
   CHECK(std::fabs(mean) > 1e-6);
   CHECK(std::fabs(fourth / (square * square) - 3.0) < 5.0 * 0.069);
   CHECK(std::fabs(mixed) < 5.0 * std::sqrt(square / 5000.0));
-  CHECK(start_state<2>(scene, 83).spins == state.spins);
   CHECK(start_state<2>(scene, 84).spins != state.spins);
 }
 
-TEST_CASE("start_state: spins are there where the scene has them, and change nothing else") {
+TEST_CASE("Start state: spins exist only where the scene has them, and change nothing else") {
   Scene scene = scene_of(0.6, {true, false});
   const State<2> smooth = start_state<2>(scene, 85);
   CHECK(smooth.spins.empty());
@@ -271,7 +244,7 @@ TEST_CASE("start_state: spins are there where the scene has them, and change not
   CHECK(std::fabs(start_state<2>(scene, 85).spins[0][0]) == doctest::Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
+TEST_CASE("Start state: particles keep clear of moving walls, at any density") {
   for (const Case& c : kCases) {
     // The room of 25 x 22 that other cases fill, and what the walls sweep around it.
     const Scene still = scene_of(c.fraction, {true, true});
@@ -292,7 +265,7 @@ TEST_CASE("start_state: particles keep clear of moving walls, at any density") {
   }
 }
 
-TEST_CASE("start_state: forces, roughness and driving leave the places as they are") {
+TEST_CASE("Start state: forces, roughness and driving do not change the places") {
   Scene scene = scene_of(0.6, {false, true});
   const State<2> plain = start_state<2>(scene, 87);
   scene.gravity = Vec2(1.0, -5.0);
@@ -306,7 +279,7 @@ TEST_CASE("start_state: forces, roughness and driving leave the places as they a
   CHECK(other.velocities == plain.velocities);
 }
 
-TEST_CASE("start_state: a state that was saved starts a run, bit by bit") {
+TEST_CASE("Start state: a saved state starts a run, bit for bit") {
   const auto restarted = [](Scene scene, const State<2>& saved) {
     scene.particles.start.layout = Layout::File;
     scene.particles.start.state = parse_state(state_to_csv(saved), "a.csv", scene);

@@ -5,22 +5,9 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/initial/start_state.h"
 #include "engine/publish/scheduled_run.h"
+#include "tests/support/scenes.h"
 
 namespace clatter::testing {
-
-/// The same wall at both ends of an axis (0: x, 1: y).
-inline void wall_in(Scene& scene, int axis, const Wall& wall) {
-  scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;
-}
-
-/// A gas in a periodic box, random start, T = 1.
-inline Scene gas(double lx, double ly, int count, double restitution) {
-  Scene scene;
-  scene.box = Vec2(lx, ly);
-  scene.particles.count = count;
-  scene.particles.restitution = restitution;
-  return scene;
-}
 
 /// Everything at once: inelastic, a driven wall against a lossy one along x, thermal walls of two
 /// temperatures along y.

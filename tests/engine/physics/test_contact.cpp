@@ -15,7 +15,7 @@ static Flight<2> flight(Vec2 r, Vec2 v, double time = 0.0) {
   return {r, v, time, 0};
 }
 
-TEST_CASE("contact: head on, through an image") {
+TEST_CASE("Contact: particles meet head on, also through an image") {
   // Gaps of 3 and of 10 - 4 - 1 = 5, closed at speed 2.
   const auto a = flight({1.0, 2.0}, {1.0, 0.0});
   const auto b = flight({5.0, 2.0}, {-1.0, 0.0});
@@ -26,7 +26,7 @@ TEST_CASE("contact: head on, through an image") {
   CHECK(contact_time<2>(away, too, {10.0, 0.0}, 1.0, kNoGravity) == 2.5);
 }
 
-TEST_CASE("contact: particles that touch collide at once if they approach faster than rounding") {
+TEST_CASE("Contact: touching particles collide at once if they approach faster than rounding") {
   const Vec2 none = Vec2::Zero();
   const Vec2 drift = {0.3, -0.7};
   for (const double overlap : {0.0, 1e-15, 1e-13}) {
@@ -49,7 +49,7 @@ TEST_CASE("contact: particles that touch collide at once if they approach faster
   CHECK(contact_time<2>(late, early, none, 1.0, kNoGravity) == 5.0);
 }
 
-TEST_CASE("contact: what a collision leaves is not another one") {
+TEST_CASE("Contact: a collision is not followed by another one at once") {
   // Contact is not representable: half of these overlap by rounding. After an elastic or a wholly
   // inelastic collision none may collide again, but for the few that it brings nearly to rest:
   // their rounding is that of the velocities before, and one more collision settles it.
@@ -76,7 +76,7 @@ TEST_CASE("contact: what a collision leaves is not another one") {
   CHECK(unsettled == 0);
 }
 
-TEST_CASE("contact: exchange symmetry holds for touching particles too") {
+TEST_CASE("Contact: exchanging touching particles changes no bit") {
   int different = 0, at_once = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Random random(22, Stream::Velocity, i, 0);
@@ -94,7 +94,7 @@ TEST_CASE("contact: exchange symmetry holds for touching particles too") {
   CHECK(at_once > 0);
 }
 
-TEST_CASE("contact: a particle reaches a plane") {
+TEST_CASE("Contact: a particle reaches a plane at the time computed by hand") {
   const auto right = flight({2.0, 3.0}, {0.5, -1.0}, 1.0);
   CHECK(plane_contact_time<2>(right, 0, 9.5, -1.0, kNoGravity) == 16.0);
   CHECK(plane_contact_time<2>(right, 0, 0.5, 1.0, kNoGravity) == kNever);
@@ -102,7 +102,7 @@ TEST_CASE("contact: a particle reaches a plane") {
   CHECK(plane_contact_time<2>(right, 1, 9.5, -1.0, kNoGravity) == kNever);
 }
 
-TEST_CASE("contact: a particle at the wall hits it at once if it moves outwards") {
+TEST_CASE("Contact: a particle at the wall hits it at once if it moves outwards") {
   for (const double beyond : {0.0, 1e-15}) {
     CHECK(plane_contact_time<2>(flight({0.5 - beyond, 3.0}, {-1e-300, 1.0}, 4.0), 0, 0.5, 1.0,
                                 kNoGravity) == 4.0);

@@ -11,7 +11,7 @@
 
 using namespace clatter;
 
-TEST_CASE("fall time: exact numbers") {
+TEST_CASE("Fall time: it is the time computed by hand") {
   CHECK(fall_time(3.0, -2.0, 0.0) == 1.5);
   CHECK(fall_time(8.0, 0.0, -4.0) == 2.0);
   CHECK(fall_time(6.0, -1.0, -4.0) == 1.5);
@@ -19,7 +19,7 @@ TEST_CASE("fall time: exact numbers") {
   CHECK(fall_time(4.0, -5.0, 2.0) == 1.0);  // The first of the two passages, 1 and 4.
 }
 
-TEST_CASE("fall time: what does not pass zero downwards never does") {
+TEST_CASE("Fall time: a height that never passes zero downwards gives never") {
   CHECK(fall_time(3.0, 0.0, 0.0) == kNever);
   CHECK(fall_time(3.0, -0.0, 0.0) == kNever);
   CHECK(fall_time(3.0, 2.0, 0.0) == kNever);
@@ -28,7 +28,7 @@ TEST_CASE("fall time: what does not pass zero downwards never does") {
   CHECK(fall_time(4.0, -4.0, 2.0) == kNever);  // Turns at zero.
 }
 
-TEST_CASE("fall time: a gap of zero, or below it by rounding") {
+TEST_CASE("Fall time: a gap of zero, or below by rounding, closes at once if it shrinks") {
   for (const double gap : {0.0, -0.0, -1e-16}) {
     CHECK(fall_time(gap, -2.0, 0.0) == 0.0);
     CHECK(fall_time(gap, -2.0, 1.0) == 0.0);
@@ -42,7 +42,7 @@ TEST_CASE("fall time: a gap of zero, or below it by rounding") {
   }
 }
 
-TEST_CASE("fall time: without acceleration the bits of the quotient, of slow particles too") {
+TEST_CASE("Fall time: without acceleration it has the bits of the quotient") {
   int different = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Random random(31, Stream::Velocity, i, 0);
@@ -55,7 +55,7 @@ TEST_CASE("fall time: without acceleration the bits of the quotient, of slow par
 }
 
 // The height at the passage is zero but for the rounding of the three terms and of the time.
-TEST_CASE("fall time: nothing is lost where acceleration or speed hardly matters") {
+TEST_CASE("Fall time: it is precise where acceleration or speed hardly matters") {
   double worst = 0.0;
   int passages = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
@@ -74,7 +74,7 @@ TEST_CASE("fall time: nothing is lost where acceleration or speed hardly matters
   CHECK(worst < 5e-16);
 }
 
-TEST_CASE("way out: exact numbers") {
+TEST_CASE("Way out: it is the time computed by hand") {
   const auto is = [](const WayOut& out, double time, bool upper) {
     return out.time == time && out.upper == upper;
   };
@@ -99,7 +99,7 @@ TEST_CASE("way out: exact numbers") {
   CHECK_FALSE(exit_time(kNever, 3.0, 4.0, -4.0).time < kNever);
 }
 
-TEST_CASE("way out: the earlier of the times to fall to either plane") {
+TEST_CASE("Way out: it is the earlier of the times to fall to either plane") {
   constexpr int kCases = 100000;
   int upper = 0;
   double worst = 0.0;

@@ -3,46 +3,16 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
-#include <limits>
 
-#include "engine/physics/lattice.h"
+#include "tests/engine/support/rooms.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
-double wrapped(double difference, double side, bool periodic) {
-  return periodic ? difference - side * std::round(difference / side) : difference;
-}
-
-/// Over all pairs, and over a site's own images; stops early once it is below `enough`.
-double least_distance(const Room<2>& room, const std::vector<Vec2>& sites, double enough = 0.0) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 2; ++axis) {
-    if (!room.walled[axis]) least = std::min(least, room.box[axis]);
-  }
-  for (std::size_t i = 0; i < sites.size() && least >= enough; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vec2 d = sites[i] - sites[j];
-      least = std::min(least, std::hypot(wrapped(d.x(), room.box.x(), !room.walled[0]),
-                                         wrapped(d.y(), room.box.y(), !room.walled[1])));
-    }
-  }
-  return least;
-}
-
-bool inside(const Room<2>& room, const std::vector<Vec2>& sites) {
-  return std::ranges::all_of(sites, [&](const Vec2& site) {
-    for (int axis = 0; axis < 2; ++axis) {
-      const double margin = !room.walled[axis] ? 0.0 : 0.5 * room.diameter;
-      if (site[axis] < margin || site[axis] > room.box[axis] - margin) return false;
-    }
-    return true;
-  });
-}
-
-/// Rows of n sites and n or n - 1 in turn along `axis`, or of n each, told as a textbook does and
-/// laid out independently of the code under test; `shift` moves every other row by half a spacing.
+/// Rows of n sites and n or n - 1 in turn along `axis`, or of n each; `shift` moves every other row
+/// by half a spacing.
 std::vector<Vec2> rows_of(const Room<2>& room, int axis, int rows, int n, bool shift,
                           bool shorter) {
   std::vector<Vec2> sites;
@@ -52,7 +22,7 @@ std::vector<Vec2> rows_of(const Room<2>& room, int axis, int rows, int n, bool s
     return places > 1.0 ? 0.5 * room.diameter + i * (room.box[k] - room.diameter) / (places - 1.0)
                         : 0.5 * room.box[k];
   };
-  const double places = n + (shift && !shorter && !!room.walled[axis] ? 0.5 : 0.0);
+  const double places = n + (shift && !shorter && room.walled[axis] ? 0.5 : 0.0);
   for (int row = 0; row < rows; ++row) {
     const bool odd = shift && row % 2 == 1;
     for (int i = 0; i < n - (odd && shorter ? 1 : 0); ++i) {
@@ -65,7 +35,7 @@ std::vector<Vec2> rows_of(const Room<2>& room, int axis, int rows, int n, bool s
   return sites;
 }
 
-/// The most particles over all such arrangements, trying every one.
+/// The most particles over all these arrangements, by trying every one.
 int brute_capacity(const Room<2>& room) {
   const int most = 2 * static_cast<int>(room.box.maxCoeff() / room.diameter) + 3;
   std::size_t best = 0;
@@ -99,7 +69,7 @@ std::vector<Room<2>> rooms(std::initializer_list<Vec2> boxes) {
 
 }  // namespace
 
-TEST_CASE("a lattice has sites enough, inside the room and never closer than a diameter") {
+TEST_CASE("Lattice: there are enough sites, inside the room and never closer than a diameter") {
   const auto all =
       rooms({{20.0, 25.0}, {7.3, 7.3}, {1.2, 40.7}, {33.3, 1.9}, {11.0, 4.0}, {3.1, 2.7}});
   for (Room<2> room : all) {
@@ -116,7 +86,7 @@ TEST_CASE("a lattice has sites enough, inside the room and never closer than a d
           if (sites.empty()) continue;
           held = true;
           CHECK(static_cast<int>(sites.size()) >= count);
-          CHECK(inside(room, sites));
+          CHECK(all_inside(room, sites));
           if (sites.size() < 3000) CHECK(least_distance(room, sites) >= diameter);
         }
         CHECK(held);
@@ -125,7 +95,7 @@ TEST_CASE("a lattice has sites enough, inside the room and never closer than a d
   }
 }
 
-TEST_CASE("the capacity is that of the best arrangement, and one more is refused") {
+TEST_CASE("Lattice: the capacity is that of the best arrangement, and one more is refused") {
   for (const Room<2>& room : rooms({{5.3, 6.1},
                                     {7.77, 3.21},
                                     {1.5, 9.2},
@@ -143,7 +113,7 @@ TEST_CASE("the capacity is that of the best arrangement, and one more is refused
   }
 }
 
-TEST_CASE("the perfect hexagonal packing is found where the box is commensurate with it") {
+TEST_CASE("Lattice: the perfect hexagonal packing is found where the box is commensurate with it") {
   for (const bool turned : {false, true}) {
     Room<2> room{.box = {10.0 * 1.0000001, 10.0 * std::sqrt(0.75) * 1.0000001}};
     if (turned) std::swap(room.box.x(), room.box.y());
@@ -154,7 +124,7 @@ TEST_CASE("the perfect hexagonal packing is found where the box is commensurate 
   }
 }
 
-TEST_CASE("sites are spread as far apart as the lattice allows") {
+TEST_CASE("Lattice: sites are spread as far apart as the lattice allows") {
   CHECK(least_distance({.box = {10.0, 10.0}}, primitive_lattice<2>({.box = {10.0, 10.0}}, 25)) ==
         doctest::Approx(2.0));
   const Room<2> walled{.box = {9.0, 5.0}, .walled = {true, true}};
@@ -164,7 +134,9 @@ TEST_CASE("sites are spread as far apart as the lattice allows") {
   CHECK(least_distance(square, face_centred_lattice(square, 5)) == doctest::Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("particles that would touch exactly do not fit, for rounding would make some overlap") {
+TEST_CASE(
+    "Lattice: particles that would touch exactly do not fit, for rounding would make some "
+    "overlap") {
   const Room<2> row{.box = {50.0, 1.0}, .walled = {false, true}};
   CHECK(lattice_capacity(row) == 49);
   for (int n = 2; n < 400; ++n) {
@@ -177,7 +149,7 @@ TEST_CASE("particles that would touch exactly do not fit, for rounding would mak
   }
 }
 
-TEST_CASE("rooms of any size have a capacity, at once") {
+TEST_CASE("Lattice: rooms of any size have a capacity") {
   CHECK(lattice_capacity<2>({.box = {1e6, 1e6}}) == INT_MAX);
   CHECK(lattice_capacity<2>({.box = {1e300, 1e300}}) == INT_MAX);
   CHECK(lattice_capacity<2>({.box = {1e6, 1.5}, .walled = {true, true}}) == 1'154'700);
@@ -188,6 +160,6 @@ TEST_CASE("rooms of any size have a capacity, at once") {
   CHECK(lattice_capacity<2>({.box = {0.5, 9.0}, .walled = {true, true}}) == 0);
 }
 
-TEST_CASE("ten million sites are laid out") {
-  CHECK(face_centred_lattice<2>({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
+TEST_CASE("Lattice: ten million sites are laid out") {
+  CHECK(face_centred_lattice({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
 }

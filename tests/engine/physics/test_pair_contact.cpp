@@ -64,7 +64,7 @@ std::uint64_t bits(double x) {
 
 }  // namespace
 
-TEST_CASE("encounter: the same bits whoever asks") {
+TEST_CASE("Encounter: exchanging the particles changes no bit") {
   int different = 0, meetings = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     const Pair p = random_pair(i);
@@ -81,7 +81,7 @@ TEST_CASE("encounter: the same bits whoever asks") {
 
 // Distances are below 50 here, so the rounding of positions is below 1e-14 and that of a distance
 // at contact some times as much.
-TEST_CASE("encounter: particles are one diameter apart at contact, and farther before") {
+TEST_CASE("Encounter: particles are one diameter apart at contact, and farther before") {
   for (const Vec2& gravity : kGravities) {
     double worst = 0.0, missed = 0.0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
@@ -102,7 +102,7 @@ TEST_CASE("encounter: particles are one diameter apart at contact, and farther b
   }
 }
 
-TEST_CASE("encounter: particles that never meet stay apart, and touching ones are told") {
+TEST_CASE("Encounter: particles that never meet stay apart, and touching ones are recognised") {
   for (std::uint32_t i = 0; i < 100000; ++i) {
     const Pair p = random_pair(i);
     const double time = encounter(p.a, p.b, p.shift);
@@ -119,7 +119,7 @@ TEST_CASE("encounter: particles that never meet stay apart, and touching ones ar
   }
 }
 
-TEST_CASE("encounter: a grazing pass is met, a near miss is not") {
+TEST_CASE("Encounter: a grazing pass is met, a near miss is not") {
   const Flight<2> still;
   for (const double below : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
     Pair p{.a = {{-5.0, 1.0 - below}, {1.0, 0.0}, 0.0, 0}, .b = still, .shift = Vec2::Zero()};
@@ -133,7 +133,7 @@ TEST_CASE("encounter: a grazing pass is met, a near miss is not") {
 
 // The bound is a few times the rounding of the start, 1000 * 1.1e-16: what the discriminant
 // (x.g)^2 - g^2 (x^2 - a^2) leaves is 100 times as much.
-TEST_CASE("encounter: a start from far away costs no more than its rounding") {
+TEST_CASE("Encounter: a start from far away costs no more than its rounding") {
   double worst = 0.0;
   int meetings = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
@@ -156,7 +156,7 @@ TEST_CASE("encounter: a start from far away costs no more than its rounding") {
   CHECK(worst < 2e-12);
 }
 
-TEST_CASE("encounter: powers of two scale lengths and velocities without a bit's change") {
+TEST_CASE("Encounter: scaling by powers of two changes no bit") {
   int different = 0;
   for (const int length : {-40, -3, 40}) {
     for (const int speed : {-30, 5, 30}) {
@@ -269,7 +269,7 @@ Answers first_within_box(const Crowd& crowd, const Vec2& gravity) {
 }  // namespace
 
 TEST_CASE(
-    "contact kernel: the first pair_contact_time, to the bit, of every number of candidates") {
+    "Contact kernel: it finds the first contact, to the bit, among any number of candidates") {
   constexpr std::uint32_t kRepeats = 1600;
   int different = 0, others = 0, met = 0, touching = 0;
   for (int size = 0; size <= Candidates<2>::kCapacity; ++size) {
@@ -296,7 +296,7 @@ TEST_CASE(
   CHECK(touching > 150);
 }
 
-TEST_CASE("contact kernel: where all frames are that of the box, the shorter way says the same") {
+TEST_CASE("Contact kernel: if nobody left the box, the shorter form gives the same") {
   int met = 0;
   for (std::uint32_t number = 0; number < 4000; ++number) {
     const Vec2& gravity = kGravities[number % 2];
@@ -316,9 +316,7 @@ TEST_CASE("contact kernel: where all frames are that of the box, the shorter way
   CHECK(met > 500);
 }
 
-TEST_CASE(
-    "contact kernel: particles that share the first time are not told apart, later ones do not "
-    "matter") {
+TEST_CASE("Contact kernel: it says whether the first contact is unique; later ones do not matter") {
   int first_shared = 0, later_shared = 0;
   for (std::uint32_t number = 0; number < 2000; ++number) {
     Crowd crowd(number, 12, kNone);

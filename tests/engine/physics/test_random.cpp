@@ -13,7 +13,7 @@ using namespace clatter;
 using namespace clatter::testing;
 
 // Random123 1.14.0, tests/kat_vectors, lines "philox4x32 10" (Salmon et al. 2011).
-TEST_CASE("philox: known answers of Random123") {
+TEST_CASE("Philox: it gives the known answers of Random123") {
   using Words = std::array<std::uint32_t, 4>;
   CHECK(philox({0, 0, 0, 0}, {0, 0}) == Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
   const std::uint32_t f = 0xffffffff;
@@ -22,7 +22,7 @@ TEST_CASE("philox: known answers of Random123") {
         Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-TEST_CASE("random: uniform numbers fill (0,1) evenly") {
+TEST_CASE("Random: uniform numbers fill (0,1) evenly") {
   constexpr int kSamples = 1000000, kBins = 100;
   Random random(1, Stream::Velocity, 0, 0);
   std::vector<double> observed(kBins), expected(kBins, kSamples / double{kBins});
@@ -40,7 +40,7 @@ TEST_CASE("random: uniform numbers fill (0,1) evenly") {
   CHECK(std::fabs(standard_errors_off(squares, kSamples, 1.0 / 3.0, 4.0 / 45.0)) < 5.0);
 }
 
-TEST_CASE("random: normal numbers are normal") {
+TEST_CASE("Random: normal numbers are normal") {
   constexpr int kSamples = 1000000, kBins = 80;
   Random random(2, Stream::Velocity, 7, 3);
   // Even bins over [-4, 4); what lies beyond counts to the outer ones.
@@ -65,7 +65,7 @@ TEST_CASE("random: normal numbers are normal") {
   CHECK(std::fabs(standard_errors_off(moments[4], kSamples, 3.0, 96.0)) < 5.0);
 }
 
-TEST_CASE("random: below is unbiased") {
+TEST_CASE("Random: whole numbers below a limit are unbiased") {
   Random random(3, Stream::Placement, 0, 0);
   SUBCASE("small n") {
     constexpr int kSamples = 700000;
@@ -85,7 +85,7 @@ TEST_CASE("random: below is unbiased") {
   }
 }
 
-TEST_CASE("random: streams, owners, items and seeds never share numbers") {
+TEST_CASE("Random: streams, owners, items and seeds share no numbers") {
   std::set<double> first;
   int drawn = 0;
   for (const auto stream : {Stream::Placement, Stream::Velocity, Stream::ThermalWall}) {
@@ -101,7 +101,7 @@ TEST_CASE("random: streams, owners, items and seeds never share numbers") {
   CHECK(static_cast<int>(first.size()) == drawn);
 }
 
-TEST_CASE("random: the first numbers of neighbouring owners are independent") {
+TEST_CASE("Random: the first numbers of neighbouring owners are independent") {
   constexpr int kOwners = 200000, kSide = 16;
   std::vector<double> observed(kSide * kSide),
       expected(kSide * kSide, kOwners / double{kSide * kSide});

@@ -17,7 +17,7 @@ constexpr WallPath kPaths[] = {WallPath::Sawtooth, WallPath::Sinusoidal};
 
 }  // namespace
 
-TEST_CASE("wall motion: where the wall is") {
+TEST_CASE("Wall motion: the wall is where its path says") {
   const WallMotion sawtooth{WallPath::Sawtooth, 3.0, 0.5, 0.25};
   CHECK(innermost_travel(sawtooth) == 3.0);
   for (const double time : {0.0, 2.0, -2.0, 2e6}) {
@@ -43,7 +43,7 @@ TEST_CASE("wall motion: where the wall is") {
   }
 }
 
-TEST_CASE("wall motion: a wall at rest is a plane") {
+TEST_CASE("Wall motion: a wall at rest is a plane") {
   for (const WallPath path : kPaths) {
     for (const WallMotion motion : {WallMotion{path, 0.0, 3.0, 0.25}, {path, 2.0, 0.0, 0.25}}) {
       const WallState wall = wall_state(motion, 7.0);
@@ -60,7 +60,7 @@ TEST_CASE("wall motion: a wall at rest is a plane") {
   }
 }
 
-TEST_CASE("wall motion: hits by a saw-tooth") {
+TEST_CASE("Wall motion: a saw-tooth hits at the times computed by hand") {
   const WallMotion wall{WallPath::Sawtooth, 2.0, 0.5, 0.0};  // of speed 1 and period 2
   CHECK(WallCase{wall, 0.0, 1.0, 0.0}.contact() == 1.0);
   CHECK(WallCase{wall, 0.0, 3.0, -1.0}.contact() == 1.5);
@@ -75,7 +75,7 @@ TEST_CASE("wall motion: hits by a saw-tooth") {
   CHECK(WallCase{wall, 0.0, 1.0, 4.0, -2.0}.contact() == (3.0 + std::sqrt(21.0)) / 2.0);
 }
 
-TEST_CASE("wall motion: hits by a sinusoidal wall") {
+TEST_CASE("Wall motion: a sinusoidal wall hits at the times computed by hand") {
   const WallMotion wall{WallPath::Sinusoidal, 2.0, 0.25, 0.0};  // of amplitude 1 and period 4
   const auto check = [&](double start, double distance, double speed, double acceleration,
                          double expected) {
@@ -95,7 +95,7 @@ TEST_CASE("wall motion: hits by a sinusoidal wall") {
   CHECK(WallCase{wall, 0.0, 10.0, -4.0, 1.0}.contact() == kNever);  // turns before the zone
 }
 
-TEST_CASE("wall motion: particles that touch the wall") {
+TEST_CASE("Wall motion: touching particles are hit at once if the wall catches them up") {
   const WallMotion ramps{WallPath::Sawtooth, 2.0, 0.5, 0.0};
   for (const double overlap : {0.0, 1e-15}) {
     const auto contact = [&](double speed, double acceleration) {
@@ -123,7 +123,7 @@ TEST_CASE("wall motion: particles that touch the wall") {
 }
 
 // A wholly inelastic hit and what follows: rounding of either sign, of the wall's phase too.
-TEST_CASE("wall motion: a particle that rides the wall, but for rounding") {
+TEST_CASE("Wall motion: a particle that rides the wall is met there, up to rounding") {
   for (const WallPath path : kPaths) {
     Verdict verdict;
     for (std::uint32_t i = 0; i < 10000; ++i) {
@@ -141,7 +141,7 @@ TEST_CASE("wall motion: a particle that rides the wall, but for rounding") {
 
 // One hop of a particle that leaves the wall at hardly more than the rounding of the speeds, while
 // the accelerations press it back: it lasts 2 speed / acceleration, not nothing.
-TEST_CASE("wall motion: the smallest hops come to their end, and not before") {
+TEST_CASE("Wall motion: the smallest hops come to their end, and not before") {
   for (const WallPath path : kPaths) {
     double longest = 0.0, shortest = kNever;
     for (std::uint32_t i = 0; i < 100000; ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("wall motion: the smallest hops come to their end, and not before") {
 
 // Half of the particles pass the crest's neighbourhood behind the wall's path by a little, and must
 // be hit there or before; the others pass before it and must not.
-TEST_CASE("wall motion: grazing passes") {
+TEST_CASE("Wall motion: no grazing hit is missed or invented") {
   Verdict verdict;
   int behind = 0, met = 0, before = 0, invented = 0;
   for (std::uint32_t i = 0; i < 50000; ++i) {
@@ -201,7 +201,7 @@ TEST_CASE("wall motion: grazing passes") {
   CHECK(invented == 0);
 }
 
-TEST_CASE("wall motion: a particle that creeps, or rests but for rounding, ends the search") {
+TEST_CASE("Wall motion: the search ends for particles that creep or rest") {
   for (const WallPath path : kPaths) {
     const WallMotion wall{path, 2.0, 0.5, 0.0};
     const double travel = innermost_travel(wall);
@@ -223,7 +223,7 @@ TEST_CASE("wall motion: a particle that creeps, or rests but for rounding, ends 
   }
 }
 
-TEST_CASE("wall motion: walls so slow or particles so fast that the other seems to stand") {
+TEST_CASE("Wall motion: very slow walls and very fast particles are hit in time") {
   for (const WallPath path : kPaths) {
     for (const double frequency : {1e-12, 1e-100, 1e-200}) {
       const WallMotion wall{path, 2.0, frequency, 0.0};
@@ -236,7 +236,7 @@ TEST_CASE("wall motion: walls so slow or particles so fast that the other seems 
   }
 }
 
-TEST_CASE("wall motion: powers of two scale lengths and velocities without a bit's change") {
+TEST_CASE("Wall motion: scaling by powers of two changes no bit") {
   int different = 0;
   for (const WallPath path : kPaths) {
     for (const int length : {-40, 3, 40}) {
@@ -293,10 +293,10 @@ static void check_bounces(WallPath path, std::uint32_t particles) {
   verdict.check();
 }
 
-TEST_CASE("wall motion: the first contact of 100,000 cases, against a scan") {
+TEST_CASE("Wall motion: no contact is missed or early in 100,000 cases, by a scan") {
   for (const WallPath path : kPaths) check_random_cases(path, 100000);
 }
 
-TEST_CASE("wall motion: bounce after bounce, against a scan") {
+TEST_CASE("Wall motion: no contact is missed or early bounce after bounce, by a scan") {
   for (const WallPath path : kPaths) check_bounces(path, 10000);
 }

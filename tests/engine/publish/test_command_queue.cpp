@@ -24,7 +24,7 @@ TEST_CASE("CommandQueue: everything arrives once and in order, from a thread tha
   for (int i = 0; i < kCount; ++i) REQUIRE(got[static_cast<std::size_t>(i)] == i);
 }
 
-TEST_CASE("CommandQueue: what has been taken is gone") {
+TEST_CASE("CommandQueue: commands are taken once") {
   CommandQueue<int> queue;
   CHECK_FALSE(queue.pending());
   queue.push(1);

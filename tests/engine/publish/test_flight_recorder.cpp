@@ -81,7 +81,7 @@ TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
   }
 }
 
-TEST_CASE("FlightRecorder: paths go on across other laws and another span") {
+TEST_CASE("FlightRecorder: paths continue across changes of laws and of their span") {
   Scene scene = falling_gas();
   const auto before = simulation_of(scene, 7);
   FlightRecorder first(*before, 1.0);

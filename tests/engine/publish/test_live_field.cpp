@@ -73,7 +73,7 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
   }
 }
 
-TEST_CASE("LiveField: of snapshots it is what samples of its cells give, also under other laws") {
+TEST_CASE("LiveField: of snapshots it is the average of samples, also across changes of laws") {
   const Scene scene = gas(12.0, 8.0, 30, 0.9);
   View view = view_of(Field::Temperature, 2.0);
   view.estimator = Estimator::Snapshot;
@@ -96,7 +96,7 @@ TEST_CASE("LiveField: of snapshots it is what samples of its cells give, also un
     CHECK(std::isnan(map.values[i]) == std::isnan(expected));
     if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
   }
-  // It goes on with the sample that is due next, handed over or saved.
+  // It continues with the next sample, handed over or saved.
   const std::string saved = live.save();
   Simulation<2> next(simulation->model(), simulation->save());
   LiveField handed(next, view, std::move(live));
@@ -142,7 +142,7 @@ TEST_CASE("LiveField: every residual is that of its cells over the window") {
   }
 }
 
-TEST_CASE("MovingSum: of the last eight parts and of what came since") {
+TEST_CASE("MovingSum: it is the sum of the last eight parts and the current one") {
   MovingSum<int> window;
   CHECK(window.sum() == 0);
   for (const int part : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
@@ -214,7 +214,7 @@ TEST_CASE("LiveField: watching and asking change nothing") {
   CHECK(watched->counts().pair_collisions == alone->counts().pair_collisions);
 }
 
-TEST_CASE("LiveField: does not depend on how often it is asked") {
+TEST_CASE("LiveField: it does not depend on how often it is asked") {
   const auto often = simulation_of(rough_mixture(20), 33);
   const auto once = simulation_of(rough_mixture(20), 33);
   LiveField asked_often(*often, view_of(Field::Density, 3.0));
@@ -240,7 +240,7 @@ TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
   for (const double value : map_of(temperature).values) CHECK(std::isnan(value));
 }
 
-TEST_CASE("LiveField: at most 512 cells along an axis, at least one") {
+TEST_CASE("LiveField: it has at most 512 cells along an axis, and at least one") {
   const auto simulation = lone_particle(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Field::Density, 1.0));
   CHECK(map_of(live).cells == std::vector<int>{512, 1});
@@ -292,7 +292,7 @@ TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {
   }
 }
 
-TEST_CASE("LiveField: a residual and arrows are those that each alone is") {
+TEST_CASE("LiveField: a residual and arrows together are those of each alone") {
   const auto shown = [](std::optional<Field> field, std::optional<Arrows> arrows) {
     const auto simulation = simulation_of(rough_mixture(20), 36);
     View view;
@@ -323,7 +323,7 @@ TEST_CASE("LiveField: a residual and arrows are those that each alone is") {
   }
 }
 
-TEST_CASE("LiveField: where no particle came by there is no arrow") {
+TEST_CASE("LiveField: cells that no particle visited have no arrow") {
   const auto simulation = lone_particle(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
   View view;
   view.arrows = Arrows::Velocity;

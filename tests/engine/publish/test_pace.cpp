@@ -31,7 +31,7 @@ TEST_CASE("Pace: frames of an engine that holds the speed are even in both times
   CHECK(pace.held() == doctest::Approx(1.0).epsilon(0.01));
 }
 
-TEST_CASE("Pace: what an engine cannot hold is given up, and told") {
+TEST_CASE("Pace: time that an engine cannot hold is given up, and reported") {
   Pace pace(50.0);
   pace.set_speed(4.0);
   double time = 0.0;

@@ -20,7 +20,7 @@ Scene vibrated() {
 
 }  // namespace
 
-TEST_CASE("ScheduledRun: laws that change to themselves leave the run as it is, to the bit") {
+TEST_CASE("ScheduledRun: laws that change to themselves change no bit of the run") {
   Scene scene = vibrated();
   ScheduledRun plain(scene, 11);
   for (double time : {1.0, 1.7, 8.25}) {
@@ -32,7 +32,7 @@ TEST_CASE("ScheduledRun: laws that change to themselves leave the run as it is, 
   CHECK(changing.simulation().state_hash() == plain.simulation().state_hash());
 }
 
-TEST_CASE("ScheduledRun: what is changed by hand is played back to the same bits") {
+TEST_CASE("ScheduledRun: changes by hand are played back to the same bits") {
   ScheduledRun live(vibrated(), 12);
   live.show(vibrated().view);
   // Halted wherever the steps end, as a window does it.
@@ -59,7 +59,7 @@ TEST_CASE("ScheduledRun: what is changed by hand is played back to the same bits
   CHECK(other.simulation().state_hash() != live.simulation().state_hash());
 }
 
-TEST_CASE("ScheduledRun: a run that goes on from a checkpoint has the changes up to then") {
+TEST_CASE("ScheduledRun: a resumed run has the changes up to then") {
   Scene scene = vibrated();
   scene.changes = {{.time = 2.0, .set = {{"particles.restitution", "0.7"}}},
                    {.time = 6.0, .set = {{"particles.restitution", "0.99"}}}};
@@ -72,7 +72,7 @@ TEST_CASE("ScheduledRun: a run that goes on from a checkpoint has the changes up
   CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
 }
 
-TEST_CASE("ScheduledRun: the live field goes on across changes") {
+TEST_CASE("ScheduledRun: the live field continues across changes") {
   const Scene scene = vibrated();
   ScheduledRun plain(scene, 14), changing(scene, 14);
   plain.show(scene.view);
@@ -89,9 +89,7 @@ TEST_CASE("ScheduledRun: the live field goes on across changes") {
   }
 }
 
-TEST_CASE(
-    "ScheduledRun: pictures show flights and angles where they are asked for, and particles turn "
-    "on") {
+TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and particles turn on") {
   const Scene scene = load_scene("rough_driven");
   ScheduledRun plain(scene, 16), shown(scene, 16);
   plain.run_until(1.0);
@@ -100,7 +98,7 @@ TEST_CASE(
   CHECK(plain.snapshot().angles.empty());
   CHECK(shown.snapshot().angles.size() == shown.simulation().particles().size());
   CHECK(shown.snapshot().flights.empty());
-  // Whatever is shown from now on: nothing of the former view may be told of events any more.
+  // Observers of a former view must not be called any more.
   View view = scene.view;
   for (int k = 1; k <= 20; ++k) {
     view.field = k % 2 == 0 ? std::optional(Field::Density) : std::nullopt;
@@ -117,7 +115,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == b[i]);
 }
 
-TEST_CASE("ScheduledRun: what is shown may change while it runs, and leaves the run as it is") {
+TEST_CASE("ScheduledRun: the shown field may change while it runs, and does not change the run") {
   Scene scene = vibrated();
   ScheduledRun plain(scene, 16), watched(scene, 16);
   View view = scene.view;
@@ -136,7 +134,7 @@ TEST_CASE("ScheduledRun: what is shown may change while it runs, and leaves the 
   CHECK(watched.simulation().state_hash() == plain.simulation().state_hash());
 }
 
-TEST_CASE("ScheduledRun: arrows and balances go on across changes") {
+TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
   View view = vibrated().view;
   view.arrows = Arrows::HeatFlux;
   for (const Field field : {Field::Temperature, Field::BalanceEnergy}) {
@@ -171,7 +169,7 @@ TEST_CASE("ScheduledRun: arrows and balances go on across changes") {
   }
 }
 
-TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
+TEST_CASE("ScheduledRun: impossible changes are refused, and change nothing") {
   ScheduledRun run(vibrated(), 15);
   run.run_until(3.0);
   CHECK_THROWS_AS(run.change({{"particles.restitution", "1.5"}}), UserError);
@@ -186,7 +184,7 @@ TEST_CASE("ScheduledRun: what cannot be is refused, and nothing has happened") {
   CHECK(run.run_until(4.0));
 }
 
-TEST_CASE("ScheduledRun: averages that go on from a checkpoint are to the bit those of one run") {
+TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run, to the bit") {
   for (const std::string field : {"temperature", "balance_energy"}) {
     CAPTURE(field);
     Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
@@ -217,7 +215,7 @@ TEST_CASE("ScheduledRun: averages that go on from a checkpoint are to the bit th
   }
 }
 
-TEST_CASE("ScheduledRun: flights and angles go on from a checkpoint as those of one run") {
+TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint are those of one run") {
   Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
   scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
   ScheduledRun whole(scene, 15);

@@ -23,7 +23,7 @@ Scene rough_gas() {
   return scene;
 }
 
-// Difference of two angles, whatever whole turns lie between.
+// Difference of two angles, without whole turns.
 double between(double a, double b) {
   return std::fabs(std::remainder(a - b, 2.0 * std::numbers::pi));
 }
@@ -63,7 +63,7 @@ TEST_CASE("SpinAngles: the hash is the same, and angles do not depend on when th
   CHECK(often.angles() == angles.angles());
 }
 
-TEST_CASE("SpinAngles: a run that goes on has its angles, from a checkpoint or under other laws") {
+TEST_CASE("SpinAngles: a resumed run has its angles, also under other laws") {
   const Scene scene = rough_gas();
   const auto simulation = simulation_of(scene, 5);
   SpinAngles angles(*simulation);

@@ -3,27 +3,23 @@
 #include <string>
 #include <vector>
 
-#include "engine/error.h"
 #include "engine/scene/scene_file.h"
+#include "tests/support/messages.h"
 
 namespace clatter::testing {
 
 /// The smallest scene.
 inline const std::string kParticles = "[particles]\ncount = 10\n";
 
-/// The message with which a scene is refused; empty where it is not.
+/// The message with which a scene's text is refused; empty where it is not.
 inline std::string refusal(const std::string& text, const std::vector<Override>& overrides = {}) {
-  try {
-    parse_scene(text, "s.toml", overrides);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { parse_scene(text, "s.toml", overrides); });
 }
 
-/// Whether a text has a part.
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+/// The message with which a file, or a name, is refused; empty where it is not.
+inline std::string load_refusal(const std::string& name,
+                                const std::vector<Override>& overrides = {}) {
+  return refusal_of([&] { load_scene(name, overrides); });
 }
 
 }  // namespace clatter::testing

@@ -5,7 +5,7 @@
 
 using namespace clatter;
 
-TEST_CASE("Differences: values that changed, came and went, by their dotted keys") {
+TEST_CASE("Scene differences: values that changed, came or went are named by their dotted keys") {
   const auto found = differences(
       "title = 'a'\n[box]\nsize = [1.0, 2.0]\n[walls.left]\nkind = 'static'\n",
       "title = 'a'\n[box]\nsize = [1.0, 3.0]\n[gravity]\nacceleration = [0.0, 0.1]\n", "f");
@@ -18,7 +18,7 @@ TEST_CASE("Differences: values that changed, came and went, by their dotted keys
   CHECK(found[2].now.empty());
 }
 
-TEST_CASE("Differences: the last bit of a number counts, the order of keys does not") {
+TEST_CASE("Scene differences: the last bit of a number counts, the order of keys does not") {
   CHECK(differences("a = 0.1\nb = 2", "b = 2\na = 0.1", "f").empty());
   CHECK(differences("a = 0.1", "a = 0.10000000000000002", "f").size() == 1);
   CHECK_THROWS_AS(differences("a = ", "a = 1", "f"), UserError);

@@ -3,37 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "engine/embedded_file.h"
-#include "engine/error.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
 #include "tests/engine/scene/refusal.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
-
-std::string load_refusal(const std::string& name) {
-  try {
-    load_scene(name);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// A file of the given bytes that goes away with the scope.
-struct TemporaryFile {
-  explicit TemporaryFile(const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path); }
-  std::string path = (std::filesystem::temp_directory_path() / "clatter_test_scene.toml").string();
-};
 
 void check_equal(const Roughness& a, const Roughness& b) {
   CHECK(a.friction == b.friction);
@@ -177,13 +158,13 @@ Scene unusual_scene() {
 
 }  // namespace
 
-TEST_CASE("a short scene has the defaults") {
+TEST_CASE("Scene file: a short scene has the defaults") {
   Scene expected;
   expected.particles.count = 10;
   check_equal(parse_scene(kParticles, "s.toml"), expected);
 }
 
-TEST_CASE("every key arrives at its place") {
+TEST_CASE("Scene file: every key arrives at its place") {
   const Scene scene = parse_scene(R"(
     schema = 1
     title = "T"
@@ -266,12 +247,12 @@ TEST_CASE("every key arrives at its place") {
   CHECK(scene.view.field_range.kind == ColourRange::Locked);
 }
 
-TEST_CASE("area_fraction becomes the nearest count") {
+TEST_CASE("Scene file: area_fraction becomes the nearest count") {
   const Scene scene = parse_scene("box.size = [10, 10]\nparticles.area_fraction = 0.3\n", "s.toml");
   CHECK(scene.particles.count == 38);  // 0.3 * 400 / pi = 38.197
 }
 
-TEST_CASE("a name of a field stands for its components, and each may stand alone") {
+TEST_CASE("Scene file: a name of a field stands for its components, and each may stand alone") {
   const auto fields = [](const std::string& list) {
     return parse_scene(kParticles + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;
@@ -291,14 +272,14 @@ TEST_CASE("a name of a field stands for its components, and each may stand alone
   }
 }
 
-TEST_CASE("a scene in which all differs from the defaults survives writing and reading") {
+TEST_CASE("Scene file: a scene unlike the defaults in every key survives writing and reading") {
   check_equal(parse_scene(scene_to_toml(unusual_scene()), "s.toml"), unusual_scene());
   Scene plain;
   plain.particles.count = 10;
   check_equal(parse_scene(scene_to_toml(plain), "s.toml"), plain);
 }
 
-TEST_CASE("a scene as JSON has the keys of the file") {
+TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
   Scene scene = parse_scene(R"(
     title = "a \"b\"\n\u0007"
     box.size = [2.5, 20]
@@ -323,7 +304,8 @@ TEST_CASE("a scene as JSON has the keys of the file") {
       R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
 }
 
-TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as a text") {
+TEST_CASE(
+    "Scene file: a scene as JSON has the keys of rough and driven gases, and infinity as a text") {
   const std::string json = scene_to_json(parse_scene(R"(
     particles = { count = 3, friction = inf, start.spin_temperature = 2 }
     walls.left = { kind = "sawtooth", stroke = 0.5, frequency = 3, friction = 0.5 }
@@ -343,11 +325,11 @@ TEST_CASE("a scene as JSON has what it has beyond a smooth gas, and infinity as 
         R"("bulk_drive": {"interval": 0.5, "kick_speed": 2.0, "kick_spin": 0.0})",
         R"("collapse": {"contact_time": 1e-06})"}) {
     CAPTURE(part);
-    CHECK(has(json, part));
+    CHECK(says(json, part));
   }
 }
 
-TEST_CASE("overrides replace values, and their mistakes name the flag") {
+TEST_CASE("Scene file: overrides replace values, and their mistakes name the flag") {
   const std::string text =
       "[particles]\narea_fraction = 0.3\n[walls.left]\nkind = \"driven\"\n"
       "drive_speed = 1\n[walls.right]\nkind = \"static\"\n[view]\nspeed = 2\n";
@@ -380,37 +362,36 @@ TEST_CASE("overrides replace values, and their mistakes name the flag") {
         "and 1");
   CHECK(refusal(text, {{"particles.restitutoin", "1"}}) ==
         "--set particles.restitutoin: unknown key 'restitutoin'; did you mean 'restitution'?");
-  CHECK(has(refusal(text, {{"particles.count", "many"}}),
-            "--set particles.count: 'particles.count' cannot be \"many\"; give a whole number"));
-  CHECK(has(refusal(text, {{"particles.count", "10000"}}),
-            "--set particles.count: 10000 particles do not fit into the box; it holds at most "));
-  CHECK(has(refusal(text, {{"walls.top.kind", "static"}}),
-            "--set walls.top.kind: [walls.top] has no wall opposite"));
-  CHECK(has(refusal(text, {{"particles..count", "1"}}),
-            "--set particles..count: \"particles..count\" cannot be a key"));
-  CHECK(has(refusal(text, {{"#", "1"}}), "--set #: \"#\" cannot be a key"));
-  CHECK(has(refusal(text, {{"", "1"}}), "cannot be a key"));
+  CHECK(says(refusal(text, {{"particles.count", "many"}}),
+             "--set particles.count: 'particles.count' cannot be \"many\"; give a whole number"));
+  CHECK(says(refusal(text, {{"particles.count", "10000"}}),
+             "--set particles.count: 10000 particles do not fit into the box; it holds at most "));
+  CHECK(says(refusal(text, {{"walls.top.kind", "static"}}),
+             "--set walls.top.kind: [walls.top] has no wall opposite"));
+  CHECK(says(refusal(text, {{"particles..count", "1"}}),
+             "--set particles..count: \"particles..count\" cannot be a key"));
+  CHECK(says(refusal(text, {{"#", "1"}}), "--set #: \"#\" cannot be a key"));
+  CHECK(says(refusal(text, {{"", "1"}}), "cannot be a key"));
 }
 
-TEST_CASE("scene files are found, or it is said why not") {
+TEST_CASE("Scene file: a file is found by path or name, or the reason why not is given") {
   CHECK(load_scene("vibrated").title == "Vibrated box");
   CHECK(load_scene("vibrated.toml", {{"particles.count", "7"}}).particles.count == 7);
   CHECK(load_refusal("vibratd") ==
         "vibratd: there is no such scene; did you mean the gallery scene 'vibrated'?");
-  CHECK(has(load_refusal("scenes/vibrated.toml"),
-            "scenes/vibrated.toml: there is no such scene; did you mean the gallery scene 'vib"));
-  CHECK(has(load_refusal("nothing-like-it"), "give a file or a name that `clatter scenes` lists"));
-  const std::string folder = std::filesystem::temp_directory_path().string();
-  CHECK(has(load_refusal(folder), folder + ": this is a directory"));
-  {
-    const TemporaryFile file("\xef\xbb\xbf[particles]\r\ncount = 3\r\n");
-    CHECK(load_scene(file.path).particles.count == 3);
-  }
-  const TemporaryFile large(kParticles + std::string(1'000'000, '#'));
-  CHECK(has(load_refusal(large.path), large.path + ": the file is larger than 1 MB"));
+  CHECK(says(load_refusal("scenes/vibrated.toml"),
+             "scenes/vibrated.toml: there is no such scene; did you mean the gallery scene 'vib"));
+  CHECK(says(load_refusal("nothing-like-it"), "give a file or a name that `clatter scenes` lists"));
+  const TemporaryFolder folder;
+  const std::string path = folder / "";
+  CHECK(says(load_refusal(path), path + ": this is a directory"));
+  const std::string marked = "\xef\xbb\xbf[particles]\r\ncount = 3\r\n";
+  CHECK(load_scene(folder.write("marked.toml", marked)).particles.count == 3);
+  const std::string large = folder.write("large.toml", kParticles + std::string(1'000'000, '#'));
+  CHECK(says(load_refusal(large), large + ": the file is larger than 1 MB"));
 }
 
-TEST_CASE("the gallery's scenes are sound and presented") {
+TEST_CASE("Scene file: the gallery's scenes are sound and presented") {
   CHECK(embedded_scenes().size() == 12);
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);

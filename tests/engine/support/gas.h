@@ -30,8 +30,8 @@ bool finite_and_inside(const Model<2>& model, const State<2>& state);
 std::string stop_of(Simulation<2>& simulation, double time);
 
 /// What a run must never show: a clock that steps back, particles that overlap where they collide.
-/// When the base moves, times are rounded anew, so that the order of events that coincide may
-/// change: the clock may step back by as much, no more.
+/// A move of the base rounds times again, and may change the order of coinciding events: the clock
+/// may step back by that rounding, no more.
 void check_sound(const Simulation<2>& simulation);
 
 }  // namespace clatter::testing

@@ -11,12 +11,12 @@
 
 namespace clatter::testing {
 
-Reference::Reference(const Model<2>& model, const State<2>& state)
+Reference::Reference(const Model<2>& model, const State<2>& state, const BaseMoves& moves)
     : model_(model),
       boundary_(model_, clock_),
       spins_(state.spins),
       last_collisions_(state.positions.size(), -kNever),
-      until_base_moves_(std::max<std::uint64_t>(64, state.positions.size())) {
+      moves_(moves) {
   spins_.resize(model.spins ? state.positions.size() : 0, Spin<2>::Zero());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     flights_.push_back({state.positions[i], state.velocities[i], 0.0, 0});
@@ -43,16 +43,11 @@ bool Reference::step() {
     if (kick_time < next.event.time) {
       now_ = kick_time;
       kick();
-      return true;
-    }
-    now_ = std::max(now_, next.event.time);
-    --until_base_moves_;
-    if (next.event.partner < kWall) {
-      collide(next);
     } else {
-      hit_wall(next.event);
+      now_ = std::max(now_, next.event.time);
+      next.event.partner < kWall ? collide(next) : hit_wall(next.event);
     }
-    if (until_base_moves_ == 0) move_base();
+    if (moves_.after(particle_particle_ + particle_wall_ + kicks_)) move_base();
     return true;
   }
   return false;
@@ -161,11 +156,9 @@ void Reference::kick() {
           spin(i) + spin_kicks[i]);
   }
   ++kicks_;
-  move_base();
 }
 
 void Reference::renew(std::uint32_t i, const Vec2& r, const Vec2& v, const Spin<2>& spin) {
-  if (v.cwiseAbs().maxCoeff() * now_ > 16384.0 * model_.diameter) until_base_moves_ = 0;
   flights_[i] = {wrapped(r), v, now_, flights_[i].number + 1};
   if (!spins_.empty()) spins_[i] = spin;
 }
@@ -180,14 +173,12 @@ Vec2 Reference::wrapped(const Vec2& r) const {
   return inside;
 }
 
-// When the base moves is part of what a run is: it rounds the times at which flights started.
 void Reference::move_base() {
   for (Flight<2>& flight : flights_) flight.time -= now_;
   for (double& time : last_collisions_) time -= now_;
   clock_.advance(now_);
   boundary_.move_base(clock_);
   now_ = 0.0;
-  until_base_moves_ = std::max<std::uint64_t>(64, 32 * flights_.size());
 }
 
 State<2> Reference::state() const {

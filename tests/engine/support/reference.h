@@ -1,23 +1,45 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/model.h"
+#include "engine/dynamics/simulation.h"
 #include "engine/physics/flight.h"
 
 namespace clatter::testing {
 
+/// Notes when the base of a simulation's times moves. It rounds the starts of flights, so the same
+/// bits need the same moves; which rule they follow is no physics.
+class BaseMoves : public Observer<2> {
+ public:
+  explicit BaseMoves(Simulation<2>& simulation) : simulation_(simulation) {
+    simulation.add_observer(*this);
+  }
+  /// Whether the base has moved right after so many collisions and kicks.
+  bool after(std::uint64_t events) const { return events_.contains(events); }
+
+  void on_base_moved(double) override {
+    events_.insert(simulation_.counts().collisions() + simulation_.counts().kicks);
+  }
+
+ private:
+  const Simulation<2>& simulation_;
+  std::set<std::uint64_t> events_;
+};
+
 /// What Simulation does, by brute force: before every event all pairs, all images and all walls are
 /// looked at, and the earliest event happens. No cells, no queue, nothing remembered between
-/// events. It uses the same pure functions of physics/ and the same outcomes of collisions, so that
-/// equal runs are equal to the last bit.
+/// events. It uses the same pure functions of physics/ and the same outcomes of collisions, and
+/// moves its base when the simulation has, so that equal runs are equal to the last bit.
 class Reference {
  public:
-  Reference(const Model<2>& model, const State<2>& state);
+  /// `moves` are those of a simulation that has run as far as the reference will.
+  Reference(const Model<2>& model, const State<2>& state, const BaseMoves& moves);
 
   /// Runs until that many collisions with particles and walls have happened, or no event is left.
   void run_until_collisions(std::uint64_t collisions);
@@ -57,7 +79,7 @@ class Reference {
   std::vector<double> last_collisions_;
   double now_ = 0.0;
   std::uint64_t particle_particle_ = 0, particle_wall_ = 0, kicks_ = 0;
-  std::uint64_t until_base_moves_;
+  const BaseMoves& moves_;
 };
 
 }  // namespace clatter::testing

@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-TEST_CASE("A library or function that is missing is named, with the package that has it") {
+TEST_CASE("Library: a missing library or function is named, with its package") {
   CHECK_THROWS_WITH_AS(Library("libmissing.so.1", "libmissing1"),
                        doctest::Contains("libmissing.so.1: cannot open"), RunError);
   CHECK_THROWS_WITH_AS(Library("libmissing.so.1", "libmissing1"),

@@ -46,7 +46,9 @@ Extent extent_of(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("An arrow is as long as its value, points along it, and has its middle at its place") {
+TEST_CASE(
+    "Arrow layer: an arrow is as long as its value, points along it, and has its middle at its "
+    "place") {
   const auto context = open_context(Backend::Osmesa);
   for (int k = 0; k < 12; ++k) {
     CAPTURE(k);
@@ -67,14 +69,14 @@ TEST_CASE("An arrow is as long as its value, points along it, and has its middle
   }
 }
 
-TEST_CASE("Arrows end at two cells, and vanishing values have none") {
+TEST_CASE("Arrow layer: arrows are two cells long at most, and vanishing values have none") {
   const auto context = open_context(Backend::Osmesa);
   const Extent extent = extent_of(draw(context->gl(), {{{10.0, 10.0}, {1e6, 0.0}}}, 20.0));
   CHECK(std::abs(extent.high.x() - extent.low.x() - 80.0) < 4.0);
   CHECK(extent_of(draw(context->gl(), {{{10.0, 10.0}, {0.0, 0.0}}}, 20.0)).count == 0);
 }
 
-TEST_CASE("A short arrow keeps its form") {
+TEST_CASE("Arrow layer: a short arrow keeps its form") {
   const auto context = open_context(Backend::Osmesa);
   const Extent small = extent_of(draw(context->gl(), {{{10.05, 10.05}, {0.2, 0.0}}}, 20.0));
   REQUIRE(small.count > 0);
@@ -84,7 +86,7 @@ TEST_CASE("A short arrow keeps its form") {
 
 // A flux that is nothing but rounding would be a field of bars; tips that coincide have no
 // direction.
-TEST_CASE("Arrows shorter than half a pixel are not drawn") {
+TEST_CASE("Arrow layer: arrows shorter than half a pixel are not drawn") {
   const auto context = open_context(Backend::Osmesa);
   for (const double length : {0.024, 1e-7, 1e-20, 5e-324}) {  // .024: .48 pixels
     CAPTURE(length);

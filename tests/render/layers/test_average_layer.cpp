@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-TEST_CASE("Samples are averaged as light, not as numbers of a screen") {
+TEST_CASE("Average layer: samples are averaged as linear light") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const Canvas fine = blank_canvas(gl, {6, 4});

@@ -19,7 +19,7 @@ Eigen::Array4d total(const Coverage& coverage) {
 
 }  // namespace
 
-TEST_CASE("Small disks keep their area and their light, wherever they are") {
+TEST_CASE("Coverage: small disks keep their area and their light, wherever they are") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> x(-2.0, 42.0), y(-2.0, 32.0);
   std::uniform_int_distribution<int> channel(0, 255);
@@ -60,7 +60,7 @@ double area_in(int x, int y, const Vec2& centre, double radius) {
 
 }  // namespace
 
-TEST_CASE("A small disk covers of each pixel what lies in it") {
+TEST_CASE("Coverage: a small disk covers the part of each pixel that lies in it") {
   Coverage coverage;
   const int width = kSize.width + 2 * Coverage::kMargin;
   for (const double radius : {0.3, 1.2, 1.49}) {
@@ -76,13 +76,13 @@ TEST_CASE("A small disk covers of each pixel what lies in it") {
           worst = std::max(worst, std::abs(area - area_in(x, y, centre, radius)));
         }
       }
-      // Places are told apart to a sixteenth of a pixel, so an edge is off by up to 0.045.
+      // Places are resolved to a sixteenth of a pixel, so an edge is off by up to 0.045.
       CHECK(worst < 0.07);
     }
   }
 }
 
-TEST_CASE("A picture without disks has no light, also after one with disks") {
+TEST_CASE("Coverage: a picture without disks has no light, also after one with disks") {
   Coverage coverage;
   coverage.restart(kSize, 0.5);
   coverage.add({3.0, 3.0}, {255, 255, 255});

@@ -11,25 +11,11 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{200, 120};
-
-// One disk in a walled box that fills the picture: a world unit is a pixel.
-Snapshot one_disk(Vec2 centre, double diameter) {
-  Snapshot snapshot;
-  snapshot.box = {kSize.width, kSize.height};
-  snapshot.diameter = diameter;
-  snapshot.walls.fill(Wall{});
-  snapshot.positions = {centre};
-  snapshot.velocities = {{0.0, 0.0}};
-  return snapshot;
-}
-
-const Projection kUnitProjection{{{100.0, 60.0}, 200.0}, kSize};
 constexpr double kAlwaysPoints = 1e9, kAlwaysSquares = 0.0;
 
 Image draw(const Gl& gl, const Snapshot& snapshot, double largest_point,
            ColourBy colour_by = ColourBy::None) {
-  const Canvas canvas = blank_canvas(gl, kSize);
+  const Canvas canvas = blank_canvas(gl, kUnitSize);
   DiskLayer(gl, largest_point)
       .draw(snapshot, kUnitProjection,
             {colour_by, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
@@ -58,10 +44,10 @@ Circle measure(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("A disk that follows a wall out of the box is no ghost") {
+TEST_CASE("Disk layer: a disk that follows a wall out of the box is drawn there only") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-4.0 + 100.0, 60.0}, 40.0);
-  snapshot.box = {100.0, kSize.height};
+  snapshot.box = {100.0, kUnitSize.height};
   const Image still = draw(context->gl(), snapshot, kAlwaysPoints);
   snapshot.wall_displacement[kRight] = -16.0;
   const Image swung = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -70,7 +56,7 @@ TEST_CASE("A disk that follows a wall out of the box is no ghost") {
   CHECK(difference(pixel(still, 104, 60), kDarkTheme.disk) > 50);
 }
 
-TEST_CASE("A disk is drawn where it is and as large as it is") {
+TEST_CASE("Disk layer: a disk is drawn where it is and as large as it is") {
   const auto context = open_context(Backend::Osmesa);
   for (double largest_point : {kAlwaysPoints, kAlwaysSquares}) {
     CAPTURE(largest_point);
@@ -84,7 +70,7 @@ TEST_CASE("A disk is drawn where it is and as large as it is") {
   }
 }
 
-TEST_CASE("Points and squares give the same picture") {
+TEST_CASE("Disk layer: points and squares give the same picture") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({60.2, 50.7}, 31.0);
   for (double x : {0.0, 15.6, 120.0, 190.1}) {
@@ -99,7 +85,7 @@ TEST_CASE("Points and squares give the same picture") {
   }
 }
 
-TEST_CASE("Particles whose angles are known have a mark that turns with them") {
+TEST_CASE("Disk layer: particles whose angles are known have a mark that turns with them") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({100.0, 60.0}, 40.0);
   const Image unmarked = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -119,7 +105,7 @@ TEST_CASE("Particles whose angles are known have a mark that turns with them") {
   CHECK(difference(draw(context->gl(), snapshot, kAlwaysPoints), unmarked) == 0);
 }
 
-TEST_CASE("Particles beyond the largest point of the driver are drawn as well") {
+TEST_CASE("Disk layer: particles beyond the largest point of the driver are drawn as well") {
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
   Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
@@ -134,7 +120,7 @@ TEST_CASE("Particles beyond the largest point of the driver are drawn as well") 
   CHECK(pixel(image, 1010, 700) == kDarkTheme.background);
 }
 
-TEST_CASE("A disk whose centre lies outside the picture shows its part inside") {
+TEST_CASE("Disk layer: a disk whose centre lies outside the picture shows its part inside") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
   const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -142,7 +128,7 @@ TEST_CASE("A disk whose centre lies outside the picture shows its part inside") 
   CHECK(pixel(image, 6, 60) == kDarkTheme.background);
 }
 
-TEST_CASE("A disk on a periodic border is drawn on both sides of the box") {
+TEST_CASE("Disk layer: a disk on a periodic border is drawn on both sides of the box") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({2.0, 60.0}, 20.0);
   CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == kDarkTheme.background);
@@ -158,7 +144,7 @@ TEST_CASE("A disk on a periodic border is drawn on both sides of the box") {
   }
 }
 
-TEST_CASE("A disk's colour shows its velocity") {
+TEST_CASE("Disk layer: a disk's colour shows its velocity") {
   const auto context = open_context(Backend::Osmesa);
   const ColourScale scale{colour_map(Palette::Viridis)};
   Snapshot snapshot = one_disk({60.0, 60.0}, 40.0);
@@ -172,7 +158,7 @@ TEST_CASE("A disk's colour shows its velocity") {
   CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
 }
 
-TEST_CASE("Particles smaller than a pixel send the light of their area") {
+TEST_CASE("Disk layer: particles smaller than a pixel send the light of their area") {
   const auto context = open_context(Backend::Osmesa);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
   const double area = M_PI / 16.0;
@@ -191,8 +177,8 @@ Snapshot many_disks(double diameter) {
   snapshot.positions.clear();
   snapshot.velocities.clear();
   const double apart = 1.26 * diameter;
-  for (double y = diameter; y < kSize.height - diameter; y += apart) {
-    for (double x = diameter; x < kSize.width - diameter; x += apart) {
+  for (double y = diameter; y < kUnitSize.height - diameter; y += apart) {
+    for (double x = diameter; x < kUnitSize.width - diameter; x += apart) {
       snapshot.positions.push_back({x + 0.1 * std::sin(7.0 * y), y + 0.1 * std::cos(5.0 * x)});
       snapshot.velocities.push_back({0.5 + 0.5 * std::sin(0.2 * x) * std::cos(0.3 * y), 0.0});
     }
@@ -210,7 +196,9 @@ std::array<double, 3> mean_colour(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("Particles look the same on both sides of the radius below which they have no shape") {
+TEST_CASE(
+    "Disk layer: particles look the same on both sides of the radius below which they have no "
+    "shape") {
   const auto context = open_context(Backend::Osmesa);
   const double switch_over = 2.0 * Coverage::kLargestRadius;
   Snapshot snapshot = many_disks(switch_over);
@@ -227,18 +215,19 @@ TEST_CASE("Particles look the same on both sides of the radius below which they 
   }
 }
 
-TEST_CASE("The light of small disks is that of their shapes, drawn larger and averaged") {
+TEST_CASE(
+    "Disk layer: the light of small disks is that of their shapes, drawn larger and averaged") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   for (const double diameter : {0.8, 1.5, 2.5}) {
     CAPTURE(diameter);
     const Snapshot snapshot = many_disks(diameter);
     const Image light = draw(gl, snapshot, kAlwaysPoints, ColourBy::Speed);
-    const Canvas fine = blank_canvas(gl, {4 * kSize.width, 4 * kSize.height});
+    const Canvas fine = blank_canvas(gl, {4 * kUnitSize.width, 4 * kUnitSize.height});
     DiskLayer(gl, kAlwaysPoints)
-        .draw(snapshot, {kUnitProjection.camera, kSize, 4},
+        .draw(snapshot, {kUnitProjection.camera, kUnitSize, 4},
               {ColourBy::Speed, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
-    const Canvas canvas = blank_canvas(gl, kSize);
+    const Canvas canvas = blank_canvas(gl, kUnitSize);
     AverageLayer(gl).draw(fine, 4);
     const Image shapes = canvas.read();
     for (int channel : {0, 1, 2}) {

@@ -7,7 +7,8 @@
 
 namespace clatter {
 
-TEST_CASE("Each cell of a field has its colour up to its edges, and a gap is hatched") {
+TEST_CASE(
+    "Field layer: each cell of a field has its colour up to its edges, and a gap is hatched") {
   constexpr Colour kGap = {0xff, 0x00, 0x00};
   const auto context = open_context(Backend::Osmesa);
   const Size size{60, 40};

@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-TEST_CASE("Dear ImGui's shapes come out at their pixels, clipped, from the upper left corner") {
+TEST_CASE("Gui layer: shapes of Dear ImGui come out at their pixels, clipped") {
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {80, 60});
   GuiLayer layer(context->gl());

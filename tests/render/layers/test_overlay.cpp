@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-TEST_CASE("The overlay writes on every size of picture, and neither on the box nor at the edge") {
+TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at the edge") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   for (Size size : {Size{1280, 720}, {1920, 1080}, {720, 720}, {640, 360}, {360, 640}}) {
@@ -46,7 +46,8 @@ TEST_CASE("The overlay writes on every size of picture, and neither on the box n
   }
 }
 
-TEST_CASE("Colour bars for which a small picture has no room stay out of the row of figures") {
+TEST_CASE(
+    "Overlay: colour bars for which a small picture has no room stay out of the row of figures") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   const Size size{320, 240};
@@ -63,7 +64,7 @@ TEST_CASE("Colour bars for which a small picture has no room stay out of the row
   CHECK(std::any_of(row, one.rgba.end(), [&](unsigned char c) { return c > 128 && c < 255; }));
 }
 
-TEST_CASE("A card covers the picture with its title, and fades out") {
+TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   const Snapshot snapshot = driven_box();

@@ -39,7 +39,7 @@ PlotPanel two_points(bool first_hollow, bool second_hollow) {
 
 }  // namespace
 
-TEST_CASE("Points of a plot stand where their values are, and hollow ones are rings") {
+TEST_CASE("Plot: points of a plot stand where their values are, and hollow ones are rings") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const Mark low = mark_of(plotted(gl, {two_points(false, true)}));
@@ -51,11 +51,12 @@ TEST_CASE("Points of a plot stand where their values are, and hollow ones are ri
   CHECK(both.pixels > 1.3 * low.pixels);
 }
 
-TEST_CASE("A plot has panels of the same axes, and none where there is nothing") {
+TEST_CASE("Plot: a plot has panels of the same axes, and none where there is nothing") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const PlotPanel point{"", {{1.0, 1.0, "", false}}}, far{"", {{1e3, 1.0, "", false}}};
-  // The left panel's point is at the left of it, since the right one's axis goes on to the right.
+  // The left panel's point stands at its left, because the axes reach as far as the right panel's
+  // point.
   const Mark beside_far = mark_of(plotted(gl, {point, far}));
   const Mark beside_same = mark_of(plotted(gl, {point, point}));
   CHECK(beside_far.pixels == doctest::Approx(beside_same.pixels).epsilon(0.1));
@@ -64,7 +65,7 @@ TEST_CASE("A plot has panels of the same axes, and none where there is nothing")
   CHECK(mark_of(plotted(gl, {{"", {{1.0, 0.0, "", false}}}})).pixels > 50);
 }
 
-TEST_CASE("Pictures are as similar as they look, and keep their look at another size") {
+TEST_CASE("Similarity: it is less the more two pictures differ, and survives another size") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const Image picture = plotted(gl, {two_points(false, true)});

@@ -12,31 +12,17 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{200, 120};
-// A world unit is a pixel.
-const Projection kProjection{{{100.0, 60.0}, 200.0}, kSize};
-
-Snapshot one_disk(double diameter) {
-  Snapshot snapshot;
-  snapshot.box = {kSize.width, kSize.height};
-  snapshot.diameter = diameter;
-  snapshot.walls.fill(Wall{});
-  snapshot.positions = {{0.0, 0.0}};
-  snapshot.velocities = {{0.0, 0.0}};
-  return snapshot;
-}
-
 // With the path of one disk, piece after piece, seen for as long as they take.
 Snapshot on_path(double diameter, std::vector<FlightPiece> pieces) {
-  Snapshot snapshot = one_disk(diameter);
+  Snapshot snapshot = one_disk({0.0, 0.0}, diameter);
   snapshot.exposure = -pieces.front().from;
   snapshot.flights = std::move(pieces);
   return snapshot;
 }
 
 Image drawn(const Gl& gl, DiskLayer& layer, const Snapshot& snapshot) {
-  const Canvas canvas = blank_canvas(gl, kSize, kClear);
-  layer.draw(snapshot, kProjection, {ColourBy::None, {}, kDarkTheme.disk});
+  const Canvas canvas = blank_canvas(gl, kUnitSize, kClear);
+  layer.draw(snapshot, kUnitProjection, {ColourBy::None, {}, kDarkTheme.disk});
   return canvas.read();
 }
 
@@ -56,7 +42,7 @@ double area(const Image& image) {
 double off_instants(const Gl& gl, const Snapshot& blurred) {
   constexpr int kInstants = 400;
   DiskLayer layer(gl);
-  std::vector<double> sums(4 * kSize.width * kSize.height, 0.0);
+  std::vector<double> sums(4 * kUnitSize.width * kUnitSize.height, 0.0);
   for (int k = 0; k < kInstants; ++k) {
     const double time = blurred.exposure * ((k + 0.5) / kInstants - 1.0);
     Snapshot instant = blurred;
@@ -85,7 +71,7 @@ double off_instants(const Gl& gl, const Snapshot& blurred) {
 
 }  // namespace
 
-TEST_CASE("Shutter: a disk at rest looks as at an instant") {
+TEST_CASE("Swept layer: a disk at rest looks like a disk at an instant") {
   const auto context = open_context(Backend::Osmesa);
   DiskLayer layer(context->gl());
   for (const double diameter : {2.0, 3.5, 8.0, 40.0}) {
@@ -93,14 +79,13 @@ TEST_CASE("Shutter: a disk at rest looks as at an instant") {
     const Vec2 place(71.3, 58.2);
     const Snapshot resting = on_path(diameter, {{0, -0.4, -0.1, place, {0.0, 0.0}, {0.0, 0.0}},
                                                 {0, -0.1, 0.0, place, {0.0, 0.0}, {0.0, 0.0}}});
-    Snapshot instant = one_disk(diameter);
-    instant.positions = {place};
+    const Snapshot instant = one_disk(place, diameter);
     CHECK(difference(drawn(context->gl(), layer, resting), drawn(context->gl(), layer, instant)) <=
           (diameter < 3.0 ? 8 : 2));
   }
 }
 
-TEST_CASE("Shutter: a moving disk keeps its area and its light") {
+TEST_CASE("Swept layer: a moving disk keeps its area and its light") {
   const auto context = open_context(Backend::Osmesa);
   DiskLayer layer(context->gl());
   for (const double diameter : {2.0, 6.0, 30.0}) {
@@ -123,7 +108,7 @@ TEST_CASE("Shutter: a moving disk keeps its area and its light") {
 }
 
 TEST_CASE(
-    "Shutter: at constant speed the opacity is the share of time in which a pixel is covered") {
+    "Swept layer: at constant speed the opacity is the share of time in which a pixel is covered") {
   const auto context = open_context(Backend::Osmesa);
   DiskLayer layer(context->gl());
   constexpr double kLength = 80.0, kRadius = 15.0;
@@ -133,7 +118,7 @@ TEST_CASE(
             on_path(2.0 * kRadius, {{0, -2.0, 0.0, start, {40.0, 0.0}, {0.0, 0.0}}}));
   for (int y = 48; y <= 72; y += 3) {
     for (int x = 44; x < 156; ++x) {
-      const Vec2 place = Vec2(x + 0.5, kSize.height - y - 0.5) - start;
+      const Vec2 place = Vec2(x + 0.5, kUnitSize.height - y - 0.5) - start;
       const double half = std::sqrt(kRadius * kRadius - place.y() * place.y());
       const double covered = std::min(place.x() + half, kLength) - std::max(place.x() - half, 0.0);
       CHECK(std::fabs(alpha(image, x, y) - std::max(0.0, covered) / kLength) < 0.008);
@@ -141,7 +126,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Shutter: a collision shows both flights, and all is what instants average to") {
+TEST_CASE("Swept layer: paths with collisions and borders look like the average of instants") {
   const auto context = open_context(Backend::Osmesa);
   for (const double diameter : {2.0, 5.0, 30.0}) {
     CAPTURE(diameter);

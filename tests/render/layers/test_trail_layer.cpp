@@ -9,32 +9,24 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{200, 120};
-// A world unit is a pixel.
-const Projection kProjection{{{100.0, 60.0}, 200.0}, kSize};
-
 Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
-  const Canvas canvas = blank_canvas(gl, kSize, kClear);
-  TrailLayer(gl).draw(snapshot, kProjection, {ColourBy::None, {}, kDarkTheme.disk}, time);
+  const Canvas canvas = blank_canvas(gl, kUnitSize, kClear);
+  TrailLayer(gl).draw(snapshot, kUnitProjection, {ColourBy::None, {}, kDarkTheme.disk}, time);
   return canvas.read();
 }
 
 }  // namespace
 
-TEST_CASE("Trails lie on the paths and fade out as far back as they reach") {
+TEST_CASE("Trail layer: trails lie on the paths and fade out as far back as they reach") {
   const auto context = open_context(Backend::Osmesa);
-  Snapshot snapshot;
-  snapshot.box = {kSize.width, kSize.height};
-  snapshot.diameter = 20.0;
-  snapshot.walls.fill(Wall{});
-  snapshot.positions = {{120.0, 100.0}};
+  Snapshot snapshot = one_disk({120.0, 100.0}, 20.0);
   snapshot.velocities = {{0.0, 40.0}};
   // Along x, then up.
   snapshot.flights = {{0, -3.0, -1.0, {40.0, 60.0}, {40.0, 0.0}, {0.0, 0.0}},
                       {0, -1.0, 0.0, {120.0, 60.0}, {0.0, 40.0}, {0.0, 0.0}}};
   const Image image = drawn(context->gl(), snapshot, 2.0);
   const auto opacity = [&](int x, int up) {
-    return pixel(image, x, kSize.height - 1 - up).alpha / 255.0;
+    return pixel(image, x, kUnitSize.height - 1 - up).alpha / 255.0;
   };
   for (int up = 62; up < 100; up += 7) {
     CHECK(opacity(120, up) == doctest::Approx(0.6 * (1.0 - (100 - up) / 80.0)).epsilon(0.03));

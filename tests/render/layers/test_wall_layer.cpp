@@ -30,7 +30,7 @@ Wall wall_of(WallKind kind) {
 
 }  // namespace
 
-TEST_CASE("A wall begins at the edge of the box and leaves the inside alone") {
+TEST_CASE("Wall layer: a wall begins at the edge of the box and leaves the inside alone") {
   const auto context = open_context(Backend::Osmesa);
   for (WallKind kind : {WallKind::Static, WallKind::Driven, WallKind::Thermal}) {
     const Image image = draw(context->gl(), wall_of(kind));
@@ -42,7 +42,7 @@ TEST_CASE("A wall begins at the edge of the box and leaves the inside alone") {
   }
 }
 
-TEST_CASE("Only a driven wall moves, at the speed it stands for") {
+TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed") {
   const auto context = open_context(Backend::Osmesa);
   const Image start = draw(context->gl(), wall_of(WallKind::Driven));
   CHECK(difference(start, draw(context->gl(), wall_of(WallKind::Driven), 0.3)) > 50);
@@ -55,7 +55,7 @@ TEST_CASE("Only a driven wall moves, at the speed it stands for") {
   }
 }
 
-TEST_CASE("A moving wall is drawn where it is, and covers what is behind it") {
+TEST_CASE("Wall layer: a moving wall is drawn where it is, and covers what is behind it") {
   const auto context = open_context(Backend::Osmesa);
   for (WallKind kind : {WallKind::Sawtooth, WallKind::Sinusoidal}) {
     for (double displacement : {-1.0, 0.0, 2.0, 3.0}) {  // 10 pixels each
@@ -84,7 +84,7 @@ TEST_CASE("A moving wall is drawn where it is, and covers what is behind it") {
   }
 }
 
-TEST_CASE("A moving wall looks the same wherever it is") {
+TEST_CASE("Wall layer: a moving wall looks the same wherever it is") {
   const auto context = open_context(Backend::Osmesa);
   const auto at = [&](double displacement) {
     Snapshot snapshot;
@@ -105,7 +105,8 @@ TEST_CASE("A moving wall looks the same wherever it is") {
   }
 }
 
-TEST_CASE("A line marks the place of a wall that has moved, as long as the box is wide") {
+TEST_CASE(
+    "Wall layer: a line marks the place of a wall that has moved, as long as the box is wide") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
@@ -124,7 +125,7 @@ TEST_CASE("A line marks the place of a wall that has moved, as long as the box i
   }
 }
 
-TEST_CASE("The walls beside one that moves end at its face") {
+TEST_CASE("Wall layer: the walls beside one that moves end at its face") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
@@ -141,7 +142,7 @@ TEST_CASE("The walls beside one that moves end at its face") {
   }
 }
 
-TEST_CASE("A driven wall is warm, and a hot thermal one brighter than a cold one") {
+TEST_CASE("Wall layer: a driven wall is warm, and a hot thermal one brighter than a cold one") {
   const auto context = open_context(Backend::Osmesa);
   const Colour driven = pixel(draw(context->gl(), wall_of(WallKind::Driven)), 49, 100);
   CHECK(driven.red > 2 * driven.blue);
@@ -153,7 +154,7 @@ TEST_CASE("A driven wall is warm, and a hot thermal one brighter than a cold one
   CHECK(hot.red + hot.green + hot.blue > cold.red + cold.green + cold.blue + 100);
 }
 
-TEST_CASE("A periodic border is a dashed line") {
+TEST_CASE("Wall layer: a periodic border is a dashed line") {
   const auto context = open_context(Backend::Osmesa);
   const Image image = draw(context->gl(), Wall{});
   int drawn = 0;

@@ -6,9 +6,11 @@
 
 #include "render/output/movie.h"
 #include "render/output/png_sink.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 
@@ -37,7 +39,7 @@ std::vector<int> greys_of(const std::string& input) {
 }  // namespace
 
 // As the thread that simulates and draws does it. The thread sanitizer watches this case, too.
-TEST_CASE("Sinks: pictures that wait for encoders beside them come whole and in order") {
+TEST_CASE("Frame sinks: pictures that wait for encoders come whole and in order") {
   const TemporaryFolder folder;
   SinkOptions options;
   options.size = kSize;

@@ -2,15 +2,15 @@
 #include <libdeflate.h>
 #include <stb_image.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "engine/error.h"
 #include "render/output/image.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 
@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, std::string>> chunks(const std::vector<unsign
 
 }  // namespace
 
-TEST_CASE("A PNG gives the same pixels back") {
+TEST_CASE("Image: a PNG gives the same pixels back") {
   for (Size size : {Size{1, 1}, {3, 2}, {257, 33}}) {
     const Image image = gradient(size);
     Size decoded;
@@ -62,7 +62,7 @@ TEST_CASE("A PNG gives the same pixels back") {
   }
 }
 
-TEST_CASE("Texts are kept in a PNG, before the pixels, with right checksums") {
+TEST_CASE("Image: texts are kept in a PNG, before the pixels, with right checksums") {
   const std::vector<PngText> texts = {{"Title", "Gas ρ"}, {"Comment", ""}};
   const auto found = chunks(encode_png(gradient({3, 2}), texts));
   REQUIRE(found.size() == 5);
@@ -74,13 +74,12 @@ TEST_CASE("Texts are kept in a PNG, before the pixels, with right checksums") {
   CHECK(found[4].first == "IEND");
 }
 
-TEST_CASE("A PNG file is there whole, or an error and nothing") {
+TEST_CASE("Image: a PNG file is there whole, or an error and nothing") {
   const TemporaryFolder folder;
   const Image image = gradient({16, 9});
   write_png(folder / "a.png", image);
-  std::ifstream file(folder / "a.png", std::ios::binary);
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), {}};
-  CHECK(bytes == encode_png(image));
+  const std::vector<unsigned char> png = encode_png(image);
+  CHECK(bytes_of(folder / "a.png") == std::string(png.begin(), png.end()));
   std::filesystem::remove(folder / "a.png");
 
   CHECK_THROWS_WITH_AS(write_png(folder / "missing/a.png", image),
@@ -91,7 +90,7 @@ TEST_CASE("A PNG file is there whole, or an error and nothing") {
   CHECK(folder.empty());
 }
 
-TEST_CASE("A text in a PNG file is found again, and only that one") {
+TEST_CASE("Image: a text in a PNG file is found by its key") {
   const TemporaryFolder folder;
   const Image image{{2, 2}, std::vector<unsigned char>(16, 7)};
   const std::string scene = "title = \"ψ, iTXtScene\"\n";

@@ -1,13 +1,15 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "engine/error.h"
 #include "render/output/movie.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 
@@ -44,25 +46,20 @@ long frames_of(const std::filesystem::path& path) {
   return at == std::string::npos ? -1 : std::stol(facts.substr(at + 15));
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void write_film(Movie& movie, int frames) {
   for (int i = 0; i < frames; ++i) movie.add(frame(i), {});
   movie.finish(Ending::Whole);
 }
 
 std::filesystem::path make_encoder(const std::filesystem::path& path, const std::string& script) {
-  std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+  write_bytes(path, "#!/bin/sh\n" + script + "\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   return path;
 }
 
 }  // namespace
 
-TEST_CASE("A film has its frames, its codec, even sides and its texts") {
+TEST_CASE("Movie: a film has its frames, its codec, even sides and its texts") {
   const TemporaryFolder folder;
   struct Kind {
     const char* name;
@@ -79,24 +76,24 @@ TEST_CASE("A film has its frames, its codec, even sides and its texts") {
     write_film(movie, 20);
     const std::string facts = probe(folder / kind.name);
     CAPTURE(facts);
-    CHECK(facts.find(kind.codec) != std::string::npos);
-    CHECK(facts.find(kind.size) != std::string::npos);
-    CHECK(facts.find("nb_read_frames=20\n") != std::string::npos);
-    CHECK(facts.find("r_frame_rate=25/1\n") != std::string::npos);
+    CHECK(says(facts, kind.codec));
+    CHECK(says(facts, kind.size));
+    CHECK(says(facts, "nb_read_frames=20\n"));
+    CHECK(says(facts, "r_frame_rate=25/1\n"));
     const std::string extension = std::filesystem::path(kind.name).extension();
     if (extension == ".mp4" || extension == ".webm") {
-      CHECK(facts.find("pix_fmt=yuv420p\n") != std::string::npos);
+      CHECK(says(facts, "pix_fmt=yuv420p\n"));
     }
     if (extension != ".gif") {
-      CHECK(facts.find("Gas ρ") != std::string::npos);
-      CHECK(facts.find("a \"comment\"") != std::string::npos);
+      CHECK(says(facts, "Gas ρ"));
+      CHECK(says(facts, "a \"comment\""));
     }
     std::filesystem::remove(folder / kind.name);
     CHECK(folder.empty());
   }
 }
 
-TEST_CASE("An mkv has every bit of the pictures") {
+TEST_CASE("Movie: an mkv has every bit of the pictures") {
   const TemporaryFolder folder;
   SinkOptions small = options();
   small.size = {3, 3};
@@ -118,16 +115,16 @@ TEST_CASE("An mkv has every bit of the pictures") {
   CHECK(decoded == image.rgba);
 }
 
-TEST_CASE("An mp4 can play before it is loaded: its index comes first") {
+TEST_CASE("Movie: an mp4 can play before it is loaded: its index comes first") {
   const TemporaryFolder folder;
   Movie movie(folder / "film.mp4", options());
   write_film(movie, 5);
   const std::string bytes = bytes_of(folder / "film.mp4");
   CHECK(bytes.find("moov") < bytes.find("mdat"));
-  CHECK(bytes.find("moof") == std::string::npos);  // whole, no longer in fragments
+  CHECK_FALSE(says(bytes, "moof"));  // whole, no longer in fragments
 }
 
-TEST_CASE("Where pieces cannot be joined, they stay, and the error names them") {
+TEST_CASE("Movie: pieces that cannot be joined stay, and the error names them") {
   const TemporaryFolder folder, programs;
   const auto encoder = make_encoder(
       programs / "encoder",
@@ -144,7 +141,7 @@ TEST_CASE("Where pieces cannot be joined, they stay, and the error names them") 
   CHECK(frames_of(folder / "film.mp4.part/000060.mp4") == 20);
 }
 
-TEST_CASE("A film that was cut and taken up again is that film to the byte") {
+TEST_CASE("Movie: a film that was cut and resumed is the same film, to the byte") {
   const TemporaryFolder folder;
   constexpr long kFrames = 2 * FrameSink::kPiece + 7, kCut = FrameSink::kPiece + 30;
   for (const std::string extension : {".mp4", ".webm", ".gif", ".mkv"}) {
@@ -176,7 +173,7 @@ TEST_CASE("A film that was cut and taken up again is that film to the byte") {
   }
 }
 
-TEST_CASE("What there is of a film that was cut is in nobody's way, and nobody's to overwrite") {
+TEST_CASE("Movie: the pieces of a film that was cut are not overwritten unless asked") {
   const TemporaryFolder folder;
   {
     Movie movie(folder / "film.mp4", options());
@@ -198,7 +195,7 @@ TEST_CASE("What there is of a film that was cut is in nobody's way, and nobody's
   CHECK_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
 }
 
-TEST_CASE("Names that look like options or protocols are names") {
+TEST_CASE("Movie: names that look like options or protocols are names") {
   const TemporaryFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder / "");
@@ -210,14 +207,15 @@ TEST_CASE("Names that look like options or protocols are names") {
   CHECK(std::filesystem::exists(folder / "-a:b %d.gif"));
 }
 
-TEST_CASE("Without an encoder there is an error that says what to install, and no file") {
+TEST_CASE("Movie: without an encoder there is an error that says what to install, and no file") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", options(), "no-such-encoder"),
                        doctest::Contains("apt install ffmpeg"), RunError);
   CHECK(folder.empty());
 }
 
-TEST_CASE("An encoder that dies is an error with its last words, and no film without a frame") {
+TEST_CASE(
+    "Movie: the death of an encoder is an error with its last words, and leaves no empty film") {
   const TemporaryFolder folder, programs;
   // The second reads everything, as one does that finds the disk full at the end.
   for (const char* script :
@@ -235,7 +233,7 @@ TEST_CASE("An encoder that dies is an error with its last words, and no film wit
   }
 }
 
-TEST_CASE("An encoder that dies later leaves the pieces before, and those are named") {
+TEST_CASE("Movie: an encoder that dies later leaves the pieces before, and those are named") {
   const TemporaryFolder folder, programs;
   const auto encoder =
       make_encoder(programs / "encoder",
@@ -251,7 +249,7 @@ TEST_CASE("An encoder that dies later leaves the pieces before, and those are na
   CHECK_FALSE(std::filesystem::exists(folder / "film.webm.part/000060.webm"));
 }
 
-TEST_CASE("A film that is given up leaves nothing, even while the encoder hangs") {
+TEST_CASE("Movie: a film that is given up leaves nothing, even while the encoder hangs") {
   const TemporaryFolder folder, programs;
   const auto encoder = make_encoder(programs / "encoder",
                                     "case \"$*\" in *rawvideo*) exec sleep 1000 ;; esac; exit 1");
@@ -262,7 +260,7 @@ TEST_CASE("A film that is given up leaves nothing, even while the encoder hangs"
   CHECK(folder.empty());
 }
 
-TEST_CASE("A film into a missing folder is refused at once") {
+TEST_CASE("Movie: a film into a missing folder is refused") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(Movie(folder / "missing/film.mp4", options()),
                        doctest::Contains("No such file"), RunError);

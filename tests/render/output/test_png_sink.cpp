@@ -2,9 +2,11 @@
 
 #include "engine/error.h"
 #include "render/output/png_sink.h"
-#include "tests/render/output/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter {
+
+using namespace testing;
 
 namespace {
 
@@ -22,7 +24,7 @@ void write_frames(const std::filesystem::path& path, const SinkOptions& options,
 
 }  // namespace
 
-TEST_CASE("A sequence has a file for each frame, numbered from 0") {
+TEST_CASE("PngSequence: a sequence has a file for each frame, numbered from 0") {
   const TemporaryFolder folder;
   write_frames(folder / "deep/sequence", kOptions, 23);
   CHECK(std::filesystem::file_size(folder / "deep/sequence/frame_000000.png") > 0);
@@ -31,7 +33,7 @@ TEST_CASE("A sequence has a file for each frame, numbered from 0") {
   CHECK(std::distance(begin(files), end(files)) == 23);
 }
 
-TEST_CASE("A sequence replaces frames only where it may") {
+TEST_CASE("PngSequence: a sequence replaces frames only where it may") {
   const TemporaryFolder folder;
   write_frames(folder / "sequence", kOptions, 2);
   CHECK_THROWS_AS(open_sink(folder / "sequence", kOptions), UserError);
@@ -40,7 +42,8 @@ TEST_CASE("A sequence replaces frames only where it may") {
   CHECK_NOTHROW(write_frames(folder / "sequence", overwrite, 2));
 }
 
-TEST_CASE("A part of a sequence has its own numbers, and needs only those to be free") {
+TEST_CASE(
+    "PngSequence: a part of a sequence has its own numbers, and needs only those to be free") {
   const TemporaryFolder folder;
   SinkOptions part = kOptions;
   part.begin = part.next = 10;
@@ -53,7 +56,7 @@ TEST_CASE("A part of a sequence has its own numbers, and needs only those to be 
   CHECK_NOTHROW(write_frames(folder / "sequence", part, 2));
 }
 
-TEST_CASE("A sequence that goes on needs its earlier frames and replaces its later ones") {
+TEST_CASE("PngSequence: a resumed sequence needs its earlier frames and replaces its later ones") {
   const TemporaryFolder folder;
   write_frames(folder / "sequence", kOptions, 3);
   SinkOptions on = kOptions;
@@ -67,13 +70,13 @@ TEST_CASE("A sequence that goes on needs its earlier frames and replaces its lat
                        UserError);
 }
 
-TEST_CASE("A sequence cannot be where a file is") {
+TEST_CASE("PngSequence: a sequence cannot be where a file is") {
   const TemporaryFolder folder;
   write_frames(folder / "one.png", kOptions, 1);
   CHECK_THROWS_AS(PngSequence(folder / "one.png", kOptions), RunError);
 }
 
-TEST_CASE("A folder that vanishes fails the sequence") {
+TEST_CASE("PngSequence: a folder that vanishes fails the sequence") {
   const TemporaryFolder folder;
   const auto sink = open_sink(folder / "sequence", kOptions);
   std::filesystem::remove(folder / "sequence");
@@ -84,7 +87,7 @@ TEST_CASE("A folder that vanishes fails the sequence") {
   CHECK_THROWS_AS(add_many(), RunError);
 }
 
-TEST_CASE("A path says what kind of output it is") {
+TEST_CASE("PngSequence: a path says what kind of output it is") {
   const TemporaryFolder folder;
   write_frames(folder / "one.png", kOptions, 1);
   CHECK(std::filesystem::is_regular_file(folder / "one.png"));

@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-TEST_CASE("Every job is done, by one thread in order") {
+TEST_CASE("WorkQueue: every job is done, by one thread in order") {
   std::vector<int> order;
   WorkQueue queue(1, 3);
   for (int i = 0; i < 100; ++i) queue.add([&order, i] { order.push_back(i); });
@@ -18,7 +18,7 @@ TEST_CASE("Every job is done, by one thread in order") {
   CHECK(std::is_sorted(order.begin(), order.end()));
 }
 
-TEST_CASE("add waits while the queue is full") {
+TEST_CASE("WorkQueue: add waits while the queue is full") {
   std::promise<void> gate;
   auto opened = gate.get_future().share();
   WorkQueue queue(1, 2);
@@ -38,7 +38,7 @@ TEST_CASE("add waits while the queue is full") {
   CHECK(added == 10);
 }
 
-TEST_CASE("drain waits for the jobs that have begun, too") {
+TEST_CASE("WorkQueue: drain waits for the jobs that have begun, too") {
   WorkQueue queue(2, 4);
   std::atomic<int> done = 0;
   for (int round = 1; round <= 20; ++round) {
@@ -53,7 +53,7 @@ TEST_CASE("drain waits for the jobs that have begun, too") {
   }
 }
 
-TEST_CASE("What a job throws reaches add and finish") {
+TEST_CASE("WorkQueue: what a job throws reaches add and finish") {
   WorkQueue queue(2, 2);
   auto add_many = [&] {
     for (int i = 0; i < 1000; ++i) queue.add([] { throw std::runtime_error("broken"); });
@@ -62,26 +62,27 @@ TEST_CASE("What a job throws reaches add and finish") {
   CHECK_THROWS_WITH_AS(queue.finish(), "broken", std::runtime_error);
 }
 
-TEST_CASE("A queue that is dropped ends the job under way and drops those that wait") {
+TEST_CASE("WorkQueue: a queue that is dropped ends the job under way and drops those that wait") {
   std::atomic<int> done = 0;
   std::promise<void> started;
   {
-    WorkQueue queue(1, 100);
+    WorkQueue queue(1, 1000);
     queue.add([&] {
       started.set_value();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       ++done;
     });
-    for (int i = 0; i < 50; ++i) {
+    // They would take seconds, however late the queue is dropped.
+    for (int i = 0; i < 500; ++i) {
       queue.add([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
         ++done;
       });
     }
     started.get_future().wait();
   }
   CHECK(done >= 1);
-  CHECK(done < 51);
+  CHECK(done < 501);
 }
 
 }  // namespace clatter

@@ -73,7 +73,7 @@ class GapWatch : public Observer<2> {
 }  // namespace
 
 TEST_CASE(
-    "two and three particles whose flights are longer than the box" *
+    "Few particles: two and three particles whose flights are longer than the box" *
     doctest::description("no image missed: gap >= -1e-9 between all collisions, against brute "
                          "force over all images")) {
   double least = kInfinity, widest = 0.0, longest = 0.0;
@@ -97,9 +97,10 @@ TEST_CASE(
   CHECK(widest <= 1e-9);
 }
 
-TEST_CASE("none to three particles between walls of every kind, under all that acts" *
-          doctest::description("they come to the end or to a rest; all numbers finite, overlap "
-                               "below 1e-9")) {
+TEST_CASE(
+    "Few particles: none to three particles between walls of every kind, under all that acts" *
+    doctest::description("they come to the end or to a rest; all numbers finite, overlap "
+                         "below 1e-9")) {
   double deepest = 0.0;
   const std::optional<Wall> walls[] = {std::nullopt, kStatic,   kLossy,      kDriven,
                                        kThermal,     kSawtooth, kSinusoidal, kRoughDriven};
@@ -133,7 +134,7 @@ TEST_CASE("none to three particles between walls of every kind, under all that a
   MESSAGE("deepest overlap ", brief(deepest));
 }
 
-TEST_CASE("kicks of one particle, and of two" *
+TEST_CASE("Few particles: kicks of one particle, and of two" *
           doctest::description("of one nothing, of two opposite: momentum 0 within 1e-13")) {
   Model<2> model = periodic_box(7.0, 6.0);
   model.bulk_drive = BulkDrive{0.3, 0.2, 0.0};
@@ -148,7 +149,7 @@ TEST_CASE("kicks of one particle, and of two" *
   CHECK(momentum(both.state()).norm() < 1e-13);
 }
 
-TEST_CASE("rough particles touch through images that are not the nearest" *
+TEST_CASE("Few particles: rough particles touch through images that are not the nearest" *
           doctest::description("same bits as brute force; contacts within 1e-12 of a diameter")) {
   // In a box lower than two diameters: each collision is whole (the separation one diameter, the
   // loss that of section 2), whichever image it is through.
@@ -187,7 +188,8 @@ TEST_CASE("rough particles touch through images that are not the nearest" *
     Simulation<2> simulation(model, start);
     Images images(model);
     simulation.add_observer(images);
-    Reference reference(model, start);
+    const BaseMoves moves(simulation);
+    Reference reference(model, start, moves);
     simulation.run_until(kNever, 3000);
     reference.run_until_collisions(3000);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
@@ -201,7 +203,7 @@ TEST_CASE("rough particles touch through images that are not the nearest" *
   }
 }
 
-TEST_CASE("no particle, and one particle between four walls" *
+TEST_CASE("Few particles: no particle, and one particle between four walls" *
           doctest::description("back at its start after ten periods within 1e-12")) {
   Simulation<2> none(periodic_box(10.0, 10.0), State<2>{});
   none.run_until(1000.0);
@@ -224,7 +226,7 @@ TEST_CASE("no particle, and one particle between four walls" *
   check_sound(one);
 }
 
-TEST_CASE("a free flight through many boxes" *
+TEST_CASE("Few particles: a free flight through many boxes" *
           doctest::description("place within two roundings of the way")) {
   double worst = 0.0;
   for (const Vec2& v : {Vec2(1234.5, -0.375), Vec2(-3.0, 77.25), Vec2(-0.001, 0.0)}) {
@@ -236,7 +238,7 @@ TEST_CASE("a free flight through many boxes" *
     simulation.run_until(1234.75);
     const Vec2 r = simulation.state().positions[0];
     for (int k = 0; k < 2; ++k) {
-      // Twice the rounding of the way, of which the box takes whole lengths.
+      // Twice the rounding of the way, from which whole lengths of the box are subtracted.
       const double way = start.positions[0][k] + v[k] * 1234.75;
       const double off = std::remainder(r[k] - way, model.box[k]);
       CHECK(std::fabs(off) <= 0x1p-52 * std::fabs(way));
@@ -248,7 +250,7 @@ TEST_CASE("a free flight through many boxes" *
   MESSAGE("off by ", brief(worst), " of the way");
 }
 
-TEST_CASE("particles in contact that move alike through thousands of boxes" *
+TEST_CASE("Few particles: particles in contact that move alike through thousands of boxes" *
           doctest::description("they never collide, overlap below 1e-10")) {
   State<2> start;
   start.positions = {{1.0, 1.0}, {2.0, 1.0}, {1.0, 2.0}};
