@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
-#include "engine/read_file.h"
+#include "engine/system/read_file.h"
 #include "render/canvas.h"
 #include "render/context/context.h"
 #include "render/layers/plot.h"

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/system/write_file.h"
 #include "render/context/context.h"
 #include "render/layers/plot.h"
 

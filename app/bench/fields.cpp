@@ -7,12 +7,12 @@
 
 #include "app/commands/commands.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "app/commands/commands.h"
-#include "app/system/write_file.h"
 #include "app/view/explorer.h"
+#include "engine/system/write_file.h"
 #include "render/context/glfw_context.h"
 
 namespace clatter {

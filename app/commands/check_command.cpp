@@ -7,7 +7,7 @@
 
 #include "app/commands/commands.h"
 #include "app/runs/feature_cost.h"
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 #include "engine/physics/theory.h"
 
 namespace clatter {

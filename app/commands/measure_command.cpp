@@ -14,13 +14,14 @@
 #include "app/runs/ensemble.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

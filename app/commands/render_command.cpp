@@ -9,7 +9,7 @@
 #include "app/runs/film.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 #include "render/context/context.h"

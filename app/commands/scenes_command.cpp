@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 #include "engine/embedded_file.h"
 
 namespace clatter {

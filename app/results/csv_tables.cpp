@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <string>
 
-#include "app/system/write_file.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/unit.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

@@ -8,10 +8,10 @@
 #include <iterator>
 #include <system_error>
 
-#include "app/system/write_file.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/text.h"
 #include "engine/scene/unit.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

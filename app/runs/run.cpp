@@ -5,9 +5,10 @@
 #include <utility>
 
 #include "app/system/interrupt.h"
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 #include "engine/dynamics/boundary.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

@@ -8,10 +8,10 @@
 
 #include "app/commands/commands.h"
 #include "app/runs/picture_scene.h"
-#include "app/system/write_file.h"
 #include "app/view/explorer.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
+#include "engine/system/write_file.h"
 
 // The files that the window reads and writes: scenes, pictures, films.
 

@@ -1,11 +1,8 @@
 #include "render/output/image.h"
 
-#include <fcntl.h>
 #include <libdeflate.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -13,7 +10,7 @@
 #include <memory>
 
 #include "engine/error.h"
-#include "render/output/file_descriptor.h"
+#include "engine/system/write_file.h"
 
 namespace {
 
@@ -61,15 +58,6 @@ void append_text_chunk(std::vector<unsigned char>& bytes, const PngText& text) {
   append_big_endian(bytes, libdeflate_crc32(0, chunk.data(), chunk.size()));
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
-}
-
-void write_bytes(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
-  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file || !file.write_all(bytes) || !file.close()) fail(path);
-}
-
 }  // namespace
 
 Image with_own_colours(Image image) {
@@ -99,15 +87,7 @@ std::vector<unsigned char> encode_png(const Image& image, std::span<const PngTex
 void write_png(const std::filesystem::path& path, const Image& image,
                std::span<const PngText> texts) {
   const std::vector<unsigned char> bytes = encode_png(image, texts);
-  std::filesystem::path part = path;
-  part += ".part";
-  try {
-    write_bytes(part, bytes);
-    if (rename(part.c_str(), path.c_str()) != 0) fail(path);
-  } catch (const RunError&) {
-    unlink(part.c_str());
-    throw;
-  }
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {

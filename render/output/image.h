@@ -33,8 +33,7 @@ std::vector<unsigned char> encode_png(const Image& image, std::span<const PngTex
 /// PNG file.
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);
 
-/// Writes a PNG file under a temporary name and renames it when it is whole; throws RunError where
-/// that fails and then leaves nothing behind.
+/// Writes a PNG file, whole or not at all; throws RunError.
 void write_png(const std::filesystem::path& path, const Image& image,
                std::span<const PngText> texts = {});
 

@@ -6,9 +6,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -129,6 +129,8 @@ void Movie::end_piece() {
   }
   if (!encoder_->wait()) fail(*encoder_);
   encoder_.reset();
+  // A checkpoint may count on it from now on.
+  if (!file_.sync()) fail(std::strerror(errno));
 }
 
 void Movie::finish(Ending ending) {
@@ -149,7 +151,7 @@ void Movie::join() {
                   static_cast<double>(after - piece) / options_.fps);
     pieces += line;
   }
-  if (!(std::ofstream(list) << pieces << std::flush)) fail("cannot write " + list.string());
+  write_file(list, pieces);
 
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
@@ -161,7 +163,11 @@ void Movie::join() {
     unlink(joined.c_str());
     fail(joiner);
   }
-  if (rename(joined.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+  try {
+    rename_synced(joined, path_);
+  } catch (const RunError& error) {
+    throw RunError(error.what() + place_of_pieces());
+  }
 }
 
 // Ends the encoder under way, and removes what holds no picture.
@@ -189,11 +195,13 @@ void Movie::fail(ChildProcess& process) {
 
 void Movie::fail(const std::string& reason) {
   tidy();
-  std::string what = "ffmpeg could not write " + path_.string() + ": " + reason;
-  if (std::filesystem::exists(folder_)) {
-    what += "; what was filmed before is in " + folder_.string();
-  }
-  throw RunError(what);
+  throw RunError("ffmpeg could not write " + path_.string() + ": " + reason + place_of_pieces());
+}
+
+// To be added to an error.
+std::string Movie::place_of_pieces() const {
+  if (!std::filesystem::exists(folder_)) return "";
+  return "; what was filmed before is in " + folder_.string();
 }
 
 }  // namespace clatter
