@@ -7,7 +7,7 @@
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"

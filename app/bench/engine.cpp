@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
 #include "engine/error.h"

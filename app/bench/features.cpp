@@ -12,7 +12,7 @@
 #include <numbers>
 #include <optional>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/measure/balance.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/commands/commands.h"
 #include "app/runs/run.h"
+#include "app/system/exit_code.h"
 #include "engine/publish/live_field.h"
 #include "engine/publish/publish.h"
 #include "engine/system/child_process.h"

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/view/explorer.h"
 #include "engine/system/write_file.h"
 #include "render/context/glfw_context.h"

@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
+#include "app/commands/flags.h"
 #include "app/runs/film.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
@@ -54,6 +55,7 @@ struct RenderOptions {
   std::optional<std::string> frames;  // absent: all
   std::optional<int> supersample;     // absent: 1
   std::optional<double> shutter;      // absent: 0
+  int threads = 2;                    // that encode pictures
   bool no_overlay = false;
   bool transparent = false;
   bool overwrite = false;
@@ -202,7 +204,7 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
                 {"Software", "clatter " CLATTER_VERSION},
                 {"Seed", std::to_string(seed)},
                 {"Scene", scene_to_toml(scene)}};
-  sink.threads = options.common.threads;
+  sink.threads = options.threads;
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;
   if (options.frames) sink.end = frames.end;
@@ -267,6 +269,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
   add_common_flags(*command, options->common);
+  add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command
       ->add_option(
@@ -310,6 +313,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "Blur disks by their motion: share of the time between frames for which the "
                    "shutter is open before each (default: 0)")
       ->check(number_between(0.0, 1.0));
+  command->add_option("--threads", options->threads, "Threads that encode a folder's pictures")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--transparent", options->transparent,

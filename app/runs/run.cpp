@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
 #include "engine/dynamics/boundary.h"

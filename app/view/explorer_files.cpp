@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/commands.h"
 #include "app/runs/picture_scene.h"
+#include "app/system/exit_code.h"
 #include "app/view/explorer.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"

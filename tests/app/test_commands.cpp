@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "tests/app/shell.h"
 
@@ -36,7 +38,7 @@ TEST_CASE("What check prints is a scene that checks to the same") {
 
 TEST_CASE("Checking a scene tells what is modelled, what not, and what comes") {
   const Shell shell;
-  const std::string plain = shell.run("clatter check cooling --quiet").err;
+  const std::string plain = shell.run("clatter check cooling").err;
   CAPTURE(plain);
   for (const char* part : {"spins", "gravity", "moving walls", "bulk drive", "t_c"}) {
     CAPTURE(part);
@@ -122,43 +124,89 @@ TEST_CASE("The table of render has what each stage costs, in pictures of two siz
   CHECK(rows[1]["width"] == 1920);
 }
 
-TEST_CASE("Every command explains each of its flags") {
+TEST_CASE("Every command explains its flags, and only those") {
   const Shell shell;
-  const std::vector<std::string> common = {"SCENE",     "--set",   "--seed",    "--until",
-                                           "--threads", "--quiet", "--progress"};
-  struct Command {
-    std::string name;
-    bool has_scene;
-    std::vector<std::string> flags;
+  const std::set<std::string> scene = {"SCENE", "--set", "--seed", "--until"};
+  const std::set<std::string> run = {"--quiet", "--progress", "--resume", "--checkpoint",
+                                     "--checkpoint-every"};
+  const auto with = [](std::set<std::string> flags, const std::set<std::string>& more) {
+    flags.insert(more.begin(), more.end());
+    return flags;
   };
-  for (const Command& command : {
-           Command{"render",
-                   true,
-                   {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
-                    "--supersample", "--quality", "--overwrite", "--backend", "--resume",
-                    "--checkpoint", "--checkpoint-every"}},
-           Command{"measure",
-                   true,
-                   {"--resume", "--checkpoint", "--out", "--csv", "--save-state", "--accuracy",
-                    "--accuracy-of", "--replicas"}},
-           Command{"check", true, {}},
-           Command{"scenes", false, {}},
-           Command{"bench",
-                   false,
-                   {"--json", "--count", "--area-fraction", "--duration", "--dial", "--csv",
-                    "--plot", "--markdown"}},
-       }) {
-    const Outcome outcome = shell.run("clatter " + command.name + " --help");
-    CAPTURE(command.name);
+  const std::map<std::string, std::set<std::string>> commands = {
+      {"view", with(scene, {"--size", "--backend", "--script-log"})},
+      {"render",
+       with(with(scene, run), {"--out", "--quality", "--size", "--fps", "--from", "--to", "--speed",
+                               "--supersample", "--shutter", "--no-overlay", "--transparent",
+                               "--overwrite", "--frames", "--threads", "--backend"})},
+      {"measure",
+       with(with(scene, run), {"--out", "--csv", "--vtk", "--hdf5", "--save-state", "--accuracy",
+                               "--accuracy-of", "--replicas", "--threads"})},
+      {"check", with(scene, {"--quiet"})},
+      {"scenes", {}},
+      {"bench", {}},
+      {"bench engine", {"--json", "--count", "--area-fraction"}},
+      {"bench growth", {"--json", "--count", "--plot"}},
+      {"bench features", {"--json", "--count"}},
+      {"bench fields", {"--json", "--duration"}},
+      {"bench render", {"--json", "--count"}},
+      {"bench window", {"--json", "--count"}},
+      {"bench accuracy",
+       {"SCENE", "--json", "--duration", "--dial", "--csv", "--plot", "--markdown"}}};
+  for (const auto& [command, flags] : commands) {
+    const Outcome outcome = shell.run("clatter " + command + " --help");
+    CAPTURE(command);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
-    std::vector<std::string> flags = command.flags;
-    if (command.has_scene) flags.insert(flags.end(), common.begin(), common.end());
-    for (const std::string& flag : flags) {
-      CAPTURE(flag);
-      CHECK(outcome.out.find(flag) != std::string::npos);
+    std::set<std::string> found;
+    const std::regex flag("\n  (?:-\\w,)?(--[-\\w]+|scene SCENE)");
+    for (std::sregex_iterator it(outcome.out.begin(), outcome.out.end(), flag), end; it != end;
+         ++it) {
+      found.insert((*it)[1] == "scene SCENE" ? "SCENE" : (*it)[1].str());
     }
-    CHECK(shell.run("clatter --help").out.find("\n  " + command.name + " ") != std::string::npos);
+    found.erase("--help");
+    CHECK(found == flags);
+    const std::size_t space = command.find(' ');
+    const bool is_table = space != std::string::npos;
+    const std::string list = shell.run(is_table ? "clatter bench --help" : "clatter --help").out;
+    CHECK(list.find("\n  " + (is_table ? command.substr(space + 1) : command) + " ") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("A flag that a command does not use is refused") {
+  const Shell shell;
+  for (const std::string line :
+       {"check vibrated --threads 2", "check vibrated --progress none", "scenes --quiet",
+        "bench fields --count 5", "bench engine --duration 5", "bench --duration 5",
+        "bench engine --area-fraction 0.3"}) {
+    CAPTURE(line);
+    const Outcome outcome = shell.run("clatter " + line);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+  }
+}
+
+TEST_CASE("Quiet, check tells nothing but the scene; of a seed it takes note") {
+  const Shell shell;
+  const Outcome quiet = shell.run("clatter check vibrated --quiet");
+  CHECK(quiet.code == 0);
+  CHECK(quiet.err.empty());
+  const Outcome outcome = shell.run("clatter check vibrated --seed 7");
+  CHECK(outcome.out == quiet.out);
+  CHECK(outcome.err.find(", seed 7.\n") != std::string::npos);
+}
+
+TEST_CASE("The table of the engine is that of bench alone; one cell of it ends in its numbers") {
+  const Shell shell;
+  for (const std::string name : {"", " engine"}) {
+    CAPTURE(name);
+    const Outcome outcome =
+        shell.run("clatter bench" + name + " --count 100 --area-fraction 0.3 --json cell.json");
+    CHECK(outcome.code == 0);
+    const std::regex cell(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +\d+\n$)");
+    CHECK(std::regex_search(outcome.out, cell));
+    CHECK(nlohmann::json::parse(shell.read("cell.json"))[0]["count"] == 100);
   }
 }
 
