@@ -13,6 +13,7 @@
 #include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
+#include "engine/whole_number.h"
 #include "render/context/context.h"
 #include "render/output/frame_sink.h"
 
@@ -65,13 +66,12 @@ struct RenderOptions {
 };
 
 FrameRange parse_frames(const std::string& text) {
-  FrameRange range;
-  char after;
-  const int read = std::sscanf(text.c_str(), "%ld:%ld%c", &range.begin, &range.end, &after);
-  if (read == 1 && text.ends_with(':')) range.end = std::numeric_limits<long>::max();
-  if ((read == 2 || (read == 1 && text.ends_with(':'))) && range.begin >= 0 &&
-      range.begin < range.end) {
-    return range;
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const std::string_view after = std::string_view(text).substr(colon + 1);
+    const auto begin = whole_number<long>(std::string_view(text).substr(0, colon));
+    const auto end = after.empty() ? std::numeric_limits<long>::max() : whole_number<long>(after);
+    if (begin && end && *begin >= 0 && *begin < *end) return {*begin, *end};
   }
   throw UserError({"--frames", 0, 0}, "'" + text + "' is no range of frames",
                   "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");

@@ -1,5 +1,7 @@
 #include "app/runs/accuracy_goal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,9 +34,7 @@ static double needed_time(const AccuracyGoal& goal, const Measured& measured) {
 }
 
 static std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
-  return text;
+  return fmt::format("{:.3g} %", 100.0 * share);
 }
 
 // The time of the first look at the error from a time on: each is about a sixteenth later than the

@@ -1,7 +1,6 @@
 #include "app/runs/picture_scene.h"
 
-#include <charconv>
-
+#include "engine/whole_number.h"
 #include "render/output/image.h"
 
 namespace clatter {
@@ -16,11 +15,7 @@ Scene load_any_scene(const std::string& path_or_name, const std::vector<Override
 std::optional<std::uint64_t> seed_of_picture(const std::string& path) {
   const auto text = png_text(path, "Seed");
   if (!text) return std::nullopt;
-  std::uint64_t seed = 0;
-  const char* end = text->data() + text->size();
-  const auto [read, error] = std::from_chars(text->data(), end, seed);
-  if (error != std::errc{} || read != end) return std::nullopt;
-  return seed;
+  return whole_number<std::uint64_t>(*text);
 }
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -84,15 +85,13 @@ std::string Explorer::save_scene() {
 // Of what is on screen, from time 0 to now.
 std::vector<std::string> Explorer::film_arguments(const std::string& scene) const {
   const Frame& frame = session_.frame();
-  char until[32];
-  std::snprintf(until, sizeof until, "%.6g", frame.snapshot.time);
   return {"clatter",
           "render",
           scene,
           "--seed",
           std::to_string(frame.seed),
           "--to",
-          until,
+          fmt::format("{:.6g}", frame.snapshot.time),
           "--out",
           std::filesystem::path(scene).replace_extension(".mp4").string()};
 }

@@ -1,10 +1,10 @@
 #include "render/output/movie.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "engine/error.h"
@@ -82,9 +82,7 @@ bool Movie::knows(const std::string& extension) {
 }
 
 std::filesystem::path Movie::piece_path(long first) const {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06ld", first);
-  return folder_ / (name + format_->extension);
+  return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }
 
 // The number of the first picture in the piece that has this one.
@@ -145,11 +143,8 @@ void Movie::join() {
   std::string pieces = "ffconcat version 1.0\n";
   for (long piece = options_.begin, after; piece < next_; piece = after) {
     after = std::min(start_of_piece(piece) + kPiece, next_);
-    char line[128];
-    std::snprintf(line, sizeof line, "file %s\nduration %.9f\n",
-                  piece_path(piece).filename().c_str(),
-                  static_cast<double>(after - piece) / options_.fps);
-    pieces += line;
+    pieces += fmt::format("file {}\nduration {:.9f}\n", piece_path(piece).filename().string(),
+                          static_cast<double>(after - piece) / options_.fps);
   }
   write_file(list, pieces);
 
