@@ -40,7 +40,7 @@ TEST_CASE("ChildProcess: reads what is written to it, and succeeds or not") {
 }
 
 TEST_CASE("ChildProcess: what it says comes once, and its end names a signal") {
-  ChildProcess process({"sh", "-c", "echo one >&2; read line; echo two >&2; kill -TERM $$"});
+  ChildProcess process({"sh", "-c", "echo one >&2; read line; echo two >&2; kill -KILL $$"});
   CHECK(words_of(process, 4) == "one\n");
   CHECK(process.new_words().empty());
   CHECK_FALSE(process.wait());
