@@ -87,6 +87,14 @@ TEST_CASE("Scenes with a title of any script and lines of any ending are read") 
   CHECK(outcome.out.find("caption = \"\"\n") != std::string::npos);
 }
 
+TEST_CASE("A scene is read from a pipe, too") {
+  const Shell shell;
+  const std::string scene = shell.run("clatter check vibrated").out;
+  const Outcome outcome = shell.run("clatter check vibrated | clatter check /dev/stdin");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == scene);
+}
+
 TEST_CASE("Output that is not taken is a failure") {
   const Shell shell;
   for (const std::string line : {"clatter scenes >/dev/full", "clatter check vibrated >&-",
