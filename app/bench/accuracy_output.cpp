@@ -9,8 +9,8 @@
 
 #include "engine/error.h"
 #include "engine/system/read_file.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
 #include "render/layers/plot.h"
 
 namespace clatter {

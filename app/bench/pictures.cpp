@@ -7,10 +7,10 @@
 #include "app/system/process_usage.h"
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 #include "render/output/similarity.h"
-#include "render/renderer.h"
 
 namespace clatter {
 

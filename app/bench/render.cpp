@@ -17,11 +17,11 @@
 #include "engine/publish/publish.h"
 #include "engine/system/child_process.h"
 #include "engine/system/write_file.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 #include "render/output/movie.h"
 #include "render/output/work_queue.h"
-#include "render/renderer.h"
 
 namespace clatter {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
 #include "render/layers/fonts.h"
 #include "render/layers/gui_context.h"
 #include "render/layers/gui_layer.h"
