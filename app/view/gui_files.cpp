@@ -9,7 +9,7 @@
 
 #include "app/runs/picture_scene.h"
 #include "app/system/exit_code.h"
-#include "app/view/explorer.h"
+#include "app/view/gui.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
 #include "engine/system/write_file.h"
@@ -19,7 +19,7 @@
 namespace clatter {
 
 // A scene file, or one of our pictures with its scene inside.
-void Explorer::open_file(const std::string& file) {
+void Gui::open_file(const std::string& file) {
   try {
     open(load_any_scene(file), seed_of_picture(file).value_or(session_.frame().seed));
   } catch (const std::exception& error) {
@@ -40,7 +40,7 @@ static std::string free_name(const std::string& extension) {
 }
 
 // What is on screen as a scene. A start state that is in no file gets one of that name.
-Scene Explorer::recorded_beside(const std::string& file) const {
+Scene Gui::recorded_beside(const std::string& file) const {
   Scene scene = session_.recorded();
   scene.view.theme = shown_view().theme;
   Start& start = scene.particles.start;
@@ -51,7 +51,7 @@ Scene Explorer::recorded_beside(const std::string& file) const {
   return scene;
 }
 
-void Explorer::screenshot() {
+void Gui::screenshot() {
   if (!viewport_.drawn()) return;
   try {
     const std::string name = free_name(".png");
@@ -68,7 +68,7 @@ void Explorer::screenshot() {
   }
 }
 
-std::string Explorer::save_scene() {
+std::string Gui::save_scene() {
   if (!session_.frame().scene) return "";
   try {
     const std::string name = free_name(".toml");
@@ -83,7 +83,7 @@ std::string Explorer::save_scene() {
 }
 
 // Of what is on screen, from time 0 to now.
-std::vector<std::string> Explorer::film_arguments(const std::string& scene) const {
+std::vector<std::string> Gui::film_arguments(const std::string& scene) const {
   const Frame& frame = session_.frame();
   return {"clatter",
           "render",
@@ -96,7 +96,7 @@ std::vector<std::string> Explorer::film_arguments(const std::string& scene) cons
           std::filesystem::path(scene).replace_extension(".mp4").string()};
 }
 
-void Explorer::copy_command() {
+void Gui::copy_command() {
   const std::string name = save_scene();
   if (name.empty()) return;
   std::string command;
@@ -108,7 +108,7 @@ void Explorer::copy_command() {
   session_.tell("In the clipboard: " + command);
 }
 
-void Explorer::film() {
+void Gui::film() {
   const std::string name = save_scene();
   if (name.empty()) return;
   try {
@@ -122,7 +122,7 @@ void Explorer::film() {
   }
 }
 
-void Explorer::watch_film() {
+void Gui::watch_film() {
   if (!film_) return;
   const auto code = film_->poll();
   if (!code) return;
