@@ -76,12 +76,9 @@ Size parse_size(const std::string& text, Size least) {
       return {*width, *height};
     }
   }
-  const auto text_of = [](int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-  };
   throw UserError({"--size", 0, 0}, "'" + text + "' is no size that there can be",
-                  "write WIDTHxHEIGHT, from " + text_of(least.width, least.height) + " to " +
-                      text_of(kMax, kMax) + ", for instance 1280x720");
+                  "write WIDTHxHEIGHT, from " + size_text(least) + " to " +
+                      size_text({kMax, kMax}) + ", for instance 1280x720");
 }
 
 }  // namespace clatter

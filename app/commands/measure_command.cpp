@@ -111,13 +111,18 @@ nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene
   return json;
 }
 
+void write_json(const std::string& out, const nlohmann::ordered_json& result) {
+  const std::string text = result.dump(1) + "\n";
+  if (out.empty()) {
+    print(text);
+  } else {
+    write_file(out, text);
+  }
+}
+
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
                    const Measured& measured) {
-  if (options.out.empty()) {
-    print(result.dump(1) + "\n");
-  } else {
-    write_file(options.out, result.dump(1) + "\n");
-  }
+  write_json(options.out, result);
   if (!options.csv.empty()) write_tables(options.csv, measured);
   if (!options.vtk.empty()) {
     write_vtk(options.vtk, measured,
@@ -151,12 +156,7 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
   const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end, options.threads};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
   const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
-  const std::string text = result.dump(1) + "\n";
-  if (options.out.empty()) {
-    print(text);
-  } else {
-    write_file(options.out, text);
-  }
+  write_json(options.out, result);
   const bool all = result.at("results").size() == static_cast<std::size_t>(options.replicas);
   return all ? kOk : kInterrupted;
 }

@@ -8,6 +8,7 @@
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
 #include "app/runs/film.h"
+#include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
@@ -139,9 +140,6 @@ void keep(const std::optional<T>& asked, const T& before, const char* flag, cons
 // A film goes on as it began, but that it may end at another time.
 FilmState continued_film(const RenderOptions& options, FilmState film) {
   const FrameTimes& times = film.times;
-  const auto size_text = [](Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-  };
   std::optional<Size> size;
   std::optional<double> fps = options.fps;
   if (options.quality) {
@@ -200,10 +198,7 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   SinkOptions sink;
   sink.size = film.size;
   sink.fps = film.times.fps;
-  sink.texts = {{"Title", scene.title},
-                {"Software", "clatter " CLATTER_VERSION},
-                {"Seed", std::to_string(seed)},
-                {"Scene", scene_to_toml(scene)}};
+  sink.texts = picture_texts(scene, seed);
   sink.threads = options.threads;
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;

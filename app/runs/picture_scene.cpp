@@ -1,7 +1,6 @@
 #include "app/runs/picture_scene.h"
 
 #include "engine/whole_number.h"
-#include "render/output/image.h"
 
 namespace clatter {
 
@@ -10,6 +9,13 @@ Scene load_any_scene(const std::string& path_or_name, const std::vector<Override
   const auto inside = png_text(path_or_name, "Scene");
   return inside ? parse_scene(*inside, path_or_name, overrides, start_file)
                 : load_scene(path_or_name, overrides, start_file);
+}
+
+std::vector<PngText> picture_texts(const Scene& scene, std::uint64_t seed) {
+  return {{"Title", scene.title},
+          {"Software", "clatter " CLATTER_VERSION},
+          {"Seed", std::to_string(seed)},
+          {"Scene", scene_to_toml(scene)}};
 }
 
 std::optional<std::uint64_t> seed_of_picture(const std::string& path) {

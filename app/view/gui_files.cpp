@@ -56,11 +56,7 @@ void Gui::screenshot() {
   try {
     const std::string name = free_name(".png");
     const Scene scene = recorded_beside(name);
-    const std::vector<PngText> texts = {{"Title", scene.title},
-                                        {"Software", "clatter " CLATTER_VERSION},
-                                        {"Seed", std::to_string(session_.frame().seed)},
-                                        {"Scene", scene_to_toml(scene)}};
-    write_png(name, viewport_.picture(), texts);
+    write_png(name, viewport_.picture(), picture_texts(scene, session_.frame().seed));
     log_.event("screenshot", {{"file", name}});
     session_.tell("Screenshot: " + name);
   } catch (const std::exception& error) {

@@ -81,10 +81,21 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
                                           const SinkOptions& options,
                                           const std::filesystem::path& file) {
   const std::string fps = fmt::format("{:.10g}", options.fps);
-  const std::string size = fmt::format("{}x{}", options.size.width, options.size.height);
-  std::vector<std::string> all = {encoder, "-v",         "error",    "-nostdin", "-y",
-                                  "-f",    "rawvideo",   "-pix_fmt", "rgba",     "-video_size",
-                                  size,    "-framerate", fps,        "-i",       "pipe:0"};
+  std::vector<std::string> all = {encoder,
+                                  "-v",
+                                  "error",
+                                  "-nostdin",
+                                  "-y",
+                                  "-f",
+                                  "rawvideo",
+                                  "-pix_fmt",
+                                  "rgba",
+                                  "-video_size",
+                                  size_text(options.size),
+                                  "-framerate",
+                                  fps,
+                                  "-i",
+                                  "pipe:0"};
   append(all, format.encoding);
   append(all, metadata(options.texts));
   append(all, {"-f", format.muxer, name_of(file)});
