@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "engine/vec.h"
 
 namespace clatter {
@@ -13,6 +15,9 @@ struct Size {
 };
 
 /// Passes over all members, in order, for checkpoints.
+/// As people write it: "1280x720".
+std::string size_text(Size size);
+
 template <class Archive>
 void visit(Archive& io, Size& size) {
   auto& [width, height] = size;

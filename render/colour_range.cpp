@@ -1,8 +1,9 @@
 #include "render/colour_range.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace clatter {
 
@@ -68,11 +69,10 @@ std::string tick_text(double value, double step) {
   const double place = order_of(step);  // of the last digit
   const bool plain = std::abs(place) <= 4.0;
   if (magnitude == 0.0 && !plain) return "0";
-  const double digits = plain ? -place : order_of(magnitude) - place;
-  char text[32];
-  std::snprintf(text, sizeof text, plain ? "%.*f" : "%.*e", static_cast<int>(std::max(0.0, digits)),
-                magnitude);
-  return value < 0.0 ? "−" + std::string(text) : text;
+  const int digits = static_cast<int>(std::max(0.0, plain ? -place : order_of(magnitude) - place));
+  const std::string text =
+      plain ? fmt::format("{:.{}f}", magnitude, digits) : fmt::format("{:.{}e}", magnitude, digits);
+  return value < 0.0 ? "−" + text : text;
 }
 
 }  // namespace clatter

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
 
 namespace clatter {
 

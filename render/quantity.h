@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
 
 namespace clatter {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
 #include "render/palette.h"
 
 namespace clatter {

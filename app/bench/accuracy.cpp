@@ -7,10 +7,11 @@
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
-#include "app/commands/commands.h"
-#include "app/system/write_file.h"
+#include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

@@ -1,16 +1,16 @@
 #include "app/bench/accuracy_output.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
-#include "engine/read_file.h"
-#include "render/canvas.h"
+#include "engine/system/read_file.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
 #include "render/layers/plot.h"
 
 namespace clatter {
@@ -24,20 +24,9 @@ constexpr std::array<const char*, kCompared> kNames = {"temperature", "pressure"
                                                        "heat_flux",   "dissipation", "density"};
 constexpr std::array<const char*, kCompared> kSymbols = {"T", "p", "σ", "q", "ζ", "ρ(x)"};
 
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
 // A number, or a dash where there is none.
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isnan(value) ? "-" : text;
+std::string number(fmt::format_string<double&> format, double value) {
+  return std::isnan(value) ? "-" : fmt::format(format, value);
 }
 
 // A difference in per cent.
@@ -46,24 +35,24 @@ std::string percent(const Estimate& bias) {
   if (bias.mean == 0.0 && bias.standard_error == 0.0) return "0";
   const double error = 100.0 * bias.standard_error;
   const int digits = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(error)), 0.0, 4.0));
-  return formatted("%+.*f ±%.*f", digits, 100.0 * bias.mean, digits, error);
+  return fmt::format("{:+.{}f} ±{:.{}f}", 100.0 * bias.mean, digits, error, digits);
 }
 
 // Cells of a row of a table, in the order of kHeadings.
 std::vector<std::string> cells_of(const AccuracyRow& row) {
   std::vector<std::string> cells = {
-      row.setting + (row.dominated ? " *" : ""), number("%.3g", 1e3 * row.cpu_per_time),
-      number("%.2f", 1e-6 * row.events_per_second), number("%.0f", 1e-3 * row.bytes)};
+      row.setting + (row.dominated ? " *" : ""), number("{:.3g}", 1e3 * row.cpu_per_time),
+      number("{:.2f}", 1e-6 * row.events_per_second), number("{:.0f}", 1e-3 * row.bytes)};
   for (const Estimate& bias : row.comparison.bias) cells.push_back(percent(bias));
-  cells.push_back(number("%.1g", row.deepest_overlap));
-  cells.push_back(number("%.2g", 100.0 * row.elasticised_share));
-  cells.push_back(number("%.2g", 100.0 * row.comparison.error));
+  cells.push_back(number("{:.1g}", row.deepest_overlap));
+  cells.push_back(number("{:.2g}", 100.0 * row.elasticised_share));
+  cells.push_back(number("{:.2g}", 100.0 * row.comparison.error));
   return cells;
 }
 
 std::vector<std::string> cells_of(const PictureRow& row) {
-  return {row.setting + (row.dominated ? " *" : ""), number("%.3g", 1e3 * row.cpu_seconds),
-          number("%.4f", row.ssim), number("%.2g", row.centre_error)};
+  return {row.setting + (row.dominated ? " *" : ""), number("{:.3g}", 1e3 * row.cpu_seconds),
+          number("{:.4f}", row.ssim), number("{:.2g}", row.centre_error)};
 }
 
 const std::vector<std::string> kPictureHeadings = {"setting", "ms", "SSIM", "centre px"};
@@ -126,9 +115,9 @@ std::string markdown_of(const std::string& title, const Grid& grid) {
 }  // namespace
 
 std::string accuracy_statement(const AccuracyBench& bench) {
-  return formatted("%s: %d runs of each setting, seeds 1 to %d, of %g time units after %g; ",
-                   bench.scene.c_str(), kAccuracyReplicas, kAccuracyReplicas, bench.duration,
-                   0.2 * bench.duration) +
+  return fmt::format("{}: {} runs of each setting, seeds 1 to {}, of {:g} time units after {:g}; ",
+                     bench.scene, kAccuracyReplicas, kAccuracyReplicas, bench.duration,
+                     0.2 * bench.duration) +
          "± is a standard error over runs.\n"
          "ms/t: CPU milliseconds per time unit; Mev/s: 10^6 events per CPU second; T, p, σ, q, ζ, "
          "ρ(x): temperature, wall pressure, stress, heat flux, dissipation and density profile "
@@ -158,21 +147,21 @@ std::string accuracy_csv(const std::vector<AccuracyTable>& tables,
     for (const AccuracyRow& row : table.rows) {
       text += table.dial + "," + row.setting;
       for (const double value : {row.value, row.cpu_per_time, row.events_per_second, row.bytes}) {
-        text += formatted(",%.6g", value);
+        text += fmt::format(",{:.6g}", value);
       }
       for (const Estimate& bias : row.comparison.bias) {
-        text += formatted(",%.6g,%.6g", bias.mean, bias.standard_error);
+        text += fmt::format(",{:.6g},{:.6g}", bias.mean, bias.standard_error);
       }
-      text += formatted(",%.6g,%.6g,%.6g,nan,nan,nan,%d\n", row.deepest_overlap,
-                        row.elasticised_share, row.comparison.error, row.dominated);
+      text += fmt::format(",{:.6g},{:.6g},{:.6g},nan,nan,nan,{:d}\n", row.deepest_overlap,
+                          row.elasticised_share, row.comparison.error, row.dominated);
     }
   }
   for (const PictureTable& table : pictures) {
     for (const PictureRow& row : table.rows) {
-      text += table.dial + "," + row.setting + formatted(",%.6g", row.value);
+      text += table.dial + "," + row.setting + fmt::format(",{:.6g}", row.value);
       for (int k = 0; k < 2 * kCompared + 6; ++k) text += ",nan";
-      text += formatted(",%.6g,%.6g,%.6g,%d\n", row.cpu_seconds, row.ssim, row.centre_error,
-                        row.dominated);
+      text += fmt::format(",{:.6g},{:.6g},{:.6g},{:d}\n", row.cpu_seconds, row.ssim,
+                          row.centre_error, row.dominated);
     }
   }
   return text;

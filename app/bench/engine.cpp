@@ -1,5 +1,7 @@
 #include "app/bench/engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,12 +9,13 @@
 #include <numbers>
 #include <vector>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/system/write_file.h"
 #include "render/context/context.h"
 #include "render/layers/plot.h"
 
@@ -137,14 +140,12 @@ void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) 
             .panels = {}};
   double area_fraction = 0.0;
   for (const EngineRate& rate : rates) {
-    char text[32];
     if (rate.area_fraction != area_fraction) {
-      std::snprintf(text, sizeof text, "phi = %g", rate.area_fraction);
-      plot.panels.push_back({text, {}});
+      plot.panels.push_back({fmt::format("phi = {:g}", rate.area_fraction), {}});
       area_fraction = rate.area_fraction;
     }
-    std::snprintf(text, sizeof text, "%.2f", rate.rate);
-    plot.panels.back().points.push_back({static_cast<double>(rate.count), rate.rate, text, false});
+    plot.panels.back().points.push_back(
+        {static_cast<double>(rate.count), rate.rate, fmt::format("{:.2f}", rate.rate), false});
   }
   const auto context = open_context(Backend::Auto);
   write_png(file, plot_image(context->gl(), plot, {1600, 1000}, kLightTheme));

@@ -12,9 +12,8 @@
 #include <numbers>
 #include <optional>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
@@ -22,6 +21,7 @@
 #include "engine/publish/scheduled_run.h"
 #include "engine/publish/triple_buffer.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

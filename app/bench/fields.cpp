@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/commands/commands.h"
+#include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

@@ -1,8 +1,9 @@
 #include "app/bench/parameter_sweeps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "app/bench/run_result.h"
@@ -50,9 +51,8 @@ ParameterSweep cell_sizes(const Scene& scene) {
     Scene changed = scene;
     changed.measure.cells[axis] = cells;
     const double width = scene.box[axis] / cells;
-    char name[32];
-    std::snprintf(name, sizeof name, "%.3g", width);
-    sweep.settings.push_back({.name = name, .value = width, .scene = changed});
+    sweep.settings.push_back(
+        {.name = fmt::format("{:.3g}", width), .value = width, .scene = changed});
   }
   return sweep;
 }

@@ -7,10 +7,10 @@
 #include "app/system/process_usage.h"
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 #include "render/output/similarity.h"
-#include "render/renderer.h"
 
 namespace clatter {
 
@@ -124,8 +124,7 @@ PictureTable sizes(const Gl& gl, const Snapshot& snapshot) {
   for (const Size size : {kLarge, kMedium, Size{854, 480}, {426, 240}, {214, 120}}) {
     const Drawn drawn = draw(gl, snapshot, size, 1);
     const double enlarged = static_cast<double>(kLarge.width) / size.width;
-    table.rows.push_back({std::to_string(size.width) + "x" + std::to_string(size.height),
-                          static_cast<double>(size.width), drawn.cpu_seconds,
+    table.rows.push_back({size_text(size), static_cast<double>(size.width), drawn.cpu_seconds,
                           structural_similarity(resized(drawn.image, kLarge), best.image),
                           enlarged * centre_error(draw(gl, sparse, size, 1), sparse)});
   }

@@ -1,7 +1,6 @@
 #include "app/bench/render.h"
 
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,17 +10,18 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/commands/commands.h"
 #include "app/runs/run.h"
-#include "app/system/write_file.h"
+#include "app/system/exit_code.h"
+#include "app/system/process_usage.h"
 #include "engine/publish/live_field.h"
 #include "engine/publish/publish.h"
-#include "render/canvas.h"
+#include "engine/system/child_process.h"
+#include "engine/system/write_file.h"
 #include "render/context/context.h"
-#include "render/output/child_process.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 #include "render/output/movie.h"
 #include "render/output/work_queue.h"
-#include "render/renderer.h"
 
 namespace clatter {
 
@@ -50,13 +50,6 @@ constexpr std::array<const char*, kTasks> kNames = {"simulate", "snapshot", "dra
                                                     "x264",     "veryfast"};
 using Times = std::array<double, kTasks>;  // milliseconds of CPU a frame
 
-// Of all threads of the program, since OpenGL may draw on several.
-double cpu_milliseconds() {
-  timespec time;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 // Of child processes that have ended.
 double children_milliseconds() {
   rusage usage{};
@@ -67,13 +60,14 @@ double children_milliseconds() {
   return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
 }
 
-// Adds to `times` what a task takes, once its drawing is done.
+// Adds to `times` what a task takes, once its drawing is done: of all threads of the program, since
+// OpenGL may draw on several.
 template <class Work>
 void spend(Times& times, Task task, const Gl& gl, Work work) {
-  const double began = cpu_milliseconds();
+  const double began = cpu_seconds();
   work();
   gl.Finish();
-  times[task] += (cpu_milliseconds() - began) / kFrames;
+  times[task] += 1e3 * (cpu_seconds() - began) / kFrames;
 }
 
 // Elastic disks at half the area of a periodic box as wide as a film, coloured over a heatmap.
@@ -111,12 +105,11 @@ double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> 
 double encode_veryfast(std::span<const Image> images) {
   const std::filesystem::path colours = temporary_file(".yuv");
   const Size size = images.front().size;
-  const std::string size_text = std::to_string(size.width) + "x" + std::to_string(size.height);
-  ffmpeg({"-pix_fmt", "rgba", "-video_size", size_text, "-i", "pipe:0", "-f", "rawvideo",
+  ffmpeg({"-pix_fmt", "rgba", "-video_size", size_text(size), "-i", "pipe:0", "-f", "rawvideo",
           "-pix_fmt", "yuv420p", colours.string()},
          images);
   const auto encode = [&](std::size_t frames) {
-    return ffmpeg({"-pix_fmt", "yuv420p", "-video_size", size_text, "-framerate",
+    return ffmpeg({"-pix_fmt", "yuv420p", "-video_size", size_text(size), "-framerate",
                    std::to_string(kFps), "-i", colours.string(), "-frames:v",
                    std::to_string(frames), "-c:v", "libx264", "-preset", "veryfast", "-f", "null",
                    "-"});
@@ -237,8 +230,7 @@ int bench_render(const std::string& json, int count) {
     LiveField field(*simulation, scene.view);
     for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
       const Times times = Filming(context->gl(), *simulation, field, scene.view, size).measure();
-      const std::string size_text = std::to_string(size.width) + "x" + std::to_string(size.height);
-      std::printf("%8d %10s", disks, size_text.c_str());
+      std::printf("%8d %10s", disks, size_text(size).c_str());
       nlohmann::ordered_json row = {
           {"count", disks}, {"width", size.width}, {"height", size.height}};
       for (int task = 0; task < kTasks; ++task) {

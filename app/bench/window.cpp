@@ -13,9 +13,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/commands/commands.h"
-#include "app/system/write_file.h"
-#include "app/view/explorer.h"
+#include "app/system/exit_code.h"
+#include "app/view/gui.h"
+#include "engine/system/write_file.h"
 #include "render/context/glfw_context.h"
 
 namespace clatter {
@@ -67,7 +67,7 @@ std::vector<double> picture_times(const Scene& scene, Size size) {
   const GlfwContext context;
   const Gl gl = idle_gl();
   ScriptLog log("");
-  Keys keys(context.window());
+  WindowInput input(context.window());
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
@@ -79,13 +79,13 @@ std::vector<double> picture_times(const Scene& scene, Size size) {
       ++published;
       glfwPostEmptyEvent();
     });
-    Explorer explorer(context.window(), gl, keys, worker, log);
-    explorer.open(scene, 1);
+    Gui gui(context.window(), gl, input, worker, log);
+    gui.open(scene, 1);
     for (int picture = 0, seen = 0; picture < kWarmUp + kPictures; ++picture) {
       while (published == seen) glfwWaitEventsTimeout(0.1);
       seen = published;
       const double began = thread_cpu_seconds();
-      explorer.draw();
+      gui.draw();
       if (picture >= kWarmUp) times.push_back(thread_cpu_seconds() - began);
     }
   }

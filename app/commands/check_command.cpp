@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/flags.h"
 #include "app/runs/feature_cost.h"
-#include "app/system/write_file.h"
+#include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "engine/physics/theory.h"
 
 namespace clatter {
@@ -45,9 +47,12 @@ void print_events(const Scene& scene, double end) {
 int check(const CommonOptions& options) {
   const Scene scene = load(options);
   print(scene_to_toml(scene));
+  if (options.quiet) return kOk;
   const bool disks = scene.dimension() == 2;
-  std::fprintf(stderr, "The scene is sound: %d %s, %s fraction %.4f.\n", scene.particles.count,
+  std::fprintf(stderr, "The scene is sound: %d %s, %s fraction %.4f", scene.particles.count,
                disks ? "disks" : "spheres", disks ? "area" : "volume", scene.packing_fraction());
+  if (options.seed) std::fprintf(stderr, ", seed %s", std::to_string(*options.seed).c_str());
+  std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
   print_parts(scene);
   return kOk;

@@ -1,13 +1,14 @@
 #include "app/commands/flag_checks.h"
 
-#include <charconv>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "engine/error.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -36,9 +37,8 @@ CLI::Validator non_negative_number() {
 }
 
 CLI::Validator number_between(double low, double high) {
-  char wanted[80];
-  std::snprintf(wanted, sizeof wanted, "a number between %g and %g", low, high);
-  return number_check([=](double x) { return x >= low && x <= high; }, wanted);
+  return number_check([=](double x) { return x >= low && x <= high; },
+                      fmt::format("a number between {:g} and {:g}", low, high));
 }
 
 CLI::Validator share() {
@@ -50,9 +50,7 @@ CLI::Validator share() {
         if (!(value > 0.0 && value < 1.0)) {
           return "'" + text + "' is wrong; give a share such as 1% or 0.01";
         }
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%.17g", value);
-        text = digits;
+        text = fmt::format("{:.17g}", value);
         return "";
       },
       "");
@@ -61,10 +59,7 @@ CLI::Validator share() {
 CLI::Validator seed_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {
-        std::uint64_t seed = 0;
-        const char* end = text.data() + text.size();
-        const auto [stopped, error] = std::from_chars(text.data(), end, seed);
-        if (error == std::errc() && stopped == end) return "";
+        if (whole_number<std::uint64_t>(text)) return "";
         return "'" + text + "' is wrong; give a whole number between 0 and 18446744073709551615";
       },
       "");
@@ -72,19 +67,18 @@ CLI::Validator seed_number() {
 
 Size parse_size(const std::string& text, Size least) {
   constexpr int kMax = 16384;
-  Size size;
-  char after;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &after) == 2 &&
-      size.width >= least.width && size.height >= least.height && size.width <= kMax &&
-      size.height <= kMax) {
-    return size;
+  const std::size_t cross = text.find('x');
+  if (cross != std::string::npos) {
+    const auto width = whole_number<int>(std::string_view(text).substr(0, cross));
+    const auto height = whole_number<int>(std::string_view(text).substr(cross + 1));
+    if (width && height && *width >= least.width && *height >= least.height && *width <= kMax &&
+        *height <= kMax) {
+      return {*width, *height};
+    }
   }
-  const auto text_of = [](int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-  };
   throw UserError({"--size", 0, 0}, "'" + text + "' is no size that there can be",
-                  "write WIDTHxHEIGHT, from " + text_of(least.width, least.height) + " to " +
-                      text_of(kMax, kMax) + ", for instance 1280x720");
+                  "write WIDTHxHEIGHT, from " + size_text(least) + " to " +
+                      size_text({kMax, kMax}) + ", for instance 1280x720");
 }
 
 }  // namespace clatter

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/flags.h"
 #include "app/results/csv_tables.h"
 #include "app/results/hdf5_file.h"
 #include "app/results/result_json.h"
@@ -13,14 +14,16 @@
 #include "app/runs/accuracy_goal.h"
 #include "app/runs/ensemble.h"
 #include "app/runs/run.h"
+#include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
-#include "app/system/write_file.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -31,11 +34,12 @@ struct MeasureOptions {
   CheckpointOptions checkpoints;
   AccuracyGoal accuracy;
   int replicas = 1;
-  std::string out;         // result file; empty: stdout
-  std::string csv;         // folder for tables; empty: none
-  std::string vtk;         // folder for maps; empty: none
-  std::string hdf5;        // file for all of it; empty: none
-  std::string save_state;  // file for the state at the end; empty: none
+  std::optional<int> threads;  // replicas at once; absent: as many as there are processors
+  std::string out;             // result file; empty: stdout
+  std::string csv;             // folder for tables; empty: none
+  std::string vtk;             // folder for maps; empty: none
+  std::string hdf5;            // file for all of it; empty: none
+  std::string save_state;      // file for the state at the end; empty: none
 };
 
 // Samples of a series: some GB of result file.
@@ -107,13 +111,18 @@ nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene
   return json;
 }
 
+void write_json(const std::string& out, const nlohmann::ordered_json& result) {
+  const std::string text = result.dump(1) + "\n";
+  if (out.empty()) {
+    print(text);
+  } else {
+    write_file(out, text);
+  }
+}
+
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
                    const Measured& measured) {
-  if (options.out.empty()) {
-    print(result.dump(1) + "\n");
-  } else {
-    write_file(options.out, result.dump(1) + "\n");
-  }
+  write_json(options.out, result);
   if (!options.csv.empty()) write_tables(options.csv, measured);
   if (!options.vtk.empty()) {
     write_vtk(options.vtk, measured,
@@ -144,15 +153,10 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   catch_interrupts();
-  const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end};
+  const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end, options.threads};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
   const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
-  const std::string text = result.dump(1) + "\n";
-  if (options.out.empty()) {
-    print(text);
-  } else {
-    write_file(options.out, text);
-  }
+  write_json(options.out, result);
   const bool all = result.at("results").size() == static_cast<std::size_t>(options.replicas);
   return all ? kOk : kInterrupted;
 }
@@ -224,6 +228,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "measure", "Run a scene without pictures and write what its [measure] block asks for");
   add_common_flags(*command, options->common);
+  add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   add_accuracy_flags(*command, options->accuracy);
   command->add_option("--out", options->out, "Result file (default: stdout)")
@@ -252,10 +257,14 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   CLI::Option* replicas =
       command
           ->add_option("--replicas", options->replicas,
-                       "Measure so many runs, of the seed and those that follow it, on all "
-                       "processors at once; the result has means over them, and all of theirs")
+                       "Measure so many runs, of the seed and those that follow it; the result has "
+                       "means over them, and all of theirs")
           ->check(CLI::Range(1, 100'000))
           ->type_name("N");
+  command
+      ->add_option("--threads", options->threads,
+                   "Replicas that run at once (default: as many as there are processors)")
+      ->check(CLI::Range(1, 256));
   for (const char* other :
        {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5", "--save-state"}) {
     replicas->excludes(command->get_option(other));

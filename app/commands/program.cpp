@@ -4,96 +4,11 @@
 #include <new>
 
 #include "app/commands/commands.h"
-#include "app/commands/flag_checks.h"
-#include "app/runs/picture_scene.h"
+#include "app/system/exit_code.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 
 namespace clatter {
-
-Scene load(const CommonOptions& options, StartFile start_file) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : options.settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UserError({"--set " + setting, 0, 0}, "no value is set",
-                      "write --set key=value, for instance --set particles.count=500");
-    }
-    overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
-  }
-  return load_any_scene(options.scene, overrides, start_file);
-}
-
-Scene load_disks(const CommonOptions& options, StartFile start_file) {
-  Scene scene = load(options, start_file);
-  if (scene.dimension() == 2) return scene;
-  throw UserError({options.scene},
-                  "the box has three dimensions, and this command takes disks only",
-                  "give box.size two numbers, or read the scene with `clatter check`");
-}
-
-void add_scene_flags(CLI::App& command, CommonOptions& options) {
-  command
-      .add_option("scene", options.scene,
-                  "Scene file, name of a gallery scene, or picture (.png) by this program, for its "
-                  "scene and seed")
-      ->required()
-      ->type_name("SCENE");
-  command
-      .add_option("--set", options.settings,
-                  "Change a key of the scene, e.g. --set particles.count=500 (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command
-      .add_option("--seed", options.seed,
-                  "Seed of all random numbers (default: 1, or that of the picture or checkpoint)")
-      ->check(seed_number());
-  command.parse_complete_callback([&options] {
-    if (!options.seed) options.seed = seed_of_picture(options.scene);
-  });
-}
-
-void add_common_flags(CLI::App& command, CommonOptions& options) {
-  add_scene_flags(command, options);
-  command.add_option("--until", options.until, "Simulation time at which the run ends")
-      ->check(positive_number());
-  command.add_option("--threads", options.threads, "Threads that encode pictures")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  command.add_flag("--quiet", options.quiet, "Print nothing on stderr but errors");
-  command.add_option("--progress", options.progress, "How to show progress on stderr")
-      ->transform(one_of<ProgressStyle>({{"auto", ProgressStyle::Auto},
-                                         {"json", ProgressStyle::Json},
-                                         {"none", ProgressStyle::None}}))
-      ->type_name("auto|json|none");
-}
-
-void add_backend_flag(CLI::App& command, Backend& backend) {
-  command.add_option("--backend", backend, "Where OpenGL comes from")
-      ->transform(one_of<Backend>({{"auto", Backend::Auto},
-                                   {"egl", Backend::Egl},
-                                   {"osmesa", Backend::Osmesa},
-                                   {"glfw", Backend::Glfw}}))
-      ->type_name("auto|glfw|egl|osmesa");
-}
-
-void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
-  command
-      .add_option("--resume", options.resume,
-                  "Go on from a checkpoint, under the laws of the scene given here")
-      ->type_name("FILE");
-  CLI::Option* file = command
-                          .add_option("--checkpoint", options.file,
-                                      "Keep a checkpoint up to date; the one before is "
-                                      "FILE.previous (default: one beside the result where the run "
-                                      "is interrupted or stops)")
-                          ->type_name("FILE");
-  command.add_option("--checkpoint-every", options.every, "How often, in seconds of wall time")
-      ->check(positive_number())
-      ->needs(file)
-      ->capture_default_str();
-}
 
 static int report(const char* message, int code) {
   std::fprintf(stderr, "clatter: %s\n", message);
@@ -101,7 +16,7 @@ static int report(const char* message, int code) {
 }
 
 // CLI11 itself would only say that a command is missing.
-static void require_command(const CLI::App& program, const std::string& word) {
+static void require_command(const CLI::App& program, const std::string& word, const char* what) {
   if (word.starts_with('-')) return;
   std::vector<std::string> names;
   std::string all;
@@ -111,8 +26,21 @@ static void require_command(const CLI::App& program, const std::string& word) {
     all += (all.empty() ? "" : ", ") + names.back();
   }
   const std::string near(near_miss(word, names));
-  throw UserError({}, "there is no command '" + word + "'",
-                  near.empty() ? "the commands are " + all : "did you mean '" + near + "'?");
+  throw UserError(
+      {}, std::string("there is no ") + what + " '" + word + "'",
+      near.empty() ? std::string("the ") + what + "s are " + all : "did you mean '" + near + "'?");
+}
+
+// What was typed, with the command where there is none: alone the program opens a window, and
+// `bench` prints the table of the engine.
+static std::vector<const char*> with_commands(int argc, const char* const* argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2) words.push_back("view");
+  if (words[1] != std::string_view("bench")) return words;
+  const std::string_view next = argc < 3 ? "" : words[2];
+  const bool is_flag = next.starts_with('-') && next != "-h" && next != "--help";
+  if (next.empty() || is_flag) words.insert(words.begin() + 2, "engine");
+  return words;
 }
 
 int run_program(int argc, const char* const* argv) {
@@ -134,14 +62,13 @@ int run_program(int argc, const char* const* argv) {
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);
-    const char* const view[] = {argv[0], "view"};
-    if (argc < 2) {
-      argc = 2;
-      argv = view;
+    const std::vector<const char*> words = with_commands(argc, argv);
+    require_command(program, words[1], "command");
+    if (words[1] == std::string_view("bench")) {
+      require_command(*program.get_subcommand("bench"), words[2], "table");
     }
-    require_command(program, argv[1]);
     try {
-      program.parse(argc, argv);
+      program.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
       return program.exit(error) == 0 ? kOk : kWrongUse;
     }

@@ -6,12 +6,15 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
+#include "app/commands/flags.h"
 #include "app/runs/film.h"
+#include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
+#include "engine/whole_number.h"
 #include "render/context/context.h"
 #include "render/output/frame_sink.h"
 
@@ -54,6 +57,7 @@ struct RenderOptions {
   std::optional<std::string> frames;  // absent: all
   std::optional<int> supersample;     // absent: 1
   std::optional<double> shutter;      // absent: 0
+  int threads = 2;                    // that encode pictures
   bool no_overlay = false;
   bool transparent = false;
   bool overwrite = false;
@@ -63,13 +67,12 @@ struct RenderOptions {
 };
 
 FrameRange parse_frames(const std::string& text) {
-  FrameRange range;
-  char after;
-  const int read = std::sscanf(text.c_str(), "%ld:%ld%c", &range.begin, &range.end, &after);
-  if (read == 1 && text.ends_with(':')) range.end = std::numeric_limits<long>::max();
-  if ((read == 2 || (read == 1 && text.ends_with(':'))) && range.begin >= 0 &&
-      range.begin < range.end) {
-    return range;
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const std::string_view after = std::string_view(text).substr(colon + 1);
+    const auto begin = whole_number<long>(std::string_view(text).substr(0, colon));
+    const auto end = after.empty() ? std::numeric_limits<long>::max() : whole_number<long>(after);
+    if (begin && end && *begin >= 0 && *begin < *end) return {*begin, *end};
   }
   throw UserError({"--frames", 0, 0}, "'" + text + "' is no range of frames",
                   "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");
@@ -137,9 +140,6 @@ void keep(const std::optional<T>& asked, const T& before, const char* flag, cons
 // A film goes on as it began, but that it may end at another time.
 FilmState continued_film(const RenderOptions& options, FilmState film) {
   const FrameTimes& times = film.times;
-  const auto size_text = [](Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-  };
   std::optional<Size> size;
   std::optional<double> fps = options.fps;
   if (options.quality) {
@@ -198,11 +198,8 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   SinkOptions sink;
   sink.size = film.size;
   sink.fps = film.times.fps;
-  sink.texts = {{"Title", scene.title},
-                {"Software", "clatter " CLATTER_VERSION},
-                {"Seed", std::to_string(seed)},
-                {"Scene", scene_to_toml(scene)}};
-  sink.threads = options.common.threads;
+  sink.texts = picture_texts(scene, seed);
+  sink.threads = options.threads;
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;
   if (options.frames) sink.end = frames.end;
@@ -267,6 +264,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
   add_common_flags(*command, options->common);
+  add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command
       ->add_option(
@@ -310,6 +308,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "Blur disks by their motion: share of the time between frames for which the "
                    "shutter is open before each (default: 0)")
       ->check(number_between(0.0, 1.0));
+  command->add_option("--threads", options->threads, "Threads that encode a folder's pictures")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar, scale bar");
   command->add_flag("--transparent", options->transparent,

@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
-#include "app/system/write_file.h"
+#include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "engine/embedded_file.h"
+#include "engine/scene/scene_file.h"
 
 namespace clatter {
 

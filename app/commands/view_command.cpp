@@ -2,6 +2,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
+#include "app/commands/flags.h"
+#include "app/system/exit_code.h"
 #include "app/view/window.h"
 #include "engine/error.h"
 

@@ -1,23 +1,15 @@
 #include "app/results/csv_tables.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <iterator>
 #include <string>
 
-#include "app/system/write_file.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/unit.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
-
-[[gnu::format(printf, 2, 3)]] static void append(std::string& text, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
 
 static std::string series_table(const Measured& measured) {
   const std::vector<double>& spin = measured.series_spin_temperature;
@@ -25,8 +17,9 @@ static std::string series_table(const Measured& measured) {
   table += spin.empty() ? "\n" : ", spin_temperature: m a^2/t^2\n";
   table += spin.empty() ? "time,temperature\n" : "time,temperature,spin_temperature\n";
   for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
-    append(table, "%.17g,%.17g", measured.series_time[k], measured.series_temperature[k]);
-    if (!spin.empty()) append(table, ",%.17g", spin[k]);
+    fmt::format_to(std::back_inserter(table), "{:.17g},{:.17g}", measured.series_time[k],
+                   measured.series_temperature[k]);
+    if (!spin.empty()) fmt::format_to(std::back_inserter(table), ",{:.17g}", spin[k]);
     table += '\n';
   }
   return table;
@@ -43,9 +36,11 @@ static std::string profile_table(const Profile& profile) {
   }
   std::string table = units + "\n" + header + "\n";
   for (std::size_t i = 0; i + 1 < profile.edges.size(); ++i) {
-    append(table, "%.17g,%.17g", profile.edges[i], profile.edges[i + 1]);
+    fmt::format_to(std::back_inserter(table), "{:.17g},{:.17g}", profile.edges[i],
+                   profile.edges[i + 1]);
     for (const auto& column : profile.values) {
-      append(table, ",%.17g,%.17g", column[i].mean, column[i].standard_error);
+      fmt::format_to(std::back_inserter(table), ",{:.17g},{:.17g}", column[i].mean,
+                     column[i].standard_error);
     }
     table += '\n';
   }
@@ -65,9 +60,11 @@ static std::string maps_table(const FieldMaps& maps) {
   const int columns = maps.maps.front().cells[0], rows = maps.maps.front().cells[1];
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      append(table, "%.17g,%.17g", (i + 0.5) * maps.cell.x(), (j + 0.5) * maps.cell.y());
+      fmt::format_to(std::back_inserter(table), "{:.17g},{:.17g}", (i + 0.5) * maps.cell.x(),
+                     (j + 0.5) * maps.cell.y());
       const auto cell = static_cast<std::size_t>(j * columns + i);
-      for (const FieldMap& map : maps.maps) append(table, ",%.17g", map.values[cell]);
+      for (const FieldMap& map : maps.maps)
+        fmt::format_to(std::back_inserter(table), ",{:.17g}", map.values[cell]);
       table += '\n';
     }
   }

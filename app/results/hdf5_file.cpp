@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "app/system/write_file.h"
 #include "engine/error.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/unit.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 

@@ -1,8 +1,9 @@
 #include "app/results/result_json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/results/theory_json.h"
@@ -69,15 +70,12 @@ static Json balance_json(const Residuals& residuals) {
 
 Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,
                  const Measured& measured, const Performance& performance) {
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx",
-                static_cast<unsigned long long>(simulation.state_hash()));
   Json json;
   json["schema"] = 1;
   json["scene"] = Json::parse(scene_to_json(scene));
   json["seed"] = seed;
   json["program"] = "clatter " CLATTER_VERSION;
-  json["state_hash"] = hash;
+  json["state_hash"] = fmt::format("{:016x}", simulation.state_hash());
   json["time"] = {{"burn_in", measured.burn_in}, {"measured", measured.duration}};
   json["events"] = {{"disk_disk", measured.pair_collisions},
                     {"disk_wall", measured.wall_collisions}};

@@ -1,17 +1,18 @@
 #include "app/results/vtk_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
-#include "app/system/write_file.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/text.h"
 #include "engine/scene/unit.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -116,9 +117,7 @@ std::string image_data(const FieldMaps& maps, const std::string& origin) {
 }
 
 std::string part_name(std::size_t part) {
-  char name[32];
-  std::snprintf(name, sizeof name, "series_%02zu.vti", part);
-  return name;
+  return fmt::format("series_{:02}.vti", part);
 }
 
 void write_series(const std::filesystem::path& folder, const std::vector<FieldMaps>& series,

@@ -1,34 +1,16 @@
 #include "app/runs/accuracy_goal.h"
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "app/commands/flag_checks.h"
 #include "app/results/result_json.h"
 #include "engine/error.h"
 
 namespace clatter {
-
-void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal) {
-  CLI::Option* accuracy =
-      command
-          .add_option(
-              "--accuracy", goal.relative,
-              "End once the standard error of the temperature is that share of it, e.g. 1% or "
-              "0.01; at --until, or else at the scene's end, at the latest")
-          ->transform(share())
-          ->type_name("SHARE");
-  command
-      .add_option("--accuracy-of", goal.of,
-                  "Of which mean of the result --accuracy speaks, e.g. pressure.left or "
-                  "energy.dissipated")
-      ->type_name("NAME")
-      ->needs(accuracy)
-      ->capture_default_str();
-}
 
 Estimate estimate_for(const AccuracyGoal& goal, const Measured& measured) {
   std::string names;
@@ -52,9 +34,7 @@ static double needed_time(const AccuracyGoal& goal, const Measured& measured) {
 }
 
 static std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
-  return text;
+  return fmt::format("{:.3g} %", 100.0 * share);
 }
 
 // The time of the first look at the error from a time on: each is about a sixteenth later than the

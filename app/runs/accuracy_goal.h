@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "app/commands/commands.h"
 #include "app/runs/run.h"
 #include "app/system/progress.h"
 #include "engine/measure/measurement.h"
@@ -18,9 +17,6 @@ struct AccuracyGoal {
   /// Whether a run is to end once it is that precise.
   bool asked_for() const { return relative > 0.0; }
 };
-
-/// Adds --accuracy and --accuracy-of to a command; `goal` outlives it.
-void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal);
 
 /// The estimate that the goal is about. Throws UserError where the result will have none.
 Estimate estimate_for(const AccuracyGoal& goal, const Measured& measured);

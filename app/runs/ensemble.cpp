@@ -37,8 +37,9 @@ class Replicas {
 
   void run() {
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t wanted = ensemble_.threads ? *ensemble_.threads : processors;
     std::vector<std::jthread> threads;
-    for (std::size_t k = 0; k < std::min(processors, done_.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(wanted, done_.size()); ++k) {
       threads.emplace_back([this] { work(); });
     }
     threads.clear();  // joins them

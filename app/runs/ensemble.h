@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "app/system/progress.h"
 #include "engine/scene/scene.h"
@@ -13,9 +14,10 @@ struct Ensemble {
   int replicas = 1;
   std::uint64_t first_seed = 1;  ///< the others follow it
   double end = 0.0;              ///< simulation time of each
+  std::optional<int> threads;    ///< that run them; absent: as many as there are processors
 };
 
-/// Measures the replicas, as many at once as there are processors. The result has the means over
+/// Measures the replicas. The result has the means over
 /// replicas with the standard errors that these scatter by, by the names that results have, and
 /// under "results" what `clatter measure --seed` would write for each, without performance. After
 /// an interrupt it has the replicas that were done. Where one stops, or is not sound, the rest is

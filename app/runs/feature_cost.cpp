@@ -1,8 +1,9 @@
 #include "app/runs/feature_cost.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "engine/dynamics/memory.h"
 #include "engine/measure/measurement.h"
@@ -75,9 +76,7 @@ std::vector<FeatureCost> feature_costs(const Scene& scene) {
 
 std::string cost_text(double price) {
   if (!std::isfinite(price)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "x%.3g", price);
-  return text;
+  return fmt::format("x{:.3g}", price);
 }
 
 }  // namespace clatter

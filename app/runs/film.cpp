@@ -1,7 +1,8 @@
 #include "app/runs/film.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "app/system/interrupt.h"
@@ -128,11 +129,8 @@ RangeEnds Film::look_ahead() const {
 
 std::vector<PngText> Film::notes() const {
   const Simulation<2>& simulation = run_.simulation();
-  char time[32], hash[32];
-  std::snprintf(time, sizeof time, "%.17g", simulation.time());
-  std::snprintf(hash, sizeof hash, "%016llx",
-                static_cast<unsigned long long>(simulation.state_hash()));
-  return {{"Simulation time", time}, {"State hash", hash}};
+  return {{"Simulation time", fmt::format("{:.17g}", simulation.time())},
+          {"State hash", fmt::format("{:016x}", simulation.state_hash())}};
 }
 
 }  // namespace clatter

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "app/runs/run.h"
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 #include "render/output/frame_sink.h"
-#include "render/renderer.h"
 
 namespace clatter {
 

@@ -1,8 +1,6 @@
 #include "app/runs/picture_scene.h"
 
-#include <charconv>
-
-#include "render/output/image.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -13,14 +11,17 @@ Scene load_any_scene(const std::string& path_or_name, const std::vector<Override
                 : load_scene(path_or_name, overrides, start_file);
 }
 
+std::vector<PngText> picture_texts(const Scene& scene, std::uint64_t seed) {
+  return {{"Title", scene.title},
+          {"Software", "clatter " CLATTER_VERSION},
+          {"Seed", std::to_string(seed)},
+          {"Scene", scene_to_toml(scene)}};
+}
+
 std::optional<std::uint64_t> seed_of_picture(const std::string& path) {
   const auto text = png_text(path, "Seed");
   if (!text) return std::nullopt;
-  std::uint64_t seed = 0;
-  const char* end = text->data() + text->size();
-  const auto [read, error] = std::from_chars(text->data(), end, seed);
-  if (error != std::errc{} || read != end) return std::nullopt;
-  return seed;
+  return whole_number<std::uint64_t>(*text);
 }
 
 }  // namespace clatter

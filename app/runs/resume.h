@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/commands.h"
+#include "app/runs/options.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/scene_differences.h"

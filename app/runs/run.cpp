@@ -1,13 +1,17 @@
 #include "app/runs/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 #include "engine/dynamics/boundary.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -175,10 +179,10 @@ void Run::put_aside() {
 void require_no_overlap(const RunChecks& checks) {
   constexpr double kRounding = 1e-9;  // diameters
   if (checks.deepest_overlap <= kRounding) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", checks.deepest_overlap);
-  throw PhysicalStop(std::string("disks overlapped by ") + text +
-                     " diameters: events were lost; please report this scene and seed");
+  throw PhysicalStop(fmt::format(
+      "disks overlapped by {:.3g} diameters: events were lost; please report this scene "
+      "and seed",
+      checks.deepest_overlap));
 }
 
 int Run::end() {

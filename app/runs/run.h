@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/commands/commands.h"
+#include "app/runs/options.h"
 #include "app/runs/resume.h"
 #include "app/system/progress.h"
 #include "engine/error.h"

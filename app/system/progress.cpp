@@ -1,5 +1,6 @@
 #include "app/system/progress.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,14 +30,9 @@ void Progress::expect(double end, std::string doing) {
 static std::string spell_seconds(double seconds) {
   constexpr double kLongest = 1e9;  // some thirty years
   if (!(seconds < kLongest)) return "ages";
-  char text[32];
   const auto whole = static_cast<long>(seconds + 0.5);
-  if (whole < 3600) {
-    std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  }
-  return text;
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 void Progress::update(double time) {

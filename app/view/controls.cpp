@@ -1,5 +1,6 @@
 #include "app/view/controls.h"
 
+#include <fmt/printf.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -33,13 +34,12 @@ static void tell_help(const char* help) {
 
 static void explain(const Slider& slider, double usual) {
   if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
-  char text[64];
-  std::snprintf(text, sizeof text, slider.format, usual);
+  const std::string text = fmt::sprintf(slider.format, usual);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
   if (*slider.help) ImGui::TextDisabled("%s", slider.help);
-  ImGui::TextDisabled("Here: %s%s%s. Double-click to type.", text, *slider.unit ? " " : "",
+  ImGui::TextDisabled("Here: %s%s%s. Double-click to type.", text.c_str(), *slider.unit ? " " : "",
                       slider.unit);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
@@ -75,21 +75,18 @@ static void headline(const Slider& slider, double value) {
   ImGui::SameLine();
   const float left = ImGui::GetCursorPosX();
   const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
-  char number[64];
-  std::snprintf(number, sizeof number, slider.format, value);
+  const std::string number = fmt::sprintf(slider.format, value);
   // The unit stands here where there is room for it, and in the tooltip.
   const std::string with_unit = number + (*slider.unit ? std::string(" ") + slider.unit : "");
   const bool fits = ImGui::CalcTextSize(with_unit.c_str()).x < right - left;
-  const char* text = fits ? with_unit.c_str() : number;
+  const char* text = (fits ? with_unit : number).c_str();
   ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
   ImGui::TextUnformatted(text);
 }
 
 // To three digits, which is as finely as one can drag.
 static double rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return std::strtod(text, nullptr);
+  return std::stod(fmt::format("{:.3g}", value));
 }
 
 Controls::Moved Controls::draw(const Slider& slider, double& value, double usual) {

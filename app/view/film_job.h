@@ -1,10 +1,10 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/system/child_process.h"
 
 namespace clatter {
 
@@ -12,7 +12,7 @@ namespace clatter {
 class FilmJob {
  public:
   /// Starts this program with the arguments of a film into `file`. Throws RunError where it cannot.
-  FilmJob(const std::vector<std::string>& arguments, std::string file);
+  FilmJob(std::vector<std::string> arguments, std::string file);
   FilmJob(const FilmJob&) = delete;
   FilmJob& operator=(const FilmJob&) = delete;
   /// Interrupts the film if it is not done, so that what there is of it plays.
@@ -21,7 +21,7 @@ class FilmJob {
   /// Takes what the process has told; its exit code once it has ended.
   std::optional<int> poll();
   /// Asks it to end; what there is of the film plays.
-  void interrupt() const;
+  void interrupt() const { process_.interrupt(); }
   /// The share of the film that is done, 0..1.
   double done() const { return done_; }
   /// The film.
@@ -33,9 +33,8 @@ class FilmJob {
   void read();
 
   std::string file_;
-  pid_t process_ = 0;  // 0: ended
-  int pipe_ = -1;      // its stderr
-  std::string line_;   // not yet whole
+  ChildProcess process_;
+  std::string line_;  // not yet whole
   double done_ = 0.0;
   std::string message_;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/view/controls.h"
-#include "app/view/notes.h"
+#include "app/view/messages.h"
 
 namespace clatter {
 

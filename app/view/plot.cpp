@@ -1,5 +1,6 @@
 #include "app/view/plot.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -30,13 +31,9 @@ std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
       const double step = places.size() > 1 ? places[1] - places[0] : 1.0;
       ticks.push_back({share, tick_text(place, step)});
     } else if (scale.high - scale.low < 1.5) {
-      char text[32];
-      std::snprintf(text, sizeof text, "%.2g", std::pow(10.0, place));
-      ticks.push_back({share, text});
+      ticks.push_back({share, fmt::format("{:.2g}", std::pow(10.0, place))});
     } else if (place == std::round(place)) {
-      char text[32];
-      std::snprintf(text, sizeof text, "%.0e", std::pow(10.0, place));
-      ticks.push_back({share, text});
+      ticks.push_back({share, fmt::format("{:.0e}", std::pow(10.0, place))});
     }
   }
   return ticks;

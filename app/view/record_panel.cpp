@@ -1,6 +1,5 @@
+#include <fmt/format.h>
 #include <imgui.h>
-
-#include <cstdio>
 
 #include "app/view/panels.h"
 
@@ -19,9 +18,8 @@ Recording record_panel(Controls& controls, std::optional<double> filmed) {
     asked = Recording::SaveScene;
   }
   if (filmed) {
-    char label[64];
-    std::snprintf(label, sizeof label, "Stop film, %.0f %%###film", 100.0 * *filmed);
-    if (controls.button("film", label, "What there is of the film by now is kept", width)) {
+    const std::string label = fmt::format("Stop film, {:.0f} %###film", 100.0 * *filmed);
+    if (controls.button("film", label.c_str(), "What there is of the film by now is kept", width)) {
       asked = Recording::StopFilm;
     }
   } else if (controls.button("film", "Film###film",

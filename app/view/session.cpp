@@ -1,5 +1,7 @@
 #include "app/view/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -32,11 +34,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"disks", frame.snapshot.positions.size()},
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
-  if (frame.state_hash) {
-    char hash[17];
-    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(*frame.state_hash));
-    told["hash"] = hash;
-  }
+  if (frame.state_hash) told["hash"] = fmt::format("{:016x}", *frame.state_hash);
   if (frame.partners) told["partners"] = *frame.partners;
   if (frame.contact_time_error) told["elasticised"] = frame.contact_time_error->elasticised;
   if (frame.residuals) told["residuals"] = frame.residuals->residuals.largest();

@@ -6,7 +6,7 @@
 
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
 
 namespace clatter {
 

@@ -9,8 +9,8 @@
 
 #include "engine/embedded_file.h"
 #include "engine/publish/snapshot.h"
-#include "render/gl_object.h"
-#include "render/renderer.h"
+#include "render/gl/gl_object.h"
+#include "render/layers/renderer.h"
 
 namespace clatter {
 

@@ -1,9 +1,9 @@
 #include "app/view/top_bar.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
@@ -58,11 +58,10 @@ void speed_field(Session& session, Controls& controls) {
   const double speed = session.frame().speed;
   if (controls.button("slower", "−", "Slower ( - )")) session.set_speed(speed / std::sqrt(2.0));
   ImGui::SameLine();
-  char text[64];
-  std::snprintf(text, sizeof text, "%.3g /s", speed);
+  const std::string text = fmt::format("{:.3g} /s", speed);
   ImGui::AlignTextToFramePadding();
   const float left = ImGui::GetCursorPosX();
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(text.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Simulation time per second");
   ImGui::SameLine(left + 4.2f * ImGui::GetFontSize());
   if (controls.button("faster", "+", "Faster ( + )")) session.set_speed(speed * std::sqrt(2.0));
@@ -77,12 +76,10 @@ struct Health {
 Health health_of(const Frame& frame) {
   const Colour good = {0x6c, 0xc0, 0x7a}, warns = {0xf2, 0xc1, 0x4e}, bad = {0xe0, 0x6c, 0x5a};
   constexpr double kDeepest = 1e-9, kResidual = 1e-9, kHeld = 0.95;
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "Deepest overlap %.1e diameters\nEnergy against its ledger %.1e\n"
-                "Engine holds %.0f %% of the speed",
-                frame.deepest_overlap, frame.ledger_residual, 100.0 * frame.held);
-  Health health{good, text};
+  Health health{good,
+                fmt::format("Deepest overlap {:.1e} diameters\nEnergy against its ledger {:.1e}\n"
+                            "Engine holds {:.0f} % of the speed",
+                            frame.deepest_overlap, frame.ledger_residual, 100.0 * frame.held)};
   if (frame.held < kHeld) health.colour = warns;
   if (frame.deepest_overlap > kDeepest || std::fabs(frame.ledger_residual) > kResidual) {
     health.colour = bad;
@@ -92,19 +89,15 @@ Health health_of(const Frame& frame) {
 
 // Time, events and health, at the right end.
 void figures(const Frame& frame) {
-  char text[128];
-  char events[32] = "";
-  if (frame.plays)
-    std::snprintf(events, sizeof events, "%.3g collisions/s   ", frame.events_per_second);
-  char behind[32] = "";
-  if (frame.plays && frame.held < 0.95)
-    std::snprintf(behind, sizeof behind, "%.2gx   ", frame.held);
-  std::snprintf(text, sizeof text, "%s%st = %.2f", behind, events, frame.snapshot.time);
+  std::string text;
+  if (frame.plays && frame.held < 0.95) text += fmt::format("{:.2g}x   ", frame.held);
+  if (frame.plays) text += fmt::format("{:.3g} collisions/s   ", frame.events_per_second);
+  text += fmt::format("t = {:.2f}", frame.snapshot.time);
   const float unit = ImGui::GetFontSize();
-  const float width = ImGui::CalcTextSize(text).x;
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::SameLine(ImGui::GetContentRegionMax().x - width - 1.4f * unit);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", text);
+  ImGui::TextDisabled("%s", text.c_str());
   ImGui::SameLine();
   ImGui::InvisibleButton("health", ImVec2(unit, ImGui::GetFrameHeight()));
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "app/view/session.h"
-#include "render/canvas.h"
-#include "render/renderer.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 
 namespace clatter {
 

@@ -1,5 +1,7 @@
 #include "app/view/wall_grip.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -85,11 +87,10 @@ void WallGrip::mark(ImDrawList& list, const Viewport& viewport, const Frame& fra
   const ImVec2 a = viewport.place(from, corner, scale), b = viewport.place(to, corner, scale);
   list.AddLine(a, b, packed(accent_colour()), 0.2f * ImGui::GetFontSize());
   if (!held_) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f a", length_);
+  const std::string text = fmt::format("{:.1f} a", length_);
   const float unit = ImGui::GetFontSize();
   list.AddText(ImVec2(b.x - (axis == 0 ? 4.0f * unit : 5.0f * unit), b.y - 1.5f * unit),
-               ImGui::GetColorU32(ImGuiCol_Text), text);
+               ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 }  // namespace clatter

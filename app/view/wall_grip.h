@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/notes.h"
+#include "app/view/messages.h"
 #include "app/view/viewport.h"
 
 namespace clatter {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/view/explorer.h"
+#include "app/view/gui.h"
 #include "engine/error.h"
 #include "render/context/glfw_context.h"
 
@@ -44,17 +44,17 @@ double refresh_rate() {
 }
 
 // Dear ImGui with the keys and the mouse of a window.
-class Gui {
+class DearImGui {
  public:
-  explicit Gui(GLFWwindow* window) {
+  explicit DearImGui(GLFWwindow* window) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     ImGui_ImplGlfw_InitForOpenGL(window, true);
   }
-  Gui(const Gui&) = delete;
-  Gui& operator=(const Gui&) = delete;
-  ~Gui() {
+  DearImGui(const DearImGui&) = delete;
+  DearImGui& operator=(const DearImGui&) = delete;
+  ~DearImGui() {
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
   }
@@ -80,23 +80,23 @@ static void show(const WindowOptions& options) {
   GLFWwindow* window = context.window();
   glfwSwapInterval(1);
   ScriptLog log(options.script_log);
-  Keys keys(window);
-  const Gui gui(window);
+  WindowInput input(window);
+  const DearImGui imgui(window);
   const double rate = refresh_rate();
   Worker worker(rate, [] { glfwPostEmptyEvent(); });
   {
-    Explorer explorer(window, context.gl(), keys, worker, log);
-    explorer.open(options.scene, options.seed, options.until);
+    Gui gui(window, context.gl(), input, worker, log);
+    gui.open(options.scene, options.seed, options.until);
     // Panels settle some pictures after an event, not at once.
     constexpr int kSettle = 4;
     for (int left = kSettle; !glfwWindowShouldClose(window); left = left > 0 ? left - 1 : kSettle) {
       const auto began = RealClock::now();
       glfwPollEvents();
       ImGui_ImplGlfw_NewFrame();
-      explorer.draw();
+      gui.draw();
       glfwSwapBuffers(window);
       guard.check();
-      wait_for_events(left > 0 || explorer.films(), began, rate);
+      wait_for_events(left > 0 || gui.films(), began, rate);
     }
     // What is under way, a film say, comes to its end, for which nobody has to look on.
     glfwHideWindow(window);

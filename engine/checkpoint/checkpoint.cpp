@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "engine/checkpoint/archive.h"
-#include "engine/checkpoint/synced_file.h"
 #include "engine/error.h"
-#include "engine/read_file.h"
+#include "engine/system/read_file.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -98,10 +98,7 @@ void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint)
   std::uint32_t sum = checksum(bytes);
   bytes += bytes_of(sum);
 
-  const std::filesystem::path part = file.string() + ".part";
-  write_synced(part, bytes);
-  if (std::filesystem::exists(file)) rename_synced(file, previous_checkpoint(file));
-  rename_synced(part, file);
+  write_file(file, bytes, previous_checkpoint(file));
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {

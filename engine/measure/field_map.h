@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/field.h"
 
 namespace clatter {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 
 #include "engine/physics/contact.h"
@@ -195,7 +196,9 @@ double moving_wall_contact(const WallMotion& motion, double start, double distan
   const double contact = start + (at_rest ? fall_time(particle.gap, speed, acceleration)
                                           : contact_with_moving(particle));
   // A particle that recedes approaches only later, be it by the least time that there is.
-  return touching && contact == start ? std::nextafter(start, kNever) : contact;
+  return touching && contact == start
+             ? std::nextafter(start, std::numeric_limits<double>::infinity())
+             : contact;
 }
 
 }  // namespace clatter

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "engine/measure/field_map.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+#include "engine/scene/wall.h"
 #include "engine/vec.h"
 
 namespace clatter {

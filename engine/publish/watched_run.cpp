@@ -22,8 +22,9 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   tally_at_laws_ = tally_;
   simulation.add_observer(*totals_);
   simulation.add_observer(last_);
-  if (encounters_ && encounters_->last()) last_collision_ = encounters_->last();
-  simulation.add_observer(encounters_.emplace(simulation, picked_));
+  if (picked_collisions_ && picked_collisions_->last())
+    last_collision_ = picked_collisions_->last();
+  simulation.add_observer(picked_collisions_.emplace(simulation, picked_));
   lookahead_.reset();
   profile_.reset();
   residuals_.reset();
@@ -36,7 +37,7 @@ void WatchedRun::pick(std::optional<std::uint32_t> particle) {
   if (particle && *particle >= run_.simulation().particles().size()) particle.reset();
   picked_ = particle;
   last_collision_.reset();
-  encounters_->watch(particle);
+  picked_collisions_->watch(particle);
   lookahead_.reset();
 }
 
@@ -97,7 +98,7 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.contact_time_error = contact_time_error();
   frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
-  frame.last_collision = encounters_->last() ? encounters_->last() : last_collision_;
+  frame.last_collision = picked_collisions_->last() ? picked_collisions_->last() : last_collision_;
   frame.next_collision = next_collision(halted);
   frame.state_hash.reset();
   if (halted) frame.state_hash = run_.simulation().state_hash();

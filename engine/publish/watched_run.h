@@ -47,7 +47,7 @@ class WatchedRun {
   std::optional<Totals<2>> totals_;
   LastCollision last_;
   std::optional<std::uint32_t> picked_;
-  std::optional<CollisionWatch> encounters_;         // of that particle
+  std::optional<CollisionWatch> picked_collisions_;  // of that particle
   std::optional<ParticleCollision> last_collision_;  // its last before laws changed
   std::optional<CollisionLookahead> lookahead_;  // of that particle, once frames have told of it
   std::uint64_t steps_told_ = 0;                 // of the run, by the last frame

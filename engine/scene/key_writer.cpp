@@ -1,7 +1,8 @@
 #include "engine/scene/key_writer.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "engine/scene/text.h"
 
@@ -58,9 +59,7 @@ std::string value_text(const ColourRange& range) {
 }
 
 std::string value_text(const Rgb& colour) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.red, colour.green, colour.blue);
-  return in_quotes(text);
+  return in_quotes(fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue));
 }
 
 std::string TomlWriter::path() const {

@@ -1,70 +1,18 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/physics/lattice.h"
 #include "engine/physics/state.h"
-#include "engine/physics/wall_motion.h"
+#include "engine/scene/field.h"
+#include "engine/scene/view.h"
+#include "engine/scene/wall.h"
 #include "engine/vec.h"
 
 namespace clatter {
-
-/// How rough a partner in a collision is, Sec. 2; smooth where both are absent.
-struct Roughness {
-  std::optional<double> friction;  ///< mu >= 0, may be infinite; absent beside the other: infinite
-  std::optional<double> tangential_restitution;  ///< beta_0, -1..1; absent beside the other: 1
-
-  /// Mu and beta_0 in force; 0 and -1 where both are absent.
-  double friction_in_force() const;
-  double tangential_restitution_in_force() const;
-  /// Whether a touch can change a spin: mu > 0 and beta_0 > -1.
-  bool any() const;
-};
-
-/// What a wall does to the particles that touch it, Sec. 3.1.
-enum class WallKind {
-  Static,      ///< reflects with its restitution
-  Driven,      ///< adds drive_speed to the normal velocity: the saw-tooth limit, Eqs. (2.17), (3.1)
-  Thermal,     ///< forgets the incoming velocity and emits at its temperature
-  Sawtooth,    ///< moves inwards by its stroke at constant speed, jumps back, and again
-  Sinusoidal,  ///< swings by half its stroke to either side of its place
-};
-
-/// One wall of the box.
-struct Wall {
-  WallKind kind = WallKind::Static;
-  double restitution = 1.0;  ///< alpha_w >= 0, of all but thermal walls; may exceed 1
-  Roughness roughness = {};  ///< of all but thermal walls
-  double drive_speed =
-      0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity, Eq. (2.17)
-  double temperature = 1.0;  ///< T_w >= 0 of a thermal wall
-  double stroke = 0.0;       ///< whole travel of a saw-tooth or sinusoidal wall, >= 0
-  double frequency = 0.0;    ///< of its motion, in periods per time unit, >= 0
-  double phase = 0.0;        ///< of its motion at time 0, in periods
-
-  /// Whether the wall changes its place.
-  bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
-  /// The motion of one that moves, its phase at simulation time 0; others stay at rest.
-  WallMotion motion() const;
-  /// How far into the box it is at time 0.
-  double start_travel() const;
-  /// How far into the box its motion takes it.
-  double innermost_travel() const;
-  /// How far out of the box its motion takes it.
-  double outermost_travel() const { return kind == WallKind::Sinusoidal ? 0.5 * stroke : 0.0; }
-};
-
-/// The sides of the box: axis is side / 2, and the odd ones lie at the axis' far end.
-enum Side { kLeft, kRight, kBottom, kTop, kBack, kFront };
-
-/// Names of the sides in scene files, indexed by Side.
-inline constexpr std::array<const char*, 6> kSideNames = {"left", "right", "bottom",
-                                                          "top",  "back",  "front"};
 
 /// How the particles are placed at time 0.
 enum class Layout { Random, Lattice, File };
@@ -95,50 +43,6 @@ struct BulkDrive {
   double kick_spin = 0.0;   ///< standard deviation of the change of spin
 };
 
-/// A field over the box, chapter 4; what is not called kinetic or collisional is the sum of both.
-enum class Field {
-  Density,    ///< rho, particles per area
-  VelocityX,  ///< V, their mean velocity
-  VelocityY,
-  Temperature,  ///< T = (T_x + T_y)/2, about V
-  TemperatureX,
-  TemperatureY,
-  StressXx,  ///< sigma, minus the pressure tensor; xy: of momentum along y, through x
-  StressYy,
-  StressXy,
-  StressXxKinetic,
-  StressYyKinetic,
-  StressXyKinetic,
-  StressXxCollisional,
-  StressYyCollisional,
-  StressXyCollisional,
-  HeatFluxX,  ///< q, about V
-  HeatFluxY,
-  HeatFluxXKinetic,
-  HeatFluxYKinetic,
-  HeatFluxXCollisional,
-  HeatFluxYCollisional,
-  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of particles give
-  Spin,             ///< mean angular velocity
-  SpinTemperature,  ///< T_rot = I <omega^2>
-  BalanceMass,  ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked, see Imbalances
-  BalanceMomentumX,
-  BalanceMomentumY,
-  BalanceEnergy
-};
-
-/// The fields that are residuals of balance equations, in the order of Conserved<2>.
-inline constexpr std::array<Field, 4> kResiduals = {Field::BalanceMass, Field::BalanceMomentumX,
-                                                    Field::BalanceMomentumY, Field::BalanceEnergy};
-
-/// Whether a field is one of these, and no average over particles and collisions.
-constexpr bool is_residual(Field field) {
-  return std::ranges::find(kResiduals, field) != kResiduals.end();
-}
-
-/// How particles come to count in fields: their flights exactly, or where they are now and then.
-enum class Estimator { Exact, Snapshot };
-
 /// Over what a particle spreads in fields, Sec. 4: the cell that it is in, or a Gaussian.
 enum class Kernel { Box, Gaussian };
 
@@ -157,82 +61,6 @@ struct Measure {
   double interval = 1.0;  ///< between samples of the snapshot estimator, > 0
   Kernel kernel = Kernel::Box;
   double width = 1.0;  ///< standard deviation of the Gaussian per axis, > 0
-};
-
-/// What a particle's colour shows.
-enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
-
-/// The colour maps for magnitudes.
-enum class Palette { Viridis, Inferno, Cividis };
-
-/// What arrows over the box show.
-enum class Arrows {
-  Velocity,  ///< V
-  HeatFlux   ///< q
-};
-
-/// The colours of all that does not show a value.
-enum class Theme { Dark, Light, Projector };
-
-/// A colour in sRGB.
-struct Rgb {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-
-  bool operator==(const Rgb&) const = default;
-};
-
-/// From which value to which a colour scale reaches.
-struct ColourRange {
-  enum Kind {
-    Auto,    ///< follows what is shown, in round steps
-    Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
-    Given    ///< the ends
-  };
-  Kind kind = Auto;
-  std::array<double, 2> ends = {0.0, 1.0};  ///< low < high, of Given
-
-  bool operator==(const ColourRange&) const = default;
-};
-
-/// What the camera is aimed at from a time on; between two of these it goes from one to the other.
-struct CameraKey {
-  double time = 0.0;            ///< simulation time, >= 0
-  std::optional<Vec2> centre;   ///< world point in the middle; absent: that of the whole picture
-  std::optional<int> follow;    ///< number of the particle in the middle, in place of a centre
-  std::optional<double> width;  ///< world units across, > 0; absent: as the whole picture has
-};
-
-/// What is drawn.
-struct View {
-  ColourBy colour_by = ColourBy::Speed;
-  std::optional<Field>
-      field;            ///< the heatmap below the particles; absent: none, and nothing is averaged
-  double window = 5.0;  ///< averaging time of the live field, > 0
-  Estimator estimator = Estimator::Exact;  ///< of the live field
-  double interval = 0.1;  ///< between samples of the snapshot estimator, > 0 and at most the window
-  double speed = 1.0;     ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;    ///< of the particles' magnitudes
-  ColourRange range;                     ///< of the particles' colours; locked: as first shown
-  std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
-  ColourRange field_range;               ///< of the heatmap's colours
-  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
-  Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
-  std::optional<Rgb> background;         ///< absent: that of the theme
-  bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
-  bool overlay = true;            ///< time, title, colour bar, scale bar
-  std::optional<double> trails;   ///< time that particles' paths reach back, > 0; absent: none
-  std::optional<double> card;     ///< seconds of film that begin with the title, > 0; absent: none
-  std::vector<CameraKey> camera;  ///< in order of time; empty: the whole box, always
-
-  /// Whether it shows what has to be averaged over time.
-  bool shows_averages() const { return field || arrows; }
-  /// Whether another view averages the same in the same way.
-  bool averages_like(const View& other) const {
-    return field == other.field && arrows == other.arrows && window == other.window &&
-           estimator == other.estimator && interval == other.interval;
-  }
 };
 
 /// A key of the scene file set to a TOML value: of a `--set` on the command line, or of a change.

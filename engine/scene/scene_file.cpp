@@ -8,7 +8,6 @@
 
 #include "engine/error.h"
 #include "engine/physics/temperature.h"
-#include "engine/read_file.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/key_reader.h"
 #include "engine/scene/key_writer.h"
@@ -17,6 +16,7 @@
 #include "engine/scene/schedule.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
+#include "engine/system/read_file.h"
 
 namespace clatter {
 

@@ -1,7 +1,8 @@
 #include "render/context/egl_context.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cstdio>
 #include <string>
 
 #include "engine/error.h"
@@ -95,10 +96,8 @@ void EglContext::release() {
 
 void EglContext::fail(const char* what) const {
   auto get_error = library_.function<decltype(&eglGetError)>("eglGetError");
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%04x", get_error());
-  throw RunError(std::string("egl: ") + what + ", error " + code +
-                 " (apt install libegl1 libegl-mesa0)");
+  throw RunError(
+      fmt::format("egl: {}, error 0x{:04x} (apt install libegl1 libegl-mesa0)", what, get_error()));
 }
 
 }  // namespace clatter

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/canvas.h"
-#include "render/shader_program.h"
+#include "render/gl/canvas.h"
+#include "render/gl/shader_program.h"
 
 namespace clatter {
 

@@ -5,10 +5,10 @@
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
+#include "render/gl/shader_program.h"
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"
 #include "render/layers/swept_layer.h"
-#include "render/shader_program.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "render/embedded_files.h"
+#include "render/gl/embedded_files.h"
 
 namespace clatter {
 

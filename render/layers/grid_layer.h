@@ -2,8 +2,8 @@
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
+#include "render/gl/shader_program.h"
 #include "render/palette.h"
-#include "render/shader_program.h"
 
 namespace clatter {
 

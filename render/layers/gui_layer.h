@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/shader_program.h"
+#include "render/gl/shader_program.h"
 
 struct ImDrawData;
 struct ImDrawList;

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
+#include "render/gl/shader_program.h"
 #include "render/layers/wall_layer.h"
-#include "render/shader_program.h"
 
 namespace clatter {
 

@@ -75,6 +75,7 @@ Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& t
   return shown_width(column) < shown_width(rows) ? column : rows;
 }
 
+// libfmt would write %#.3g of 213 as 213.0.
 std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);

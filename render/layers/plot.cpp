@@ -1,12 +1,13 @@
 #include "render/layers/plot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
 #include "render/layers/fonts.h"
 #include "render/layers/gui_context.h"
 #include "render/layers/gui_layer.h"
@@ -107,8 +108,7 @@ class PanelDrawing {
   }
 
   void draw_number(double value, double share, bool across) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
+    const std::string text = fmt::format("{:g}", value);
     const ImVec2 extent = text_extent(*fonts_.small, text);
     const float gap = 0.4f * fonts_.unit();
     ImVec2 at = across ? place(share, 0.0) : place(0.0, share);

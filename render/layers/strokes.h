@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "render/gl_object.h"
+#include "render/gl/gl_object.h"
 #include "render/layers/disk_colours.h"
 
 namespace clatter {

@@ -1,19 +1,16 @@
 #include "render/output/image.h"
 
-#include <fcntl.h>
 #include <libdeflate.h>
-#include <unistd.h>
+#include <spng.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "engine/error.h"
-#include "render/output/file_descriptor.h"
+#include "engine/system/write_file.h"
 
 namespace {
 
@@ -61,15 +58,6 @@ void append_text_chunk(std::vector<unsigned char>& bytes, const PngText& text) {
   append_big_endian(bytes, libdeflate_crc32(0, chunk.data(), chunk.size()));
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
-}
-
-void write_bytes(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
-  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file || !file.write_all(bytes) || !file.close()) fail(path);
-}
-
 }  // namespace
 
 Image with_own_colours(Image image) {
@@ -99,33 +87,45 @@ std::vector<unsigned char> encode_png(const Image& image, std::span<const PngTex
 void write_png(const std::filesystem::path& path, const Image& image,
                std::span<const PngText> texts) {
   const std::vector<unsigned char> bytes = encode_png(image, texts);
-  std::filesystem::path part = path;
-  part += ".part";
-  try {
-    write_bytes(part, bytes);
-    if (rename(part.c_str(), path.c_str()) != 0) fail(path);
-  } catch (const RunError&) {
-    unlink(part.c_str());
-    throw;
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+// The texts of a picture, which stand before its pixels. Throws UserError where they are damaged.
+static std::vector<PngText> texts_of(std::FILE* file, const std::filesystem::path& path) {
+  constexpr std::size_t kLargest = 16'000'000;  // bytes of a chunk, and of all of them
+  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), spng_ctx_free);
+  spng_set_crc_action(png.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR);
+  spng_set_chunk_limits(png.get(), kLargest, kLargest);
+  spng_set_png_file(png.get(), file);
+  std::uint32_t count = 0;
+  int error = spng_get_text(png.get(), nullptr, &count);
+  if (error == SPNG_ECHUNKAVAIL) return {};
+  std::vector<spng_text> found(count);
+  if (error == 0) error = spng_get_text(png.get(), found.data(), &count);
+  if (error != 0) {
+    throw UserError({path.string()}, std::string("the picture is damaged: ") + spng_strerror(error),
+                    "copy it again from where it was made");
   }
+  std::vector<PngText> texts;
+  for (const spng_text& text : found) texts.push_back({text.keyword, {text.text, text.length}});
+  return texts;
 }
 
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {
-  std::ifstream file(path, std::ios::binary);
-  constexpr std::size_t kSignature = 8, kAround = 12;  // length, type and checksum of a chunk
-  std::string bytes(kSignature, '\0');
-  // Files without an end are no pictures.
-  if (!file.read(bytes.data(), kSignature) || bytes != "\x89PNG\r\n\x1a\n") return std::nullopt;
-  bytes.append(std::istreambuf_iterator<char>(file), {});
-  const std::string wanted = "iTXt" + std::string(keyword) + std::string(5, '\0');
-  for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      length = 256 * length + static_cast<unsigned char>(bytes[at + i]);
-    }
-    const std::string_view chunk = std::string_view(bytes).substr(at + 4, length + 4);
-    if (chunk.starts_with(wanted)) return std::string(chunk.substr(wanted.size()));
-    at += length + kAround;
+  // What is read from a pipe would be lost to whoever reads it for something else.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"),
+                                                                std::fclose);
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  std::array<char, kSignature.size()> start{};
+  if (!file || std::fread(start.data(), 1, start.size(), file.get()) != start.size() ||
+      std::string_view(start.data(), start.size()) != kSignature) {
+    return std::nullopt;
+  }
+  std::rewind(file.get());
+  for (PngText& text : texts_of(file.get(), path)) {
+    if (text.keyword == keyword) return std::move(text.text);
   }
   return std::nullopt;
 }

@@ -29,12 +29,11 @@ struct PngText {
 /// The bytes of a PNG file.
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts = {});
 
-/// The text that a PNG file carries under a keyword, as encode_png writes it; absent: none, or no
-/// PNG file.
+/// The text that a PNG file carries under a keyword before its pixels; absent: none, or no PNG file.
+/// Throws UserError where the file is damaged up to there.
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);
 
-/// Writes a PNG file under a temporary name and renames it when it is whole; throws RunError where
-/// that fails and then leaves nothing behind.
+/// Writes a PNG file, whole or not at all; throws RunError.
 void write_png(const std::filesystem::path& path, const Image& image,
                std::span<const PngText> texts = {});
 

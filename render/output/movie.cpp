@@ -1,14 +1,14 @@
 #include "render/output/movie.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <fstream>
 
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -82,9 +82,7 @@ bool Movie::knows(const std::string& extension) {
 }
 
 std::filesystem::path Movie::piece_path(long first) const {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06ld", first);
-  return folder_ / (name + format_->extension);
+  return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }
 
 // The number of the first picture in the piece that has this one.
@@ -129,6 +127,8 @@ void Movie::end_piece() {
   }
   if (!encoder_->wait()) fail(*encoder_);
   encoder_.reset();
+  // A checkpoint may count on it from now on.
+  if (!file_.sync()) fail(std::strerror(errno));
 }
 
 void Movie::finish(Ending ending) {
@@ -143,13 +143,10 @@ void Movie::join() {
   std::string pieces = "ffconcat version 1.0\n";
   for (long piece = options_.begin, after; piece < next_; piece = after) {
     after = std::min(start_of_piece(piece) + kPiece, next_);
-    char line[128];
-    std::snprintf(line, sizeof line, "file %s\nduration %.9f\n",
-                  piece_path(piece).filename().c_str(),
-                  static_cast<double>(after - piece) / options_.fps);
-    pieces += line;
+    pieces += fmt::format("file {}\nduration {:.9f}\n", piece_path(piece).filename().string(),
+                          static_cast<double>(after - piece) / options_.fps);
   }
-  if (!(std::ofstream(list) << pieces << std::flush)) fail("cannot write " + list.string());
+  write_file(list, pieces);
 
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
@@ -161,7 +158,11 @@ void Movie::join() {
     unlink(joined.c_str());
     fail(joiner);
   }
-  if (rename(joined.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+  try {
+    rename_synced(joined, path_);
+  } catch (const RunError& error) {
+    throw RunError(error.what() + place_of_pieces());
+  }
 }
 
 // Ends the encoder under way, and removes what holds no picture.
@@ -189,11 +190,13 @@ void Movie::fail(ChildProcess& process) {
 
 void Movie::fail(const std::string& reason) {
   tidy();
-  std::string what = "ffmpeg could not write " + path_.string() + ": " + reason;
-  if (std::filesystem::exists(folder_)) {
-    what += "; what was filmed before is in " + folder_.string();
-  }
-  throw RunError(what);
+  throw RunError("ffmpeg could not write " + path_.string() + ": " + reason + place_of_pieces());
+}
+
+// To be added to an error.
+std::string Movie::place_of_pieces() const {
+  if (!std::filesystem::exists(folder_)) return "";
+  return "; what was filmed before is in " + folder_.string();
 }
 
 }  // namespace clatter

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "render/output/child_process.h"
+#include "engine/system/child_process.h"
 #include "render/output/frame_sink.h"
 #include "render/output/movie_format.h"
 #include "render/output/work_queue.h"
@@ -38,6 +38,7 @@ class Movie final : public FrameSink {
   void join();
   void tidy();
   bool has_pictures(const std::filesystem::path& piece) const;
+  std::string place_of_pieces() const;
   [[noreturn]] void fail(ChildProcess& process);
   [[noreturn]] void fail(const std::string& reason);
 

@@ -1,7 +1,8 @@
 #include "render/output/movie_format.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cstdio>
 
 namespace clatter {
 
@@ -79,13 +80,22 @@ const MovieFormat* find_movie_format(const std::string& extension) {
 std::vector<std::string> encoding_command(const std::string& encoder, const MovieFormat& format,
                                           const SinkOptions& options,
                                           const std::filesystem::path& file) {
-  char fps[32];
-  std::snprintf(fps, sizeof fps, "%.10g", options.fps);
-  const std::string size =
-      std::to_string(options.size.width) + "x" + std::to_string(options.size.height);
-  std::vector<std::string> all = {encoder, "-v",         "error",    "-nostdin", "-y",
-                                  "-f",    "rawvideo",   "-pix_fmt", "rgba",     "-video_size",
-                                  size,    "-framerate", fps,        "-i",       "pipe:0"};
+  const std::string fps = fmt::format("{:.10g}", options.fps);
+  std::vector<std::string> all = {encoder,
+                                  "-v",
+                                  "error",
+                                  "-nostdin",
+                                  "-y",
+                                  "-f",
+                                  "rawvideo",
+                                  "-pix_fmt",
+                                  "rgba",
+                                  "-video_size",
+                                  size_text(options.size),
+                                  "-framerate",
+                                  fps,
+                                  "-i",
+                                  "pipe:0"};
   append(all, format.encoding);
   append(all, metadata(options.texts));
   append(all, {"-f", format.muxer, name_of(file)});

@@ -1,8 +1,9 @@
 #include "render/output/png_sink.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "engine/error.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -14,17 +15,17 @@ std::vector<PngText> joined(std::vector<PngText> texts, const std::vector<PngTex
 }
 
 std::string frame_name(long number) {
-  char name[32];
-  std::snprintf(name, sizeof name, "frame_%06ld.png", number);
-  return name;
+  return fmt::format("frame_{:06}.png", number);
 }
 
-// The number of a frame, or -1.
+// The number of a frame; -1 of any other file.
 long frame_number(const std::filesystem::directory_entry& entry) {
-  long number = -1;
+  constexpr std::string_view kPrefix = "frame_", kSuffix = ".png";
   const std::string name = entry.path().filename();
-  return std::sscanf(name.c_str(), "frame_%ld.png", &number) == 1 && name.ends_with(".png") ? number
-                                                                                            : -1;
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return -1;
+  const std::string_view digits(name.data() + kPrefix.size(),
+                                name.size() - kPrefix.size() - kSuffix.size());
+  return whole_number<long>(digits).value_or(-1);
 }
 
 void require_earlier_frames(const std::filesystem::path& folder, const SinkOptions& options) {

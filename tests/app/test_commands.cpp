@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "tests/app/shell.h"
 
@@ -35,7 +38,7 @@ TEST_CASE("Commands: check prints a scene that it prints again unchanged") {
 
 TEST_CASE("Commands: check says what a scene models, what not, and how much it computes") {
   const Shell shell;
-  const std::string plain = shell.run("clatter check cooling --quiet").err;
+  const std::string plain = shell.run("clatter check cooling").err;
   CAPTURE(plain);
   for (const char* part : {"spins", "gravity", "moving walls", "bulk drive", "t_c"}) {
     CAPTURE(part);
@@ -84,6 +87,14 @@ TEST_CASE("Commands: scenes with a title of any script and lines of any ending a
   CHECK(says(outcome.out, "caption = \"\"\n"));
 }
 
+TEST_CASE("Commands: a scene is read from a pipe") {
+  const Shell shell;
+  const std::string scene = shell.run("clatter check vibrated").out;
+  const Outcome outcome = shell.run("clatter check vibrated | clatter check /dev/stdin");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == scene);
+}
+
 TEST_CASE("Commands: output that cannot be written is a failure") {
   const Shell shell;
   for (const std::string line : {"clatter scenes >/dev/full", "clatter check vibrated >&-",
@@ -101,43 +112,109 @@ TEST_CASE("Commands: the version is printed") {
   CHECK(outcome.out == "clatter " CLATTER_VERSION "\n");
 }
 
-TEST_CASE("Commands: every command explains each of its flags") {
+TEST_CASE("Bench: the table of render has the cost of each stage for two sizes") {
   const Shell shell;
-  const std::vector<std::string> common = {"SCENE",     "--set",   "--seed",    "--until",
-                                           "--threads", "--quiet", "--progress"};
-  struct Command {
-    std::string name;
-    bool has_scene;
-    std::vector<std::string> flags;
+  const Outcome outcome = shell.run("clatter bench render --count 500 --json table.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(std::ranges::count(outcome.out, '\n') == 3);
+  const auto rows = nlohmann::json::parse(shell.read("table.json"));
+  REQUIRE(rows.size() == 2);
+  for (const auto& row : rows) {
+    CHECK(row["count"] == 500);
+    for (const std::string stage :
+         {"simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"}) {
+      CAPTURE(stage);
+      CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
+    }
+  }
+  CHECK(rows[0]["width"] == 1280);
+  CHECK(rows[1]["width"] == 1920);
+}
+
+TEST_CASE("Commands: every command explains its flags, and only those") {
+  const Shell shell;
+  const std::set<std::string> scene = {"SCENE", "--set", "--seed", "--until"};
+  const std::set<std::string> run = {"--quiet", "--progress", "--resume", "--checkpoint",
+                                     "--checkpoint-every"};
+  const auto with = [](std::set<std::string> flags, const std::set<std::string>& more) {
+    flags.insert(more.begin(), more.end());
+    return flags;
   };
-  for (const Command& command : {
-           Command{"render",
-                   true,
-                   {"--out", "--size", "--fps", "--from", "--to", "--speed", "--no-overlay",
-                    "--supersample", "--quality", "--overwrite", "--backend", "--resume",
-                    "--checkpoint", "--checkpoint-every"}},
-           Command{"measure",
-                   true,
-                   {"--resume", "--checkpoint", "--out", "--csv", "--save-state", "--accuracy",
-                    "--accuracy-of", "--replicas"}},
-           Command{"check", true, {}},
-           Command{"scenes", false, {}},
-           Command{"bench",
-                   false,
-                   {"--json", "--count", "--area-fraction", "--duration", "--dial", "--csv",
-                    "--plot", "--markdown"}},
-       }) {
-    const Outcome outcome = shell.run("clatter " + command.name + " --help");
-    CAPTURE(command.name);
+  const std::map<std::string, std::set<std::string>> commands = {
+      {"view", with(scene, {"--size", "--backend", "--script-log"})},
+      {"render",
+       with(with(scene, run), {"--out", "--quality", "--size", "--fps", "--from", "--to", "--speed",
+                               "--supersample", "--shutter", "--no-overlay", "--transparent",
+                               "--overwrite", "--frames", "--threads", "--backend"})},
+      {"measure",
+       with(with(scene, run), {"--out", "--csv", "--vtk", "--hdf5", "--save-state", "--accuracy",
+                               "--accuracy-of", "--replicas", "--threads"})},
+      {"check", with(scene, {"--quiet"})},
+      {"scenes", {}},
+      {"bench", {}},
+      {"bench engine", {"--json", "--count", "--area-fraction"}},
+      {"bench growth", {"--json", "--count", "--plot"}},
+      {"bench features", {"--json", "--count"}},
+      {"bench fields", {"--json", "--duration"}},
+      {"bench render", {"--json", "--count"}},
+      {"bench window", {"--json", "--count"}},
+      {"bench accuracy",
+       {"SCENE", "--json", "--duration", "--dial", "--csv", "--plot", "--markdown"}}};
+  for (const auto& [command, flags] : commands) {
+    const Outcome outcome = shell.run("clatter " + command + " --help");
+    CAPTURE(command);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
-    std::vector<std::string> flags = command.flags;
-    if (command.has_scene) flags.insert(flags.end(), common.begin(), common.end());
-    for (const std::string& flag : flags) {
-      CAPTURE(flag);
-      CHECK(says(outcome.out, flag));
+    std::set<std::string> found;
+    const std::regex flag("\n  (?:-\\w,)?(--[-\\w]+|scene SCENE)");
+    for (std::sregex_iterator it(outcome.out.begin(), outcome.out.end(), flag), end; it != end;
+         ++it) {
+      found.insert((*it)[1] == "scene SCENE" ? "SCENE" : (*it)[1].str());
     }
-    CHECK(says(shell.run("clatter --help").out, "\n  " + command.name + " "));
+    found.erase("--help");
+    CHECK(found == flags);
+    const std::size_t space = command.find(' ');
+    const bool is_table = space != std::string::npos;
+    const std::string list = shell.run(is_table ? "clatter bench --help" : "clatter --help").out;
+    CHECK(list.find("\n  " + (is_table ? command.substr(space + 1) : command) + " ") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("Commands: a flag that a command does not use is refused") {
+  const Shell shell;
+  for (const std::string line :
+       {"check vibrated --threads 2", "check vibrated --progress none", "scenes --quiet",
+        "bench fields --count 5", "bench engine --duration 5", "bench --duration 5",
+        "bench engine --area-fraction 0.3"}) {
+    CAPTURE(line);
+    const Outcome outcome = shell.run("clatter " + line);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+  }
+}
+
+TEST_CASE("Commands: a quiet check prints the scene only; a seed is reported") {
+  const Shell shell;
+  const Outcome quiet = shell.run("clatter check vibrated --quiet");
+  CHECK(quiet.code == 0);
+  CHECK(quiet.err.empty());
+  const Outcome outcome = shell.run("clatter check vibrated --seed 7");
+  CHECK(outcome.out == quiet.out);
+  CHECK(outcome.err.find(", seed 7.\n") != std::string::npos);
+}
+
+TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {
+  const Shell shell;
+  for (const std::string name : {"", " engine"}) {
+    CAPTURE(name);
+    const Outcome outcome =
+        shell.run("clatter bench" + name + " --count 100 --area-fraction 0.3 --json cell.json");
+    CHECK(outcome.code == 0);
+    const std::regex cell(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +\d+\n$)");
+    CHECK(std::regex_search(outcome.out, cell));
+    CHECK(nlohmann::json::parse(shell.read("cell.json"))[0]["count"] == 100);
   }
 }
 

@@ -344,6 +344,9 @@ TEST_CASE("Measure: replicas measured at once have the numbers of those measured
     sum += one.at("pressure").at("left").at("mean").get<double>();
   }
   CHECK(mean(all.at("pressure").at("left")) == doctest::Approx(sum / 3.0));
+  const Outcome one = shell.run(line + "--replicas 3 --seed 5 --threads 1 --out one.json");
+  CHECK(one.code == 0);
+  CHECK(shell.read("one.json") == shell.read("all.json"));
   check_refused(shell, line + "--replicas 2 --checkpoint c", {"--replicas", "--checkpoint"});
 }
 

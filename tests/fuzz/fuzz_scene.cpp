@@ -7,9 +7,9 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
-#include "render/renderer.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 
 using namespace clatter;
 

@@ -4,11 +4,11 @@
 #include <cstdlib>
 
 #include "engine/publish/snapshot.h"
-#include "render/canvas.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
 #include "render/output/similarity.h"
 #include "render/palette.h"
-#include "render/renderer.h"
 #include "render/theme.h"
 
 namespace clatter {

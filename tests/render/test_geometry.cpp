@@ -9,7 +9,7 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
-#include "render/renderer.h"
+#include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 #include "tests/support/messages.h"
 

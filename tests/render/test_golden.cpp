@@ -8,7 +8,7 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
-#include "render/renderer.h"
+#include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
 // Pictures of five scenes, kept in assets/golden. Where a change of the looks is meant,

@@ -2,7 +2,7 @@
 
 #include "engine/error.h"
 #include "render/context/context.h"
-#include "render/renderer.h"
+#include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 #include "tests/support/messages.h"
 

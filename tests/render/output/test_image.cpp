@@ -99,6 +99,35 @@ TEST_CASE("Image: a text in a PNG file is found by its key") {
   CHECK(png_text(folder / "a.png", "Title") == "t");
   CHECK_FALSE(png_text(folder / "a.png", "Seed"));
   CHECK_FALSE(png_text(folder / "none.png", "Scene"));
+  write_png(folder / "plain.png", image);
+  CHECK_FALSE(png_text(folder / "plain.png", "Scene"));
+}
+
+TEST_CASE("A PNG file whose texts are damaged is refused, whatever length it claims") {
+  const TemporaryFolder folder;
+  const Image image{{2, 2}, std::vector<unsigned char>(16, 7)};
+  const std::vector<unsigned char> sound =
+      encode_png(image, std::vector<PngText>{{"Scene", "title = 'a'"}});
+  const auto text_of = [&](const std::vector<unsigned char>& bytes) {
+    std::ofstream(folder / "a.png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    return png_text(folder / "a.png", "Scene");
+  };
+  REQUIRE(text_of(sound) == "title = 'a'");
+  constexpr std::size_t kLength = 33, kText = 55;  // of the chunk and of its text
+  std::vector<unsigned char> bytes = sound;
+  bytes[kText] ^= 1;
+  CHECK_THROWS_WITH_AS(text_of(bytes), doctest::Contains("the picture is damaged: "), UserError);
+  for (const unsigned char largest_byte : {0x00, 0x7f, 0xff}) {
+    bytes = sound;
+    bytes[kLength] = largest_byte;
+    bytes[kLength + 1] = 0xff;
+    CHECK_THROWS_AS(text_of(bytes), UserError);
+  }
+  bytes = sound;
+  bytes.resize(kText);
+  CHECK_THROWS_AS(text_of(bytes), UserError);
 }
 
 }  // namespace clatter

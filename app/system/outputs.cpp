@@ -1,4 +1,4 @@
-#include "app/system/write_file.h"
+#include "app/system/outputs.h"
 
 #include <unistd.h>
 
@@ -9,35 +9,12 @@
 #include <string>
 
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
 [[noreturn]] static void throw_unwritable(const std::filesystem::path& path) {
   throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
-}
-
-static bool write_into(const std::filesystem::path& path, std::string_view text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  return file && std::fclose(file) == 0 && written;
-}
-
-bool is_special(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return std::filesystem::is_other(path, ignored);
-}
-
-void write_file(const std::filesystem::path& path, std::string_view text) {
-  if (is_special(path)) {
-    if (!write_into(path, text)) throw_unwritable(path);
-    return;
-  }
-  const std::filesystem::path part = path.string() + ".part";
-  if (write_into(part, text) && std::rename(part.c_str(), path.c_str()) == 0) return;
-  const int error = errno;
-  std::remove(part.c_str());
-  errno = error;
-  throw_unwritable(path);
 }
 
 void print(std::string_view text) {

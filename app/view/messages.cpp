@@ -1,4 +1,4 @@
-#include "app/view/notes.h"
+#include "app/view/messages.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ static void end_note() {
   ImGui::PopStyleColor();
 }
 
-void hint(const Area& area) {
+void hint_line(const Area& area) {
   const float unit = ImGui::GetFontSize();
   begin_note("hint", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
              ImVec2(0.5f, 1.0f));
@@ -34,7 +34,7 @@ void hint(const Area& area) {
   end_note();
 }
 
-bool told(const Session& session, const Area& area) {
+bool session_message(const Session& session, const Area& area) {
   constexpr double kShown = 10.0;  // seconds
   if (session.message().empty() || session.message_age() > kShown) return false;
   const float unit = ImGui::GetFontSize();
@@ -57,7 +57,8 @@ static void show_collision(const char* which, const ParticleCollision& collision
   }
 }
 
-void disk_note(const Frame& frame, std::size_t disk, bool follows, ImVec2 place, const Area& area) {
+void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place,
+                const Area& area) {
   const Snapshot& gas = frame.snapshot;
   if (disk >= gas.positions.size()) return;
   const float unit = ImGui::GetFontSize();

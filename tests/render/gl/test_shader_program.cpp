@@ -2,7 +2,7 @@
 
 #include "engine/error.h"
 #include "render/context/context.h"
-#include "render/shader_program.h"
+#include "render/gl/shader_program.h"
 
 namespace clatter {
 

@@ -1,4 +1,4 @@
-#include "render/shader_program.h"
+#include "render/gl/shader_program.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/error.h"
-#include "render/embedded_files.h"
+#include "render/gl/embedded_files.h"
 
 namespace clatter {
 

@@ -1,4 +1,4 @@
-#include "engine/read_file.h"
+#include "engine/system/read_file.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
 
 #include <algorithm>
 #include <string>

@@ -1,24 +1,25 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/commands.h"
 #include "app/runs/picture_scene.h"
-#include "app/system/write_file.h"
-#include "app/view/explorer.h"
+#include "app/system/exit_code.h"
+#include "app/view/gui.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
+#include "engine/system/write_file.h"
 
 // The files that the window reads and writes: scenes, pictures, films.
 
 namespace clatter {
 
 // A scene file, or one of our pictures with its scene inside.
-void Explorer::open_file(const std::string& file) {
+void Gui::open_file(const std::string& file) {
   try {
     open(load_any_scene(file), seed_of_picture(file).value_or(session_.frame().seed));
   } catch (const std::exception& error) {
@@ -39,7 +40,7 @@ static std::string free_name(const std::string& extension) {
 }
 
 // What is on screen as a scene. A start state that is in no file gets one of that name.
-Scene Explorer::recorded_beside(const std::string& file) const {
+Scene Gui::recorded_beside(const std::string& file) const {
   Scene scene = session_.recorded();
   scene.view.theme = shown_view().theme;
   Start& start = scene.particles.start;
@@ -51,16 +52,12 @@ Scene Explorer::recorded_beside(const std::string& file) const {
   return scene;
 }
 
-void Explorer::screenshot() {
+void Gui::screenshot() {
   if (!viewport_.drawn()) return;
   try {
     const std::string name = free_name(".png");
     const Scene scene = recorded_beside(name);
-    const std::vector<PngText> texts = {{"Title", scene.title},
-                                        {"Software", "clatter " CLATTER_VERSION},
-                                        {"Seed", std::to_string(session_.frame().seed)},
-                                        {"Scene", scene_to_toml(scene)}};
-    write_png(name, viewport_.picture(), texts);
+    write_png(name, viewport_.picture(), picture_texts(scene, session_.frame().seed));
     log_.event("screenshot", {{"file", name}});
     session_.tell("Screenshot: " + name);
   } catch (const std::exception& error) {
@@ -68,7 +65,7 @@ void Explorer::screenshot() {
   }
 }
 
-std::string Explorer::save_scene() {
+std::string Gui::save_scene() {
   if (!session_.frame().scene) return "";
   try {
     const std::string name = free_name(".toml");
@@ -83,22 +80,20 @@ std::string Explorer::save_scene() {
 }
 
 // Of what is on screen, from time 0 to now.
-std::vector<std::string> Explorer::film_arguments(const std::string& scene) const {
+std::vector<std::string> Gui::film_arguments(const std::string& scene) const {
   const Frame& frame = session_.frame();
-  char until[32];
-  std::snprintf(until, sizeof until, "%.6g", frame.snapshot.time);
   return {"clatter",
           "render",
           scene,
           "--seed",
           std::to_string(frame.seed),
           "--to",
-          until,
+          fmt::format("{:.6g}", frame.snapshot.time),
           "--out",
           std::filesystem::path(scene).replace_extension(".mp4").string()};
 }
 
-void Explorer::copy_command() {
+void Gui::copy_command() {
   const std::string name = save_scene();
   if (name.empty()) return;
   std::string command;
@@ -110,7 +105,7 @@ void Explorer::copy_command() {
   session_.tell("In the clipboard: " + command);
 }
 
-void Explorer::film() {
+void Gui::film() {
   const std::string name = save_scene();
   if (name.empty()) return;
   try {
@@ -124,7 +119,7 @@ void Explorer::film() {
   }
 }
 
-void Explorer::watch_film() {
+void Gui::watch_film() {
   if (!film_) return;
   const auto code = film_->poll();
   if (!code) return;

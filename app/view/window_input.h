@@ -19,12 +19,12 @@ struct KeyPress {
 
 /// What was typed into a window and dropped on it since the last look. Dear ImGui knows only which
 /// keys are down when it looks, and so misses a key that is let go before.
-class Keys {
+class WindowInput {
  public:
   /// Listens to a window; before Dear ImGui does, which passes on what it hears.
-  explicit Keys(GLFWwindow* window);
-  Keys(const Keys&) = delete;
-  Keys& operator=(const Keys&) = delete;
+  explicit WindowInput(GLFWwindow* window);
+  WindowInput(const WindowInput&) = delete;
+  WindowInput& operator=(const WindowInput&) = delete;
 
   /// The keys pressed since the last call, in order.
   std::vector<KeyPress> take_presses();

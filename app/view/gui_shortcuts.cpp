@@ -4,23 +4,23 @@
 
 #include <cmath>
 
-#include "app/view/explorer.h"
+#include "app/view/gui.h"
 #include "app/view/panels.h"
 
 // What keys do in the window.
 
 namespace clatter {
 
-void Explorer::use_keys() {
-  for (const std::string& file : keys_.take_dropped()) open_file(file);
-  for (const KeyPress& press : keys_.take_presses()) {
+void Gui::use_keys() {
+  for (const std::string& file : input_.take_dropped()) open_file(file);
+  for (const KeyPress& press : input_.take_presses()) {
     use_function_key(press);
     if (!ImGui::GetIO().WantTextInput) use_key(press);
   }
   if (!ImGui::GetIO().WantTextInput) use_signs();
 }
 
-void Explorer::use_function_key(const KeyPress& press) {
+void Gui::use_function_key(const KeyPress& press) {
   switch (press.key) {
     case GLFW_KEY_ESCAPE:
       return close_something();
@@ -36,7 +36,7 @@ void Explorer::use_function_key(const KeyPress& press) {
   }
 }
 
-void Explorer::use_key(const KeyPress& press) {
+void Gui::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
   switch (press.key) {
     case GLFW_KEY_TAB:
@@ -75,7 +75,7 @@ void Explorer::use_key(const KeyPress& press) {
   }
 }
 
-void Explorer::use_control_key(const KeyPress& press) {
+void Gui::use_control_key(const KeyPress& press) {
   switch (press.letter()) {
     case 'z':
       return press.shift ? session_.redo() : session_.undo();
@@ -93,7 +93,7 @@ void Explorer::use_control_key(const KeyPress& press) {
 }
 
 // Signs lie elsewhere on each keyboard.
-void Explorer::use_signs() {
+void Gui::use_signs() {
   for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
     const double speed = session_.frame().speed;
     if (sign == '+' || sign == '=') session_.set_speed(speed * std::sqrt(2.0));
@@ -103,7 +103,7 @@ void Explorer::use_signs() {
   }
 }
 
-void Explorer::close_something() {
+void Gui::close_something() {
   for (bool* open : {&panels_.gallery, &panels_.help, &panels_.plots}) {
     if (!*open) continue;
     *open = false;
@@ -114,7 +114,7 @@ void Explorer::close_something() {
 }
 
 // A range of round numbers up to twice the thermal speed, or again one that follows.
-void Explorer::fix_range() {
+void Gui::fix_range() {
   View view = session_.view();
   if (view.range.kind != ColourRange::Auto) {
     view.range = {};

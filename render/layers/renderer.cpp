@@ -1,4 +1,4 @@
-#include "render/renderer.h"
+#include "render/layers/renderer.h"
 
 #include "render/quantity.h"
 #include "render/theme.h"
@@ -12,7 +12,7 @@ constexpr std::uint8_t kBelowColouredDisks = 115;
 
 // Alpha of lines that are to stay in the background: of a grid, and of cells without a value.
 constexpr std::uint8_t kGrid = 140;
-constexpr std::uint8_t kHatch = 70;
+constexpr std::uint8_t kHatchOpacity = 70;
 
 Colour thin(Colour colour, std::uint8_t alpha) {
   colour.alpha = alpha;
@@ -181,7 +181,7 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   gl_->Clear(GL_COLOR_BUFFER_BIT);
   if (legends.field) {
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
-                thin(theme.static_wall, kHatch));
+                thin(theme.static_wall, kHatchOpacity));
   }
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, theme);

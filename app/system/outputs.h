@@ -6,20 +6,13 @@
 
 namespace clatter {
 
-/// Whether a path is a device, a pipe or the like: written into, never replaced.
-bool is_special(const std::filesystem::path& path);
-
-/// Writes a whole file under a temporary name and renames it, so that the name never holds half of
-/// it; or writes into what is special. Throws RunError where that fails.
-void write_file(const std::filesystem::path& path, std::string_view text);
-
 /// Writes to stdout at once. Throws RunError where that fails, say because it is closed.
 void print(std::string_view text);
 
 /// Throws UserError unless a file or folder of that name has a folder to be in; `flag` gave it.
 void require_folder_of(const std::filesystem::path& path, const char* flag);
 
-/// Throws what would keep write_file() from writing there, so that one knows before a long run.
+/// Throws what would keep write_file() from writing there, before a long run.
 void require_writable_file(const std::filesystem::path& path, const char* flag);
 
 /// Makes a folder where there is none; throws UserError where it has no folder to be in, and

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/gl_object.h"
+#include "render/gl/gl_object.h"
 #include "render/output/image.h"
 
 namespace clatter {

@@ -1,8 +1,9 @@
-#include "render/output/child_process.h"
+#include "engine/system/child_process.h"
 
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ struct SpawnSetup {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments)
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Interrupts interrupts)
     : errors_(memfd_create("errors", MFD_CLOEXEC)) {
   int ends[2];
   if (!errors_ || pipe2(ends, O_CLOEXEC) != 0) {
@@ -49,12 +50,14 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments)
   posix_spawn_file_actions_adddup2(&setup.files, output.get(), STDIN_FILENO);
   posix_spawn_file_actions_addopen(&setup.files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&setup.files, errors_.get(), STDERR_FILENO);
-  sigset_t interrupts;
-  sigemptyset(&interrupts);
-  sigaddset(&interrupts, SIGINT);
-  sigaddset(&interrupts, SIGTERM);
-  posix_spawnattr_setsigmask(&setup.attributes, &interrupts);
-  posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  if (interrupts == Interrupts::Shielded) {
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    sigaddset(&blocked, SIGINT);
+    sigaddset(&blocked, SIGTERM);
+    posix_spawnattr_setsigmask(&setup.attributes, &blocked);
+    posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  }
 
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -68,29 +71,63 @@ ChildProcess::~ChildProcess() {
   kill();
 }
 
+// Takes note of its end, where that has come or is to be waited for.
+bool ChildProcess::take_end(int options) {
+  pid_t ended = -1;
+  do {
+    ended = waitpid(pid_, &status_, options);
+  } while (ended < 0 && errno == EINTR);
+  if (ended == 0) return false;
+  pid_ = -1;
+  return true;
+}
+
 bool ChildProcess::wait() {
   input_.close();
-  while (pid_ >= 0 && waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = -1;
+  if (pid_ >= 0) take_end(0);
   return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
+}
+
+std::optional<int> ChildProcess::poll() {
+  if (pid_ >= 0 && !take_end(WNOHANG)) return std::nullopt;
+  return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128;
+}
+
+void ChildProcess::interrupt() const {
+  if (pid_ >= 0) ::kill(pid_, SIGINT);
 }
 
 void ChildProcess::kill() {
   if (pid_ < 0) return;
   ::kill(pid_, SIGKILL);
-  while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = -1;
+  take_end(0);
+}
+
+// At most `size` bytes of a file, from `begin` on.
+static std::string read_at(const FileDescriptor& file, off_t begin, off_t size) {
+  std::string text(static_cast<std::size_t>(size), '\0');
+  const ssize_t got = pread(file.get(), text.data(), text.size(), begin);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return text;
+}
+
+static off_t size_of(const FileDescriptor& file) {
+  struct stat about {};
+  fstat(file.get(), &about);
+  return about.st_size;
+}
+
+std::string ChildProcess::new_words() {
+  const std::string text = read_at(errors_, read_, size_of(errors_) - read_);
+  read_ += static_cast<off_t>(text.size());
+  return text;
 }
 
 std::string ChildProcess::last_words() const {
   constexpr off_t kLongest = 1000;
-  const off_t size = lseek(errors_.get(), 0, SEEK_END);
-  const off_t length = std::clamp<off_t>(size, 0, kLongest);
-  std::string text(length, '\0');
-  const ssize_t got = pread(errors_.get(), text.data(), length, size - length);
-  text.resize(std::max<ssize_t>(got, 0));
+  const off_t size = size_of(errors_);
+  const off_t length = std::min(size, kLongest);
+  std::string text = read_at(errors_, size - length, length);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (text.empty() && WIFSIGNALED(status_)) return strsignal(WTERMSIG(status_));
   return text;

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/error.h"
-#include "render/canvas.h"
+#include "render/gl/canvas.h"
 #include "tests/render/picture.h"
 
 namespace clatter {

@@ -1,4 +1,4 @@
-#include "app/view/keys.h"
+#include "app/view/window_input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -15,26 +15,26 @@ char KeyPress::letter() const {
   return static_cast<char>(std::tolower(letter));
 }
 
-Keys::Keys(GLFWwindow* window) {
+WindowInput::WindowInput(GLFWwindow* window) {
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int held) {
     if (action == GLFW_RELEASE) return;
     // What is held down repeats steps only.
     if (action == GLFW_REPEAT && key != GLFW_KEY_PERIOD) return;
-    static_cast<Keys*>(glfwGetWindowUserPointer(of))
+    static_cast<WindowInput*>(glfwGetWindowUserPointer(of))
         ->presses_.push_back({key, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0});
   });
   glfwSetDropCallback(window, [](GLFWwindow* of, int count, const char** paths) {
-    auto& dropped = static_cast<Keys*>(glfwGetWindowUserPointer(of))->dropped_;
+    auto& dropped = static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->dropped_;
     dropped.insert(dropped.end(), paths, paths + count);
   });
 }
 
-std::vector<KeyPress> Keys::take_presses() {
+std::vector<KeyPress> WindowInput::take_presses() {
   return std::exchange(presses_, {});
 }
 
-std::vector<std::string> Keys::take_dropped() {
+std::vector<std::string> WindowInput::take_dropped() {
   return std::exchange(dropped_, {});
 }
 

@@ -7,13 +7,13 @@
 #include "app/view/film_job.h"
 #include "app/view/gallery.h"
 #include "app/view/history.h"
-#include "app/view/keys.h"
-#include "app/view/notes.h"
+#include "app/view/messages.h"
 #include "app/view/panel_visibility.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
 #include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
+#include "app/view/window_input.h"
 #include "render/layers/gui_layer.h"
 
 struct GLFWwindow;
@@ -21,9 +21,9 @@ struct GLFWwindow;
 namespace clatter {
 
 /// What the window shows and does: the viewport, the panels around it, the keys.
-class Explorer {
+class Gui {
  public:
-  Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker, ScriptLog& log);
+  Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, ScriptLog& log);
 
   /// Starts a scene, which halts at a time where one is given.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
@@ -48,7 +48,7 @@ class Explorer {
   void plots_drawer(float top, float width);
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
   void viewport();
-  void use_stage();
+  void use_viewport();
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void toggle_full_screen();
@@ -63,7 +63,7 @@ class Explorer {
 
   GLFWwindow* window_;
   const Gl* gl_;
-  Keys& keys_;
+  WindowInput& input_;
   ScriptLog& log_;
   Session session_;
   Controls controls_;

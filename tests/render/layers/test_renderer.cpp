@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "render/renderer.h"
+#include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
 namespace clatter {

@@ -1,4 +1,4 @@
-#include "app/view/explorer.h"
+#include "app/view/gui.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -25,10 +25,10 @@ static constexpr float kPanelShare = 0.175f;
 // In a lecture, how many times as large letters are.
 static constexpr float kLectureLetters = 1.6f;
 
-Explorer::Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker, ScriptLog& log)
+Gui::Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, ScriptLog& log)
     : window_(window),
       gl_(&gl),
-      keys_(keys),
+      input_(input),
       log_(log),
       session_(worker, log),
       controls_(session_, log),
@@ -36,13 +36,13 @@ Explorer::Explorer(GLFWwindow* window, const Gl& gl, Keys& keys, Worker& worker,
       gallery_(gl),
       gui_(gl) {}
 
-void Explorer::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
+void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
   session_.open(scene, seed, !until);
   if (until) session_.play_until(*until);
 }
 
 // Takes the window's scale and loads fonts for it.
-void Explorer::begin() {
+void Gui::begin() {
   constexpr float kTextSize = 14.0f;
   float scale = 1.0f;
   glfwGetWindowContentScale(window_, &scale, nullptr);
@@ -59,7 +59,7 @@ void Explorer::begin() {
   ImGui::NewFrame();
 }
 
-void Explorer::draw() {
+void Gui::draw() {
   begin();
   if (session_.update()) {
     viewport_.redraw();
@@ -92,7 +92,7 @@ void Explorer::draw() {
   gui_.draw(*ImGui::GetDrawData());
 }
 
-void Explorer::panels() {
+void Gui::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
   if (panels_.panels && !panels_.lecture) side_panels();
@@ -102,7 +102,7 @@ void Explorer::panels() {
   }
 }
 
-void Explorer::side_panels() {
+void Gui::side_panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float unit = ImGui::GetFontSize();
   const float top = std::round(ImGui::GetFrameHeight() + 0.9f * unit);
@@ -125,7 +125,7 @@ void Explorer::side_panels() {
   }
 }
 
-void Explorer::left_panel(float top, float width) {
+void Gui::left_panel(float top, float width) {
   ImGui::SetNextWindowPos(ImVec2(0, top));
   ImGui::SetNextWindowSize(ImVec2(width, ImGui::GetIO().DisplaySize.y - top));
   ImGui::Begin("left", nullptr, kFixedPanel);
@@ -155,7 +155,7 @@ void Explorer::left_panel(float top, float width) {
   ImGui::End();
 }
 
-void Explorer::plots_drawer(float top, float width) {
+void Gui::plots_drawer(float top, float width) {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(whole.x - width, top));
   ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
@@ -175,7 +175,7 @@ void Explorer::plots_drawer(float top, float width) {
   ImGui::End();
 }
 
-void Explorer::viewport() {
+void Gui::viewport() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const Frame& frame = session_.frame();
   if (panels_.gallery != told_gallery_ && panels_.gallery) log_.event("gallery", {{"open", true}});
@@ -186,16 +186,17 @@ void Explorer::viewport() {
   }
   if (panels_.help) help_window(whole.x, whole.y);
   if (!frame.scene) return;
-  use_stage();
+  use_viewport();
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
-  if (!told(session_, area_) && panels_.hint && !panels_.help && !panels_.lecture) hint(area_);
+  if (!session_message(session_, area_) && panels_.hint && !panels_.help && !panels_.lecture)
+    hint_line(area_);
   log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }
 
 // What the mouse does on the viewport, and what is marked there.
-void Explorer::use_stage() {
+void Gui::use_viewport() {
   const Frame& frame = session_.frame();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool over = mouse.x >= area_.low.x && mouse.y >= area_.low.y && mouse.x < area_.high.x &&
@@ -220,29 +221,29 @@ void Explorer::use_stage() {
   list.PopClipRect();
   session_.pick(viewport_.picked());
   if (const auto place = viewport_.picked_place(frame, area_.low, scale_)) {
-    disk_note(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
+    disk_label(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
   }
 }
 
-void Explorer::lecture(bool on) {
+void Gui::lecture(bool on) {
   if (on) panels_.lesson = false;
   panels_.lecture = on;
   viewport_.redraw();
 }
 
 // The view that is on screen: in a lecture it is for a projector, whatever the scene's theme is.
-View Explorer::shown_view() const {
+View Gui::shown_view() const {
   View view = session_.view();
   if (panels_.lecture) view.theme = Theme::Projector;
   return view;
 }
 
-void Explorer::open_gallery_scene(const EmbeddedFile& scene) {
+void Gui::open_gallery_scene(const EmbeddedFile& scene) {
   panels_.gallery = false;
   open(load_gallery_scene(scene), session_.frame().seed);
 }
 
-void Explorer::toggle_full_screen() {
+void Gui::toggle_full_screen() {
   GLFWwindow* window = window_;
   auto& [x, y, width, height] = windowed_;
   if (glfwGetWindowMonitor(window)) {

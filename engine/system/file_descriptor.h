@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -24,14 +25,18 @@ class FileDescriptor {
   int get() const { return descriptor_; }
 
   /// Writes every byte; false, with errno set, where that fails.
-  bool write_all(std::span<const unsigned char> bytes) {
+  bool write_all(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
       if (written < 0 && errno != EINTR) return false;
-      if (written > 0) bytes = bytes.subspan(written);
+      if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     return true;
   }
+
+  /// Waits until the disk has the file or folder; false, with errno set, where that fails. A file
+  /// system that cannot do this counts as done.
+  bool sync() { return fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOSYS; }
 
   /// Closes it; false, with errno set, where the system reports late that a write failed.
   bool close() {

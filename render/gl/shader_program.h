@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "render/gl_object.h"
+#include "render/gl/gl_object.h"
 #include "render/palette.h"
 
 namespace clatter {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/runs/accuracy_goal.h"
+#include "app/runs/options.h"
+#include "render/context/context.h"
+
+namespace clatter {
+
+// Each adds flags that several commands have, or that belong together; what they are put into
+// outlives the command.
+
+/// SCENE, --set, --seed.
+void add_scene_flags(CLI::App& command, CommonOptions& options);
+
+/// Those and --until, --quiet.
+void add_common_flags(CLI::App& command, CommonOptions& options);
+
+/// --progress.
+void add_progress_flag(CLI::App& command, CommonOptions& options);
+
+/// --backend, of commands that draw.
+void add_backend_flag(CLI::App& command, Backend& backend);
+
+/// --resume, --checkpoint, --checkpoint-every.
+void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options);
+
+/// --accuracy, --accuracy-of.
+void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal);
+
+}  // namespace clatter

@@ -1,0 +1,29 @@
+#include "app/runs/options.h"
+
+#include "app/runs/picture_scene.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+Scene load(const CommonOptions& options, StartFile start_file) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : options.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UserError({"--set " + setting, 0, 0}, "no value is set",
+                      "write --set key=value, for instance --set particles.count=500");
+    }
+    overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  return load_any_scene(options.scene, overrides, start_file);
+}
+
+Scene load_disks(const CommonOptions& options, StartFile start_file) {
+  Scene scene = load(options, start_file);
+  if (scene.dimension() == 2) return scene;
+  throw UserError({options.scene},
+                  "the box has three dimensions, and this command takes disks only",
+                  "give box.size two numbers, or read the scene with `clatter check`");
+}
+
+}  // namespace clatter

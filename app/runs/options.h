@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/system/progress.h"
+#include "engine/scene/scene_file.h"
+
+namespace clatter {
+
+/// Flags that say what runs and how much is told about it.
+struct CommonOptions {
+  std::string scene;                  ///< path of a scene or picture, or gallery name
+  std::vector<std::string> settings;  ///< "key=value" of each --set
+  std::optional<std::uint64_t> seed;  ///< absent: the checkpoint's, or 1
+  std::optional<double> until;        ///< simulation time at which the run ends
+  bool quiet = false;                 ///< nothing on stderr but errors
+  ProgressStyle progress = ProgressStyle::Auto;
+
+  /// The progress to show, given --quiet.
+  ProgressStyle shown_progress() const { return quiet ? ProgressStyle::None : progress; }
+};
+
+/// Flags of commands that can put a run aside and take it up again.
+struct CheckpointOptions {
+  std::string resume;    ///< checkpoint from which the run goes on; empty: none, from the start
+  std::string file;      ///< checkpoint that is kept up to date; empty: none
+  double every = 600.0;  ///< how often, in seconds of wall time
+
+  /// A run that goes on needs no file of a start state.
+  StartFile start_file() const { return resume.empty() ? StartFile::Read : StartFile::Skip; }
+};
+
+/// The scene with the flags' settings. Throws UserError.
+Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
+/// The same of a command that takes disks only. Throws UserError for spheres, too.
+Scene load_disks(const CommonOptions& options, StartFile start_file = StartFile::Read);
+
+}  // namespace clatter

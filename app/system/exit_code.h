@@ -1,0 +1,14 @@
+#pragma once
+
+namespace clatter {
+
+/// What the program returns to the shell.
+enum ExitCode {
+  kOk = 0,
+  kFailed = 1,        ///< a run or a check failed
+  kWrongUse = 2,      ///< wrong use or a wrong scene
+  kPhysicalStop = 3,  ///< collapse, overlap
+  kInterrupted = 130  ///< after saving what there is
+};
+
+}  // namespace clatter

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/scene/field.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// What a particle's colour shows.
+enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
+
+/// The colour maps for magnitudes.
+enum class Palette { Viridis, Inferno, Cividis };
+
+/// What arrows over the box show.
+enum class Arrows {
+  Velocity,  ///< V
+  HeatFlux   ///< q
+};
+
+/// The colours of all that does not show a value.
+enum class Theme { Dark, Light, Projector };
+
+/// A colour in sRGB.
+struct Rgb {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+
+  bool operator==(const Rgb&) const = default;
+};
+
+/// From which value to which a colour scale reaches.
+struct ColourRange {
+  enum Kind {
+    Auto,    ///< follows what is shown, in round steps
+    Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
+    Given    ///< the ends
+  };
+  Kind kind = Auto;
+  std::array<double, 2> ends = {0.0, 1.0};  ///< low < high, of Given
+
+  bool operator==(const ColourRange&) const = default;
+};
+
+/// What the camera is aimed at from a time on; between two of these it goes from one to the other.
+struct CameraKey {
+  double time = 0.0;            ///< simulation time, >= 0
+  std::optional<Vec2> centre;   ///< world point in the middle; absent: that of the whole picture
+  std::optional<int> follow;    ///< number of the particle in the middle, in place of a centre
+  std::optional<double> width;  ///< world units across, > 0; absent: as the whole picture has
+};
+
+/// What is drawn.
+struct View {
+  ColourBy colour_by = ColourBy::Speed;
+  std::optional<Field>
+      field;            ///< the heatmap below the particles; absent: none, and nothing is averaged
+  double window = 5.0;  ///< averaging time of the live field, > 0
+  Estimator estimator = Estimator::Exact;  ///< of the live field
+  double interval = 0.1;  ///< between samples of the snapshot estimator, > 0 and at most the window
+  double speed = 1.0;     ///< simulation time per second of film, > 0
+  Palette palette = Palette::Viridis;    ///< of the particles' magnitudes
+  ColourRange range;                     ///< of the particles' colours; locked: as first shown
+  std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
+  ColourRange field_range;               ///< of the heatmap's colours
+  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
+  Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
+  std::optional<Rgb> background;         ///< absent: that of the theme
+  bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;            ///< time, title, colour bar, scale bar
+  std::optional<double> trails;   ///< time that particles' paths reach back, > 0; absent: none
+  std::optional<double> card;     ///< seconds of film that begin with the title, > 0; absent: none
+  std::vector<CameraKey> camera;  ///< in order of time; empty: the whole box, always
+
+  /// Whether it shows what has to be averaged over time.
+  bool shows_averages() const { return field || arrows; }
+  /// Whether another view averages the same in the same way.
+  bool averages_like(const View& other) const {
+    return field == other.field && arrows == other.arrows && window == other.window &&
+           estimator == other.estimator && interval == other.interval;
+  }
+};
+
+}  // namespace clatter

@@ -1,0 +1,65 @@
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "engine/error.h"
+#include "engine/system/child_process.h"
+
+namespace clatter::testing {
+
+static int end_of(ChildProcess& process) {
+  for (;;) {
+    if (const std::optional<int> code = process.poll()) return *code;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+// What the process says until it has said so much.
+static std::string words_of(ChildProcess& process, std::size_t length) {
+  std::string words;
+  while (words.size() < length) {
+    words += process.new_words();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return words;
+}
+
+TEST_CASE("ChildProcess: reads what is written to it, and succeeds or not") {
+  ChildProcess process({"sh", "-c", "read line; echo got $line >&2; exit 7"});
+  CHECK_FALSE(process.poll());
+  const std::string line = "a line\n";
+  CHECK(process.write({reinterpret_cast<const unsigned char*>(line.data()), line.size()}));
+  CHECK_FALSE(process.wait());
+  CHECK(process.poll() == 7);
+  CHECK(process.last_words() == "got a line");
+  ChildProcess good({"true"});
+  CHECK(good.wait());
+  CHECK_THROWS_WITH_AS(ChildProcess({"no-such-program"}),
+                       "cannot start no-such-program: No such file or directory", RunError);
+}
+
+TEST_CASE("ChildProcess: what it says comes once, and its end names a signal") {
+  ChildProcess process({"sh", "-c", "echo one >&2; read line; echo two >&2; kill -KILL $$"});
+  CHECK(words_of(process, 4) == "one\n");
+  CHECK(process.new_words().empty());
+  CHECK_FALSE(process.wait());
+  CHECK(process.new_words() == "two\n");
+  CHECK(process.last_words() == "one\ntwo");
+  ChildProcess silent({"sh", "-c", "kill -KILL $$"});
+  CHECK(end_of(silent) == 128);
+  CHECK(silent.last_words() == "Killed");
+}
+
+TEST_CASE("ChildProcess: an interrupt ends it where it shares them, and not where it is shielded") {
+  ChildProcess shared({"sleep", "60"}, Interrupts::Shared);
+  shared.interrupt();
+  CHECK(end_of(shared) == 128);
+  ChildProcess shielded({"sh", "-c", "echo up >&2; read line; echo well >&2"});
+  CHECK(words_of(shielded, 3) == "up\n");
+  shielded.interrupt();
+  CHECK(shielded.wait());
+  CHECK(shielded.last_words() == "up\nwell");
+}
+
+}  // namespace clatter::testing

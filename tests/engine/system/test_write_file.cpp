@@ -1,0 +1,86 @@
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include "engine/error.h"
+#include "engine/system/write_file.h"
+#include "tests/engine/checkpoint/scratch_folder.h"
+
+namespace clatter::testing {
+
+static std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+static std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    names.insert(entry.path().filename());
+  }
+  return names;
+}
+
+TEST_CASE("write_file: a file is there whole, and nothing beside it") {
+  const ScratchFolder folder;
+  for (const std::string& bytes :
+       {std::string(), std::string(100'000, 'a'), std::string("b\0c", 3)}) {
+    write_file(folder / "file", bytes);
+    CHECK(bytes_of(folder / "file") == bytes);
+  }
+  CHECK(names_in(folder / "") == std::set<std::string>{"file"});
+}
+
+TEST_CASE("write_file: the file before keeps another name where that is asked for") {
+  const ScratchFolder folder;
+  write_file(folder / "file", "first", folder / "before");
+  CHECK(names_in(folder / "") == std::set<std::string>{"file"});
+  write_file(folder / "file", "second", folder / "before");
+  CHECK(bytes_of(folder / "file") == "second");
+  CHECK(bytes_of(folder / "before") == "first");
+}
+
+TEST_CASE("write_file: where it fails, it names the file and leaves what was there") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH_AS(
+      write_file(folder / "missing/file", "bytes"),
+      ("cannot write " + (folder / "missing/file.part").string() + ": No such file or directory")
+          .c_str(),
+      RunError);
+  std::filesystem::create_directory(folder / "file");
+  CHECK_THROWS_AS(write_file(folder / "file", "bytes"), RunError);
+  CHECK(names_in(folder / "") == std::set<std::string>{"file"});
+}
+
+TEST_CASE("write_file: a link stays, and what it points to is replaced") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "results");
+  write_file(folder / "results/file", "old");
+  std::filesystem::create_symlink("results/file", folder / "link");
+  write_file(folder / "link", "new");
+  CHECK(std::filesystem::is_symlink(folder / "link"));
+  CHECK(bytes_of(folder / "results/file") == "new");
+  CHECK(names_in(folder / "") == std::set<std::string>{"link", "results"});
+}
+
+TEST_CASE("write_file: a device or a pipe is written into") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH_AS(write_file("/dev/full", "bytes"),
+                       "cannot write /dev/full: No space left on device", RunError);
+  CHECK(is_special("/dev/full"));
+  const std::filesystem::path pipe = folder / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(is_special(pipe));
+  std::string read;
+  std::thread reader([&] { read = bytes_of(pipe); });
+  write_file(pipe, "bytes");
+  reader.join();
+  CHECK(read == "bytes");
+  CHECK(is_special(pipe));
+}
+
+}  // namespace clatter::testing
