@@ -73,7 +73,7 @@ typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Vec<D>& v, con
     }
   }
   if (at.spin >= 0) {
-    for (int k = 0; k < Spin<D>::SizeAtCompileTime; ++k) rates[at.spin + k] = spin[k];
+    for (int k = 0; k < kSpinSize<D>; ++k) rates[at.spin + k] = spin[k];
   }
   const Model<D>& model = simulation_.model();
   const double spin_energy =

@@ -10,6 +10,10 @@ namespace clatter {
 template <int D>
 using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
 
+/// How many numbers that is.
+template <int D>
+inline constexpr int kSpinSize = D*(D - 1) / 2;
+
 /// n x omega: a spin of omega moves the point at -n from the centre with this velocity.
 template <int D>
 Vec<D> cross_spin(const Vec<D>& n, const Spin<D>& spin) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "engine/physics/lattice.h"
 #include "engine/physics/state.h"
 #include "engine/physics/wall_motion.h"
+#include "engine/scene/field.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -94,47 +94,6 @@ struct BulkDrive {
   double kick_spin = 0.0;   ///< standard deviation of the change of spin
 };
 
-/// A field over the box, chapter 4; what is not called kinetic or collisional is the sum of both.
-enum class Field {
-  Density,    ///< rho, particles per area
-  VelocityX,  ///< V, their mean velocity
-  VelocityY,
-  Temperature,  ///< T = (T_x + T_y)/2, about V
-  TemperatureX,
-  TemperatureY,
-  StressXx,  ///< sigma, minus the pressure tensor; xy: of momentum along y, through x
-  StressYy,
-  StressXy,
-  StressXxKinetic,
-  StressYyKinetic,
-  StressXyKinetic,
-  StressXxCollisional,
-  StressYyCollisional,
-  StressXyCollisional,
-  HeatFluxX,  ///< q, about V
-  HeatFluxY,
-  HeatFluxXKinetic,
-  HeatFluxYKinetic,
-  HeatFluxXCollisional,
-  HeatFluxYCollisional,
-  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of particles give
-  Spin,             ///< mean angular velocity
-  SpinTemperature,  ///< T_rot = I <omega^2>
-  BalanceMass,  ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked, see Imbalances
-  BalanceMomentumX,
-  BalanceMomentumY,
-  BalanceEnergy
-};
-
-/// The fields that are residuals of balance equations, in the order of Conserved<2>.
-inline constexpr std::array<Field, 4> kResiduals = {Field::BalanceMass, Field::BalanceMomentumX,
-                                                    Field::BalanceMomentumY, Field::BalanceEnergy};
-
-/// Whether a field is one of these, and no average over particles and collisions.
-constexpr bool is_residual(Field field) {
-  return std::ranges::find(kResiduals, field) != kResiduals.end();
-}
-
 /// How particles come to count in fields: their flights exactly, or where they are now and then.
 enum class Estimator { Exact, Snapshot };
 
@@ -163,12 +122,6 @@ enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno, Cividis };
-
-/// What arrows over the box show.
-enum class Arrows {
-  Velocity,  ///< V
-  HeatFlux   ///< q
-};
 
 /// The colours of all that does not show a value.
 enum class Theme { Dark, Light, Projector };
@@ -216,7 +169,7 @@ struct View {
   ColourRange range;                     ///< of the particles' colours; locked: as first shown
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
   ColourRange field_range;               ///< of the heatmap's colours
-  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
+  std::optional<Quantity> arrows;        ///< one of kArrows, averaged as the heatmap; absent: none
   Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
   std::optional<Rgb> background;         ///< absent: that of the theme
   bool grid = false;              ///< lines over the box, as far apart as the scale bar is long

@@ -52,7 +52,7 @@ TEST_CASE("Plots: of a gas without motion, or that comes to rest, all axes are f
         go_on(run.run(), time);
         run.tell(frame, false);
         history.add(frame);
-        for (std::size_t name = 0; name < kProfileNames.size(); ++name) {
+        for (std::size_t name = 0; name < profile_names().size(); ++name) {
           for (const LivePlot& plot : plots_of(history, frame, name, kDarkTheme)) {
             check_finite(plot);
           }

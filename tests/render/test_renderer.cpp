@@ -116,7 +116,7 @@ View view_of(Field field) {
 TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
   const auto context = open_context(Backend::Osmesa);
   const ColourMap map = colour_map(Palette::Viridis);
-  View view = view_of(Field::Temperature);
+  View view = view_of(Quantity::Temperature);
   const auto colours = [&] {
     Renderer renderer(context->gl());
     std::vector<Colour> seen;
@@ -136,7 +136,7 @@ TEST_CASE("The colours of a heatmap follow, or are locked, or are given") {
 
 TEST_CASE("Ranges that are fixed follow no more, but for those that are given") {
   const auto context = open_context(Backend::Osmesa);
-  View view = view_of(Field::Temperature);
+  View view = view_of(Quantity::Temperature);
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
   snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
@@ -158,10 +158,10 @@ TEST_CASE("Ranges that are fixed follow no more, but for those that are given") 
 TEST_CASE("A locked range is found anew for another field") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
-  View view = view_of(Field::Temperature);
+  View view = view_of(Quantity::Temperature);
   view.field_range = {ColourRange::Locked};
   field_colour(renderer, context->gl(), view, 100.0, true);
-  view.field = Field::Density;
+  view.field = Quantity::Density;
   CHECK(field_colour(renderer, context->gl(), view, 1.0, true) ==
         colour_map(Palette::Viridis).back());
 }
@@ -174,10 +174,11 @@ TEST_CASE("Magnitudes have the palette, their bright end far from zero; signed f
     view.field_palette = Palette::Inferno;
     return field_colour(renderer, context->gl(), view, value, true);
   };
-  CHECK(colour(Field::Density, 1.0) == colour_map(Palette::Inferno).back());
-  CHECK(colour(Field::StressXx, -1.0) == colour_map(Palette::Inferno).back());
-  CHECK(colour(Field::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
-  for (const Field field : {Field::VelocityX, Field::StressXy, Field::HeatFluxY, Field::Spin}) {
+  CHECK(colour(Quantity::Density, 1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Field(Quantity::Stress, 0, 0), -1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Quantity::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
+  for (const Field field : {Field(Quantity::Velocity, 0), Field(Quantity::Stress, 0, 1),
+                            Field(Quantity::HeatFlux, 1), Field(Quantity::Spin)}) {
     CHECK(colour(field, 1.0) == diverging_map().back());
     CHECK(colour(field, -1.0) == diverging_map().front());
   }
@@ -188,7 +189,7 @@ TEST_CASE("Arrows lie over the box as long as their legend says") {
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
-  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
+  snapshot.arrows = ArrowMap{Quantity::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
   View view;
   view.overlay = false;
   const auto width_of_arrow = [&] {
@@ -199,7 +200,7 @@ TEST_CASE("Arrows lie over the box as long as their legend says") {
     return width;
   };
   CHECK(width_of_arrow() == 0);  // not asked for
-  view.arrows = Arrows::Velocity;
+  view.arrows = Quantity::Velocity;
   // The greatest value there is fills a cell of 160 pixels.
   CHECK(std::abs(width_of_arrow() - 160) <= 4);
 }
@@ -252,10 +253,10 @@ TEST_CASE("A picture of several samples a pixel looks like the one of one sample
   const auto context = open_context(Backend::Osmesa);
   View view = view_with_field();
   view.grid = true;
-  view.arrows = Arrows::Velocity;
+  view.arrows = Quantity::Velocity;
   Snapshot snapshot = driven_box();
   snapshot.walls[kLeft] = Wall{.kind = WallKind::Sinusoidal, .stroke = 1.0, .frequency = 1.0};
-  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
+  snapshot.arrows = ArrowMap{Quantity::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
   for (const Size size : {Size{1280, 720}, {500, 300}, {1080, 1920}}) {
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);

@@ -120,7 +120,8 @@ TEST_CASE("mistakes are told with their place and what to do") {
                     "width = 0.25\n",
        "s.toml:7:1: the Gaussian falls between the centres of cells of 1"},
       {kParticles + "[measure]\nprofile_axis = \"z\"\n",
-       "s.toml:4:1: 'measure.profile_axis' cannot be \"z\"; give one of \"x\", \"y\""},
+       "s.toml:4:1: 'measure.profile_axis' cannot be \"z\": the box has no z axis; give one "
+       "along x or y"},
       // walls
       {kParticles + "[walls.left]\nkind = \"static\"\n",
        "s.toml:3:1: [walls.left] has no wall opposite; add [walls.right], or remove this one"},

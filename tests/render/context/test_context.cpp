@@ -13,7 +13,7 @@ Image picture_of(const Gl& gl) {
   const Snapshot snapshot = driven_box();
   const Size size{640, 360};
   View view;
-  view.field = Field::Density;
+  view.field = Quantity::Density;
   const OverlayText text{"Title", "Caption"};
   Renderer renderer(gl);
   const Canvas canvas(gl, size);
