@@ -371,7 +371,7 @@ template <int D>
 double Simulation<D>::spin_energy() const {
   double squares = 0.0;
   for (const Spin<D>& spin : spins_) squares += spin.squaredNorm();
-  return 0.125 * model_.inertia * model_.diameter * model_.diameter * squares;
+  return 0.5 * moment_of_inertia(model_.inertia, model_.diameter) * squares;
 }
 
 template <int D>

@@ -63,7 +63,7 @@ bool Simulation<D>::within_contact_time(std::uint32_t number) const {
 template <int D>
 ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
                                            const Vec<D>& velocity, const Impulse<D>& gain) const {
-  const double half_inertia = 0.125 * model_.inertia * model_.diameter * model_.diameter;
+  const double half_inertia = 0.5 * moment_of_inertia(model_.inertia, model_.diameter);
   const Spin<D> w = spin(number);
   ParticleChange<D> change{number, particles_[number].flight, position, velocity, w, gain};
   // Without the rounding of a difference of two squares.

@@ -49,7 +49,7 @@ static std::vector<Spin<2>> gaussian_spins(std::size_t count, double temperature
     spins[i][0] = Random(seed, Stream::StartSpin, static_cast<std::uint32_t>(i), 0).normal();
     sum += spins[i].squaredNorm();
   }
-  const double moment = 0.25 * inertia;  // I = q m a^2 / 4
+  const double moment = moment_of_inertia(inertia, 1.0);
   const double scale = std::sqrt(static_cast<double>(count) * temperature / (moment * sum));
   for (Spin<2>& spin : spins) spin *= scale;
   return spins;

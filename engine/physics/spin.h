@@ -14,6 +14,11 @@ using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
 template <int D>
 inline constexpr int kSpinSize = D*(D - 1) / 2;
 
+/// I = q m a^2/4, of particles of unit mass.
+inline double moment_of_inertia(double inertia, double diameter) {
+  return 0.25 * inertia * diameter * diameter;
+}
+
 /// n x omega: a spin of omega moves the point at -n from the centre with this velocity.
 template <int D>
 Vec<D> cross_spin(const Vec<D>& n, const Spin<D>& spin) {
