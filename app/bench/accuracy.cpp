@@ -61,7 +61,7 @@ AccuracyRow limit_row(const ParameterSweep& dial, const std::vector<Replicas>& r
                   .cpu_per_time = kNotANumber,
                   .elasticised_share = kNotANumber};
   row.events_per_second = row.bytes = row.deepest_overlap = row.comparison.error = kNotANumber;
-  for (int k = 0; k < kQuantities; ++k) {
+  for (int k = 0; k < kComparedMeans; ++k) {
     const auto quantity = static_cast<ComparedMean>(k);
     std::vector<double> places;
     std::vector<Estimate> estimates;

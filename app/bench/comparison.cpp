@@ -127,7 +127,7 @@ Comparison compare(const Replicas& replicas, const Replicas& reference) {
     squares += std::max(0.0, bias.mean * bias.mean - error * error) + variance * cpu;
     ++compared;
   };
-  for (int k = 0; k < kQuantities; ++k) {
+  for (int k = 0; k < kComparedMeans; ++k) {
     const auto quantity = static_cast<ComparedMean>(k);
     std::vector<double> values = values_of(replicas, quantity, heat_flux);
     const std::vector<double> others = values_of(reference, quantity, heat_flux);

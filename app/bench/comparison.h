@@ -9,8 +9,8 @@
 namespace clatter {
 
 /// Means first, in their order, then the profile of the density, in the mean of squares over it.
-inline constexpr int kCompared = kQuantities + 1;
-inline constexpr int kDensityProfile = kQuantities;
+inline constexpr int kCompared = kComparedMeans + 1;
+inline constexpr int kDensityProfile = kComparedMeans;
 
 /// How far a setting's replicas are from those of a reference, as shares of the reference.
 struct Comparison {

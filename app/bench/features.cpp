@@ -132,10 +132,11 @@ void shake(Scene& scene) {
 
 std::vector<Feature> features() {
   const auto nothing = [](Scene&) {};
-  const std::vector<Field> temperature = {Field::Temperature};
-  const std::vector<Field> all = {
-      Field::Density,  Field::VelocityX, Field::VelocityY, Field::Temperature, Field::StressXx,
-      Field::StressYy, Field::StressXy,  Field::HeatFluxX, Field::HeatFluxY,   Field::Dissipation};
+  const std::vector<Field> temperature = {Quantity::Temperature};
+  std::vector<Field> all = all_fields(2);
+  std::erase_if(all, [](Field field) {
+    return field.part != Part::Total || of_spins(field) || is_residual(field);
+  });
   return {{"bare", nothing},
           {"bare again", nothing},
           {"inelastic", lose_energy},

@@ -77,7 +77,7 @@ Outcome observe(const Scene& scene, double duration, const Observation& how) {
   if (!how.fields.empty()) {
     const Profile profile =
         profile_of(windows, integrals.grid(), integrals.layout(), how.fields, Axis::X);
-    outcome.variance = mean_variance(profile.at(Field::Temperature));
+    outcome.variance = mean_variance(profile.at(Quantity::Temperature));
   }
   return outcome;
 }
@@ -99,11 +99,8 @@ std::vector<Outcome> observe_all(const Scene& scene, double duration,
 
 // All averages that a smooth gas has.
 std::vector<Field> averages_without_spins() {
-  std::vector<Field> fields;
-  for (const auto& [name, field] : kHeatmaps) {
-    const bool of_spins = field == Field::Spin || field == Field::SpinTemperature;
-    if (!of_spins && !is_residual(field)) fields.push_back(field);
-  }
+  std::vector<Field> fields = all_fields(2);
+  std::erase_if(fields, [](Field field) { return of_spins(field) || is_residual(field); });
   return fields;
 }
 
@@ -112,7 +109,7 @@ std::vector<Field> averages_without_spins() {
 int bench_fields(double duration, const std::string& json) {
   Scene scene = load_scene("vibrated", {});
   scene.measure.cells = {20, 25};  // of one diameter
-  const std::vector<Field> temperature = {Field::Temperature};
+  const std::vector<Field> temperature = {Quantity::Temperature};
   const std::vector<Observation> ways = {{"bare run", {}},
                                          {"exact, all fields", averages_without_spins()},
                                          {"exact", temperature},

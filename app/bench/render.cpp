@@ -77,7 +77,7 @@ Scene scene_of(int count) {
   scene.particles.count = count;
   const double area = count * 0.25 * std::numbers::pi / 0.5;
   scene.box = Vec2(std::sqrt(area * 16.0 / 9.0), std::sqrt(area * 9.0 / 16.0));
-  scene.view.field = Field::Density;
+  scene.view.field = Quantity::Density;
   return scene;
 }
 
@@ -181,8 +181,8 @@ class Filming {
   void draw_parts(const Snapshot& snapshot, const Projection& projection) {
     const ThemeColours theme = theme_of(view_);
     const ColourScale scale{colour_map(view_.palette), 0.0, 3.0};
-    const Legends legends{Legend{quantity_of(view_.colour_by), scale, "auto"},
-                          Legend{quantity_of(*view_.field), scale, "auto"},
+    const Legends legends{Legend{label_of(view_.colour_by), scale, "auto"},
+                          Legend{label_of(*view_.field, 2), scale, "auto"},
                           {}};
     spend(times_, kHeatmap, gl_, [&] {
       heatmap_.draw(*snapshot.field, snapshot.box, projection, scale, theme.static_wall);

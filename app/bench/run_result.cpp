@@ -15,9 +15,9 @@ namespace {
 
 // The fields along an axis that are compared.
 std::vector<Field> fields_along(Axis axis) {
-  const bool x = axis == Axis::X;
-  return {Field::Density, x ? Field::StressXx : Field::StressYy,
-          x ? Field::HeatFluxX : Field::HeatFluxY, Field::Dissipation};
+  const int along = static_cast<int>(axis);
+  return {Quantity::Density, Field(Quantity::Stress, along, along),
+          Field(Quantity::HeatFlux, along), Quantity::Dissipation};
 }
 
 double mean_of(const std::vector<Estimate>& columns) {
@@ -85,8 +85,8 @@ RunResult observe(const Scene& scene, const Effort& effort, std::uint64_t seed) 
   result.means[kPressure] =
       pressure[near] ? 0.5 * (pressure[near]->mean + pressure[near + 1]->mean) : kNotANumber;
   result.means[kStress] = mean_of(measured.profile->at(fields[1]));
-  result.means[kDissipation] = mean_of(measured.profile->at(Field::Dissipation));
-  result.density = compared(measured.profile->at(Field::Density));
+  result.means[kDissipation] = mean_of(measured.profile->at(Quantity::Dissipation));
+  result.density = compared(measured.profile->at(Quantity::Density));
   result.heat_flux = compared(measured.profile->at(fields[2]));
   return result;
 }

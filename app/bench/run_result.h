@@ -11,7 +11,7 @@ namespace clatter {
 
 /// The means by which settings are compared. Stress and heat flux are those along the axis from
 /// wall to wall, averaged over the box.
-enum ComparedMean { kTemperature, kPressure, kStress, kHeatFlux, kDissipation, kQuantities };
+enum ComparedMean { kTemperature, kPressure, kStress, kHeatFlux, kDissipation, kComparedMeans };
 
 /// Columns that profiles are compared on; coarser ones are taken for constant across each column.
 inline constexpr int kProfileColumns = 60;
@@ -30,9 +30,9 @@ struct RunResult {
   double deepest_overlap = 0.0;  ///< diameters
   /// Share of the collisions of disks that t_c made elastic; NaN: there is no t_c.
   double elasticised_share = kNotANumber;
-  std::array<double, kQuantities> means{};  ///< but kHeatFlux, which needs a sign; NaN: none
-  ProfileValues density{};                  ///< along the axis
-  ProfileValues heat_flux{};                ///< likewise
+  std::array<double, kComparedMeans> means{};  ///< but kHeatFlux, which needs a sign; NaN: none
+  ProfileValues density{};                     ///< along the axis
+  ProfileValues heat_flux{};                   ///< likewise
 };
 
 /// How long runs are.

@@ -57,7 +57,7 @@ Scene bench_scene(int count) {
   Scene scene = load_scene("vibrated");
   scene.box *= std::sqrt(static_cast<double>(count) / scene.particles.count);
   scene.particles.count = count;
-  scene.view.field = Field::Temperature;
+  scene.view.field = Quantity::Temperature;
   return scene;
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "engine/scene/scene_keys.h"
-#include "engine/scene/unit.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -30,8 +29,8 @@ static std::string profile_table(const Profile& profile) {
   std::string units = std::string("# units, ") + kUnits + "; " + axis + ": a";
   std::string header = axis + "_low," + axis + "_high";
   for (const Field field : profile.fields) {
-    const std::string name(name_of(field, kHeatmaps));
-    units += ", " + name + ": " + unit_of(field);
+    const std::string name = name_of(field);
+    units += ", " + name + ": " + unit_of(field.quantity, profile.dimension);
     header += "," + name + "," + name + "_error";
   }
   std::string table = units + "\n" + header + "\n";
@@ -49,11 +48,12 @@ static std::string profile_table(const Profile& profile) {
 
 // A line for each cell, which its middle tells.
 static std::string maps_table(const FieldMaps& maps) {
+  const auto dimension = static_cast<int>(maps.cell.size());
   std::string units = std::string("# units, ") + kUnits + "; x: a, y: a";
   std::string header = "x,y";
   for (const FieldMap& map : maps.maps) {
-    const std::string name(name_of(map.field, kHeatmaps));
-    units += ", " + name + ": " + unit_of(map.field);
+    const std::string name = name_of(map.field);
+    units += ", " + name + ": " + unit_of(map.field.quantity, dimension);
     header += "," + name;
   }
   std::string table = units + "\n" + header + "\n";

@@ -11,7 +11,6 @@
 
 #include "engine/error.h"
 #include "engine/scene/scene_keys.h"
-#include "engine/scene/unit.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -112,7 +111,7 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
 
 void write_series(const H5::Group& group, const Measured& measured) {
   write_dataset(group, "time", "t", measured.series_time);
-  const char* unit = unit_of(Field::Temperature);
+  const std::string unit = unit_of(Quantity::Temperature, 2);
   write_dataset(group, "translational", unit, measured.series_temperature);
   if (measured.series_spin_temperature.empty()) return;
   write_dataset(group, "spin", unit, measured.series_spin_temperature);
@@ -128,9 +127,10 @@ void write_profile(const H5::Group& group, const Profile& profile) {
       means.push_back(estimate.mean);
       widths.push_back(estimate.standard_error);
     }
-    const std::string name(name_of(profile.fields[f], kHeatmaps));
-    write_dataset(group, name, unit_of(profile.fields[f]), means);
-    write_dataset(errors, name, unit_of(profile.fields[f]), widths);
+    const std::string name = name_of(profile.fields[f]);
+    const std::string unit = unit_of(profile.fields[f].quantity, profile.dimension);
+    write_dataset(group, name, unit, means);
+    write_dataset(errors, name, unit, widths);
   }
 }
 
@@ -149,12 +149,15 @@ Shape shape_of(const FieldMap& map) {
   return {static_cast<hsize_t>(map.cells[1]), static_cast<hsize_t>(map.cells[0])};
 }
 
+std::string map_unit(const FieldMap& map) {
+  return unit_of(map.field.quantity, static_cast<int>(map.cells.size()));
+}
+
 void write_maps(const H5::Group& group, const FieldMaps& maps) {
   write_edges(group, maps);
   write_dataset(group, "time", "t", {maps.begin, maps.end});
   for (const FieldMap& map : maps.maps) {
-    write_dataset(group, std::string(name_of(map.field, kHeatmaps)), unit_of(map.field), map.values,
-                  shape_of(map));
+    write_dataset(group, name_of(map.field), map_unit(map), map.values, shape_of(map));
   }
 }
 
@@ -171,8 +174,7 @@ void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& part
     }
     Shape shape = shape_of(map);
     shape.insert(shape.begin(), parts.size());
-    write_dataset(group, std::string(name_of(map.field, kHeatmaps)), unit_of(map.field), values,
-                  shape);
+    write_dataset(group, name_of(map.field), map_unit(map), values, shape);
   }
 }
 

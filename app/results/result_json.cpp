@@ -50,7 +50,7 @@ static Json profile_json(const Profile& profile) {
   Json json{{"axis", name_of(profile.axis, kAxes)}, {"edges", profile.edges}};
   Json errors = Json::object();
   for (const Field field : profile.fields) {
-    const std::string name(name_of(field, kHeatmaps));
+    const std::string name = name_of(field);
     for (const Estimate& e : profile.at(field)) {
       // A column that was never visited has no temperature: null.
       json[name].push_back(std::isfinite(e.mean) ? Json(e.mean) : Json(nullptr));

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
-#include "engine/scene/scene_keys.h"
 #include "engine/scene/text.h"
-#include "engine/scene/unit.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -21,17 +20,21 @@ namespace {
 constexpr const char* kFieldsFile = "fields.vti";
 constexpr const char* kSeriesFile = "series.pvd";
 
-// How VTK stores a field with as many components in the plane: what lies off it is 0.
-struct Shape {
-  std::vector<const char*> names;   // of all components
-  std::vector<std::size_t> places;  // of those in the plane
-};
+// How VTK calls the components of a field, in its order: of a number, a vector, or a symmetric
+// tensor. Those off the plane are 0.
+std::vector<const char*> components_of(Field field) {
+  if (joint_name_of(field) == name_of(field)) return {""};
+  if (field.j == Field::kNone) return {"X", "Y", "Z"};
+  return {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+}
 
-// A vector, or a symmetric tensor, whose measured components are xx, yy, xy.
-Shape shape_of(std::size_t components) {
-  if (components == 1) return {{""}, {0}};
-  if (components == 2) return {{"X", "Y", "Z"}, {0, 1}};
-  return {{"XX", "YY", "ZZ", "XY", "YZ", "XZ"}, {0, 1, 3}};
+// Where a component stands among them.
+std::size_t place_of(Field field) {
+  if (joint_name_of(field) == name_of(field)) return 0;
+  std::string axes = axes_of(field);
+  std::ranges::transform(axes, axes.begin(), [](char axis) { return std::toupper(axis); });
+  const std::vector<const char*> components = components_of(field);
+  return std::ranges::find(components, axes) - components.begin();
 }
 
 // A field with all its components.
@@ -43,9 +46,7 @@ struct DataArray {
 std::vector<DataArray> arrays_of(const FieldMaps& maps) {
   std::vector<DataArray> arrays;
   for (const FieldMap& map : maps.maps) {
-    // Residuals of momentum are no vector: each is relative to a sum of its own.
-    const std::string name(is_residual(map.field) ? name_of(map.field, kHeatmaps)
-                                                  : name_of(map.field, kProfiles));
+    const std::string name = joint_name_of(map.field);
     auto array = std::ranges::find(arrays, name, &DataArray::name);
     if (array == arrays.end()) array = arrays.insert(array, {name, {}});
     array->components.push_back(&map);
@@ -55,14 +56,12 @@ std::vector<DataArray> arrays_of(const FieldMaps& maps) {
 
 // A block of appended data: its length in bytes, then all components cell by cell.
 void append_values(std::string& data, const DataArray& array) {
-  const Shape shape = shape_of(array.components.size());
-  const std::size_t stride = shape.names.size();
+  const std::size_t stride = components_of(array.components.front()->field).size();
   const std::size_t cells = array.components.front()->values.size();
   std::vector<double> values(cells * stride);
-  for (std::size_t k = 0; k < array.components.size(); ++k) {
-    for (std::size_t i = 0; i < cells; ++i) {
-      values[i * stride + shape.places[k]] = array.components[k]->values[i];
-    }
+  for (const FieldMap* component : array.components) {
+    const std::size_t place = place_of(component->field);
+    for (std::size_t i = 0; i < cells; ++i) values[i * stride + place] = component->values[i];
   }
   const std::uint64_t bytes = values.size() * sizeof(double);
   data.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
@@ -70,12 +69,12 @@ void append_values(std::string& data, const DataArray& array) {
 }
 
 std::string attributes_of(const DataArray& array) {
-  const Shape shape = shape_of(array.components.size());
+  const std::vector<const char*> components = components_of(array.components.front()->field);
   std::string text = "Name=\"" + array.name + "\"";
-  if (shape.names.size() == 1) return text;
-  text += " NumberOfComponents=\"" + std::to_string(shape.names.size()) + "\"";
-  for (std::size_t k = 0; k < shape.names.size(); ++k) {
-    text += " ComponentName" + std::to_string(k) + "=\"" + shape.names[k] + "\"";
+  if (components.size() == 1) return text;
+  text += " NumberOfComponents=\"" + std::to_string(components.size()) + "\"";
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    text += " ComponentName" + std::to_string(k) + "=\"" + components[k] + "\"";
   }
   return text;
 }
@@ -89,6 +88,7 @@ std::string head(const std::string& type, const std::string& origin) {
 
 // The values stand raw behind the XML, as VTK's own writer may put them: exact, NaN included.
 std::string image_data(const FieldMaps& maps, const std::string& origin) {
+  const auto dimension = static_cast<int>(maps.cell.size());
   const int columns = maps.maps.front().cells[0], rows = maps.maps.front().cells[1];
   const std::string extent =
       "\"0 " + std::to_string(columns) + " 0 " + std::to_string(rows) + " 0 0\"";
@@ -107,7 +107,8 @@ std::string image_data(const FieldMaps& maps, const std::string& origin) {
     xml += "        <DataArray type=\"Float64\" " + attributes_of(array) +
            " format=\"appended\" offset=\"" + std::to_string(data.size()) +
            "\">\n          <InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">" +
-           unit_of(array.components.front()->field) + "</InformationKey>\n        </DataArray>\n";
+           unit_of(array.components.front()->field.quantity, dimension) +
+           "</InformationKey>\n        </DataArray>\n";
     append_values(data, array);
   }
   return xml +

@@ -18,11 +18,12 @@ std::string yes(bool modelled) {
   return modelled ? "yes" : "no";
 }
 
-std::string names_of(const std::vector<Field>& fields) {
+std::string names_of(const std::vector<Field>& fields, int dimension) {
+  const std::vector<NamedField> all = measured_names(dimension);
   std::string names;
   std::string_view last;
   for (const Field field : fields) {
-    const std::string_view name = name_of(field, kProfiles);
+    const std::string_view name = name_of(field, all);
     if (name != last) names += (names.empty() ? "" : ", ") + std::string(name);
     last = name;
   }
@@ -37,7 +38,8 @@ FeatureCost fields_of(const Scene& scene) {
     const bool averages = !std::ranges::all_of(measure.fields, is_residual);
     price = averages ? price + kBalanceCost - 1.0 : kBalanceCost;
   }
-  return {"fields", names_of(measure.fields), cells_memory(measure, scene.spins()), price};
+  return {"fields", names_of(measure.fields, static_cast<int>(scene.box.size())),
+          cells_memory(measure, scene.spins()), price};
 }
 
 // A kick of a disk costs about half a collision of two; at the start's temperature.

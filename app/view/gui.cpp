@@ -167,7 +167,7 @@ void Gui::plots_drawer(float top, float width) {
       "one standard error, chapter 4, or by how much the equations of balance, (4.1) to (4.3), did "
       "not close in the worst window, over all that was booked; the engine then has about twice "
       "the work",
-      kProfileNames, profiled_, 0);
+      profile_names(), profiled_, 0);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();

@@ -71,7 +71,7 @@ class Gui {
   WallGrip wall_grip_;
   Gallery gallery_;
   History history_;
-  int profiled_ = 0;  // of kProfileNames
+  int profiled_ = 0;  // of profile_names()
   std::optional<FilmJob> film_;
   GuiLayer gui_;
   PanelVisibility panels_;

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "app/results/theory_json.h"
-#include "render/quantity.h"
+#include "engine/scene/text.h"
+#include "render/label.h"
 
 namespace clatter {
 
@@ -66,10 +67,10 @@ LivePlot residual_plot(const std::vector<Sample>& samples) {
 }
 
 // A field along x, with its standard errors.
-LivePlot profile_plot(const Profile& profile, std::size_t chosen) {
-  const Field field = profile.fields[chosen];
-  LivePlot plot{"Profile", "x in a", false, false, {}, quantity_of(field).unit};
-  Curve curve{quantity_of(field).name, kBlue, {}};
+LivePlot profile_plot(const Profile& profile, std::size_t chosen, int dimension) {
+  const Label label = label_of(profile.fields[chosen], dimension);
+  LivePlot plot{"Profile", "x in a", false, false, {}, label.unit};
+  Curve curve{label.name, kBlue, {}};
   for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
     const Estimate& value = profile.values[chosen][i];
     curve.points.emplace_back(0.5 * (profile.edges[i] + profile.edges[i + 1]), value.mean);
@@ -85,9 +86,10 @@ LivePlot balance_plot(const ResidualProfile& profile) {
   LivePlot plot{"Balance", "x in a", false, true, {}, "residual, relative", kBelowRounding};
   constexpr std::array<const char*, 4> kNames = {"mass", "momentum x", "momentum y", "energy"};
   constexpr std::array<Colour, 4> kColours = {kGreen, kOrange, kBlue, kRed};
+  const std::vector<Field> residuals = residual_fields(2);
   for (std::size_t k = 0; k < kNames.size(); ++k) {
     Curve curve{kNames[k], kColours[k], {}};
-    const std::vector<double> values = profile.residuals.map(kResiduals[k]);
+    const std::vector<double> values = profile.residuals.map(residuals[k]);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double x = (static_cast<double>(i) + 0.5) * profile.width;
       curve.points.emplace_back(x, std::fabs(values[i]));
@@ -143,8 +145,15 @@ LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas)
 
 }  // namespace
 
+std::vector<std::string> profile_names() {
+  std::vector<std::string> names;
+  for (const Field field : LiveProfile::kFields) names.push_back(in_words(name_of(field)));
+  names.push_back("balance residuals");
+  return names;
+}
+
 Profiled profiled_by(std::size_t name) {
-  return name + 1 < kProfileNames.size() ? Profiled::Fields : Profiled::Balances;
+  return name < LiveProfile::kFields.size() ? Profiled::Fields : Profiled::Balances;
 }
 
 std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
@@ -152,7 +161,8 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   const std::vector<Sample>& samples = history.samples();
   std::vector<LivePlot> plots;
   if (frame.profile && profiled < frame.profile->fields.size()) {
-    plots.push_back(profile_plot(*frame.profile, profiled));
+    plots.push_back(
+        profile_plot(*frame.profile, profiled, static_cast<int>(frame.scene->box.size())));
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));

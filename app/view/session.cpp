@@ -102,8 +102,7 @@ Scene Session::recorded() const {
   if (!scene.spins()) {
     // Spins that came later have no colour at the start.
     if (scene.view.colour_by == ColourBy::Spin) scene.view.colour_by = ColourBy::Speed;
-    const auto& field = scene.view.field;
-    if (field == Field::Spin || field == Field::SpinTemperature) scene.view.field.reset();
+    if (scene.view.field && of_spins(*scene.view.field)) scene.view.field.reset();
   }
   return scene;
 }

@@ -5,16 +5,10 @@
 
 #include "app/view/panels.h"
 #include "engine/scene/scene_keys.h"
+#include "engine/scene/text.h"
 #include "render/colour_range.h"
 
 namespace clatter {
-
-// A name in the person's spelling.
-static std::string in_words(std::string_view name) {
-  std::string words(name);
-  std::ranges::replace(words, '_', ' ');
-  return words;
-}
 
 // The words for an enumeration's values.
 template <class E, std::size_t N>
@@ -57,10 +51,6 @@ static bool choose(Controls& controls, const char* key, const char* name, const 
   return true;
 }
 
-static bool spins_only(Field field) {
-  return field == Field::Spin || field == Field::SpinTemperature;
-}
-
 static bool choose_colour(const Session& session, Controls& controls, View& view) {
   std::vector<std::string> colours = words_of(kColourings);
   if (!session.scene().spins()) colours.pop_back();
@@ -76,8 +66,8 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
 static bool choose_field(const Session& session, Controls& controls, View& view) {
   std::vector<std::string> words = {"none"};
   std::vector<std::optional<Field>> fields = {std::nullopt};
-  for (const auto& [name, field] : kHeatmaps) {
-    if (spins_only(field) && !session.scene().spins()) continue;
+  for (const auto& [name, field] : field_names(static_cast<int>(session.scene().box.size()))) {
+    if (of_spins(field) && !session.scene().spins()) continue;
     words.push_back(in_words(name));
     fields.emplace_back(field);
   }

@@ -51,7 +51,7 @@ void Balance<D>::clear() {
 template <int D>
 double Balance<D>::half_inertia() const {
   const Model<D>& model = simulation_.model();
-  return 0.125 * model.inertia * model.diameter * model.diameter;
+  return 0.5 * moment_of_inertia(model.inertia, model.diameter);
 }
 
 template <int D>

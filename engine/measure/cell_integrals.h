@@ -76,7 +76,7 @@ class CellIntegrals : public Observer<D> {
 
  private:
   /// A row of kinetic sums, per particle.
-  using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + Spin<D>::SizeAtCompileTime>;
+  using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + kSpinSize<D>>;
   /// A flight's way out of a cell.
   struct Crossing {
     double time = kNever;

@@ -1,5 +1,6 @@
 #include "engine/measure/fields.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -7,56 +8,54 @@ namespace clatter {
 
 namespace {
 
-constexpr int kX = 0, kY = 1;
-
-template <class S>
-using Cell = CellAverages<2, S>;
+template <int D, class S>
+using Cell = CellAverages<D, S>;
 
 // Particles at a wall whose centres come to a cell's border to the bit seem to visit the cell for
 // as long as rounding has it: V would be a ratio of roundings.
-template <class S>
-bool visited(const Cell<S>& cell) {
+template <int D, class S>
+bool visited(const Cell<D, S>& cell) {
   constexpr double kRounding = 1e-12;  // particles per a^2
   return value_of(cell.density) > kRounding;
 }
 
 // V = p/(m rho). Where no particle ever was nothing flows.
-template <class S>
-S velocity(const Cell<S>& cell, int k) {
+template <int D, class S>
+S velocity(const Cell<D, S>& cell, int k) {
   return visited(cell) ? cell.momentum[k] / cell.density : S(0.0);
 }
 
 // Eq. (4.16): rho T_k/2 = E_k - m rho V_k^2/2.
-template <class S>
-S temperature(const Cell<S>& cell, int k) {
+template <int D, class S>
+S temperature(const Cell<D, S>& cell, int k) {
   return cell.momentum_flux[k][k] / cell.density - velocity(cell, k) * velocity(cell, k);
 }
 
 // Eq. (4.26): -[sum m v_k v_l Phi - m rho V_k V_l].
-template <class S>
-S kinetic_stress(const Cell<S>& cell, int k, int l) {
+template <int D, class S>
+S kinetic_stress(const Cell<D, S>& cell, int k, int l) {
   return cell.density * velocity(cell, k) * velocity(cell, l) - cell.momentum_flux[k][l];
 }
 
 // Eqs. (4.22)-(4.24).
-template <class S>
-S collisional_stress(const Cell<S>& cell, int k, int l) {
+template <int D, class S>
+S collisional_stress(const Cell<D, S>& cell, int k, int l) {
   return -cell.transfer[k][l];
 }
 
 // Eq. (4.29), multiplied out: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
-template <class S>
-S kinetic_heat_flux(const Cell<S>& cell, int k) {
+template <int D, class S>
+S kinetic_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_flux[k] - cell.energy() * velocity(cell, k);
-  for (int l = 0; l < 2; ++l) flux = flux + kinetic_stress(cell, k, l) * velocity(cell, l);
+  for (int l = 0; l < D; ++l) flux = flux + kinetic_stress(cell, k, l) * velocity(cell, l);
   return flux;
 }
 
 // What Eq. (4.38) adds to it: q_int_o, Eq. (4.34), about the mean velocity.
-template <class S>
-S collisional_heat_flux(const Cell<S>& cell, int k) {
+template <int D, class S>
+S collisional_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_transfer[k];
-  for (int l = 0; l < 2; ++l) flux = flux + collisional_stress(cell, k, l) * velocity(cell, l);
+  for (int l = 0; l < D; ++l) flux = flux + collisional_stress(cell, k, l) * velocity(cell, l);
   return flux;
 }
 
@@ -66,123 +65,142 @@ S no_value() {
 }
 
 // What particles that come by carry: unknown where none does.
-template <class S>
-S of_visitors(const Cell<S>& cell, S value) {
+template <int D, class S>
+S of_visitors(const Cell<D, S>& cell, S value) {
   return visited(cell) ? value : no_value<S>();
 }
 
-// The whole of what particles and collisions carry: all collisional where no particle comes by.
-template <class S>
-S total(const Cell<S>& cell, S kinetic, S collisional) {
+// The whole of what particles and collisions carry is all collisional where no particle comes by.
+template <int D, class S>
+S part_of(Part part, const Cell<D, S>& cell, S kinetic, S collisional) {
+  switch (part) {
+    case Part::Kinetic:
+      return of_visitors(cell, kinetic);
+    case Part::Collisional:
+      return collisional;
+    case Part::Total:
+      break;
+  }
   if (visited(cell)) return kinetic + collisional;
   return value_of(collisional) != 0.0 ? collisional : no_value<S>();
 }
 
-template <class S>
-S stress(const Cell<S>& cell, int k, int l) {
-  return total(cell, kinetic_stress(cell, k, l), collisional_stress(cell, k, l));
+template <int D, class S>
+S mean_temperature(const Cell<D, S>& cell) {
+  S sum = temperature(cell, 0);
+  for (int k = 1; k < D; ++k) sum = sum + temperature(cell, k);
+  return (1.0 / D) * sum;
 }
 
-template <class S>
-S heat_flux(const Cell<S>& cell, int k) {
-  return total(cell, kinetic_heat_flux(cell, k), collisional_heat_flux(cell, k));
-}
+// How a quantity follows from what a cell holds.
+template <int D, class S>
+struct Derivation {
+  Quantity quantity;
+  Needs kinetic;      // the sums of its kinetic part, or of all of it
+  Needs collisional;  // those of its collisional part
+  S (*value)(Field field, const Cell<D, S>& cell);
+};
+
+template <int D, class S>
+constexpr std::array<Derivation<D, S>, kQuantities.size()> kDerivations = {{
+    {Quantity::Density, 0, 0,
+     [](Field, const Cell<D, S>& cell) { return visited(cell) ? cell.density : S(0.0); }},
+    {Quantity::Velocity, sum::kVelocity, 0,
+     [](Field field, const Cell<D, S>& cell) {
+       return of_visitors(cell, velocity(cell, field.i));
+     }},
+    {Quantity::Temperature, sum::kVelocity | sum::kSquares, 0,
+     [](Field field, const Cell<D, S>& cell) {
+       return of_visitors(
+           cell, field.i == Field::kNone ? mean_temperature(cell) : temperature(cell, field.i));
+     }},
+    {Quantity::Stress, sum::kVelocity | sum::kSquares | sum::kShears, sum::kTransfer,
+     [](Field field, const Cell<D, S>& cell) {
+       return part_of(field.part, cell, kinetic_stress(cell, field.i, field.j),
+                      collisional_stress(cell, field.i, field.j));
+     }},
+    // Eq. (4.29) multiplied out has the energy and every component of the kinetic stress.
+    {Quantity::HeatFlux,
+     sum::kVelocity | sum::kSquares | sum::kShears | sum::kEnergyFlux | sum::kSpinEnergy,
+     sum::kVelocity | sum::kTransfer | sum::kEnergyTransfer,
+     [](Field field, const Cell<D, S>& cell) {
+       return part_of(field.part, cell, kinetic_heat_flux(cell, field.i),
+                      collisional_heat_flux(cell, field.i));
+     }},
+    {Quantity::Dissipation, sum::kDissipation, 0,
+     [](Field, const Cell<D, S>& cell) { return cell.dissipation; }},
+    {Quantity::Spin, sum::kSpin, 0,
+     [](Field field, const Cell<D, S>& cell) {
+       return of_visitors(cell, cell.spin[std::max<int>(field.i, 0)] / cell.density);
+     }},
+    {Quantity::SpinTemperature, sum::kSpinEnergy, 0,
+     [](Field, const Cell<D, S>& cell) {
+       constexpr double kPerComponent = 2.0 / kSpinSize<D>;
+       return of_visitors(cell, kPerComponent * cell.spin_energy / cell.density);
+     }},
+    {Quantity::BalanceMass, 0, 0, [](Field, const Cell<D, S>&) { return no_value<S>(); }},
+    {Quantity::BalanceMomentum, 0, 0, [](Field, const Cell<D, S>&) { return no_value<S>(); }},
+    {Quantity::BalanceEnergy, 0, 0, [](Field, const Cell<D, S>&) { return no_value<S>(); }},
+}};
+static_assert(in_order(kDerivations<2, double>));
 
 }  // namespace
 
-template <class S>
-CellAverages<2, S> averages_of(const MomentLayout<2>& layout, const S* row) {
-  CellAverages<2, S> cell;
+Needs needs_of(Field field) {
+  const auto& row = kDerivations<2, double>[static_cast<std::size_t>(field.quantity)];
+  Needs needs = 0;
+  if (field.part != Part::Collisional) needs |= row.kinetic;
+  if (field.part != Part::Kinetic) needs |= row.collisional;
+  // A component of the stress is either normal or a shear.
+  if (field.quantity == Quantity::Stress) {
+    needs &= ~(field.i == field.j ? sum::kShears : sum::kSquares);
+  }
+  return needs;
+}
+
+template <int D, class S>
+CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row) {
+  CellAverages<D, S> cell;
   const auto read = [&](int place, int number) { return place < 0 ? S(0.0) : row[place + number]; };
   cell.density = row[layout.count];
-  cell.spin = read(layout.spin, 0);
+  for (int k = 0; k < kSpinSize<D>; ++k) cell.spin[k] = read(layout.spin, k);
   cell.spin_energy = read(layout.spin_energy, 0);
   cell.dissipation = read(layout.dissipation, 0);
-  for (int k = 0; k < 2; ++k) {
+  int shear = 0;
+  for (int k = 0; k < D; ++k) {
     cell.momentum[k] = read(layout.velocity, k);
     cell.energy_flux[k] = read(layout.energy_flux, k);
     cell.energy_transfer[k] = read(layout.energy_transfer, k);
-    for (int l = 0; l < 2; ++l) {
-      cell.momentum_flux[k][l] = k == l ? read(layout.squares, k) : read(layout.shears, 0);
-      cell.transfer[k][l] = read(layout.transfer, 2 * k + l);
+    cell.momentum_flux[k][k] = read(layout.squares, k);
+    for (int l = k + 1; l < D; ++l) {
+      cell.momentum_flux[k][l] = cell.momentum_flux[l][k] = read(layout.shears, shear++);
     }
+    for (int l = 0; l < D; ++l) cell.transfer[k][l] = read(layout.transfer, D * k + l);
   }
   return cell;
 }
 
-CellAverages<2, double> averages_of(const MomentLayout<2>& layout, const CellSums& sums,
-                                    std::size_t cell, double area) {
+template <int D>
+CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
+                                    std::size_t cell, double measure) {
   const auto size = static_cast<std::size_t>(layout.size);
   std::vector<double> row(size);
   for (std::size_t k = 0; k < size; ++k) {
     const double weight = static_cast<int>(k) < layout.kinetic ? sums.kinetic_weight : sums.time;
-    row[k] = sums.rows[cell * size + k] / (weight * area);
+    row[k] = sums.rows[cell * size + k] / (weight * measure);
   }
-  return averages_of(layout, row.data());
+  return averages_of<D, double>(layout, row.data());
 }
 
-template <class S>
-S field_value(Field field, const CellAverages<2, S>& cell) {
-  switch (field) {
-    case Field::Density:
-      return visited(cell) ? cell.density : S(0.0);
-    case Field::VelocityX:
-      return of_visitors(cell, velocity(cell, kX));
-    case Field::VelocityY:
-      return of_visitors(cell, velocity(cell, kY));
-    case Field::Temperature:
-      return of_visitors(cell, 0.5 * (temperature(cell, kX) + temperature(cell, kY)));
-    case Field::TemperatureX:
-      return of_visitors(cell, temperature(cell, kX));
-    case Field::TemperatureY:
-      return of_visitors(cell, temperature(cell, kY));
-    case Field::StressXx:
-      return stress(cell, kX, kX);
-    case Field::StressYy:
-      return stress(cell, kY, kY);
-    case Field::StressXy:
-      return stress(cell, kX, kY);
-    case Field::StressXxKinetic:
-      return of_visitors(cell, kinetic_stress(cell, kX, kX));
-    case Field::StressYyKinetic:
-      return of_visitors(cell, kinetic_stress(cell, kY, kY));
-    case Field::StressXyKinetic:
-      return of_visitors(cell, kinetic_stress(cell, kX, kY));
-    case Field::StressXxCollisional:
-      return collisional_stress(cell, kX, kX);
-    case Field::StressYyCollisional:
-      return collisional_stress(cell, kY, kY);
-    case Field::StressXyCollisional:
-      return collisional_stress(cell, kX, kY);
-    case Field::HeatFluxX:
-      return heat_flux(cell, kX);
-    case Field::HeatFluxY:
-      return heat_flux(cell, kY);
-    case Field::HeatFluxXKinetic:
-      return of_visitors(cell, kinetic_heat_flux(cell, kX));
-    case Field::HeatFluxYKinetic:
-      return of_visitors(cell, kinetic_heat_flux(cell, kY));
-    case Field::HeatFluxXCollisional:
-      return collisional_heat_flux(cell, kX);
-    case Field::HeatFluxYCollisional:
-      return collisional_heat_flux(cell, kY);
-    case Field::Dissipation:
-      return cell.dissipation;
-    case Field::Spin:
-      return of_visitors(cell, cell.spin / cell.density);
-    case Field::SpinTemperature:
-      return of_visitors(cell, 2.0 * cell.spin_energy / cell.density);
-    case Field::BalanceMass:
-    case Field::BalanceMomentumX:
-    case Field::BalanceMomentumY:
-    case Field::BalanceEnergy:
-      break;
-  }
-  return no_value<S>();
+template <int D, class S>
+S field_value(Field field, const CellAverages<D, S>& cell) {
+  return kDerivations<D, S>[static_cast<std::size_t>(field.quantity)].value(field, cell);
 }
 
 template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
 template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
+template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&, std::size_t,
+                                             double);
 template double field_value(Field, const CellAverages<2, double>&);
 template Dual field_value(Field, const CellAverages<2, Dual>&);
 

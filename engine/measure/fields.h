@@ -5,26 +5,26 @@
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/dual.h"
 #include "engine/measure/moment_layout.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/field.h"
 
 namespace clatter {
 
-/// What a cell holds per area, averaged over time; S is a number, or a Dual. Sums that are not kept
-/// are 0.
+/// What a cell holds per area, in space per volume, averaged over time; S is a number, or a Dual.
+/// Sums that are not kept are 0.
 template <int D, class S>
 struct CellAverages {
   using Vector = std::array<S, D>;
   using Tensor = std::array<std::array<S, D>, D>;  ///< [k][l]
 
-  S density{};               ///< rho
-  Vector momentum{};         ///< sum v_k
-  Tensor momentum_flux{};    ///< sum v_k v_l
-  Vector energy_flux{};      ///< sum (v^2 + I omega^2)/2 v_k
-  S spin{};                  ///< sum omega
-  S spin_energy{};           ///< sum I omega^2 / 2
-  Tensor transfer{};         ///< of momentum l along k in collisions, per time
-  Vector energy_transfer{};  ///< of energy, likewise
-  S dissipation{};           ///< energy that collisions of particles gave, per time
+  S density{};                         ///< rho
+  Vector momentum{};                   ///< sum v_k
+  Tensor momentum_flux{};              ///< sum v_k v_l
+  Vector energy_flux{};                ///< sum (v^2 + I omega^2)/2 v_k
+  std::array<S, kSpinSize<D>> spin{};  ///< sum omega
+  S spin_energy{};                     ///< sum I omega^2 / 2
+  Tensor transfer{};                   ///< of momentum l along k in collisions, per time
+  Vector energy_transfer{};            ///< of energy, likewise
+  S dissipation{};                     ///< energy that collisions of particles gave, per time
 
   /// E = sum (v^2 + I omega^2)/2.
   S energy() const {
@@ -35,22 +35,27 @@ struct CellAverages {
 };
 
 /// The averages that a cell's row of sums, divided by time and area, stands for.
-template <class S>
-CellAverages<2, S> averages_of(const MomentLayout<2>& layout, const S* row);
+template <int D, class S>
+CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row);
 
-/// Those of a cell of this area, from the sums of a window.
-CellAverages<2, double> averages_of(const MomentLayout<2>& layout, const CellSums& sums,
-                                    std::size_t cell, double area);
+/// Those of a cell of this area or volume, from the sums of a window.
+template <int D>
+CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
+                                    std::size_t cell, double measure);
+
+/// The sums from which a field follows.
+Needs needs_of(Field field);
 
 /// Value of a field, Sec. 4; NaN where it has none: velocities, temperatures, spins and the kinetic
 /// parts of stress and heat flux where no particle ever was, and the whole stress and heat flux
-/// where no collision passed anything on either. T_rot = I <omega^2>. Residuals follow from no
-/// averages.
-template <class S>
-S field_value(Field field, const CellAverages<2, S>& cell);
+/// where no collision passed anything on either. Residuals follow from no averages.
+template <int D, class S>
+S field_value(Field field, const CellAverages<D, S>& cell);
 
 extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
 extern template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
+extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&,
+                                                    std::size_t, double);
 extern template double field_value(Field, const CellAverages<2, double>&);
 extern template Dual field_value(Field, const CellAverages<2, Dual>&);
 

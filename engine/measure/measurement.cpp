@@ -36,7 +36,7 @@ double cells_memory(const Measure& measure, bool spins) {
   if (balanced) {
     // Likewise two windows.
     constexpr std::size_t kBookings = 3 * sizeof(Booked<2>) + sizeof(Conserved<2>);
-    constexpr std::size_t kResidual = 3 * sizeof(Conserved<2>) + kResiduals.size() * sizeof(double);
+    constexpr std::size_t kResidual = 3 * sizeof(Conserved<2>) + 4 * sizeof(double);
     bytes += cells * static_cast<double>(2 * kBookings + kResidual);
   }
   return bytes;
@@ -175,7 +175,7 @@ void Measurement::add_maps(Measured& measured) const {
   }
   measured.maps = maps_of(sum, averages_start_, time_of(windows_.size()));
   if (!balanced_) return;
-  for (const Field field : kResiduals) {
+  for (const Field field : residual_fields(2)) {
     measured.maps->maps.push_back({field, measure_.cells, residuals_.map(field)});
   }
 }

@@ -12,6 +12,7 @@ namespace clatter {
 /// Fields along one axis, averaged over the other and over time, with standard errors by blocking.
 /// Where a field has no value (see field_value) its mean is NaN.
 struct Profile {
+  int dimension = 2;  ///< of the box
   Axis axis = Axis::X;
   std::vector<double> edges;                  ///< [columns + 1] along the axis
   std::vector<Field> fields;                  ///< those asked for

@@ -9,8 +9,15 @@
 
 namespace clatter {
 
-int equation_of(Field residual) {
-  return static_cast<int>(std::ranges::find(kResiduals, residual) - kResiduals.begin());
+int equation_of(Field residual, int dimension) {
+  switch (residual.quantity) {
+    case Quantity::BalanceMomentum:
+      return 1 + residual.i;
+    case Quantity::BalanceEnergy:
+      return 1 + dimension;
+    default:
+      return 0;
+  }
 }
 
 void Residuals::include(const Imbalances<2>& window) {
@@ -34,7 +41,7 @@ Conserved<2> Residuals::largest() const {
 std::vector<double> Residuals::map(Field residual) const {
   std::vector<double> values;
   values.reserve(cells.size());
-  for (const Conserved<2>& cell : cells) values.push_back(cell[equation_of(residual)]);
+  for (const Conserved<2>& cell : cells) values.push_back(cell[equation_of(residual, 2)]);
   return values;
 }
 

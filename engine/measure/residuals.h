@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-/// Where the equation of a residual stands in Conserved<2>.
-int equation_of(Field residual);
+/// Where the equation of a residual stands in Conserved<D>.
+int equation_of(Field residual, int dimension);
 
 /// How the balance equations closed in the windows of a run.
 struct Residuals {

@@ -118,9 +118,8 @@ WindowTotals<D> Totals<D>::close_window() {
   }
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
-    const double inertia = 0.25 * model.inertia * model.diameter * model.diameter;
-    constexpr int kComponents = Spin<D>::SizeAtCompileTime;
-    window_.spin_temperature = inertia * spin_integral_ / (window_.duration * count * kComponents);
+    const double inertia = moment_of_inertia(model.inertia, model.diameter);
+    window_.spin_temperature = inertia * spin_integral_ / (window_.duration * count * kSpinSize<D>);
   }
   const WindowTotals<D> closed = window_;
   window_ = {};

@@ -10,6 +10,10 @@ namespace clatter {
 template <int D>
 using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
 
+/// How many numbers that is.
+template <int D>
+inline constexpr int kSpinSize = D*(D - 1) / 2;
+
 /// I = q m a^2/4 of a particle of unit mass, with inertia q = 4I/(m a^2) and diameter a.
 inline double moment_of_inertia(double inertia, double diameter) {
   return 0.25 * inertia * diameter * diameter;

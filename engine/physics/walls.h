@@ -53,7 +53,7 @@ Vec<D> emit(int axis, double inward, double temperature, double uniform, const d
   return v;
 }
 
-/// Spin after a thermal wall, section 3: Gaussian of variance T_w/I per component, I = q m a^2/4.
+/// Spin after a thermal wall, section 3: Gaussian of variance T_w/I per component.
 /// `normals` holds one standard normal variate per component.
 template <int D>
 Spin<D> emit_spin(double temperature, double inertia, double diameter, const double* normals) {

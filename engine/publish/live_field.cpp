@@ -21,22 +21,11 @@ static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
   return cells;
 }
 
-// The components along x and y.
-static std::array<Field, 2> components_of(Arrows arrows) {
-  switch (arrows) {
-    case Arrows::Velocity:
-      return {Field::VelocityX, Field::VelocityY};
-    case Arrows::HeatFlux:
-      return {Field::HeatFluxX, Field::HeatFluxY};
-  }
-  return {};
-}
-
 static std::vector<Field> averages_in(const View& view) {
   std::vector<Field> fields;
   if (view.field && !is_residual(*view.field)) fields.push_back(*view.field);
   if (view.arrows) {
-    for (const Field component : components_of(*view.arrows)) fields.push_back(component);
+    for (int axis = 0; axis < 2; ++axis) fields.emplace_back(*view.arrows, axis);
   }
   return fields;
 }
@@ -142,7 +131,7 @@ FieldMap LiveField::Closure::map(Field field) const {
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     const Conserved<2> residual = sum.residual(i);
     if (!sum.sizes[i].isZero(0.0) || !residual.isZero(0.0))
-      map.values[i] = residual[equation_of(field)];
+      map.values[i] = residual[equation_of(field, 2)];
   }
   return map;
 }
@@ -163,12 +152,11 @@ static CellSums sum_of(const CellSums& sums, const IntVec<2>& cells, const IntVe
 
 // Blocks of cells have an arrow each, so that few enough are left to be told apart. Sums add up
 // over cells: an arrow is the field of its block as if that were one cell.
-static ArrowMap arrow_map(Arrows arrows, const CellSums& sums, const FieldGrid<2>& grid,
+static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid<2>& grid,
                           const MomentLayout<2>& layout) {
   constexpr int kMaxArrows = 20;  // along an axis
   const IntVec<2>& cells = grid.cells();
   const int side = (cells.maxCoeff() + kMaxArrows - 1) / kMaxArrows;
-  const auto components = components_of(arrows);
   ArrowMap map{arrows, side * grid.widths(), {}};
   if (!(sums.time > 0.0)) return map;
   for (int y = 0; y < cells.y(); y += side) {
@@ -176,7 +164,8 @@ static ArrowMap arrow_map(Arrows arrows, const CellSums& sums, const FieldGrid<2
       const IntVec<2> first(x, y), end = cells.cwiseMin(first + IntVec<2>::Constant(side));
       const double area = (end - first).prod() * grid.cell_measure();
       const auto averages = averages_of(layout, sum_of(sums, cells, first, end), 0, area);
-      const Vec2 value(field_value(components[0], averages), field_value(components[1], averages));
+      const Vec2 value(field_value(Field(arrows, 0), averages),
+                       field_value(Field(arrows, 1), averages));
       if (value.hasNaN()) continue;
       const Vec2 middle = 0.5 * (first + end).cast<double>();
       map.arrows.push_back({middle.cwiseProduct(grid.widths()), value});

@@ -55,7 +55,7 @@ class LiveField {
   void look();
 
   std::optional<Field> field_;
-  std::optional<Arrows> arrows_;
+  std::optional<Quantity> arrows_;
   std::optional<Averages> averages_;  // where there are arrows, or the field is an average
   std::optional<Closure> closure_;    // where the field is a residual
   double start_;                      // simulation time at which the first part closes

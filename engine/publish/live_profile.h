@@ -10,8 +10,7 @@
 
 namespace clatter {
 
-/// Profiles of a run that goes on, along x, from when it is made: of density, temperature,
-/// stress_xx, heat_flux_x and dissipation.
+/// Profiles of a run that goes on, along x, from when it is made.
 class LiveProfile {
  public:
   /// Watches the simulation in windows of that length of time, whose spread tells standard errors,
@@ -20,13 +19,15 @@ class LiveProfile {
   LiveProfile(const LiveProfile&) = delete;
   LiveProfile& operator=(const LiveProfile&) = delete;
 
+  /// The fields that it has, in their order.
+  static constexpr std::array<Field, 5> kFields = {
+      Quantity::Density, Quantity::Temperature, Field(Quantity::Stress, 0, 0),
+      Field(Quantity::HeatFlux, 0), Quantity::Dissipation};
+
   /// The averages over the windows that are whole; no values before the first two are.
   Profile profile() const;
 
  private:
-  static constexpr std::array<Field, 5> kFields = {
-      Field::Density, Field::Temperature, Field::StressXx, Field::HeatFluxX, Field::Dissipation};
-
   CellIntegrals<2> observer_;
   PartSums sums_;
 };

@@ -20,7 +20,7 @@ struct ArrowMap {
     Vec2 value;
   };
 
-  Arrows quantity = Arrows::Velocity;  ///< what the values are
+  Quantity quantity = Quantity::Velocity;  ///< what the values are
   Vec2 cell = {0.0, 0.0};     ///< extent of the cells, but that the last of a row may be smaller
   std::vector<Arrow> arrows;  ///< of the cells that have a value, row by row
 };

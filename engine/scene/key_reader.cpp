@@ -1,5 +1,6 @@
 #include "engine/scene/key_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -104,7 +105,15 @@ void KeyReader::refuse(std::string_view key, const toml::node& node,
 
 void KeyReader::refuse_name(std::string_view key, const toml::node& node,
                             const std::vector<std::string>& names) const {
-  const std::string_view near = near_miss(node.value_or(std::string_view()), names);
+  const std::string name(node.value_or(std::string_view()));
+  std::string in_plane = name;
+  std::ranges::replace(in_plane, 'z', 'y');
+  if (in_plane != name && std::ranges::find(names, in_plane) != names.end()) {
+    throw UserError(place(key),
+                    "'" + path(key) + "' cannot be " + shown(node) + ": the box has no z axis",
+                    "give one along x or y");
+  }
+  const std::string_view near = near_miss(name, names);
   std::string wanted;
   for (const std::string& name : names) wanted += (wanted.empty() ? "" : ", ") + in_quotes(name);
   if (!near.empty()) wanted += "; did you mean " + in_quotes(near) + "?";

@@ -39,29 +39,26 @@ class KeyReader {
     if (has(key)) value(key, number.emplace(), limits, presence);
   }
 
-  template <class E, std::size_t N>
-  void choice(std::string_view key, E& chosen, const std::array<Named<E>, N>& names,
-              Presence presence = kOptional) {
+  template <class E, class Names>
+  void choice(std::string_view key, E& chosen, const Names& names, Presence presence = kOptional) {
     const toml::node* node = find(key, presence);
     if (!node) return;
-    const std::vector<E> values = named(key, *node, names);
-    chosen = values.front();
+    chosen = named<E>(key, *node, names).front();
   }
 
-  template <class E, std::size_t N>
-  void choice(std::string_view key, std::optional<E>& chosen,
-              const std::array<Named<E>, N>& names) {
+  template <class E, class Names>
+  void choice(std::string_view key, std::optional<E>& chosen, const Names& names) {
     if (has(key)) choice(key, chosen.emplace(), names);
   }
 
-  template <class E, std::size_t N>
-  void choice(std::string_view key, std::vector<E>& chosen, const std::array<Named<E>, N>& names) {
+  template <class E, class Names>
+  void choice(std::string_view key, std::vector<E>& chosen, const Names& names) {
     const toml::node* node = find(key, kOptional);
     if (!node) return;
     const toml::array* list = node->as_array();
     if (!list) refuse(key, *node, "a list of names");
     for (const toml::node& item : *list) {
-      for (const E one : named(key, item, names)) {
+      for (const E one : named<E>(key, item, names)) {
         if (std::ranges::find(chosen, one) == chosen.end()) chosen.push_back(one);
       }
     }
@@ -114,9 +111,8 @@ class KeyReader {
                                 const std::vector<std::string>& names) const;
 
   /// The values that a name stands for, at least one.
-  template <class E, std::size_t N>
-  std::vector<E> named(std::string_view key, const toml::node& node,
-                       const std::array<Named<E>, N>& names) const {
+  template <class E, class Names>
+  std::vector<E> named(std::string_view key, const toml::node& node, const Names& names) const {
     std::vector<E> values;
     std::vector<std::string> all;
     for (const auto& [name, value] : names) {

@@ -37,20 +37,18 @@ class KeyWriter {
     if (number) value(key, *number, limits, presence);
   }
 
-  template <class E, std::size_t N>
-  void choice(std::string_view key, E chosen, const std::array<Named<E>, N>& names,
-              Presence = kOptional) {
+  template <class E, class Names>
+  void choice(std::string_view key, E chosen, const Names& names, Presence = kOptional) {
     write(key, value_text(std::string(name_of(chosen, names))));
   }
 
-  template <class E, std::size_t N>
-  void choice(std::string_view key, std::optional<E> chosen, const std::array<Named<E>, N>& names) {
+  template <class E, class Names>
+  void choice(std::string_view key, std::optional<E> chosen, const Names& names) {
     if (chosen) choice(key, *chosen, names);
   }
 
-  template <class E, std::size_t N>
-  void choice(std::string_view key, const std::vector<E>& chosen,
-              const std::array<Named<E>, N>& names) {
+  template <class E, class Names>
+  void choice(std::string_view key, const std::vector<E>& chosen, const Names& names) {
     std::string list;
     std::string last;
     for (const E one : chosen) {

@@ -67,10 +67,6 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
                   "choose another, or make the particles or a wall rough");
 }
 
-static bool of_spins(Field field) {
-  return field == Field::Spin || field == Field::SpinTemperature;
-}
-
 /// Throws where a field of spins is asked for and nothing spins.
 static void check_fields(const Scene& scene, const toml::table& root, const std::string& file) {
   if (scene.spins()) return;

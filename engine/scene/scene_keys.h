@@ -11,7 +11,8 @@
 // over the keys to list, read or write them (key_lister.h, key_reader.h, key_writer.h); it has
 //   value(key, variable, limits, presence)   for numbers, flags, text and arrays of numbers,
 //   value(key, optional, limits, presence)   for a number that may be absent,
-//   choice(key, variable, names, presence)   for enumerations, optional ones, and lists of them,
+//   choice(key, variable, names, presence)   for enumerations and fields, optional ones, and lists
+//                                            of them,
 //   table(key, function)                     for a table whose keys the function passes over,
 //   table(key, optional, function)           for one that may be absent,
 //   list(key, items, function)               for an array of tables,
@@ -104,9 +105,10 @@ struct Named {
   E value;
 };
 
-/// The first name of an enumerator; empty where it has none.
-template <class E, std::size_t N>
-constexpr std::string_view name_of(E chosen, const std::array<Named<E>, N>& names) {
+/// The first name of an enumerator or field in a list of pairs of name and value; empty where it
+/// has none.
+template <class E, class Names>
+constexpr std::string_view name_of(E chosen, const Names& names) {
   for (const auto& [name, value] : names) {
     if (value == chosen) return name;
   }
@@ -132,76 +134,13 @@ inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourB
 inline constexpr std::array<Named<Palette>, 3> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
 
-inline constexpr std::array<Named<Arrows>, 2> kArrows = {
-    {{"velocity", Arrows::Velocity}, {"heat_flux", Arrows::HeatFlux}}};
+/// What arrows may show.
+inline constexpr std::array<Named<Quantity>, 2> kArrows = {
+    {{traits_of(Quantity::Velocity).name, Quantity::Velocity},
+     {traits_of(Quantity::HeatFlux).name, Quantity::HeatFlux}}};
 
 inline constexpr std::array<Named<Theme>, 3> kThemes = {
     {{"dark", Theme::Dark}, {"light", Theme::Light}, {"projector", Theme::Projector}}};
-
-/// Fields one by one: heatmaps, and the columns of profiles.
-inline constexpr std::array<Named<Field>, 28> kHeatmaps = {
-    {{"density", Field::Density},
-     {"velocity_x", Field::VelocityX},
-     {"velocity_y", Field::VelocityY},
-     {"temperature", Field::Temperature},
-     {"temperature_x", Field::TemperatureX},
-     {"temperature_y", Field::TemperatureY},
-     {"stress_xx", Field::StressXx},
-     {"stress_yy", Field::StressYy},
-     {"stress_xy", Field::StressXy},
-     {"stress_xx_kinetic", Field::StressXxKinetic},
-     {"stress_yy_kinetic", Field::StressYyKinetic},
-     {"stress_xy_kinetic", Field::StressXyKinetic},
-     {"stress_xx_collisional", Field::StressXxCollisional},
-     {"stress_yy_collisional", Field::StressYyCollisional},
-     {"stress_xy_collisional", Field::StressXyCollisional},
-     {"heat_flux_x", Field::HeatFluxX},
-     {"heat_flux_y", Field::HeatFluxY},
-     {"heat_flux_x_kinetic", Field::HeatFluxXKinetic},
-     {"heat_flux_y_kinetic", Field::HeatFluxYKinetic},
-     {"heat_flux_x_collisional", Field::HeatFluxXCollisional},
-     {"heat_flux_y_collisional", Field::HeatFluxYCollisional},
-     {"dissipation", Field::Dissipation},
-     {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature},
-     {"balance_mass", Field::BalanceMass},
-     {"balance_momentum_x", Field::BalanceMomentumX},
-     {"balance_momentum_y", Field::BalanceMomentumY},
-     {"balance_energy", Field::BalanceEnergy}}};
-
-/// Measured fields; a name stands for all the components in its rows. The whole of a temperature
-/// comes after its components, so that one of these alone is written by its own name.
-inline constexpr std::array<Named<Field>, 30> kProfiles = {
-    {{"density", Field::Density},
-     {"velocity", Field::VelocityX},
-     {"velocity", Field::VelocityY},
-     {"temperature_x", Field::TemperatureX},
-     {"temperature_y", Field::TemperatureY},
-     {"temperature", Field::Temperature},
-     {"temperature", Field::TemperatureX},
-     {"temperature", Field::TemperatureY},
-     {"stress", Field::StressXx},
-     {"stress", Field::StressYy},
-     {"stress", Field::StressXy},
-     {"stress_kinetic", Field::StressXxKinetic},
-     {"stress_kinetic", Field::StressYyKinetic},
-     {"stress_kinetic", Field::StressXyKinetic},
-     {"stress_collisional", Field::StressXxCollisional},
-     {"stress_collisional", Field::StressYyCollisional},
-     {"stress_collisional", Field::StressXyCollisional},
-     {"heat_flux", Field::HeatFluxX},
-     {"heat_flux", Field::HeatFluxY},
-     {"heat_flux_kinetic", Field::HeatFluxXKinetic},
-     {"heat_flux_kinetic", Field::HeatFluxYKinetic},
-     {"heat_flux_collisional", Field::HeatFluxXCollisional},
-     {"heat_flux_collisional", Field::HeatFluxYCollisional},
-     {"dissipation", Field::Dissipation},
-     {"spin", Field::Spin},
-     {"spin_temperature", Field::SpinTemperature},
-     {"balance", Field::BalanceMass},
-     {"balance", Field::BalanceMomentumX},
-     {"balance", Field::BalanceMomentumY},
-     {"balance", Field::BalanceEnergy}}};
 
 inline constexpr std::array<Named<Axis>, 3> kAxes = {
     {{"x", Axis::X}, {"y", Axis::Y}, {"z", Axis::Z}}};
@@ -293,13 +232,14 @@ void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
   io.value("kick_spin", drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
 }
 
-/// The keys of [measure]; those of snapshots and of the Gaussian only with these.
+/// The keys of [measure] in a box of so many dimensions; those of snapshots and of the Gaussian
+/// only with these.
 template <class Visitor>
-void visit_measure(Visitor& io, Measure& measure) {
+void visit_measure(Visitor& io, Measure& measure, int dimension) {
   io.value("burn_in", measure.burn_in, at_least(0.0));
   io.value("duration", measure.duration, above(0.0));
   io.value("series_interval", measure.series_interval, above(0.0));
-  io.choice("fields", measure.fields, kProfiles);
+  io.choice("fields", measure.fields, measured_names(dimension));
   io.value("cells", measure.cells, between(1, 2000));
   io.choice("profile_axis", measure.profile_axis, kAxes);
   io.choice("estimator", measure.estimator, kEstimators);
@@ -319,11 +259,12 @@ void visit_camera(Visitor& io, CameraKey& key) {
   io.value("width", key.width, above(0.0));
 }
 
-/// The keys of [view]; the list comes last, because in a file it stands below the other keys.
+/// The keys of [view] in a box of so many dimensions; the list comes last, because in a file it
+/// stands below the other keys.
 template <class Visitor>
-void visit_view(Visitor& io, View& view) {
+void visit_view(Visitor& io, View& view, int dimension) {
   io.choice("colour_by", view.colour_by, kColourings);
-  io.choice("field", view.field, kHeatmaps);
+  io.choice("field", view.field, field_names(dimension));
   io.value("window", view.window, above(0.0));
   io.choice("estimator", view.estimator, kEstimators);
   const bool exact = view.estimator == Estimator::Exact;
@@ -381,8 +322,9 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });
   io.table("collapse", [&](auto& io) { io.value("contact_time", scene.contact_time, above(0.0)); });
-  io.table("measure", [&](auto& io) { visit_measure(io, scene.measure); });
-  io.table("view", [&](auto& io) { visit_view(io, scene.view); });
+  const auto dimension = static_cast<int>(scene.box.size());
+  io.table("measure", [&](auto& io) { visit_measure(io, scene.measure, dimension); });
+  io.table("view", [&](auto& io) { visit_view(io, scene.view, dimension); });
   io.list("change", scene.changes, [](auto& io, Change& change) { visit_change(io, change); });
 }
 

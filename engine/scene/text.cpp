@@ -29,6 +29,12 @@ std::string in_quotes(std::string_view text) {
   return result + '"';
 }
 
+std::string in_words(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
 /// Levenshtein's distance: the fewest letters inserted, removed or replaced.
 static std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);  // distances of a's first letters to each start of b

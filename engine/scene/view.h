@@ -16,12 +16,6 @@ enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno, Cividis };
 
-/// What arrows over the box show.
-enum class Arrows {
-  Velocity,  ///< V
-  HeatFlux   ///< q
-};
-
 /// The colours of all that does not show a value.
 enum class Theme { Dark, Light, Projector };
 
@@ -68,7 +62,7 @@ struct View {
   ColourRange range;                     ///< of the particles' colours; locked: as first shown
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
   ColourRange field_range;               ///< of the heatmap's colours
-  std::optional<Arrows> arrows;          ///< averaged as the heatmap; absent: none
+  std::optional<Quantity> arrows;        ///< one of kArrows, averaged as the heatmap; absent: none
   Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
   std::optional<Rgb> background;         ///< absent: that of the theme
   bool grid = false;              ///< lines over the box, as far apart as the scale bar is long

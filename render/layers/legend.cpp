@@ -18,22 +18,22 @@ constexpr float kArrowHeight = 2.0f;  // from the name's top to the arrow's midd
 constexpr float kLongestArrow = 5.0f;
 
 std::string unit_and_range(const Legend& legend, const char* range) {
-  const std::string& unit = legend.quantity.unit;
+  const std::string& unit = legend.label.unit;
   return (unit.empty() ? "" : unit + " · ") + range;
 }
 
-void draw_name(ImDrawList& list, const Quantity& quantity, const Fonts& fonts,
-               const ThemeColours& theme, ImVec2 place) {
-  draw_text(list, *fonts.small, place, theme.ink(), quantity.name);
-  const ImVec2 subscript(place.x + text_extent(*fonts.small, quantity.name).x,
+void draw_name(ImDrawList& list, const Label& label, const Fonts& fonts, const ThemeColours& theme,
+               ImVec2 place) {
+  draw_text(list, *fonts.small, place, theme.ink(), label.name);
+  const ImVec2 subscript(place.x + text_extent(*fonts.small, label.name).x,
                          place.y + 0.3f * fonts.unit());
   list.AddText(fonts.small, std::round(0.75f * fonts.small->FontSize), subscript,
-               packed(theme.text), quantity.subscript.c_str());
+               packed(theme.text), label.subscript.c_str());
 }
 
-float name_width(const Quantity& quantity, const Fonts& fonts) {
-  return text_extent(*fonts.small, quantity.name).x +
-         0.75f * text_extent(*fonts.small, quantity.subscript).x;
+float name_width(const Label& label, const Fonts& fonts) {
+  return text_extent(*fonts.small, label.name).x +
+         0.75f * text_extent(*fonts.small, label.subscript).x;
 }
 
 // One strip of colour a pixel: the map's kinks must not depend on the bar's height.
@@ -50,12 +50,12 @@ float bar_width(const Legend& legend, const Fonts& fonts) {
   const float unit = text_extent(*fonts.small, unit_and_range(legend, "locked")).x;
   const float ticks =
       (kBarWidth + 2.0f * kTickLength) * fonts.unit() + text_extent(*fonts.small, "−0.00").x;
-  return std::max({name_width(legend.quantity, fonts), unit, ticks});
+  return std::max({name_width(legend.label, fonts), unit, ticks});
 }
 
 float arrow_width(const ArrowLegend& legend, const Fonts& fonts) {
-  const float value = text_extent(*fonts.small, "0.005 " + legend.quantity.unit).x;
-  return std::max({name_width(legend.quantity, fonts), value, kLongestArrow * fonts.unit()});
+  const float value = text_extent(*fonts.small, "0.005 " + legend.label.unit).x;
+  return std::max({name_width(legend.label, fonts), value, kLongestArrow * fonts.unit()});
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
   const float unit = fonts.unit();
   const ImVec2 low(place.x, std::round(place.y + kHeadHeight * unit));
   const ImVec2 high(std::round(place.x + kBarWidth * unit), std::round(place.y + height));
-  draw_name(list, legend.quantity, fonts, theme, place);
+  draw_name(list, legend.label, fonts, theme, place);
   draw_text(list, *fonts.small, ImVec2(place.x, std::round(place.y + kNameHeight * unit)),
             theme.faint_ink(), unit_and_range(legend, legend.range.c_str()));
   draw_bar(list, legend.scale, low, high);
@@ -107,7 +107,7 @@ float arrow_legend_height(const Fonts& fonts) {
 void draw_arrow_legend(ImDrawList& list, const ArrowLegend& legend, const Fonts& fonts,
                        const ThemeColours& theme, const ArrowShape& shape, ImVec2 place) {
   const float unit = fonts.unit();
-  draw_name(list, legend.quantity, fonts, theme, place);
+  draw_name(list, legend.label, fonts, theme, place);
   const double value = round_down(kLongestArrow * unit / legend.pixels);
   const float y = std::round(place.y + kArrowHeight * unit);
   const float tip = place.x + static_cast<float>(value * legend.pixels);
@@ -117,7 +117,7 @@ void draw_arrow_legend(ImDrawList& list, const ArrowLegend& legend, const Fonts&
   list.AddTriangleFilled(ImVec2(neck, y - width), ImVec2(tip, y), ImVec2(neck, y + width),
                          packed(theme.text));
   draw_text(list, *fonts.small, ImVec2(place.x, std::round(y + 0.6f * unit)), theme.faint_ink(),
-            tick_text(value, value) + " " + legend.quantity.unit);
+            tick_text(value, value) + " " + legend.label.unit);
 }
 
 }  // namespace clatter

@@ -4,23 +4,23 @@
 #include <string>
 #include <vector>
 
+#include "render/label.h"
 #include "render/layers/arrow_layer.h"
 #include "render/layers/fonts.h"
 #include "render/palette.h"
-#include "render/quantity.h"
 
 namespace clatter {
 
 /// What a colour means.
 struct Legend {
-  Quantity quantity;
+  Label label;
   ColourScale scale;
   std::string range;  ///< where the scale's ends come from: "auto", "locked" or "given"
 };
 
 /// What the length of an arrow means.
 struct ArrowLegend {
-  Quantity quantity;
+  Label label;
   double pixels = 1.0;  ///< length per unit of value
 };
 

@@ -1,6 +1,6 @@
 #include "render/layers/renderer.h"
 
-#include "render/quantity.h"
+#include "render/label.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -21,12 +21,12 @@ Colour thin(Colour colour, std::uint8_t alpha) {
 
 // Without its darkest eighth: slow disks would be lost against the background.
 ColourMap disk_map(const View& view) {
-  if (quantity_of(view.colour_by).sign == Sign::Either) return diverging_map();
+  if (label_of(view.colour_by).sign == Sign::Either) return diverging_map();
   return colour_map(view.palette).subspan(2);
 }
 
 ColourMap field_map(Field field, const View& view) {
-  if (quantity_of(field).sign == Sign::Either) return diverging_map();
+  if (sign_of(field) == Sign::Either) return diverging_map();
   return colour_map(view.field_palette.value_or(view.palette));
 }
 
@@ -88,7 +88,7 @@ Renderer::Renderer(const Gl& gl, int samples, bool transparent)
       arrows_(gl),
       overlay_(gl) {}
 
-Legend Renderer::Followed::legend(const Quantity& shown, const ColourRange& range, ColourMap map,
+Legend Renderer::Followed::legend(const Label& shown, const ColourRange& range, ColourMap map,
                                   const std::function<double()>& extent, bool lockable) {
   if (range.kind == ColourRange::Given) {
     return {shown, scale_from(range.ends[0], range.ends[1], shown.sign, map), "given"};
@@ -99,10 +99,10 @@ Legend Renderer::Followed::legend(const Quantity& shown, const ColourRange& rang
   return {shown, scale_to(last, shown.sign, map), held ? "locked" : "auto"};
 }
 
-double Renderer::Followed::end(const Quantity& shown, const std::function<double()>& extent,
+double Renderer::Followed::end(const Label& shown, const std::function<double()>& extent,
                                bool hold) {
   if (fixed > 0.0) return fixed;
-  if (!(quantity == shown)) *this = {shown, {}};
+  if (!(label == shown)) *this = {shown, {}};
   return followed.follow(extent(), hold);
 }
 
@@ -114,25 +114,25 @@ void Renderer::fix(const RangeEnds& ends) {
 }
 
 Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double scale) {
+  const auto dimension = static_cast<int>(snapshot.box.size());
   Legends legends;
   if (view.colour_by != ColourBy::None) {
     legends.disks = disk_range_.legend(
-        quantity_of(view.colour_by), view.range, disk_map(view),
+        label_of(view.colour_by), view.range, disk_map(view),
         [&] { return disk_extent(snapshot, view.colour_by); }, true);
   }
   if (shows_field(snapshot, view)) {
     const FieldMap& map = *snapshot.field;
     legends.field = field_range_.legend(
-        quantity_of(map.field), view.field_range, field_map(map.field, view),
+        label_of(map.field, dimension), view.field_range, field_map(map.field, view),
         [&] { return robust_extent(map.values); }, map.whole_window);
     if (legends.disks) legends.field->scale.opacity = kBelowColouredDisks;
   }
   if (view.arrows && snapshot.arrows) {
-    const Quantity quantity = quantity_of(snapshot.arrows->quantity);
+    const Label label = label_of(snapshot.arrows->quantity, dimension);
     const double longest = snapshot.arrows->cell.minCoeff() * scale;
-    legends.arrows = {quantity, longest / arrow_range_.end(quantity, [&] {
-                        return arrow_extent(*snapshot.arrows);
-                      })};
+    legends.arrows = {
+        label, longest / arrow_range_.end(label, [&] { return arrow_extent(*snapshot.arrows); })};
   }
   return legends;
 }

@@ -56,14 +56,14 @@ class Renderer {
  private:
   /// The range of a quantity's colours, as far as it follows the snapshots.
   struct Followed {
-    Quantity quantity;
+    Label label;
     SteadyExtent followed;
     double fixed = 0.0;  ///< the end, once and for all; 0: it follows
 
     /// `extent` tells the robust extent of what is shown, and is asked only where it matters.
-    double end(const Quantity& shown, const std::function<double()>& extent, bool hold = false);
+    double end(const Label& shown, const std::function<double()>& extent, bool hold = false);
 
-    Legend legend(const Quantity& shown, const ColourRange& range, ColourMap map,
+    Legend legend(const Label& shown, const ColourRange& range, ColourMap map,
                   const std::function<double()>& extent, bool lockable);
   };
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);

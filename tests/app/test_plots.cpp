@@ -52,7 +52,7 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
         go_on(run.run(), time);
         run.tell(frame, false);
         history.add(frame);
-        for (std::size_t name = 0; name < kProfileNames.size(); ++name) {
+        for (std::size_t name = 0; name < profile_names().size(); ++name) {
           for (const LivePlot& plot : plots_of(history, frame, name, kDarkTheme)) {
             check_finite(plot);
           }

@@ -62,7 +62,7 @@ inline Snapshot driven_box() {
     snapshot.positions.push_back({1.0 + 1.35 * (i % 14), 0.3 + 1.55 * (i / 14)});
     snapshot.velocities.push_back({0.01 * (i % 97), 0.02 * (i % 31)});
   }
-  FieldMap density{Field::Density, {4, 5}, {}};
+  FieldMap density{Quantity::Density, {4, 5}, {}};
   for (int i = 0; i < 20; ++i) density.values.push_back(0.05 * i);
   snapshot.field = density;
   return snapshot;
@@ -99,7 +99,7 @@ inline Image draw(Renderer& renderer, const Gl& gl, const Snapshot& snapshot, co
 /// Shows the density.
 inline View view_with_field() {
   View view;
-  view.field = Field::Density;
+  view.field = Quantity::Density;
   return view;
 }
 

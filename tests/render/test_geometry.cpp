@@ -17,6 +17,8 @@
 
 namespace clatter {
 
+using testing::says;
+
 namespace {
 
 constexpr Size kSize{640, 480};

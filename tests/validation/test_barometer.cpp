@@ -80,7 +80,7 @@ Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
   double above = 0.0;
   for (std::size_t i = count; i-- > 0;) {
     const auto averages = averages_of(stress_layout, stress, i, width);
-    layers.pressure[i] = -field_value(Field::StressYy, averages);
+    layers.pressure[i] = -field_value(Field(Quantity::Stress, 1, 1), averages);
     layers.weight[i] = above;
     for (std::size_t k = 0; k < parts; ++k) {
       const double rho = averages_of(density_layout, density, i * parts + k, width * part).density;
@@ -217,7 +217,7 @@ TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
   constexpr double kGravity = 0.2;
   const Scene scene = column(kWidth, kLayers, 160, kGravity);
   Simulation<2> simulation(model_of<2>(scene, 405), start_state<2>(scene, 405));
-  const Field stress = Field::StressYy, density = Field::Density;
+  const Field stress = Field(Quantity::Stress, 1, 1), density = Quantity::Density;
   CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false));
   CellIntegrals<2> densities(simulation, {1, kParts * kLayers},
                              moment_layout<2>({&density, 1}, false));

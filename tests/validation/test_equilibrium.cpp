@@ -100,12 +100,12 @@ TEST_CASE("Elastic gas: the pressure on walls is that of the equation of state")
   // holds; Henderson's is good to 0.1 % at phi = .25.
   Scene scene = gas(60.0, 30.0, 573, 1.0);
   wall_in(scene, 0, Wall{});
-  scene.measure.fields = {Field::Density};
+  scene.measure.fields = {Quantity::Density};
   scene.measure.cells = {10, 1};
   const Measured result = run(scene, 50.0, 6000.0, 107);
   double density = 0.0;
   for (int column = 2; column < 8; ++column)
-    density += result.profile->at(Field::Density)[column].mean / 6.0;
+    density += result.profile->at(Quantity::Density)[column].mean / 6.0;
   const double fraction = density * std::numbers::pi / 4.0;
   const double expected = density * result.temperature.mean * compressibility(fraction, 1.0);
   for (const int side : {kLeft, kRight}) {

@@ -13,10 +13,17 @@ using namespace clatter::testing;
 
 namespace {
 
-const std::vector<Field> kFields = {Field::Density,      Field::VelocityX,    Field::VelocityY,
-                                    Field::TemperatureX, Field::TemperatureY, Field::StressXx,
-                                    Field::StressYy,     Field::StressXy,     Field::HeatFluxX,
-                                    Field::HeatFluxY,    Field::Dissipation};
+const std::vector<Field> kFields = {Quantity::Density,
+                                    Field(Quantity::Velocity, 0),
+                                    Field(Quantity::Velocity, 1),
+                                    Field(Quantity::Temperature, 0),
+                                    Field(Quantity::Temperature, 1),
+                                    Field(Quantity::Stress, 0, 0),
+                                    Field(Quantity::Stress, 1, 1),
+                                    Field(Quantity::Stress, 0, 1),
+                                    Field(Quantity::HeatFlux, 0),
+                                    Field(Quantity::HeatFlux, 1),
+                                    Quantity::Dissipation};
 
 /// Probability of the columns' distances from an expected value, in their standard errors.
 double flatness_p(const std::vector<Estimate>& columns, double expected) {
@@ -54,7 +61,7 @@ TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to 
   // Momentum piles up nowhere: what the columns differ by is the change of what they hold, over the
   // run's duration, far below the errors of the mean pressure itself.
   const double pressure = 0.5 * (result.pressure[kLeft]->mean + result.pressure[kRight]->mean);
-  const std::vector<Estimate>& stress = profile.at(Field::StressXx);
+  const std::vector<Estimate>& stress = profile.at(Field(Quantity::Stress, 0, 0));
   double largest = 0.0;
   for (const Estimate& e : stress) largest = std::max(largest, std::fabs(e.mean / pressure + 1.0));
   const double p = flatness_p(stress, -pressure);
@@ -64,7 +71,7 @@ TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to 
   CHECK(std::fabs(stress.front().mean + result.pressure[kLeft]->mean) < 1e-9 * pressure);
 
   double dissipation = 0.0;
-  for (const Estimate& e : profile.at(Field::Dissipation)) {
+  for (const Estimate& e : profile.at(Quantity::Dissipation)) {
     CHECK(e.mean <= 0.0);
     dissipation += e.mean * width * height;
   }
@@ -74,7 +81,7 @@ TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to 
   CHECK(dissipation == doctest::Approx(-result.dissipated.mean).epsilon(1e-9));
 
   // Into the gas at either end.
-  const std::vector<Estimate>& q = profile.at(Field::HeatFluxX);
+  const std::vector<Estimate>& q = profile.at(Field(Quantity::HeatFlux, 0));
   const double in = (q.front().mean - q.back().mean) * height;
   MESSAGE("heat flux at the walls over their power is 1 within ", in / result.walls_in->mean - 1.0);
   CHECK(in == doctest::Approx(result.walls_in->mean).epsilon(1e-9));
@@ -83,9 +90,9 @@ TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to 
   // dq_x/dx = zeta, between the middles of neighbours and away from the walls' own columns; V = 0
   // there but for the change of density over the run.
   for (std::size_t i = 10; i + 11 < q.size(); i += 10) {
-    double lost = 0.5 * (profile.at(Field::Dissipation)[i].mean +
-                         profile.at(Field::Dissipation)[i + 10].mean);
-    for (std::size_t k = i + 1; k < i + 10; ++k) lost += profile.at(Field::Dissipation)[k].mean;
+    double lost = 0.5 * (profile.at(Quantity::Dissipation)[i].mean +
+                         profile.at(Quantity::Dissipation)[i + 10].mean);
+    for (std::size_t k = i + 1; k < i + 10; ++k) lost += profile.at(Quantity::Dissipation)[k].mean;
     CHECK(std::fabs(q[i + 10].mean - q[i].mean - lost * width) < 2e-3 * q.front().mean);
   }
 }
@@ -96,14 +103,14 @@ TEST_CASE("Fields: an elastic gas at rest conducts and dissipates nothing") {
   scene.measure.cells = {10, 4};
   const Measured result = run(scene, 50.0, 10000.0, 116);
   const Profile& profile = *result.profile;
-  for (const Estimate& e : profile.at(Field::Dissipation)) {
+  for (const Estimate& e : profile.at(Quantity::Dissipation)) {
     CHECK(e.mean == 0.0);
   }
-  const double q_x = flatness_p(profile.at(Field::HeatFluxX), 0.0);
-  const double q_y = flatness_p(profile.at(Field::HeatFluxY), 0.0);
-  const double s_xy = flatness_p(profile.at(Field::StressXy), 0.0);
-  const double equal =
-      agreement_p(profile.at(Field::TemperatureX), profile.at(Field::TemperatureY));
+  const double q_x = flatness_p(profile.at(Field(Quantity::HeatFlux, 0)), 0.0);
+  const double q_y = flatness_p(profile.at(Field(Quantity::HeatFlux, 1)), 0.0);
+  const double s_xy = flatness_p(profile.at(Field(Quantity::Stress, 0, 1)), 0.0);
+  const double equal = agreement_p(profile.at(Field(Quantity::Temperature, 0)),
+                                   profile.at(Field(Quantity::Temperature, 1)));
   MESSAGE("p of q_x = 0: ", q_x, ", q_y = 0: ", q_y, ", sigma_xy = 0: ", s_xy,
           ", T_x = T_y: ", equal);
   CHECK(std::min({q_x, q_y, s_xy, equal}) > kMinProbability);
@@ -113,7 +120,7 @@ TEST_CASE("Fields: an elastic gas at rest conducts and dissipates nothing") {
   const double phi = 0.1;
   const double density = 4.0 * phi / std::numbers::pi;
   const double expected = density * (1.0 + 2.0 * phi * contact_correlation(phi));
-  for (const Field field : {Field::StressXx, Field::StressYy}) {
+  for (const Field field : {Field(Quantity::Stress, 0, 0), Field(Quantity::Stress, 1, 1)}) {
     double mean = 0.0;
     for (const Estimate& e : profile.at(field)) {
       CHECK(std::fabs(e.mean + expected) < 5.0 * e.standard_error);
@@ -141,14 +148,17 @@ TEST_CASE("Fields: temperature and stress are those about the mean velocity") {
   simulation.run_until(1000.0);
   const Measured flowing = measurement.result();
   const Measured still = run(scene, 0.0, 1000.0, seed);
-  for (const Field field : {Field::TemperatureX, Field::StressXx, Field::StressYy}) {
+  for (const Field field : {Field(Quantity::Temperature, 0), Field(Quantity::Stress, 0, 0),
+                            Field(Quantity::Stress, 1, 1)}) {
     const Estimate &a = flowing.profile->at(field)[0], &b = still.profile->at(field)[0];
     CHECK(std::fabs(a.mean - b.mean) < 5.0 * std::hypot(a.standard_error, b.standard_error));
     CHECK(a.standard_error < 0.02 * std::fabs(a.mean));
   }
-  CHECK(flowing.profile->at(Field::VelocityX)[0].mean == doctest::Approx(3.0).epsilon(1e-9));
-  CHECK(flowing.profile->at(Field::VelocityY)[0].mean == doctest::Approx(-2.0).epsilon(1e-9));
-  const Estimate& q = flowing.profile->at(Field::HeatFluxX)[0];
+  CHECK(flowing.profile->at(Field(Quantity::Velocity, 0))[0].mean ==
+        doctest::Approx(3.0).epsilon(1e-9));
+  CHECK(flowing.profile->at(Field(Quantity::Velocity, 1))[0].mean ==
+        doctest::Approx(-2.0).epsilon(1e-9));
+  const Estimate& q = flowing.profile->at(Field(Quantity::HeatFlux, 0))[0];
   CHECK(std::fabs(q.mean) < 5.0 * q.standard_error);
   CHECK(q.standard_error < 0.01);
 }
@@ -164,7 +174,7 @@ TEST_CASE("Fields: snapshots agree with the exact estimator") {
   double least = 1.0;
   for (const Field field : kFields) {
     const double p = agreement_p(exact.profile->at(field), snapshot.profile->at(field));
-    CAPTURE(static_cast<int>(field));
+    CAPTURE(name_of(field));
     CHECK(p > kMinProbability);
     least = std::min(least, p);
   }
@@ -189,12 +199,12 @@ TEST_CASE("Fields: the stress along y carries the weight above it") {
   double above = p_top;
   for (std::size_t i = 12; i-- > 0;) {
     CAPTURE(i);
-    const double weight = 0.3 * profile.at(Field::Density)[i].mean;
-    const double stress = profile.at(Field::StressYy)[i].mean;
+    const double weight = 0.3 * profile.at(Quantity::Density)[i].mean;
+    const double stress = profile.at(Field(Quantity::Stress, 1, 1))[i].mean;
     // The mean over a cell, in which the weight is nearly uniform.
     CHECK(std::fabs(stress + above + 0.5 * weight) < 0.02 * p_bottom);
     above += weight;
-    for (const Field field : {Field::TemperatureX, Field::TemperatureY}) {
+    for (const Field field : {Field(Quantity::Temperature, 0), Field(Quantity::Temperature, 1)}) {
       const Estimate& e = profile.at(field)[i];
       CHECK(std::fabs(e.mean - 1.0) < 5.0 * e.standard_error);
     }

@@ -19,7 +19,8 @@ Scene between(double left, double right) {
   scene.walls[kLeft] = {.kind = WallKind::Thermal, .temperature = left};
   scene.walls[kRight] = {.kind = WallKind::Thermal, .temperature = right};
   scene.particles.start.temperature = 0.5 * (left + right);
-  scene.measure.fields = {Field::Density, Field::TemperatureX, Field::TemperatureY};
+  scene.measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
+                          Field(Quantity::Temperature, 1)};
   scene.measure.cells = {5, 1};
   return scene;
 }
@@ -95,8 +96,8 @@ TEST_CASE("Thermal walls: a gas between two of one temperature takes it") {
     CHECK(kurtosis.standard_error < 0.02);
     CHECK(std::fabs(kurtosis.mean) < 3.0 * kurtosis.standard_error);
   }
-  for (const auto* component :
-       {&result.profile->at(Field::TemperatureX), &result.profile->at(Field::TemperatureY)}) {
+  for (const auto* component : {&result.profile->at(Field(Quantity::Temperature, 0)),
+                                &result.profile->at(Field(Quantity::Temperature, 1))}) {
     for (const Estimate& local : *component) {
       CHECK(std::fabs(local.mean - kTemperature) < 5.0 * local.standard_error);
     }
@@ -108,11 +109,13 @@ TEST_CASE("Thermal walls: a gas between two of one temperature takes it") {
 TEST_CASE("Thermal walls: heat flows from the hot one to the cold one, matter does not") {
   const Measured result = run(between(3.0, 1.0), 200.0, 10000.0, 122);
   const auto& profile = *result.profile;
-  for (std::size_t i = 0; i + 1 < profile.at(Field::Density).size(); ++i) {
+  for (std::size_t i = 0; i + 1 < profile.at(Quantity::Density).size(); ++i) {
     CAPTURE(i);
-    CHECK(profile.at(Field::TemperatureX)[i].mean > profile.at(Field::TemperatureX)[i + 1].mean);
-    CHECK(profile.at(Field::TemperatureY)[i].mean > profile.at(Field::TemperatureY)[i + 1].mean);
-    CHECK(profile.at(Field::Density)[i].mean < profile.at(Field::Density)[i + 1].mean);
+    CHECK(profile.at(Field(Quantity::Temperature, 0))[i].mean >
+          profile.at(Field(Quantity::Temperature, 0))[i + 1].mean);
+    CHECK(profile.at(Field(Quantity::Temperature, 1))[i].mean >
+          profile.at(Field(Quantity::Temperature, 1))[i + 1].mean);
+    CHECK(profile.at(Quantity::Density)[i].mean < profile.at(Quantity::Density)[i + 1].mean);
   }
   // Both walls bear the same pressure, and what one gives the other takes: nothing is left over.
   const Estimate& left = *result.pressure[kLeft];

@@ -60,22 +60,22 @@ TEST_CASE(
 TEST_CASE("Vibrated gas: it is hottest along x at the walls, and densest in the middle") {
   // The walls only heat the x direction, so it is the hotter one, and the middle is the coldest.
   Scene scene = vibrated_gas(0.9, 1.0);
-  scene.measure.fields = {Field::Density, Field::TemperatureX};
+  scene.measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0)};
   scene.measure.cells = {10, 1};
   const Measured result = run(scene, 300.0, 5000.0, 114);
   const double error =
       std::hypot(result.temperature_x.standard_error, result.temperature_y.standard_error);
   CHECK(result.temperature_x.mean - result.temperature_y.mean > 10.0 * error);
   const auto& profile = *result.profile;
-  CHECK(profile.at(Field::TemperatureX).front().mean >
-        1.2 * profile.at(Field::TemperatureX)[5].mean);
-  CHECK(profile.at(Field::TemperatureX).back().mean >
-        1.2 * profile.at(Field::TemperatureX)[5].mean);
-  CHECK(profile.at(Field::Density)[5].mean > 1.2 * profile.at(Field::Density).front().mean);
+  CHECK(profile.at(Field(Quantity::Temperature, 0)).front().mean >
+        1.2 * profile.at(Field(Quantity::Temperature, 0))[5].mean);
+  CHECK(profile.at(Field(Quantity::Temperature, 0)).back().mean >
+        1.2 * profile.at(Field(Quantity::Temperature, 0))[5].mean);
+  CHECK(profile.at(Quantity::Density)[5].mean > 1.2 * profile.at(Quantity::Density).front().mean);
   // Mirror images of each other, within 5 standard errors.
   for (int i = 0; i < 5; ++i) {
-    const Estimate& left = profile.at(Field::Density)[i];
-    const Estimate& right = profile.at(Field::Density)[9 - i];
+    const Estimate& left = profile.at(Quantity::Density)[i];
+    const Estimate& right = profile.at(Quantity::Density)[9 - i];
     CHECK(std::fabs(left.mean - right.mean) <
           5.0 * std::hypot(left.standard_error, right.standard_error));
   }

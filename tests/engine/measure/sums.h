@@ -3,23 +3,21 @@
 #include <vector>
 
 #include "engine/measure/cell_integrals.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/field.h"
 
 namespace clatter::testing {
 
 /// Every field that is an average; without spins, every one that a smooth gas has.
-inline std::vector<Field> all_fields(bool spins = true) {
-  std::vector<Field> fields;
-  for (const auto& [name, field] : kHeatmaps) {
-    const bool of_spins = field == Field::Spin || field == Field::SpinTemperature;
-    if ((spins || !of_spins) && !is_residual(field)) fields.push_back(field);
-  }
+inline std::vector<Field> average_fields(bool spins = true) {
+  std::vector<Field> fields = all_fields(2);
+  std::erase_if(fields,
+                [&](Field field) { return is_residual(field) || (of_spins(field) && !spins); });
   return fields;
 }
 
 /// A layout that keeps every sum.
 inline MomentLayout<2> full_layout(bool spins = true) {
-  return moment_layout<2>(all_fields(), spins);
+  return moment_layout<2>(average_fields(), spins);
 }
 
 /// A cell's sums by name.

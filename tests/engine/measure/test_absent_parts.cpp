@@ -68,7 +68,7 @@ TEST_CASE("absent parts: without fields there is no grid") {
     });
   };
   CHECK(measured_bytes() < kGrid / 10);
-  scene.measure.fields = {Field::Density};
+  scene.measure.fields = {Quantity::Density};
   CHECK(measured_bytes() > kGrid);
 }
 

@@ -148,16 +148,17 @@ Reported reported(const CellIntegrals<2>& integrals, const CellSums& sums, bool 
       const double number = field_value(field, cell);
       return std::isnan(number) ? 0.0 : number;
     };
-    const double density = value(Field::Density);
-    const Vec2 V(value(Field::VelocityX), value(Field::VelocityY));
+    const double density = value(Quantity::Density);
+    const Vec2 V(value(Field(Quantity::Velocity, 0)), value(Field(Quantity::Velocity, 1)));
     // What rough particles and thermal walls pass on is askew: xy and yx differ, and only xy is
     // reported.
-    const double xy = value(Field::StressXy);
+    const double xy = value(Field(Quantity::Stress, 0, 1));
     const double yx = xy + cell.transfer[0][1] - cell.transfer[1][0];
-    const Eigen::Matrix2d sigma{{value(Field::StressXx), xy}, {yx, value(Field::StressYy)}};
-    const Vec2 q(value(Field::HeatFluxX), value(Field::HeatFluxY));
-    const double E = density * (value(Field::Temperature) + 0.5 * V.squaredNorm() +
-                                (spins ? 0.5 * value(Field::SpinTemperature) : 0.0));
+    const Eigen::Matrix2d sigma{{value(Field(Quantity::Stress, 0, 0)), xy},
+                                {yx, value(Field(Quantity::Stress, 1, 1))}};
+    const Vec2 q(value(Field(Quantity::HeatFlux, 0)), value(Field(Quantity::HeatFlux, 1)));
+    const double E = density * (value(Quantity::Temperature) + 0.5 * V.squaredNorm() +
+                                (spins ? 0.5 * value(Quantity::SpinTemperature) : 0.0));
     const Vec2 flux = q + E * V - sigma * V;
     for (int k = 0; k < 2; ++k) {
       result.energy_moment[k].add(measure * flux[k]);
@@ -165,7 +166,7 @@ Reported reported(const CellIntegrals<2>& integrals, const CellSums& sums, bool 
         result.momentum[k][l].add(measure * (density * V[k] * V[l] - sigma(k, l)));
       }
     }
-    result.dissipation.add(measure * value(Field::Dissipation));
+    result.dissipation.add(measure * value(Quantity::Dissipation));
   }
   return result;
 }

@@ -74,8 +74,8 @@ TEST_CASE("PartSums: of large grids there are fewer parts") {
 
 TEST_CASE("Measurement: maps average to the profile, and their parts to the maps") {
   // Linear in the sums, so that averages over cells and over time are those of the whole.
-  const std::vector<Field> linear = {Field::Density, Field::StressXyCollisional,
-                                     Field::Dissipation};
+  const std::vector<Field> linear = {
+      Quantity::Density, Field(Quantity::Stress, 0, 1, Part::Collisional), Quantity::Dissipation};
   for (const Axis axis : {Axis::X, Axis::Y}) {
     const Measured result = measured(linear, axis);
     REQUIRE(result.maps);
@@ -112,7 +112,7 @@ TEST_CASE("Measurement: the mean velocity is taken from a temperature's map over
   const auto simulation = lone_particle(scene, {5.0, 1.0}, {1.0, 0.0});
   Measure measure;
   measure.burn_in = 0.0;
-  measure.fields = {Field::TemperatureX, Field::VelocityX};
+  measure.fields = {Field(Quantity::Temperature, 0), Field(Quantity::Velocity, 0)};
   measure.cells = {1, 2};
   Measurement measurement(*simulation, measure, 36.0);
   simulation->run_until(36.0);  // two periods

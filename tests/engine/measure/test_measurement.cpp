@@ -46,10 +46,10 @@ bool finite(const Measured& result) {
   for (const double t : result.series_temperature) all = all && std::isfinite(t);
   if (result.profile) {
     // Columns that no particle visited have a density, but no temperature.
-    const std::vector<Estimate>& density = result.profile->at(Field::Density);
+    const std::vector<Estimate>& density = result.profile->at(Quantity::Density);
     for (std::size_t k = 0; k < density.size(); ++k) {
       for (const Field field : result.profile->fields) {
-        const bool known = field == Field::Density || density[k].mean > 0.0;
+        const bool known = field == Quantity::Density || density[k].mean > 0.0;
         all = all && finite(result.profile->at(field)[k]) == known;
       }
     }
@@ -137,7 +137,7 @@ TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
 
 TEST_CASE("Measurement: an interrupted run has what it had come to") {
   Measure measure = measure_for(10.0, 100.0);
-  measure.fields = {Field::Density};
+  measure.fields = {Quantity::Density};
   const Scene scene = rough_mixture(15);
   const auto simulation = simulation_of(scene, 44);
   Measurement measurement(*simulation, measure, 110.0);
@@ -172,7 +172,8 @@ TEST_CASE("Measurement: an interrupted run has what it had come to") {
 
 TEST_CASE("Measurement: profiles across x, averaged over y") {
   Measure measure = measure_for(3.0, 40.0);
-  measure.fields = {Field::Density, Field::TemperatureX, Field::TemperatureY};
+  measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
+                    Field(Quantity::Temperature, 1)};
   measure.cells = {6, 4};
   const Scene scene = rough_mixture(20);
   const auto simulation = simulation_of(scene, 45);
@@ -182,7 +183,7 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
   CHECK(result.profile->edges.front() == 0.0);
   CHECK(result.profile->edges[3] == 4.5);
   CHECK(result.profile->edges.back() == 9.0);
-  REQUIRE(result.profile->at(Field::Density).size() == 6);
+  REQUIRE(result.profile->at(Quantity::Density).size() == 6);
 
   // The same from one window of six columns.
   const auto again = simulation_of(scene, 45);
@@ -197,23 +198,24 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
     const Sums& column = integrals[i];
     const Vec2 mean = column.velocity / column.count;
     const Vec2 temperature = column.squares() / column.count - mean.cwiseAbs2();
-    CHECK(result.profile->at(Field::Density)[i].mean ==
+    CHECK(result.profile->at(Quantity::Density)[i].mean ==
           doctest::Approx(column.count / (40.0 * 9.0 * 8.0 / 6.0)).epsilon(1e-9));
-    CHECK(result.profile->at(Field::TemperatureX)[i].mean ==
+    CHECK(result.profile->at(Field(Quantity::Temperature, 0))[i].mean ==
           doctest::Approx(temperature.x()).epsilon(1e-9));
-    CHECK(result.profile->at(Field::TemperatureY)[i].mean ==
+    CHECK(result.profile->at(Field(Quantity::Temperature, 1))[i].mean ==
           doctest::Approx(temperature.y()).epsilon(1e-9));
-    CHECK(result.profile->at(Field::Density)[i].standard_error > 0.0);
-    CHECK(result.profile->at(Field::TemperatureX)[i].standard_error > 0.0);
-    mean_density += result.profile->at(Field::Density)[i].mean / 6.0;
+    CHECK(result.profile->at(Quantity::Density)[i].standard_error > 0.0);
+    CHECK(result.profile->at(Field(Quantity::Temperature, 0))[i].standard_error > 0.0);
+    mean_density += result.profile->at(Quantity::Density)[i].mean / 6.0;
   }
   CHECK(mean_density == doctest::Approx(20.0 / 72.0).epsilon(1e-10));
 }
 
 TEST_CASE("Measurement: snapshots at the interval, collisions all the time") {
   Measure measure = measure_for(3.0, 40.0);
-  measure.fields = {Field::Density, Field::TemperatureY, Field::StressXy, Field::HeatFluxY,
-                    Field::Dissipation};
+  measure.fields = {Quantity::Density, Field(Quantity::Temperature, 1),
+                    Field(Quantity::Stress, 0, 1), Field(Quantity::HeatFlux, 1),
+                    Quantity::Dissipation};
   measure.cells = {4, 6};
   measure.profile_axis = Axis::Y;
   const Scene scene = rough_mixture(20);
@@ -242,15 +244,15 @@ TEST_CASE("Measurement: snapshots at the interval, collisions all the time") {
         return result.profile->at(field)[i];
       };
       // The last sample may come a rounding error after the end.
-      CHECK(of(snapshots, Field::Density).mean ==
+      CHECK(of(snapshots, Quantity::Density).mean ==
             doctest::Approx(density[i]).epsilon(interval > 0.1 ? 1e-12 : 1e-2));
-      CHECK(of(snapshots, Field::Dissipation).mean ==
-            doctest::Approx(of(exact, Field::Dissipation).mean).epsilon(1e-12));
-      CHECK(of(snapshots, Field::Dissipation).standard_error ==
-            doctest::Approx(of(exact, Field::Dissipation).standard_error).epsilon(1e-9));
+      CHECK(of(snapshots, Quantity::Dissipation).mean ==
+            doctest::Approx(of(exact, Quantity::Dissipation).mean).epsilon(1e-12));
+      CHECK(of(snapshots, Quantity::Dissipation).standard_error ==
+            doctest::Approx(of(exact, Quantity::Dissipation).standard_error).epsilon(1e-9));
       if (interval > 0.1) continue;
       for (const Field field : measure.fields) {
-        CAPTURE(static_cast<int>(field));
+        CAPTURE(name_of(field));
         const Estimate a = of(exact, field), b = of(snapshots, field);
         CHECK(std::fabs(a.mean - b.mean) < 0.25 * a.standard_error);
         CHECK(b.standard_error == doctest::Approx(a.standard_error).epsilon(0.05));
@@ -261,14 +263,14 @@ TEST_CASE("Measurement: snapshots at the interval, collisions all the time") {
 
 TEST_CASE("Measurement: a density that cannot vary has no error, however snapshots fall") {
   Measure measure = measure_for(1.0, 50.0);
-  measure.fields = {Field::Density};
+  measure.fields = {Quantity::Density};
   measure.cells = {1, 1};
   measure.estimator = Estimator::Snapshot;
   for (const double interval : {0.03, 0.17, 0.9}) {  // windows are 50/512
     CAPTURE(interval);
     measure.interval = interval;
     const auto simulation = simulation_of(gas(5.0, 4.0, 8, 1.0), 52);
-    const Estimate density = measured(*simulation, measure).profile->at(Field::Density)[0];
+    const Estimate density = measured(*simulation, measure).profile->at(Quantity::Density)[0];
     CHECK(density.mean == doctest::Approx(0.4));
     CHECK(density.standard_error < 1e-12);
   }
@@ -280,8 +282,12 @@ TEST_CASE("Measurement: errors are the scatter of runs") {
   Scene scene = gas(10.0, 10.0, 12, 0.9);
   wall_in(scene, 0, {.kind = WallKind::Driven, .drive_speed = 1.0});
   Measure measure = measure_for(40.0, 4000.0);
-  measure.fields = {Field::Density,   Field::TemperatureX, Field::StressXx,
-                    Field::HeatFluxX, Field::StressXy,     Field::Dissipation};
+  measure.fields = {Quantity::Density,
+                    Field(Quantity::Temperature, 0),
+                    Field(Quantity::Stress, 0, 0),
+                    Field(Quantity::HeatFlux, 0),
+                    Field(Quantity::Stress, 0, 1),
+                    Quantity::Dissipation};
   measure.cells = {3, 2};
   constexpr int kRuns = 40;
   std::vector<double> sum(measure.fields.size()), squares(sum.size()), errors(sum.size());
@@ -299,7 +305,8 @@ TEST_CASE("Measurement: errors are the scatter of runs") {
     CAPTURE(f);
     const double scatter = std::sqrt(squares[f] - sum[f] * sum[f]);
     const Field field = measure.fields[f];
-    const bool conserved = field == Field::HeatFluxX || field == Field::StressXy;
+    const bool conserved =
+        field == Field(Quantity::HeatFlux, 0) || field == Field(Quantity::Stress, 0, 1);
     CHECK(errors[f] / scatter > 0.65);
     if (!conserved) CHECK(errors[f] / scatter < 1.5);
   }
@@ -309,7 +316,7 @@ TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") 
   // Columns along x do not see a flow along y. The gas is so thin that its few collisions cannot
   // let the rounding of the two runs grow.
   Measure measure = measure_for(0.0, 50.0);
-  measure.fields = {Field::TemperatureY};
+  measure.fields = {Field(Quantity::Temperature, 1)};
   measure.cells = {3, 1};
   const Scene scene = gas(30.0, 30.0, 12, 1.0);
   State<2> start = start_state<2>(scene, 49);
@@ -320,8 +327,8 @@ TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") 
   const Measured result = measured(flowing, measure);
   for (std::size_t i = 0; i < 3; ++i) {
     CAPTURE(i);
-    const Estimate& still = expected.profile->at(Field::TemperatureY)[i];
-    const Estimate& moved = result.profile->at(Field::TemperatureY)[i];
+    const Estimate& still = expected.profile->at(Field(Quantity::Temperature, 1))[i];
+    const Estimate& moved = result.profile->at(Field(Quantity::Temperature, 1))[i];
     CHECK(moved.mean == doctest::Approx(still.mean).epsilon(1e-6));
     CHECK(moved.standard_error == doctest::Approx(still.standard_error).epsilon(1e-6));
     CHECK(moved.standard_error < 0.5 * moved.mean);
@@ -357,7 +364,8 @@ TEST_CASE("Measurement: a gas of none, and of one") {
       Scene scene = gas(8.0, 8.0, count, 0.9);
       if (walled) wall_in(scene, 0, {.kind = WallKind::Driven, .drive_speed = 0.01});
       Measure measure = measure_for(2.0, 20.0);
-      measure.fields = {Field::Density, Field::TemperatureX, Field::TemperatureY};
+      measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
+                        Field(Quantity::Temperature, 1)};
       const auto simulation = simulation_of(scene, 47);
       const Measured result = measured(*simulation, measure);
       CHECK(finite(result));
@@ -374,7 +382,8 @@ TEST_CASE("Measurement: a gas at rest") {
   Scene scene = gas(8.0, 8.0, 10, 0.9);
   scene.particles.start.temperature = 0.0;
   Measure measure = measure_for(2.0, 20.0);
-  measure.fields = {Field::Density, Field::TemperatureX, Field::TemperatureY};
+  measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
+                    Field(Quantity::Temperature, 1)};
   const auto simulation = simulation_of(scene, 48);
   const Measured result = measured(*simulation, measure);
   CHECK(finite(result));

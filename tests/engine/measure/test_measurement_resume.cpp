@@ -115,7 +115,7 @@ void check_same(const Run& a, const Run& b) {
 TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
   for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
     for (const Measure& measure :
-         {measure_of({Field::Density}), measure_of({}), measure_of({Field::BalanceEnergy})}) {
+         {measure_of({Quantity::Density}), measure_of({}), measure_of({Quantity::BalanceEnergy})}) {
       const Run straight = started(scene, measure);
       straight.simulation->run_until(kEnd);
       Run halted = started(scene, measure);
@@ -136,7 +136,7 @@ TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
 }
 
 TEST_CASE("Measurement: taken up for longer it goes on with windows of the same length") {
-  const Measure measure = measure_of({Field::Density, Field::BalanceMass});
+  const Measure measure = measure_of({Quantity::Density, Quantity::BalanceMass});
   const Run first = started(rough_mixture(20), measure);
   first.simulation->run_until(kEnd);
   const Run longer = taken_up(rough_mixture(20), measure, first);
@@ -153,14 +153,14 @@ TEST_CASE("Measurement: taken up for longer it goes on with windows of the same 
 TEST_CASE("Measurement: one that starts in the midst of a run averages from then on") {
   const auto simulation = simulation_of(rough_mixture(20), 5);
   simulation->run_until(10.0);
-  Measurement measurement(*simulation, measure_of({Field::Density}), kEnd);
+  Measurement measurement(*simulation, measure_of({Quantity::Density}), kEnd);
   simulation->run_until(kEnd);
   const Measured measured = measurement.result();
   CHECK(measured.burn_in == 10.0);
   CHECK(measured.duration == doctest::Approx(kEnd - 10.0));
   CHECK(measured.series_time.front() == doctest::Approx(10.5));
   double particles = 0.0;
-  for (const Estimate& density : measured.profile->at(Field::Density))
+  for (const Estimate& density : measured.profile->at(Quantity::Density))
     particles += density.mean * 9.0 / 5.0 * 8.0;
   CHECK(particles == doctest::Approx(20.0));
 }
@@ -183,7 +183,7 @@ TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledg
 }
 
 TEST_CASE("Measurement: what is no measurement is refused") {
-  const Measure measure = measure_of({Field::Density});
+  const Measure measure = measure_of({Quantity::Density});
   const Run run = started(rough_mixture(20), measure);
   run.simulation->run_until(10.0);
   const std::string saved = run.measurement->save();

@@ -161,5 +161,5 @@ TEST_CASE("Lattice: rooms of any size have a capacity") {
 }
 
 TEST_CASE("Lattice: ten million sites are laid out") {
-  CHECK(face_centred_lattice({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
+  CHECK(face_centred_lattice<2>({.box = {3500.0, 3500.0}}, 10'000'000).size() >= 10'000'000);
 }

@@ -101,7 +101,7 @@ TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and parti
   // Observers of a former view must not be called any more.
   View view = scene.view;
   for (int k = 1; k <= 20; ++k) {
-    view.field = k % 2 == 0 ? std::optional(Field::Density) : std::nullopt;
+    view.field = k % 2 == 0 ? std::optional(Quantity::Density) : std::nullopt;
     shown.show(view, 0.01);
     shown.run_until(0.5 + 0.025 * k);
   }
@@ -121,7 +121,8 @@ TEST_CASE("ScheduledRun: the shown field may change while it runs, and does not 
   View view = scene.view;
   int handed_over = 0;
   watched.on_change = [&](Simulation<2>&) { ++handed_over; };
-  constexpr std::array<Field, 3> kShown = {Field::Density, Field::StressXx, Field::BalanceEnergy};
+  constexpr std::array<Field, 3> kShown = {Quantity::Density, Field(Quantity::Stress, 0, 0),
+                                           Quantity::BalanceEnergy};
   for (int part = 1; part <= 30; ++part) {
     view.field = kShown[static_cast<std::size_t>(part) % kShown.size()];
     watched.show(view);
@@ -136,8 +137,8 @@ TEST_CASE("ScheduledRun: the shown field may change while it runs, and does not 
 
 TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
   View view = vibrated().view;
-  view.arrows = Arrows::HeatFlux;
-  for (const Field field : {Field::Temperature, Field::BalanceEnergy}) {
+  view.arrows = Quantity::HeatFlux;
+  for (const Field field : {Quantity::Temperature, Quantity::BalanceEnergy}) {
     view.field = field;
     const auto at_ten = [&](const std::vector<double>& times) {
       Scene scene = vibrated();
@@ -162,7 +163,7 @@ TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
     // What was booked under each of the laws closes, and as many cells have a residual.
     for (std::size_t i = 0; i < plain.field->values.size(); ++i) {
       CHECK(std::isnan(changed.field->values[i]) == std::isnan(plain.field->values[i]));
-      if (field == Field::BalanceEnergy && !std::isnan(plain.field->values[i])) {
+      if (field == Quantity::BalanceEnergy && !std::isnan(plain.field->values[i])) {
         CHECK(std::fabs(changed.field->values[i]) < 1e-12);
       }
     }
@@ -188,7 +189,7 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run
   for (const std::string field : {"temperature", "balance_energy"}) {
     CAPTURE(field);
     Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
-    scene.view.arrows = Arrows::Velocity;
+    scene.view.arrows = Quantity::Velocity;
     scene.changes = {{.time = 4.0, .set = {{"particles.restitution", "0.8"}}}};
     ScheduledRun whole(scene, 14);
     whole.show(scene.view);

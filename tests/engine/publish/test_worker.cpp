@@ -173,7 +173,7 @@ TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
   const Frame shown = wait_for(worker, [](const Frame& frame) {
     return frame.profile && !frame.profile->values.empty() && frame.snapshot.time > 30.0;
   });
-  const std::vector<Estimate>& density = shown.profile->at(Field::Density);
+  const std::vector<Estimate>& density = shown.profile->at(Quantity::Density);
   CHECK(density.size() == 20);
   double particles = 0.0;
   for (const Estimate& column : density) particles += column.mean * shown.snapshot.box.y();

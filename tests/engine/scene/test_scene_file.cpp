@@ -129,7 +129,8 @@ Scene unusual_scene() {
   scene.measure.burn_in = 0.0;
   scene.measure.duration = 1e308;
   scene.measure.series_interval = 5e-324;
-  scene.measure.fields = {Field::VelocityX, Field::VelocityY, Field::TemperatureY, Field::Density};
+  scene.measure.fields = {Field(Quantity::Velocity, 0), Field(Quantity::Velocity, 1),
+                          Field(Quantity::Temperature, 1), Quantity::Density};
   scene.measure.cells = {3, 7};
   scene.measure.profile_axis = Axis::Y;
   scene.measure.estimator = Estimator::Snapshot;
@@ -137,14 +138,14 @@ Scene unusual_scene() {
   scene.measure.kernel = Kernel::Gaussian;
   scene.measure.width = 123456.7;
   scene.view = {.colour_by = ColourBy::Spin,
-                .field = Field::TemperatureX,
+                .field = Field(Quantity::Temperature, 0),
                 .window = 0.125,
                 .speed = 1e-7,
                 .palette = Palette::Inferno,
                 .range = {ColourRange::Given, {-1.5, 2.0}},
                 .field_palette = Palette::Cividis,
                 .field_range = {ColourRange::Locked},
-                .arrows = Arrows::HeatFlux,
+                .arrows = Quantity::HeatFlux,
                 .theme = Theme::Projector,
                 .background = Rgb{0, 10, 255},
                 .grid = true,
@@ -234,7 +235,8 @@ TEST_CASE("Scene file: every key arrives at its place") {
   CHECK(scene.view.camera[1].time == 2.0);
   CHECK(scene.view.camera[1].centre == Vec2(1.0, 2.5));
   CHECK(scene.view.camera[1].width == 4.0);
-  const std::vector<Field> fields = {Field::VelocityX, Field::VelocityY, Field::Density};
+  const std::vector<Field> fields = {Field(Quantity::Velocity, 0), Field(Quantity::Velocity, 1),
+                                     Quantity::Density};
   CHECK(scene.measure.fields == fields);
   CHECK(scene.measure.cells == std::vector{4, 5});
   CHECK(scene.measure.profile_axis == Axis::Y);
@@ -242,7 +244,7 @@ TEST_CASE("Scene file: every key arrives at its place") {
   CHECK(scene.measure.interval == 0.5);
   CHECK(scene.measure.kernel == Kernel::Gaussian);
   CHECK(scene.measure.width == 1.5);
-  CHECK(scene.view.field == Field::VelocityY);
+  CHECK(scene.view.field == Field(Quantity::Velocity, 1));
   CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
   CHECK(scene.view.field_range.kind == ColourRange::Locked);
 }
@@ -257,16 +259,20 @@ TEST_CASE("Scene file: a name of a field stands for its components, and each may
     return parse_scene(kParticles + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;
   };
-  CHECK(fields(R"(["stress"])") == std::vector{Field::StressXx, Field::StressYy, Field::StressXy});
+  CHECK(fields(R"(["stress"])") == std::vector{Field(Quantity::Stress, 0, 0),
+                                               Field(Quantity::Stress, 1, 1),
+                                               Field(Quantity::Stress, 0, 1)});
   CHECK(fields(R"(["heat_flux_kinetic", "spin"])") ==
-        std::vector{Field::HeatFluxXKinetic, Field::HeatFluxYKinetic, Field::Spin});
-  CHECK(fields(R"(["temperature_y"])") == std::vector{Field::TemperatureY});
-  CHECK(fields(R"(["temperature"])") ==
-        std::vector{Field::Temperature, Field::TemperatureX, Field::TemperatureY});
+        std::vector{Field(Quantity::HeatFlux, 0, Part::Kinetic),
+                    Field(Quantity::HeatFlux, 1, Part::Kinetic), Field(Quantity::Spin)});
+  CHECK(fields(R"(["temperature_y"])") == std::vector{Field(Quantity::Temperature, 1)});
+  CHECK(fields(R"(["temperature"])") == std::vector{Field(Quantity::Temperature),
+                                                    Field(Quantity::Temperature, 0),
+                                                    Field(Quantity::Temperature, 1)});
   // Each is written as it can be read.
-  for (const auto& [name, field] : kProfiles) {
+  for (const auto& [name, field] : measured_names(2)) {
     Scene scene = parse_scene(kParticles + "friction = 0.5\n", "s.toml");
-    scene.measure.fields = fields("[\"" + std::string(name) + "\"]");
+    scene.measure.fields = fields("[\"" + name + "\"]");
     CHECK(std::ranges::find(scene.measure.fields, field) != scene.measure.fields.end());
     CHECK(parse_scene(scene_to_toml(scene), "s.toml").measure.fields == scene.measure.fields);
   }
@@ -347,7 +353,7 @@ TEST_CASE("Scene file: overrides replace values, and their mistakes name the fla
   CHECK(scene.walls[kRight]->kind == WallKind::Thermal);
   CHECK(scene.view.range == ColourRange{ColourRange::Given, {0.0, 3.0}});
   CHECK(scene.view.palette == Palette::Inferno);
-  CHECK(scene.view.field == Field::Density);
+  CHECK(scene.view.field == Quantity::Density);
   CHECK(scene.view.speed == 2.0);
   CHECK(scene.title == "two words");
   CHECK(scene.particles.start.temperature == 4.0);

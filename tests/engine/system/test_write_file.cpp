@@ -8,14 +8,9 @@
 
 #include "engine/error.h"
 #include "engine/system/write_file.h"
-#include "tests/engine/checkpoint/scratch_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace clatter::testing {
-
-static std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 static std::set<std::string> names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
@@ -26,7 +21,7 @@ static std::set<std::string> names_in(const std::filesystem::path& folder) {
 }
 
 TEST_CASE("write_file: a file is there whole, and nothing beside it") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const std::string& bytes :
        {std::string(), std::string(100'000, 'a'), std::string("b\0c", 3)}) {
     write_file(folder / "file", bytes);
@@ -36,7 +31,7 @@ TEST_CASE("write_file: a file is there whole, and nothing beside it") {
 }
 
 TEST_CASE("write_file: the file before keeps another name where that is asked for") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_file(folder / "file", "first", folder / "before");
   CHECK(names_in(folder / "") == std::set<std::string>{"file"});
   write_file(folder / "file", "second", folder / "before");
@@ -45,7 +40,7 @@ TEST_CASE("write_file: the file before keeps another name where that is asked fo
 }
 
 TEST_CASE("write_file: where it fails, it names the file and leaves what was there") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(
       write_file(folder / "missing/file", "bytes"),
       ("cannot write " + (folder / "missing/file.part").string() + ": No such file or directory")
@@ -57,7 +52,7 @@ TEST_CASE("write_file: where it fails, it names the file and leaves what was the
 }
 
 TEST_CASE("write_file: a link stays, and what it points to is replaced") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "results");
   write_file(folder / "results/file", "old");
   std::filesystem::create_symlink("results/file", folder / "link");
@@ -68,7 +63,7 @@ TEST_CASE("write_file: a link stays, and what it points to is replaced") {
 }
 
 TEST_CASE("write_file: a device or a pipe is written into") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(write_file("/dev/full", "bytes"),
                        "cannot write /dev/full: No space left on device", RunError);
   CHECK(is_special("/dev/full"));

@@ -8,6 +8,8 @@
 
 namespace clatter {
 
+using testing::says;
+
 TEST_CASE("Context: OSMesa opens OpenGL 3.3 core, again and again") {
   for (int i = 0; i < 3; ++i) {
     const auto context = open_context(Backend::Osmesa);

@@ -15,7 +15,7 @@ constexpr Size kSize{200, 200};
 
 Image draw(const Gl& gl, const std::vector<ArrowMap::Arrow>& arrows, double pixels) {
   const Canvas canvas = blank_canvas(gl, kSize);
-  const ArrowMap map{Arrows::Velocity, {4.0, 4.0}, arrows};
+  const ArrowMap map{Quantity::Velocity, {4.0, 4.0}, arrows};
   // 10 pixels a unit.
   ArrowLayer(gl).draw(map, {{{10.0, 10.0}, 20.0}, kSize}, pixels, kInk, kDarkTheme.background);
   return canvas.read();

@@ -13,7 +13,7 @@ TEST_CASE(
   const auto context = open_context(Backend::Osmesa);
   const Size size{60, 40};
   const Canvas canvas = blank_canvas(context->gl(), size);
-  const FieldMap field{Field::Density, {3, 2}, {0.0, 0.2, 0.4, 0.6, std::nan(""), 1.0}};
+  const FieldMap field{Quantity::Density, {3, 2}, {0.0, 0.2, 0.4, 0.6, std::nan(""), 1.0}};
   const ColourScale scale{colour_map(Palette::Inferno)};
   FieldLayer(context->gl()).draw(field, {3.0, 2.0}, {{{1.5, 1.0}, 3.0}, size}, scale, kGap);
 

@@ -17,9 +17,9 @@ TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at 
       CAPTURE(box.x());
       Snapshot snapshot = driven_box();
       snapshot.box = box;
-      snapshot.arrows = ArrowMap{Arrows::HeatFlux, box / 20.0, {{0.5 * box, {1.0, 0.0}}}};
+      snapshot.arrows = ArrowMap{Quantity::HeatFlux, box / 20.0, {{0.5 * box, {1.0, 0.0}}}};
       View view = view_with_field();
-      view.arrows = Arrows::HeatFlux;
+      view.arrows = Quantity::HeatFlux;
       const Camera camera = renderer.fit(snapshot, size, view, kText);
       const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
       view.overlay = false;

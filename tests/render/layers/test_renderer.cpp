@@ -105,7 +105,7 @@ View view_of(Field field) {
 TEST_CASE("Renderer: the colours of a heatmap follow, or are locked, or are given") {
   const auto context = open_context(Backend::Osmesa);
   const ColourMap map = colour_map(Palette::Viridis);
-  View view = view_of(Field::Temperature);
+  View view = view_of(Quantity::Temperature);
   const auto colours = [&] {
     Renderer renderer(context->gl());
     std::vector<Colour> seen;
@@ -125,7 +125,7 @@ TEST_CASE("Renderer: the colours of a heatmap follow, or are locked, or are give
 
 TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
   const auto context = open_context(Backend::Osmesa);
-  View view = view_of(Field::Temperature);
+  View view = view_of(Quantity::Temperature);
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
   snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
@@ -147,10 +147,10 @@ TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
 TEST_CASE("Renderer: another field locks a range of its own") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
-  View view = view_of(Field::Temperature);
+  View view = view_of(Quantity::Temperature);
   view.field_range = {ColourRange::Locked};
   field_colour(renderer, context->gl(), view, 100.0, true);
-  view.field = Field::Density;
+  view.field = Quantity::Density;
   CHECK(field_colour(renderer, context->gl(), view, 1.0, true) ==
         colour_map(Palette::Viridis).back());
 }
@@ -165,10 +165,11 @@ TEST_CASE(
     view.field_palette = Palette::Inferno;
     return field_colour(renderer, context->gl(), view, value, true);
   };
-  CHECK(colour(Field::Density, 1.0) == colour_map(Palette::Inferno).back());
-  CHECK(colour(Field::StressXx, -1.0) == colour_map(Palette::Inferno).back());
-  CHECK(colour(Field::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
-  for (const Field field : {Field::VelocityX, Field::StressXy, Field::HeatFluxY, Field::Spin}) {
+  CHECK(colour(Quantity::Density, 1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Field(Quantity::Stress, 0, 0), -1.0) == colour_map(Palette::Inferno).back());
+  CHECK(colour(Quantity::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
+  for (const Field field : {Field(Quantity::Velocity, 0), Field(Quantity::Stress, 0, 1),
+                            Field(Quantity::HeatFlux, 1), Field(Quantity::Spin)}) {
     CHECK(colour(field, 1.0) == diverging_map().back());
     CHECK(colour(field, -1.0) == diverging_map().front());
   }
@@ -179,7 +180,7 @@ TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = {10.0, 10.0};
-  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
+  snapshot.arrows = ArrowMap{Quantity::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
   View view;
   view.overlay = false;
   const auto width_of_arrow = [&] {
@@ -190,7 +191,7 @@ TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
     return width;
   };
   CHECK(width_of_arrow() == 0);  // not asked for
-  view.arrows = Arrows::Velocity;
+  view.arrows = Quantity::Velocity;
   // The greatest value there is fills a cell of 160 pixels.
   CHECK(std::abs(width_of_arrow() - 160) <= 4);
 }
@@ -243,10 +244,10 @@ TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of 
   const auto context = open_context(Backend::Osmesa);
   View view = view_with_field();
   view.grid = true;
-  view.arrows = Arrows::Velocity;
+  view.arrows = Quantity::Velocity;
   Snapshot snapshot = driven_box();
   snapshot.walls[kLeft] = Wall{.kind = WallKind::Sinusoidal, .stroke = 1.0, .frequency = 1.0};
-  snapshot.arrows = ArrowMap{Arrows::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
+  snapshot.arrows = ArrowMap{Quantity::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
   for (const Size size : {Size{1280, 720}, {500, 300}, {1080, 1920}}) {
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);

@@ -1,0 +1,51 @@
+#include "render/label.h"
+
+namespace clatter {
+
+// With raised exponents for "^2" and "^3"; nothing for bare numbers.
+static std::string typeset(std::string unit) {
+  if (unit == "1") return "";
+  for (const auto& [plain, raised] : {std::pair("^2", "²"), {"^3", "³"}}) {
+    for (auto at = unit.find(plain); at != std::string::npos; at = unit.find(plain)) {
+      unit.replace(at, 2, raised);
+    }
+  }
+  return unit;
+}
+
+Label label_of(ColourBy colour_by) {
+  const std::string speed = unit_of(Quantity::Velocity, 2), spin = unit_of(Quantity::Spin, 2);
+  switch (colour_by) {
+    case ColourBy::None:
+      break;
+    case ColourBy::Speed:
+      return {"speed |v|", "", Sign::Positive, speed};
+    case ColourBy::VelocityX:
+      return {"velocity v", "x", Sign::Either, speed};
+    case ColourBy::VelocityY:
+      return {"velocity v", "y", Sign::Either, speed};
+    case ColourBy::Spin:
+      return {"spin ω", "", Sign::Either, spin};
+  }
+  return {""};
+}
+
+static const char* part_name(Part part) {
+  switch (part) {
+    case Part::Total:
+      return "";
+    case Part::Kinetic:
+      return "kinetic ";
+    case Part::Collisional:
+      return "collisional ";
+  }
+  return "";
+}
+
+Label label_of(Field field, int dimension) {
+  const QuantityTraits& traits = traits_of(field.quantity);
+  return {std::string(part_name(field.part)) + traits.title, traits.subscript + axes_of(field),
+          sign_of(field), typeset(unit_of(field.quantity, dimension))};
+}
+
+}  // namespace clatter

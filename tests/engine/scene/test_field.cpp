@@ -1,0 +1,181 @@
+#include <doctest/doctest.h>
+
+#include <map>
+#include <set>
+
+#include "engine/scene/field.h"
+#include "engine/scene/scene_file.h"
+#include "tests/support/messages.h"
+
+namespace clatter {
+
+using namespace testing;
+
+namespace {
+
+template <class Names>
+std::vector<std::string> names_in(const Names& names) {
+  std::vector<std::string> all;
+  for (const auto& [name, field] : names) {
+    if (all.empty() || all.back() != name) all.push_back(name);
+  }
+  return all;
+}
+
+const std::string kRough = "box.size = [10, 10]\nparticles.count = 5\nparticles.friction = 0.5\n";
+
+std::string refusal(const std::string& text) {
+  return refusal_of([&] { parse_scene(text, "s.toml"); });
+}
+
+Scene scene_with(const std::string& line) {
+  return parse_scene(kRough + line, "s.toml");
+}
+
+}  // namespace
+
+TEST_CASE("the names of fields are those that scripts rely on, in the order of files") {
+  CHECK(names_in(field_names(2)) == std::vector<std::string>{"density",
+                                                             "velocity_x",
+                                                             "velocity_y",
+                                                             "temperature",
+                                                             "temperature_x",
+                                                             "temperature_y",
+                                                             "stress_xx",
+                                                             "stress_yy",
+                                                             "stress_xy",
+                                                             "stress_xx_kinetic",
+                                                             "stress_yy_kinetic",
+                                                             "stress_xy_kinetic",
+                                                             "stress_xx_collisional",
+                                                             "stress_yy_collisional",
+                                                             "stress_xy_collisional",
+                                                             "heat_flux_x",
+                                                             "heat_flux_y",
+                                                             "heat_flux_x_kinetic",
+                                                             "heat_flux_y_kinetic",
+                                                             "heat_flux_x_collisional",
+                                                             "heat_flux_y_collisional",
+                                                             "dissipation",
+                                                             "spin",
+                                                             "spin_temperature",
+                                                             "balance_mass",
+                                                             "balance_momentum_x",
+                                                             "balance_momentum_y",
+                                                             "balance_energy"});
+  CHECK(names_in(measured_names(2)) ==
+        std::vector<std::string>{"density", "velocity", "temperature_x", "temperature_y",
+                                 "temperature", "stress", "stress_kinetic", "stress_collisional",
+                                 "heat_flux", "heat_flux_kinetic", "heat_flux_collisional",
+                                 "dissipation", "spin", "spin_temperature", "balance"});
+}
+
+TEST_CASE("in space there are components along z, and spins have three") {
+  const std::vector<std::string> names = names_in(field_names(3));
+  const std::set<std::string> all(names.begin(), names.end());
+  CHECK(all.size() == names.size());
+  for (const char* name :
+       {"velocity_z", "temperature_z", "stress_zz", "stress_xz", "stress_yz", "stress_yz_kinetic",
+        "heat_flux_z_collisional", "spin_x", "spin_y", "spin_z", "balance_momentum_z"}) {
+    CAPTURE(name);
+    CHECK(all.contains(name));
+  }
+  CHECK(!all.contains("spin"));
+  // 1 + 3 + 4 + 3 * 6 + 3 * 3 + 1 + 3 + 1 + 1 + 3 + 1
+  CHECK(names.size() == 45);
+  std::vector<std::string> stress;
+  for (const Field field : fields_of(Quantity::Stress, 3)) {
+    if (field.part == Part::Total) stress.push_back(axes_of(field));
+  }
+  CHECK(stress == std::vector<std::string>{"xx", "yy", "zz", "xy", "xz", "yz"});
+}
+
+TEST_CASE("a field has one name, and a name one field") {
+  for (const int dimension : {2, 3}) {
+    const std::vector<NamedField> names = field_names(dimension);
+    const std::vector<Field> fields = all_fields(dimension);
+    CHECK(names.size() == fields.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      CHECK(names[k].second == fields[k]);
+      CHECK(names[k].first == name_of(fields[k]));
+      for (std::size_t l = 0; l < k; ++l) {
+        CHECK(names[k].first != names[l].first);
+        CHECK(names[k].second != names[l].second);
+      }
+    }
+    // Whatever exists can be measured.
+    std::set<std::string> measured;
+    for (const auto& [name, field] : measured_names(dimension)) measured.insert(name_of(field));
+    CHECK(measured.size() == fields.size());
+  }
+}
+
+TEST_CASE("Fields: every name reads as the field that it is written from") {
+  for (const auto& [name, field] : field_names(2)) {
+    CAPTURE(name);
+    const Scene scene = scene_with("view.field = \"" + name + "\"\n");
+    CHECK(scene.view.field == field);
+    CHECK(says(scene_to_toml(scene), "field = \"" + name + "\""));
+  }
+}
+
+TEST_CASE("Fields: what only spheres have is refused for disks, with the reason") {
+  const char* const only_in_space[][2] = {
+      {"view.field", "velocity_z"},         {"view.field", "stress_xz"},
+      {"view.field", "stress_zz_kinetic"},  {"view.field", "heat_flux_z"},
+      {"view.field", "balance_momentum_z"}, {"measure.fields", "temperature_z"}};
+  for (const auto& [key, name] : only_in_space) {
+    CAPTURE(name);
+    const bool list = std::string(key) == "measure.fields";
+    const std::string value = '"' + std::string(name) + '"';
+    const std::string message =
+        refusal(kRough + key + " = " + (list ? "[" + value + "]" : value) + "\n");
+    CHECK(says(message, "the box has no z axis"));
+    CHECK(message.starts_with("s.toml:4:"));
+  }
+}
+
+TEST_CASE("units follow from the dimension") {
+  const std::map<std::string, std::array<std::string, 2>> expected = {
+      {"density", {"1/a^2", "1/a^3"}},
+      {"velocity", {"a/t", "a/t"}},
+      {"temperature", {"m a^2/t^2", "m a^2/t^2"}},
+      {"stress", {"m/t^2", "m/(a t^2)"}},
+      {"heat_flux", {"m a/t^3", "m/t^3"}},
+      {"dissipation", {"m/t^3", "m/(a t^3)"}},
+      {"spin", {"1/t", "1/t"}},
+      {"spin_temperature", {"m a^2/t^2", "m a^2/t^2"}},
+      {"balance_mass", {"1", "1"}},
+      {"balance_momentum", {"1", "1"}},
+      {"balance_energy", {"1", "1"}}};
+  CHECK(expected.size() == kQuantities.size());
+  for (const QuantityTraits& traits : kQuantities) {
+    CAPTURE(traits.name);
+    CHECK(unit_of(traits.quantity, 2) == expected.at(traits.name)[0]);
+    CHECK(unit_of(traits.quantity, 3) == expected.at(traits.name)[1]);
+  }
+}
+
+TEST_CASE("normal stress is negative, shear and flows have either sign") {
+  const std::set<std::string> negative = {"stress_xx",
+                                          "stress_yy",
+                                          "stress_zz",
+                                          "stress_xx_kinetic",
+                                          "stress_yy_kinetic",
+                                          "stress_zz_kinetic",
+                                          "dissipation",
+                                          "stress_xx_collisional",
+                                          "stress_yy_collisional",
+                                          "stress_zz_collisional"};
+  const std::set<std::string> positive = {"density",       "temperature",   "temperature_x",
+                                          "temperature_y", "temperature_z", "spin_temperature"};
+  for (const auto& [name, field] : field_names(3)) {
+    CAPTURE(name);
+    const Sign expected = negative.contains(name)   ? Sign::Negative
+                          : positive.contains(name) ? Sign::Positive
+                                                    : Sign::Either;
+    CHECK(static_cast<int>(sign_of(field)) == static_cast<int>(expected));
+  }
+}
+
+}  // namespace clatter
