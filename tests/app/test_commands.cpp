@@ -55,7 +55,7 @@ TEST_CASE("Commands: check says what a scene models, what not, and how much it c
               "--set particles.count=100")
           .err;
   CAPTURE(all);
-  CHECK(says(all, ", 200 kicks of all disks; "));
+  CHECK(says(all, ", 200 kicks of all particles; "));
   CHECK(std::regex_search(all, std::regex("\n  spins +8 +x1.05  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  gravity +0 +x1.15  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  bulk drive +0 +x[0-9.]+  yes\n")));

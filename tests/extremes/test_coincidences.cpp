@@ -58,8 +58,8 @@ namespace {
 void compare_by_brute_force(const Model<2>& model, const State<2>& start,
                             std::uint64_t collisions) {
   Simulation<2> simulation(model, start);
-  const BaseMoves moves(simulation);
-  Reference reference(model, start, moves);
+  const BaseMoves<2> moves(simulation);
+  Reference<2> reference(model, start, moves);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
   CHECK(simulation.counts().collisions() == collisions);

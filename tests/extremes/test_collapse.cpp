@@ -206,8 +206,8 @@ TEST_CASE("Collapse: a standstill is looked for" *
   model.contact_time = 1e-9;
   const State<2> start = row(8, 1.5);
   Simulation<2> simulation(model, start);
-  const BaseMoves moves(simulation);
-  Reference reference(model, start, moves);
+  const BaseMoves<2> moves(simulation);
+  Reference<2> reference(model, start, moves);
   simulation.run_until(kNever, 8000);
   reference.run_until_collisions(8000);
   CHECK(simulation.counts().elasticised > 1000);

@@ -188,8 +188,8 @@ TEST_CASE("Few particles: rough particles touch through images that are not the 
     Simulation<2> simulation(model, start);
     Images images(model);
     simulation.add_observer(images);
-    const BaseMoves moves(simulation);
-    Reference reference(model, start, moves);
+    const BaseMoves<2> moves(simulation);
+    Reference<2> reference(model, start, moves);
     simulation.run_until(kNever, 3000);
     reference.run_until_collisions(3000);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));

@@ -137,8 +137,8 @@ TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at
     State<2> start = random_gas(model, 100, 912);
     for (Vec2& v : start.velocities) v *= speed;
     Simulation<2> simulation(model, start);
-    const BaseMoves moves(simulation);
-    Reference reference(model, start, moves);
+    const BaseMoves<2> moves(simulation);
+    Reference<2> reference(model, start, moves);
     simulation.run_until(kNever, 100);
     reference.run_until_collisions(100);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
@@ -166,8 +166,8 @@ TEST_CASE("Scales: speeds that differ by 1e12" *
     start.velocities[5] *= 1e12;
     Simulation<2> simulation(model, start);
     const double energy = simulation.kinetic_energy();
-    const BaseMoves moves(simulation);
-    Reference reference(model, start, moves);
+    const BaseMoves<2> moves(simulation);
+    Reference<2> reference(model, start, moves);
     simulation.run_until(kNever, 300);
     reference.run_until_collisions(300);
     CHECK(simulation.state_hash() == state_hash<2>(reference.state()));

@@ -26,8 +26,8 @@ struct Figures {
 void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   const State<2> start = clear_gas(model, 10, 956);
   Simulation<2> simulation(model, start);
-  const BaseMoves moves(simulation);
-  Reference reference(model, start, moves);
+  const BaseMoves<2> moves(simulation);
+  Reference<2> reference(model, start, moves);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
   CHECK(simulation.state_hash() == state_hash<2>(reference.state()));

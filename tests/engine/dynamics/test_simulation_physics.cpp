@@ -26,8 +26,8 @@ void compare(const std::string& name, const Model<2>& model, const std::vector<i
     Simulation<2> simulation(model, start);
     Totals<2> totals(simulation);
     simulation.add_observer(totals);
-    const BaseMoves moves(simulation);
-    Reference reference(model, start, moves);
+    const BaseMoves<2> moves(simulation);
+    Reference<2> reference(model, start, moves);
     simulation.run_until(kNever, collisions);
     reference.run_until_collisions(collisions);
     CHECK(simulation.counts().pair_collisions == reference.collisions());

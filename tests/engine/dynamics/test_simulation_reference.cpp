@@ -14,79 +14,83 @@ using namespace clatter::testing;
 
 namespace {
 
+template <int D>
 struct Case {
   std::string name;
-  Model<2> model;
+  Model<D> model;
   std::vector<int> counts;  // numbers of particles
 };
 
 // The state after 2000 collisions must be that of the reference to the last bit.
-void compare(const Model<2>& model, const State<2>& start, std::uint64_t collisions = 2000) {
-  Simulation<2> simulation(model, start);
-  const BaseMoves moves(simulation);
-  Reference reference(model, start, moves);
+template <int D>
+void compare(const Model<D>& model, const State<D>& start, std::uint64_t collisions = 2000) {
+  Simulation<D> simulation(model, start);
+  const BaseMoves<D> moves(simulation);
+  Reference<D> reference(model, start, moves);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
   CHECK(simulation.counts().pair_collisions == reference.collisions());
   CHECK(simulation.counts().wall_collisions == reference.wall_hits());
-  CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
   CHECK(brute_force_overlap(model, simulation.state()) < 1e-12);
   check_sound(simulation);
 }
 
-void compare(const Case& c) {
+template <int D>
+void compare(const Case<D>& c) {
   for (const int count : c.counts) {
     CAPTURE(c.name);
     CAPTURE(count);
-    compare(c.model, random_gas(c.model, count, 81));
+    compare(c.model, clear_gas(c.model, count, 81));
   }
 }
 
 }  // namespace
 
-TEST_CASE("reference: periodic boxes") {
-  compare({"wide", periodic_box(9.0, 8.0), {2, 3, 7, 16, 30}});
-  compare({"dense", periodic_box(6.2, 6.1), {30}});
-  compare({"one particle high: contacts through images that are not the nearest",
-           periodic_box(12.0, 1.2),
-           {2, 3, 6}});
-  compare({"two particles high", periodic_box(7.0, 2.05), {2, 5, 9}});
-  compare({"two cells wide", periodic_box(2.2, 9.0), {2, 8, 12}});
-  compare({"one cell in all", periodic_box(1.9, 2.05), {2}});
-  compare({"inelastic", inelastic(periodic_box(9.0, 8.0), 0.9), {2, 12, 30}});
+TEST_CASE("Reference: periodic boxes") {
+  compare(Case<2>{"wide", periodic_box(9.0, 8.0), {2, 3, 7, 16, 30}});
+  compare(Case<2>{"dense", periodic_box(6.2, 6.1), {30}});
+  compare(Case<2>{"one particle high: contacts through images that are not the nearest",
+                  periodic_box(12.0, 1.2),
+                  {2, 3, 6}});
+  compare(Case<2>{"two particles high", periodic_box(7.0, 2.05), {2, 5, 9}});
+  compare(Case<2>{"two cells wide", periodic_box(2.2, 9.0), {2, 8, 12}});
+  compare(Case<2>{"one cell in all", periodic_box(1.9, 2.05), {2}});
+  compare(Case<2>{"inelastic", inelastic(periodic_box(9.0, 8.0), 0.9), {2, 12, 30}});
 }
 
-TEST_CASE("reference: walls on two sides and on four") {
-  compare({"static", with_walls(periodic_box(9.0, 8.0), 0, kStatic), {2, 12, 30}});
-  compare({"four static",
-           with_walls(with_walls(periodic_box(7.0, 8.0), 0, kStatic), 1, kStatic),
-           {2, 12, 30}});
+TEST_CASE("Reference: walls on two sides and on four") {
+  compare(Case<2>{"static", with_walls(periodic_box(9.0, 8.0), 0, kStatic), {2, 12, 30}});
+  compare(Case<2>{"four static",
+                  with_walls(with_walls(periodic_box(7.0, 8.0), 0, kStatic), 1, kStatic),
+                  {2, 12, 30}});
+  compare(Case<2>{
+      "driven", inelastic(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 0.9), {2, 3, 12, 30}});
   compare(
-      {"driven", inelastic(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 0.9), {2, 3, 12, 30}});
-  compare({"driven, lossy across",
-           inelastic(with_walls(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 1, kLossy), 0.8),
-           {2, 3, 12, 30}});
-  compare(
-      {"thermal", inelastic(with_walls(periodic_box(9.0, 8.0), 1, kThermal), 0.7), {2, 3, 12, 30}});
-  compare({"driven, periodic across and narrow",
-           inelastic(with_walls(periodic_box(12.0, 1.2), 0, kDriven), 0.9),
-           {2, 5}});
-  compare({"thermal, periodic across and two particles high",
-           inelastic(with_walls(periodic_box(9.0, 2.05), 0, kThermal), 0.9),
-           {2, 5, 12}});
-  compare({"a channel that holds one particle across",
-           with_walls(periodic_box(12.0, 1.5), 1, kStatic),
-           {2, 6}});
+      Case<2>{"driven, lossy across",
+              inelastic(with_walls(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 1, kLossy), 0.8),
+              {2, 3, 12, 30}});
+  compare(Case<2>{
+      "thermal", inelastic(with_walls(periodic_box(9.0, 8.0), 1, kThermal), 0.7), {2, 3, 12, 30}});
+  compare(Case<2>{"driven, periodic across and narrow",
+                  inelastic(with_walls(periodic_box(12.0, 1.2), 0, kDriven), 0.9),
+                  {2, 5}});
+  compare(Case<2>{"thermal, periodic across and two particles high",
+                  inelastic(with_walls(periodic_box(9.0, 2.05), 0, kThermal), 0.9),
+                  {2, 5, 12}});
+  compare(Case<2>{"a channel that holds one particle across",
+                  with_walls(periodic_box(12.0, 1.5), 1, kStatic),
+                  {2, 6}});
 }
 
-TEST_CASE("reference: wholly inelastic particles between driven walls") {
+TEST_CASE("Reference: wholly inelastic particles between driven walls") {
   const Model<2> model = inelastic(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 0.0);
   for (const int count : {2, 5, 20}) compare(model, random_gas(model, count, 82));
 }
 
 // Particles on a square lattice, four velocities that repeat: several pairs collide at the same
 // times.
-TEST_CASE("reference: simultaneous collisions") {
+TEST_CASE("Reference: simultaneous collisions") {
   for (const bool walled : {false, true}) {
     for (const double restitution : {1.0, 0.5}) {
       Model<2> model = inelastic(periodic_box(8.0, 8.0), restitution);
@@ -103,17 +107,62 @@ TEST_CASE("reference: simultaneous collisions") {
 }
 
 // The second particle crosses the box some hundred times before it meets the first.
-TEST_CASE("reference: a first contact after many box lengths") {
+TEST_CASE("Reference: a first contact after many box lengths") {
   const Model<2> model = periodic_box(10.0, 9.0);
   State<2> start;
   start.positions = {{1.0, 1.0}, {4.0, 6.0}};
   start.velocities = {{0.0, 0.0}, {1.0, -0.001}};
   Simulation<2> simulation(model, start);
-  const BaseMoves moves(simulation);
-  Reference reference(model, start, moves);
+  const BaseMoves<2> moves(simulation);
+  Reference<2> reference(model, start, moves);
   simulation.run_until(kNever, 1);
   reference.run_until_collisions(1);
   CHECK(simulation.time() > 1000.0);
   CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
   check_sound(simulation);
+}
+
+// The reference looks at all images that a pair can reach, so boxes of spheres are small: a pair in
+// a wide one flies through thousands of them before it meets.
+template <int D>
+void compare_shortly(const Model<D>& model, const std::vector<int>& counts) {
+  for (const int count : counts) {
+    CAPTURE(count);
+    compare<D>(model, clear_gas(model, count, 83), 300);
+  }
+}
+
+TEST_CASE("Reference: spheres in periodic boxes") {
+  compare_shortly(periodic_box(2.2, 2.3, 2.1), {2, 3});
+  compare_shortly(periodic_box(4.0, 5.0, 3.5), {12, 30});
+  compare_shortly(periodic_box(3.1, 3.2, 3.3), {20});    // dense
+  compare_shortly(periodic_box(4.0, 3.0, 1.2), {3, 9});  // one sphere high
+  compare_shortly(periodic_box(1.9, 2.05, 1.95), {2});   // one cell in all
+  compare_shortly(inelastic(periodic_box(4.0, 5.0, 3.5), 0.9), {12, 30});
+}
+
+TEST_CASE("Reference: spheres between walls of every kind, along every axis") {
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    for (const Wall& wall : {kStatic, kLossy, kDriven, kThermal, kSawtooth, kSinusoidal}) {
+      CAPTURE(static_cast<int>(wall.kind));
+      compare_shortly(with_walls(periodic_box(3.0, 3.2, 2.9), axis, wall), {2, 5});
+      compare_shortly(inelastic(with_walls(periodic_box(4.0, 4.2, 3.9), axis, wall), 0.8), {15});
+    }
+  }
+}
+
+TEST_CASE("Reference: spheres under gravity, kicked, rough, and with a t_c") {
+  const Model<3> small = with_walls(periodic_box(2.5, 2.6, 2.7), 2, kDriven);
+  const Model<3> wide = with_walls(periodic_box(4.0, 4.5, 4.0), 2, kDriven);
+  compare_shortly(inelastic(falling(small, {0.1, -0.2, -0.5}), 0.9), {2, 4});
+  compare_shortly(inelastic(falling(wide, {0.1, -0.2, -0.5}), 0.9), {15, 30});
+  compare_shortly(inelastic(kicked(periodic_box(2.5, 2.6, 2.7), 0.25, 0.5), 0.8), {2, 4});
+  compare_shortly(inelastic(kicked(periodic_box(4.0, 4.5, 4.0), 0.25, 0.5), 0.8), {30});
+  compare_shortly(inelastic(rough(small, 0.4, 0.6), 0.9), {2, 4});
+  compare_shortly(inelastic(rough(wide, 0.4, 0.6), 0.9), {15, 30});
+  compare_shortly(rough(wide, kInfinity, 1.0), {15});
+  compare_shortly(with_contact_time(inelastic(small, 0.5), 0.02), {2, 4});
+  compare_shortly(with_contact_time(inelastic(wide, 0.5), 0.02), {15, 30});
+  compare_shortly(everything<3>(), {2, 3, 15, 30});
 }

@@ -10,34 +10,41 @@
 
 namespace clatter::testing {
 
-// Plots of at least one diameter, in rows along x and y: the most nearly square that hold `count`.
-static IntVec<2> divide(const Model<2>& model, int count) {
-  IntVec<2> best = {0, 0};
+// Plots of at least one diameter, in rows along the axes: those nearest to cubes that hold `count`.
+template <int D>
+static IntVec<D> divide(const Model<D>& model, int count) {
+  IntVec<D> best = IntVec<D>::Zero(), plots = IntVec<D>::Ones();
   double widest = 0.0;
-  for (int ny = 1; ny * model.diameter <= model.box.y(); ++ny) {
-    const int nx = (count + ny - 1) / ny;
-    const double narrowest = std::min(model.box.x() / nx, model.box.y() / ny);
+  const auto fits = [&](int axis) { return plots[axis] * model.diameter <= model.box[axis]; };
+  while (fits(D - 1)) {
+    const int across = plots.prod() / plots[0];
+    plots[0] = (count + across - 1) / across;
+    const double narrowest = model.box.cwiseQuotient(plots.template cast<double>()).minCoeff();
     if (narrowest > widest) {
       widest = narrowest;
-      best = {nx, ny};
+      best = plots;
     }
+    for (int axis = 1; ++plots[axis], !fits(axis) && axis < D - 1; ++axis) plots[axis] = 1;
   }
   REQUIRE_MESSAGE(widest >= model.diameter, "no room for that many particles");
   return best;
 }
 
-State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed) {
-  State<2> state;
+template <int D>
+State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed) {
+  State<D> state;
   if (count == 0) return state;
-  const IntVec<2> plots = divide(model, count);
-  Vec2 mean = Vec2::Zero();
+  const IntVec<D> plots = divide(model, count);
+  Vec<D> mean = Vec<D>::Zero();
   for (int i = 0; i < count; ++i) {
     Random random(seed, Stream::Placement, static_cast<std::uint32_t>(i), 0);
-    const int at[2] = {i % plots[0], i / plots[0]};
-    Vec2 r, v;
-    for (int axis = 0; axis < 2; ++axis) {
+    Vec<D> r, v;
+    int left = i;
+    for (int axis = 0; axis < D; ++axis) {
+      const int at = left % plots[axis];
+      left /= plots[axis];
       const double edge = model.box[axis] / plots[axis];
-      const double middle = (at[axis] + 0.5) * edge;
+      const double middle = (at + 0.5) * edge;
       r[axis] = middle + (random.uniform() - 0.5) * (edge - model.diameter);
       v[axis] = random.normal();
     }
@@ -45,45 +52,56 @@ State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed) {
     state.velocities.push_back(v);
     mean += v / count;
   }
-  if (model.periodic(0) && model.periodic(1) && count > 1) {
-    for (Vec2& v : state.velocities) v -= mean;
+  const bool walled =
+      std::ranges::any_of(model.walls, [](const auto& wall) { return wall.has_value(); });
+  if (!walled && count > 1) {
+    for (Vec<D>& v : state.velocities) v -= mean;
   }
   return state;
 }
 
-State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed) {
-  Model<2> inner = model;
-  Vec2 low = Vec2::Zero();
-  for (int side = 0; side < 4; ++side) {
+template <int D>
+State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed) {
+  Model<D> inner = model;
+  Vec<D> low = Vec<D>::Zero();
+  for (int side = 0; side < 2 * D; ++side) {
     if (!model.walls[side]) continue;
     const double travel = model.walls[side]->innermost_travel();
     inner.box[side / 2] -= travel;
     if (side % 2 == 0) low[side / 2] = travel;
   }
-  State<2> state = random_gas(inner, count, seed);
-  for (Vec2& r : state.positions) r += low;
-  for (int i = 0; model.spins && i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
+  State<D> state = random_gas<D>(inner, count, seed);
+  for (Vec<D>& r : state.positions) r += low;
+  for (int i = 0; model.spins && i < count; ++i) {
+    Spin<D>& spin = state.spins.emplace_back();
+    for (int k = 0; k < spin.size(); ++k) spin[k] = 0.3 * i - 1.0 + 0.7 * k;
+  }
   return state;
 }
 
-double brute_force_overlap(const Model<2>& model, const State<2>& state) {
+template <int D>
+double brute_force_overlap(const Model<D>& model, const State<D>& state) {
   double deepest = 0.0;
-  const auto reach = [&](int axis) { return model.periodic(axis) ? 2 : 0; };
+  IntVec<D> reach;
+  for (int axis = 0; axis < D; ++axis) reach[axis] = model.periodic(axis) ? 2 : 0;
   const std::size_t count = state.positions.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec2& r = state.positions[i];
+    const Vec<D>& r = state.positions[i];
     for (std::size_t j = i + 1; j < count; ++j) {
-      const Vec2 x = r - state.positions[j];
-      for (int kx = -reach(0); kx <= reach(0); ++kx) {
-        for (int ky = -reach(1); ky <= reach(1); ++ky) {
-          const Vec2 image = x + Vec2(kx * model.box.x(), ky * model.box.y());
-          const double squared = image.squaredNorm();
-          if (squared >= model.diameter * model.diameter) continue;
+      const Vec<D> x = r - state.positions[j];
+      IntVec<D> image = -reach;
+      while (image[D - 1] <= reach[D - 1]) {
+        const double squared =
+            (x + image.template cast<double>().cwiseProduct(model.box)).squaredNorm();
+        if (squared < model.diameter * model.diameter) {
           deepest = std::max(deepest, 1.0 - std::sqrt(squared) / model.diameter);
+        }
+        for (int axis = 0; ++image[axis] > reach[axis] && axis < D - 1; ++axis) {
+          image[axis] = -reach[axis];
         }
       }
     }
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < D; ++axis) {
       if (model.periodic(axis)) continue;
       const double beyond =
           std::max(model.wall_plane(axis, 0) - r[axis], r[axis] - model.wall_plane(axis, 1));
@@ -93,22 +111,25 @@ double brute_force_overlap(const Model<2>& model, const State<2>& state) {
   return deepest;
 }
 
-Vec2 momentum(const State<2>& state) {
-  Vec2 sum = Vec2::Zero();
-  for (const Vec2& v : state.velocities) sum += v;
+template <int D>
+Vec<D> momentum(const State<D>& state) {
+  Vec<D> sum = Vec<D>::Zero();
+  for (const Vec<D>& v : state.velocities) sum += v;
   return sum;
 }
 
-bool finite_and_inside(const Model<2>& model, const State<2>& state) {
+template <int D>
+bool finite_and_inside(const Model<D>& model, const State<D>& state) {
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const Vec2& r = state.positions[i];
+    const Vec<D>& r = state.positions[i];
     if (!r.allFinite() || !state.velocities[i].allFinite()) return false;
     if ((r.array() < 0.0).any() || (r.array() > model.box.array()).any()) return false;
   }
   return true;
 }
 
-std::string stop_of(Simulation<2>& simulation, double time) {
+template <int D>
+std::string stop_of(Simulation<D>& simulation, double time) {
   try {
     simulation.run_until(time);
   } catch (const PhysicalStop& stop) {
@@ -117,9 +138,25 @@ std::string stop_of(Simulation<2>& simulation, double time) {
   return "";
 }
 
-void check_sound(const Simulation<2>& simulation) {
+template <int D>
+void check_sound(const Simulation<D>& simulation) {
   CHECK(simulation.checks().clock_steps_back < 1e-13);
   CHECK(simulation.checks().deepest_overlap < 1e-12);
 }
+
+template State<2> random_gas(const Model<2>&, int, std::uint64_t);
+template State<2> clear_gas(const Model<2>&, int, std::uint64_t);
+template double brute_force_overlap(const Model<2>&, const State<2>&);
+template Vec<2> momentum(const State<2>&);
+template bool finite_and_inside(const Model<2>&, const State<2>&);
+template std::string stop_of(Simulation<2>&, double);
+template void check_sound(const Simulation<2>&);
+template State<3> random_gas(const Model<3>&, int, std::uint64_t);
+template State<3> clear_gas(const Model<3>&, int, std::uint64_t);
+template double brute_force_overlap(const Model<3>&, const State<3>&);
+template Vec<3> momentum(const State<3>&);
+template bool finite_and_inside(const Model<3>&, const State<3>&);
+template std::string stop_of(Simulation<3>&, double);
+template void check_sound(const Simulation<3>&);
 
 }  // namespace clatter::testing

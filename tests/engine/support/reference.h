@@ -15,9 +15,10 @@ namespace clatter::testing {
 
 /// Notes when the base of a simulation's times moves. It rounds the starts of flights, so the same
 /// bits need the same moves; which rule they follow is no physics.
-class BaseMoves : public Observer<2> {
+template <int D>
+class BaseMoves : public Observer<D> {
  public:
-  explicit BaseMoves(Simulation<2>& simulation) : simulation_(simulation) {
+  explicit BaseMoves(Simulation<D>& simulation) : simulation_(simulation) {
     simulation.add_observer(*this);
   }
   /// Whether the base has moved right after so many collisions and kicks.
@@ -28,7 +29,7 @@ class BaseMoves : public Observer<2> {
   }
 
  private:
-  const Simulation<2>& simulation_;
+  const Simulation<D>& simulation_;
   std::set<std::uint64_t> events_;
 };
 
@@ -36,10 +37,11 @@ class BaseMoves : public Observer<2> {
 /// looked at, and the earliest event happens. No cells, no queue, nothing remembered between
 /// events. It uses the same pure functions of physics/ and the same outcomes of collisions, and
 /// moves its base when the simulation has, so that equal runs are equal to the last bit.
+template <int D>
 class Reference {
  public:
   /// `moves` are those of a simulation that has run as far as the reference will.
-  Reference(const Model<2>& model, const State<2>& state, const BaseMoves& moves);
+  Reference(const Model<D>& model, const State<D>& state, const BaseMoves<D>& moves);
 
   /// Runs until that many collisions with particles and walls have happened, or no event is left.
   void run_until_collisions(std::uint64_t collisions);
@@ -47,13 +49,13 @@ class Reference {
   std::uint64_t collisions() const { return particle_particle_; }
   std::uint64_t wall_hits() const { return particle_wall_; }
   std::uint64_t kicks() const { return kicks_; }
-  State<2> state() const;
+  State<D> state() const;
 
  private:
   struct Next {
     Event event{kNeverAgain, 0, 0};
-    IntVec<2> image =
-        IntVec<2>::Zero();  // added to particle's r minus partner's, event.particle lower
+    IntVec<D> image =
+        IntVec<D>::Zero();  // added to particle's r minus partner's, event.particle lower
   };
   static constexpr double kNeverAgain = 1e300;
 
@@ -66,20 +68,20 @@ class Reference {
   void collide(const Next& next);
   void hit_wall(const Event& event);
   bool within_contact_time(std::uint32_t i) const;
-  Spin<2> spin(std::uint32_t i) const;
-  void renew(std::uint32_t i, const Vec2& r, const Vec2& v, const Spin<2>& spin);
-  Vec2 wrapped(const Vec2& r) const;
+  Spin<D> spin(std::uint32_t i) const;
+  void renew(std::uint32_t i, const Vec<D>& r, const Vec<D>& v, const Spin<D>& spin);
+  Vec<D> wrapped(const Vec<D>& r) const;
   void move_base();
 
-  Model<2> model_;
+  Model<D> model_;
   Clock clock_;
-  Boundary<2> boundary_;
-  std::vector<Flight<2>> flights_;
-  std::vector<Spin<2>> spins_;
+  Boundary<D> boundary_;
+  std::vector<Flight<D>> flights_;
+  std::vector<Spin<D>> spins_;
   std::vector<double> last_collisions_;
   double now_ = 0.0;
   std::uint64_t particle_particle_ = 0, particle_wall_ = 0, kicks_ = 0;
-  const BaseMoves& moves_;
+  const BaseMoves<D>& moves_;
 };
 
 }  // namespace clatter::testing
