@@ -67,10 +67,11 @@ static std::string maps_table(const FieldMaps& maps) {
     for (std::size_t axis = 0; axis < cells.size(); ++axis) {
       const auto count = static_cast<std::size_t>(cells[axis]);
       const double middle = (static_cast<double>(rest % count) + 0.5) * maps.cell[axis];
-      fmt::format_to(std::back_inserter(table), axis == 0 ? "{:.17g}" : ",{:.17g}", middle);
+      fmt::format_to(std::back_inserter(table), "{}{:.17g}", axis == 0 ? "" : ",", middle);
       rest /= count;
     }
-    for (const FieldMap& map : maps.maps) fmt::format_to(std::back_inserter(table), ",{:.17g}", map.values[cell]);
+    for (const FieldMap& map : maps.maps)
+      fmt::format_to(std::back_inserter(table), ",{:.17g}", map.values[cell]);
     table += '\n';
   }
   return table;
