@@ -288,6 +288,8 @@ Imbalances<D>& Imbalances<D>::operator+=(const Imbalances& other) {
 }
 
 template struct Imbalances<2>;
+template struct Imbalances<3>;
 template class Balance<2>;
+template class Balance<3>;
 
 }  // namespace clatter

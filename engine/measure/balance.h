@@ -149,6 +149,8 @@ class Balance : public Observer<D> {
 };
 
 extern template struct Imbalances<2>;
+extern template struct Imbalances<3>;
 extern template class Balance<2>;
+extern template class Balance<3>;
 
 }  // namespace clatter

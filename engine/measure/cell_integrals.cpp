@@ -218,5 +218,6 @@ CellSums CellIntegrals<D>::close_window() {
 }
 
 template class CellIntegrals<2>;
+template class CellIntegrals<3>;
 
 }  // namespace clatter

@@ -102,5 +102,6 @@ class CellIntegrals : public Observer<D> {
 };
 
 extern template class CellIntegrals<2>;
+extern template class CellIntegrals<3>;
 
 }  // namespace clatter

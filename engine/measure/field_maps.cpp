@@ -46,5 +46,6 @@ void PartSums::join_neighbours() {
 }
 
 template FieldMap field_map(Field, const CellSums&, const FieldGrid<2>&, const MomentLayout<2>&);
+template FieldMap field_map(Field, const CellSums&, const FieldGrid<3>&, const MomentLayout<3>&);
 
 }  // namespace clatter

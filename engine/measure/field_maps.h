@@ -62,5 +62,7 @@ class PartSums {
 
 extern template FieldMap field_map(Field, const CellSums&, const FieldGrid<2>&,
                                    const MomentLayout<2>&);
+extern template FieldMap field_map(Field, const CellSums&, const FieldGrid<3>&,
+                                   const MomentLayout<3>&);
 
 }  // namespace clatter

@@ -316,6 +316,8 @@ Measured Measurement<D>::result() {
 }
 
 template double cells_memory<2>(const Measure&, bool);
+template double cells_memory<3>(const Measure&, bool);
 template class Measurement<2>;
+template class Measurement<3>;
 
 }  // namespace clatter

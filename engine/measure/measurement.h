@@ -115,6 +115,8 @@ class Measurement {
 };
 
 extern template double cells_memory<2>(const Measure&, bool);
+extern template double cells_memory<3>(const Measure&, bool);
 extern template class Measurement<2>;
+extern template class Measurement<3>;
 
 }  // namespace clatter

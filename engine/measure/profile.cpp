@@ -120,7 +120,10 @@ Profile profile_of(std::span<const CellSums> windows, const FieldGrid<D>& grid,
 }
 
 template CellSums columns_of(const CellSums&, const FieldGrid<2>&, Axis);
+template CellSums columns_of(const CellSums&, const FieldGrid<3>&, Axis);
 template Profile profile_of(std::span<const CellSums>, const FieldGrid<2>&, const MomentLayout<2>&,
+                            std::span<const Field>, Axis);
+template Profile profile_of(std::span<const CellSums>, const FieldGrid<3>&, const MomentLayout<3>&,
                             std::span<const Field>, Axis);
 
 }  // namespace clatter

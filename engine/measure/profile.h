@@ -32,7 +32,10 @@ Profile profile_of(std::span<const CellSums> windows, const FieldGrid<D>& grid,
                    const MomentLayout<D>& layout, std::span<const Field> fields, Axis axis);
 
 extern template CellSums columns_of(const CellSums&, const FieldGrid<2>&, Axis);
+extern template CellSums columns_of(const CellSums&, const FieldGrid<3>&, Axis);
 extern template Profile profile_of(std::span<const CellSums>, const FieldGrid<2>&,
                                    const MomentLayout<2>&, std::span<const Field>, Axis);
+extern template Profile profile_of(std::span<const CellSums>, const FieldGrid<3>&,
+                                   const MomentLayout<3>&, std::span<const Field>, Axis);
 
 }  // namespace clatter

@@ -58,5 +58,6 @@ void require_closed(const Residuals& residuals) {
 }
 
 template void Residuals::include(const Imbalances<2>&);
+template void Residuals::include(const Imbalances<3>&);
 
 }  // namespace clatter

@@ -36,5 +36,6 @@ void visit(Archive& io, Residuals& residuals) {
 }
 
 extern template void Residuals::include(const Imbalances<2>&);
+extern template void Residuals::include(const Imbalances<3>&);
 
 }  // namespace clatter

@@ -100,5 +100,6 @@ void Totals<D>::visit(Archive& io) {
 }
 
 extern template class Totals<2>;
+extern template class Totals<3>;
 
 }  // namespace clatter

@@ -10,34 +10,42 @@
 
 namespace clatter::testing {
 
-// Plots of at least one diameter, in rows along x and y: the most nearly square that hold `count`.
-static IntVec<2> divide(const Model<2>& model, int count) {
-  IntVec<2> best = {0, 0};
+// Plots of at least one diameter, in rows along the axes: the most nearly square that hold `count`.
+template <int D>
+static IntVec<D> divide(const Model<D>& model, int count) {
+  IntVec<D> best = IntVec<D>::Zero();
   double widest = 0.0;
-  for (int ny = 1; ny * model.diameter <= model.box.y(); ++ny) {
-    const int nx = (count + ny - 1) / ny;
-    const double narrowest = std::min(model.box.x() / nx, model.box.y() / ny);
-    if (narrowest > widest) {
-      widest = narrowest;
-      best = {nx, ny};
+  const double depth = D == 3 ? model.box[D - 1] : model.diameter;
+  for (int nz = 1; nz * model.diameter <= depth; ++nz) {
+    for (int ny = 1; ny * model.diameter <= model.box.y(); ++ny) {
+      const int rows = ny * nz;
+      const IntVec<3> plots((count + rows - 1) / rows, ny, nz);
+      const double narrowest =
+          model.box.cwiseQuotient(plots.head<D>().template cast<double>()).minCoeff();
+      if (narrowest > widest) {
+        widest = narrowest;
+        best = plots.head<D>();
+      }
     }
   }
   REQUIRE_MESSAGE(widest >= model.diameter, "no room for that many particles");
   return best;
 }
 
-State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed) {
-  State<2> state;
+template <int D>
+State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed) {
+  State<D> state;
   if (count == 0) return state;
-  const IntVec<2> plots = divide(model, count);
-  Vec2 mean = Vec2::Zero();
+  const IntVec<D> plots = divide(model, count);
+  Vec<D> mean = Vec<D>::Zero();
   for (int i = 0; i < count; ++i) {
     Random random(seed, Stream::Placement, static_cast<std::uint32_t>(i), 0);
-    const int at[2] = {i % plots[0], i / plots[0]};
-    Vec2 r, v;
-    for (int axis = 0; axis < 2; ++axis) {
+    Vec<D> r, v;
+    int rest = i;
+    for (int axis = 0; axis < D; ++axis) {
       const double edge = model.box[axis] / plots[axis];
-      const double middle = (at[axis] + 0.5) * edge;
+      const double middle = (rest % plots[axis] + 0.5) * edge;
+      rest /= plots[axis];
       r[axis] = middle + (random.uniform() - 0.5) * (edge - model.diameter);
       v[axis] = random.normal();
     }
@@ -45,26 +53,36 @@ State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed) {
     state.velocities.push_back(v);
     mean += v / count;
   }
-  if (model.periodic(0) && model.periodic(1) && count > 1) {
-    for (Vec2& v : state.velocities) v -= mean;
+  const bool walled = std::ranges::any_of(model.walls, [](const auto& wall) { return !!wall; });
+  if (!walled && count > 1) {
+    for (Vec<D>& v : state.velocities) v -= mean;
   }
   return state;
 }
 
-State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed) {
-  Model<2> inner = model;
-  Vec2 low = Vec2::Zero();
-  for (int side = 0; side < 4; ++side) {
+template <int D>
+State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed) {
+  Model<D> inner = model;
+  Vec<D> low = Vec<D>::Zero();
+  for (int side = 0; side < 2 * D; ++side) {
     if (!model.walls[side]) continue;
     const double travel = model.walls[side]->innermost_travel();
     inner.box[side / 2] -= travel;
     if (side % 2 == 0) low[side / 2] = travel;
   }
-  State<2> state = random_gas(inner, count, seed);
-  for (Vec2& r : state.positions) r += low;
-  for (int i = 0; model.spins && i < count; ++i) state.spins.push_back(Spin<2>(0.3 * i - 1.0));
+  State<D> state = random_gas(inner, count, seed);
+  for (Vec<D>& r : state.positions) r += low;
+  for (int i = 0; model.spins && i < count; ++i) {
+    Spin<D>& spin = state.spins.emplace_back();
+    for (int k = 0; k < spin.size(); ++k) spin[k] = 0.3 * i - 1.0 + 0.7 * k;
+  }
   return state;
 }
+
+template State<2> random_gas(const Model<2>&, int, std::uint64_t);
+template State<3> random_gas(const Model<3>&, int, std::uint64_t);
+template State<2> clear_gas(const Model<2>&, int, std::uint64_t);
+template State<3> clear_gas(const Model<3>&, int, std::uint64_t);
 
 double brute_force_overlap(const Model<2>& model, const State<2>& state) {
   double deepest = 0.0;

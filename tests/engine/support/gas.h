@@ -11,10 +11,12 @@ namespace clatter::testing {
 
 /// Particles at random places within equal plots of the box, with Gaussian velocities of
 /// temperature 1; without walls the momentum is zero.
-State<2> random_gas(const Model<2>& model, int count, std::uint64_t seed);
+template <int D>
+State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed);
 
 /// The same clear of wherever moving walls come, with spins where the model carries them.
-State<2> clear_gas(const Model<2>& model, int count, std::uint64_t seed);
+template <int D>
+State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed);
 
 /// Deepest overlap of any two particles, through any image, and of any particle with a wall, in
 /// diameters: every pair and every image is looked at.

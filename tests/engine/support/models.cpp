@@ -8,39 +8,15 @@ Model<2> periodic_box(double lx, double ly) {
   return model;
 }
 
-Model<2> with_walls(Model<2> model, int axis, const Wall& wall) {
-  model.walls[2 * axis] = model.walls[2 * axis + 1] = wall;
+Model<3> periodic_box(double lx, double ly, double lz) {
+  Model<3> model;
+  model.box = {lx, ly, lz};
+  model.inertia = 0.4;
   return model;
 }
 
 Model<2> four(const Wall& sides, const Wall& ends) {
   return with_walls(with_walls(periodic_box(9.0, 8.0), 0, sides), 1, ends);
-}
-
-Model<2> inelastic(Model<2> model, double restitution) {
-  model.restitution = restitution;
-  return model;
-}
-
-Model<2> rough(Model<2> model, double friction, double tangential_restitution) {
-  model.roughness = {friction, tangential_restitution};
-  model.spins = true;
-  return model;
-}
-
-Model<2> falling(Model<2> model, const Vec2& gravity) {
-  model.gravity = gravity;
-  return model;
-}
-
-Model<2> kicked(Model<2> model, double interval, double speed) {
-  model.bulk_drive = BulkDrive{interval, speed, model.spins ? speed : 0.0};
-  return model;
-}
-
-Model<2> with_contact_time(Model<2> model, double contact_time) {
-  model.contact_time = contact_time;
-  return model;
 }
 
 Model<2> everything() {

@@ -25,29 +25,55 @@ inline const Wall kSinusoidal{.kind = WallKind::Sinusoidal,
                               .frequency = 1.0,
                               .phase = 0.125};
 
-/// An elastic gas in a periodic box.
+/// An elastic gas in a periodic box, of disks or of spheres.
 Model<2> periodic_box(double lx, double ly);
+Model<3> periodic_box(double lx, double ly, double lz);
 
 /// The same box with the same wall at both ends of an axis.
-Model<2> with_walls(Model<2> model, int axis, const Wall& wall);
+template <int D>
+Model<D> with_walls(Model<D> model, int axis, const Wall& wall) {
+  model.walls[2 * axis] = model.walls[2 * axis + 1] = wall;
+  return model;
+}
 
 /// A box of 9 x 8 with the same walls at the ends of x, and of y.
 Model<2> four(const Wall& sides, const Wall& ends);
 
 /// The same model, whose particles lose energy.
-Model<2> inelastic(Model<2> model, double restitution);
+template <int D>
+Model<D> inelastic(Model<D> model, double restitution) {
+  model.restitution = restitution;
+  return model;
+}
 
 /// The same model, whose particles are rough and spin.
-Model<2> rough(Model<2> model, double friction, double tangential_restitution);
+template <int D>
+Model<D> rough(Model<D> model, double friction, double tangential_restitution) {
+  model.roughness = {friction, tangential_restitution};
+  model.spins = true;
+  return model;
+}
 
 /// The same model under gravity.
-Model<2> falling(Model<2> model, const Vec2& gravity);
+template <int D>
+Model<D> falling(Model<D> model, const Vec<D>& gravity) {
+  model.gravity = gravity;
+  return model;
+}
 
 /// The same model with kicks, of spins too where these are carried.
-Model<2> kicked(Model<2> model, double interval, double speed);
+template <int D>
+Model<D> kicked(Model<D> model, double interval, double speed) {
+  model.bulk_drive = BulkDrive{interval, speed, model.spins ? speed : 0.0};
+  return model;
+}
 
 /// The same model with a t_c.
-Model<2> with_contact_time(Model<2> model, double contact_time);
+template <int D>
+Model<D> with_contact_time(Model<D> model, double contact_time) {
+  model.contact_time = contact_time;
+  return model;
+}
 
 /// All there is: four kinds of walls, rough particles, gravity, kicks, t_c.
 Model<2> everything();
