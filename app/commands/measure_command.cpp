@@ -191,7 +191,7 @@ int measure(const MeasureOptions& options) {
 
   const double cpu_before = cpu_seconds();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
-  Measurement& measurement = run.measure(end);
+  Measurement<2>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
   {

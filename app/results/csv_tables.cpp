@@ -48,25 +48,31 @@ static std::string profile_table(const Profile& profile) {
 
 // A line for each cell, which its middle tells.
 static std::string maps_table(const FieldMaps& maps) {
-  const auto dimension = static_cast<int>(maps.cell.size());
-  std::string units = std::string("# units, ") + kUnits + "; x: a, y: a";
-  std::string header = "x,y";
+  const std::vector<int>& cells = maps.maps.front().cells;
+  std::string units = std::string("# units, ") + kUnits;
+  std::string header;
+  for (std::size_t axis = 0; axis < cells.size(); ++axis) {
+    const std::string name(kAxes[axis].name);
+    units += (axis == 0 ? "; " : ", ") + name + ": a";
+    header += (axis == 0 ? "" : ",") + name;
+  }
   for (const FieldMap& map : maps.maps) {
     const std::string name = name_of(map.field);
-    units += ", " + name + ": " + unit_of(map.field.quantity, dimension);
+    units += ", " + name + ": " + unit_of(map.field.quantity, static_cast<int>(cells.size()));
     header += "," + name;
   }
   std::string table = units + "\n" + header + "\n";
-  const int columns = maps.maps.front().cells[0], rows = maps.maps.front().cells[1];
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      fmt::format_to(std::back_inserter(table), "{:.17g},{:.17g}", (i + 0.5) * maps.cell.x(),
-                     (j + 0.5) * maps.cell.y());
-      const auto cell = static_cast<std::size_t>(j * columns + i);
-      for (const FieldMap& map : maps.maps)
-        fmt::format_to(std::back_inserter(table), ",{:.17g}", map.values[cell]);
-      table += '\n';
+  for (std::size_t cell = 0; cell < maps.maps.front().values.size(); ++cell) {
+    std::size_t rest = cell;
+    for (std::size_t axis = 0; axis < cells.size(); ++axis) {
+      const auto count = static_cast<std::size_t>(cells[axis]);
+      const double middle = (static_cast<double>(rest % count) + 0.5) * maps.cell[axis];
+      fmt::format_to(std::back_inserter(table), "{}{:.17g}", axis == 0 ? "" : ",", middle);
+      rest /= count;
     }
+    for (const FieldMap& map : maps.maps)
+      fmt::format_to(std::back_inserter(table), ",{:.17g}", map.values[cell]);
+    table += '\n';
   }
   return table;
 }

@@ -134,19 +134,19 @@ void write_profile(const H5::Group& group, const Profile& profile) {
   }
 }
 
-// The edges of a grid's cells along both axes.
+// The edges of a grid's cells along every axis.
 void write_edges(const H5::Group& group, const FieldMaps& maps) {
-  for (int axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < maps.cell.size(); ++axis) {
     const int cells = maps.maps.front().cells[axis];
     const double length = cells * maps.cell[axis];
     std::vector<double> edges;
     for (int i = 0; i <= cells; ++i) edges.push_back(length * i / cells);  // as those of profiles
-    write_dataset(group, axis == 0 ? "x_edges" : "y_edges", "a", edges);
+    write_dataset(group, std::string(kAxes[axis].name) + "_edges", "a", edges);
   }
 }
 
 Shape shape_of(const FieldMap& map) {
-  return {static_cast<hsize_t>(map.cells[1]), static_cast<hsize_t>(map.cells[0])};
+  return {map.cells.rbegin(), map.cells.rend()};
 }
 
 std::string map_unit(const FieldMap& map) {

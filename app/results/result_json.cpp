@@ -24,17 +24,20 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
     if (estimate) estimates.emplace_back(name, *estimate);
   };
   add("temperature", measured.temperature);
-  add("temperature_x", measured.temperature_x);
-  add("temperature_y", measured.temperature_y);
+  const auto add_axes = [&](const std::string& name, const std::vector<Estimate>& estimates) {
+    for (std::size_t axis = 0; axis < estimates.size(); ++axis) {
+      add(name + '_' + std::string(kAxes[axis].name), estimates[axis]);
+    }
+  };
+  add_axes("temperature", measured.axis_temperatures);
   add("spin_temperature", measured.spin_temperature);
-  add("kurtosis_excess_x", measured.kurtosis_excess_x);
-  add("kurtosis_excess_y", measured.kurtosis_excess_y);
+  add_axes("kurtosis_excess", measured.kurtosis_excess);
   add("collision_rate", measured.collision_rate);
   add("energy.walls_in", measured.walls_in);
   add("energy.bulk_in", measured.bulk_in);
   add("energy.gravity_in", measured.gravity_in);
   add("energy.dissipated", measured.dissipated);
-  for (int side = 0; side < 4; ++side) {
+  for (std::size_t side = 0; side < measured.pressure.size(); ++side) {
     add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
   }
   add("pressure.virial", measured.compressibility);
@@ -63,9 +66,10 @@ static Json profile_json(const Profile& profile) {
 
 // The largest of Eqs. (4.1)-(4.3), of momentum that of its components.
 static Json balance_json(const Residuals& residuals) {
-  const Conserved<2> largest = residuals.largest();
-  return {
-      {"mass", largest[0]}, {"momentum", std::max(largest[1], largest[2])}, {"energy", largest[3]}};
+  const std::vector<double> largest = residuals.largest();
+  return {{"mass", largest.front()},
+          {"momentum", *std::max_element(largest.begin() + 1, largest.end() - 1)},
+          {"energy", largest.back()}};
 }
 
 Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,

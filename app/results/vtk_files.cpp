@@ -89,20 +89,23 @@ std::string head(const std::string& type, const std::string& origin) {
 // The values stand raw behind the XML, as VTK's own writer may put them: exact, NaN included.
 std::string image_data(const FieldMaps& maps, const std::string& origin) {
   const auto dimension = static_cast<int>(maps.cell.size());
-  const int columns = maps.maps.front().cells[0], rows = maps.maps.front().cells[1];
-  const std::string extent =
-      "\"0 " + std::to_string(columns) + " 0 " + std::to_string(rows) + " 0 0\"";
+  std::string extent, spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool off_plane = axis >= dimension;
+    const std::string gap = axis == 0 ? "" : " ";
+    extent += gap + "0 " + std::to_string(off_plane ? 0 : maps.maps.front().cells[axis]);
+    spacing += gap + number_text(off_plane ? 1.0 : maps.cell[axis]);
+  }
   std::string data;
-  std::string xml = head("ImageData", origin) + "  <ImageData WholeExtent=" + extent +
-                    " Origin=\"0 0 0\" Spacing=\"" + number_text(maps.cell.x()) + " " +
-                    number_text(maps.cell.y()) + " 1\">\n" +
+  std::string xml = head("ImageData", origin) + "  <ImageData WholeExtent=\"" + extent +
+                    "\" Origin=\"0 0 0\" Spacing=\"" + spacing + "\">\n" +
                     "    <FieldData>\n"
                     "      <DataArray type=\"Float64\" Name=\"time\" NumberOfTuples=\"2\" "
                     "format=\"ascii\">" +
                     number_text(maps.begin) + " " + number_text(maps.end) +
                     "</DataArray>\n    </FieldData>\n"
-                    "    <Piece Extent=" +
-                    extent + ">\n      <CellData>\n";
+                    "    <Piece Extent=\"" +
+                    extent + "\">\n      <CellData>\n";
   for (const DataArray& array : arrays_of(maps)) {
     xml += "        <DataArray type=\"Float64\" " + attributes_of(array) +
            " format=\"appended\" offset=\"" + std::to_string(data.size()) +

@@ -39,14 +39,14 @@ static std::string percent(double share) {
 
 // The time of the first look at the error from a time on: each is about a sixteenth later than the
 // last.
-static double look_from(const Measurement& measurement, double from) {
+static double look_from(const Measurement<2>& measurement, double from) {
   double windows = 256.0;
   const auto time = [&] { return measurement.averages_start() + windows * measurement.window(); };
   while (time() < from) windows += std::floor(windows / 16.0);
   return time();
 }
 
-void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement& measurement, double end,
+void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measurement, double end,
                  Progress& progress) {
   // A run that goes on may have been put aside when it had come to a look, but not looked.
   double look = look_from(measurement, run.simulation().time());

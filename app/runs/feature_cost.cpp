@@ -38,8 +38,8 @@ FeatureCost fields_of(const Scene& scene) {
     const bool averages = !std::ranges::all_of(measure.fields, is_residual);
     price = averages ? price + kBalanceCost - 1.0 : kBalanceCost;
   }
-  return {"fields", names_of(measure.fields, static_cast<int>(scene.box.size())),
-          cells_memory(measure, scene.spins()), price};
+  return {"fields", names_of(measure.fields, scene.dimension()),
+          cells_memory<2>(measure, scene.spins()), price};
 }
 
 // A kick of a disk costs about half a collision of two; at the start's temperature.

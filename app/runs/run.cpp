@@ -76,7 +76,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   }
 }
 
-Measurement& Run::measure(double end) {
+Measurement<2>& Run::measure(double end) {
   measure_end_ = end;
   run_->on_change = [this](Simulation<2>& next) { measure_on(next); };
   if (!averages_go_on_) {

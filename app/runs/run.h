@@ -37,7 +37,7 @@ class Run {
   std::uint64_t seed() const { return seed_; }
   /// What [measure] asks for, averaged to `end`, or on from where the checkpoint left it; its
   /// checkpoints keep it. Throws UserError where the block asks for something else than before.
-  Measurement& measure(double end);
+  Measurement<2>& measure(double end);
 
   /// Runs up to a simulation time in slices of about a tenth of a second, between which progress is
   /// shown and interrupts are seen; false where the run was interrupted or stopped first.
@@ -72,7 +72,7 @@ class Run {
   std::uint64_t seed_;
   std::optional<ScheduledRun> run_;
   double measure_end_ = 0.0;
-  std::optional<Measurement> measurement_;
+  std::optional<Measurement<2>> measurement_;
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // of the last checkpoint

@@ -162,7 +162,7 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   std::vector<LivePlot> plots;
   if (frame.profile && profiled < frame.profile->fields.size()) {
     plots.push_back(
-        profile_plot(*frame.profile, profiled, static_cast<int>(frame.scene->box.size())));
+        profile_plot(*frame.profile, profiled, frame.scene->dimension()));
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));

@@ -66,7 +66,7 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
 static bool choose_field(const Session& session, Controls& controls, View& view) {
   std::vector<std::string> words = {"none"};
   std::vector<std::optional<Field>> fields = {std::nullopt};
-  for (const auto& [name, field] : field_names(static_cast<int>(session.scene().box.size()))) {
+  for (const auto& [name, field] : field_names(session.scene().dimension())) {
     if (of_spins(field) && !session.scene().spins()) continue;
     words.push_back(in_words(name));
     fields.emplace_back(field);

@@ -29,20 +29,21 @@ static Conserved<D> given(const ParticleChange<D>& change) {
 template <int D>
 Balance<D>::Balance(const Simulation<D>& simulation, const IntVec<D>& cells)
     : simulation_(simulation),
-      paths_(simulation.model(), cells),
+      grid_(simulation.model(), cells),
       window_start_(simulation.base_time()) {
   const Vec<D>& gravity = simulation.model().gravity;
   for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
     const Flight<D>& flight = simulation.particles()[i].flight;
-    const IntVec<D> cell = paths_.cell_at(flight.at(window_start_, gravity));
-    particles_.push_back({cell, cell, flight.velocity_at(window_start_, gravity), spin(i)});
+    const Cell cell = grid_.cell_at(flight.at(window_start_, gravity));
+    particles_.push_back(
+        {cell, grid_.index_of(cell), flight.velocity_at(window_start_, gravity), spin(i)});
   }
   clear();
 }
 
 template <int D>
 void Balance<D>::clear() {
-  const auto count = static_cast<std::size_t>(cells().prod());
+  const auto count = grid_.size();
   for (auto& faces : booked_.faces) faces.assign(count, {});
   booked_.sources.assign(count, {});
   booked_.weights.assign(count, Conserved<D>::Zero());
@@ -78,68 +79,61 @@ Conserved<D> Balance<D>::gained(const Tracked& particle, const Vec<D>& velocity,
                           half_inertia() * dw.dot(spin + particle.first_spin));
 }
 
-// A crossing at the very end is left to what comes then: a collision may have turned the particle
-// back.
 template <int D>
 void Balance<D>::follow(std::uint32_t particle, const Flight<D>& flight, double end) {
-  IntVec<D>& cell = particles_[particle].cell;
-  double time = std::max(flight.time, window_start_);
-  FaceCrossing last;
-  for (;;) {
-    FaceCrossing next = paths_.next_crossing(flight, cell, time);
-    // The top of a parabola on a face may fall back within less than a time's rounding, and would
-    // cross to and fro at one time for ever.
-    if (next.axis == last.axis && next.step == -last.step) {
-      next.at = std::max(next.at, std::nextafter(time, kNever));
-    }
-    if (!(next.at < end)) break;
-    fall(cell, flight, time, next.at);
-    time = next.at;
-    const Vec<D> v = flight.velocity_at(time, simulation_.model().gravity);
-    pass(cell, next.axis, next.step, carried(v, spin(particle)));
-    cell = paths_.beyond(cell, next.axis, next.step);
-    last = next;
-  }
-  fall(cell, flight, time, end);
+  const Vec<D>& gravity = simulation_.model().gravity;
+  const double begin = std::max(flight.time, window_start_);
+  Cell& cell = particles_[particle].cell;
+  cell = grid_.image_at(cell, flight.at(begin, gravity));
+  grid_.walk(
+      flight, gravity, cell, begin, end,
+      [&](const Cell& cell, double from, double until) { fall(cell, flight, from, until); },
+      [&](const Cell& cell, double time, int axis, int step) {
+        pass(cell, axis, step, carried(flight.velocity_at(time, gravity), spin(particle)));
+      });
 }
 
 // Gravity's force and its work on a particle, the integrals of g and of g.v.
 template <int D>
-void Balance<D>::fall(const IntVec<D>& cell, const Flight<D>& flight, double begin, double end) {
+void Balance<D>::fall(const Cell& cell, const Flight<D>& flight, double begin, double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
   const Vec<D> v = flight.velocity_at(begin, gravity);
   const Vec<D> w = flight.velocity_at(end, gravity);
   const Vec<D> gained = (end - begin) * gravity;
   arise(cell, conserved<D>(0.0, gained, 0.5 * gained.dot(v + w)));
   const double weight = 0.5 * gained.cwiseAbs().dot(v.cwiseAbs() + w.cwiseAbs());
-  booked_.weights[paths_.index(cell)] += conserved<D>(0.0, Vec<D>::Zero(), weight);
+  booked_.weights[grid_.index_of(cell)] += conserved<D>(0.0, Vec<D>::Zero(), weight);
 }
 
 template <int D>
-void Balance<D>::arise(const IntVec<D>& cell, const Conserved<D>& amount) {
-  add<D>(booked_.sources[paths_.index(cell)], amount);
+void Balance<D>::arise(const Cell& cell, const Conserved<D>& amount) {
+  add<D>(booked_.sources[grid_.index_of(cell)], amount);
+}
+
+// What leaves for the same cell, beyond a wall or round a box of one cell, passes no face.
+template <int D>
+void Balance<D>::pass(const Cell& cell, int axis, int step, const Conserved<D>& amount) {
+  Cell next = cell;
+  next[axis] += step;
+  const std::size_t index = grid_.index_of(cell), beyond = grid_.index_of(next);
+  if (index == beyond) return;
+  add<D>(booked_.faces[axis][step > 0 ? index : beyond], step * amount);
 }
 
 template <int D>
-void Balance<D>::pass(const IntVec<D>& cell, int axis, int step, const Conserved<D>& amount) {
-  const IntVec<D> below = step > 0 ? cell : paths_.beyond(cell, axis, step);
-  add<D>(booked_.faces[axis][paths_.index(below)], step * amount);
-}
-
-template <int D>
-void Balance<D>::transport(const Vec<D>& start, const Vec<D>& branch, IntVec<D> from,
-                           const IntVec<D>& to, const Conserved<D>& amount) {
-  for (const FaceCrossing& crossing : paths_.along(start, branch, from, to)) {
-    pass(from, crossing.axis, crossing.step, amount);
-    from = paths_.beyond(from, crossing.axis, crossing.step);
-  }
+void Balance<D>::transport(const Vec<D>& start, const Vec<D>& branch, const Cell& from,
+                           const Cell& to, const Conserved<D>& amount) {
+  grid_.walk(
+      start, branch, grid_.image_at(from, start), grid_.image_at(to, start + branch),
+      [](const Cell&, double) {},
+      [&](const Cell& cell, int axis, int step) { pass(cell, axis, step, amount); });
 }
 
 // Energies in full, p.v and p^2/2: at a wall that takes none they cancel.
 template <int D>
 void Balance<D>::weigh(const ParticleChange<D>& change) {
   const Vec<D>& p = change.gain.momentum;
-  booked_.weights[paths_.index(particles_[change.particle].cell)] +=
+  booked_.weights[grid_.index_of(particles_[change.particle].cell)] +=
       conserved<D>(0.0, p.cwiseAbs(), 0.5 * p.squaredNorm() + std::fabs(p.dot(change.velocity)));
 }
 
@@ -152,8 +146,8 @@ void Balance<D>::on_collision(const PairCollision<D>& collision) {
     follow(particle.particle, particle.before, collision.time);
     weigh(particle);
   }
-  const IntVec<D>& to = particles_[first.particle].cell;
-  const IntVec<D>& from = particles_[second.particle].cell;
+  const Cell& to = particles_[first.particle].cell;
+  const Cell& from = particles_[second.particle].cell;
   transport(first.position - collision.separation, collision.separation, from, to,
             0.5 * (given<D>(first) - given<D>(second)));
   const Conserved<D> source = 0.5 * (given<D>(first) + given<D>(second));
@@ -172,9 +166,9 @@ void Balance<D>::on_wall(const WallCollision<D>& collision) {
   const Vec<D> branch =
       0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side) * Vec<D>::Unit(axis);
   const Vec<D> touching = particle.position - branch;
-  const IntVec<D>& to = particles_[particle.particle].cell;
-  IntVec<D> from = to;
-  from[axis] = paths_.cell_at(touching)[axis];
+  const Cell& to = particles_[particle.particle].cell;
+  Cell from = to;
+  from[axis] = grid_.cell_at(touching)[axis];
   arise(from, given<D>(particle));
   transport(touching, branch, from, to, given<D>(particle));
 }
@@ -208,8 +202,9 @@ Imbalances<D> Balance<D>::take_changes(double now) {
     // The cell to which it was followed decides where rounding would; a particle that is elsewhere
     // was followed wrongly, which must show.
     const Vec<D> r = flight.at(now, gravity);
-    if (!paths_.is_current(particle.cell, r)) particle.cell = paths_.cell_at(r);
-    const std::size_t to = paths_.index(particle.cell), from = paths_.index(particle.first_cell);
+    particle.cell = grid_.image_at(particle.cell, r);
+    if (!grid_.contains(particle.cell, r)) particle.cell = grid_.cell_at(r);
+    const std::size_t to = grid_.index_of(particle.cell), from = particle.first_cell;
     const Conserved<D> last = carried(v, spin(i));
     const Conserved<D> first = carried(particle.first_velocity, particle.first_spin);
     if (to == from) {
@@ -220,20 +215,22 @@ Imbalances<D> Balance<D>::take_changes(double now) {
     }
     taken.sizes[to] += share * last.cwiseAbs();
     taken.sizes[from] += share * first.cwiseAbs();
-    particle = {particle.cell, particle.cell, v, spin(i)};
+    particle = {particle.cell, to, v, spin(i)};
   }
   return taken;
 }
 
-// The lowest faces along an axis are the highest ones: they are where the axis is periodic, and
-// nothing passes through either where it is walled.
+// The lower faces of a cell are the upper ones of the cells below; the lowest cell between walls
+// has none.
 template <int D>
 Booked<D> Balance<D>::booked_at(std::size_t index) const {
-  const IntVec<D> cell = paths_.cell(index);
   Booked<D> booked = booked_.sources[index];
   booked.size += booked_.weights[index];
   for (int axis = 0; axis < D; ++axis) {
-    const Booked<D>& in = booked_.faces[axis][paths_.index(paths_.beyond(cell, axis, -1))];
+    Cell below = grid_.cell_of(index);
+    --below[axis];
+    const std::size_t lower = grid_.index_of(below);
+    const Booked<D> in = lower == index ? Booked<D>() : booked_.faces[axis][lower];
     const Booked<D>& out = booked_.faces[axis][index];
     booked.net += in.net - out.net;
     booked.size += in.size + out.size;
@@ -291,6 +288,8 @@ Imbalances<D>& Imbalances<D>::operator+=(const Imbalances& other) {
 }
 
 template struct Imbalances<2>;
+template struct Imbalances<3>;
 template class Balance<2>;
+template class Balance<3>;
 
 }  // namespace clatter

@@ -6,7 +6,7 @@
 
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/simulation.h"
-#include "engine/measure/cell_path.h"
+#include "engine/measure/field_grid.h"
 
 namespace clatter {
 
@@ -100,20 +100,22 @@ class Balance : public Observer<D> {
   BalanceWindow<D> close_window();
 
   /// Number of cells along each axis.
-  const IntVec<D>& cells() const { return paths_.cells(); }
+  const IntVec<D>& cells() const { return grid_.cells(); }
 
   /// What a checkpoint keeps, of a simulation that goes on at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [simulation, paths, particles, window_start, booked] = *this;
+    auto& [simulation, grid, particles, window_start, booked] = *this;
     io(particles, window_start, booked);
   }
 
  private:
+  using Cell = typename FieldGrid<D>::Cell;
+
   /// A particle as far as it has been followed, and what it was at the window's start.
   struct Tracked {
-    IntVec<D> cell;
-    IntVec<D> first_cell;
+    Cell cell;
+    std::uint64_t first_cell;  // index
     Vec<D> first_velocity;
     Spin<D> first_spin;
 
@@ -129,24 +131,26 @@ class Balance : public Observer<D> {
   Conserved<D> carried(const Vec<D>& velocity, const Spin<D>& spin) const;
   Conserved<D> gained(const Tracked& particle, const Vec<D>& velocity, const Spin<D>& spin) const;
   void follow(std::uint32_t particle, const Flight<D>& flight, double end);
-  void fall(const IntVec<D>& cell, const Flight<D>& flight, double begin, double end);
+  void fall(const Cell& cell, const Flight<D>& flight, double begin, double end);
   void weigh(const ParticleChange<D>& change);
-  void transport(const Vec<D>& start, const Vec<D>& branch, IntVec<D> from, const IntVec<D>& to,
+  void transport(const Vec<D>& start, const Vec<D>& branch, const Cell& from, const Cell& to,
                  const Conserved<D>& amount);
-  void pass(const IntVec<D>& cell, int axis, int step, const Conserved<D>& amount);
-  void arise(const IntVec<D>& cell, const Conserved<D>& amount);
+  void pass(const Cell& cell, int axis, int step, const Conserved<D>& amount);
+  void arise(const Cell& cell, const Conserved<D>& amount);
   void clear();
   Imbalances<D> take_changes(double now);
   Booked<D> booked_at(std::size_t index) const;
 
   const Simulation<D>& simulation_;
-  CellPath<D> paths_;
+  FieldGrid<D> grid_;
   std::vector<Tracked> particles_;  // [N]
   double window_start_;
   Bookings<D> booked_;
 };
 
 extern template struct Imbalances<2>;
+extern template struct Imbalances<3>;
 extern template class Balance<2>;
+extern template class Balance<3>;
 
 }  // namespace clatter

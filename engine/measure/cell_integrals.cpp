@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/physics/fall_time.h"
-
 namespace clatter {
 
 CellSums& CellSums::operator+=(const CellSums& other) {
@@ -93,48 +91,27 @@ void CellIntegrals<D>::add_flight(const Flight<D>& flight, const Spin<D>& spin, 
   const double begin = std::max(flight.time, window_start_);
   const double spent = end - begin;
   if (!(spent > 0.0)) return;
-  if ((gravity.array() != 0.0).any()) return add_fall(flight, spin, begin, end);
+  if (simulation_.model().has_gravity()) return add_fall(flight, spin, begin, end);
   const Rates rates = rates_of(flight.v, Vec<D>::Zero(), spin);
   grid_.cut(flight.at(begin, gravity), flight.v * spent, [&](std::size_t cell, double share) {
     add(cell, 0, layout_.kinetic, rates.data(), share * spent);
   });
 }
 
-// Walks a parabola from border to border.
 template <int D>
 void CellIntegrals<D>::add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin,
                                 double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
   auto cell = grid_.cell_at(flight.at(begin, gravity));
-  for (double time = begin; time < end;) {
-    const Crossing next = next_crossing(flight, cell, time);
-    const double until = std::min(next.time, end);
-    const double spent = until - time;
-    const Vec<D> v = flight.velocity_at(time + 0.5 * spent, gravity);
-    const Rates rates = rates_of(v, spent * gravity, spin);
-    add(grid_.index_of(cell), 0, layout_.kinetic, rates.data(), spent);
-    time = until;
-    cell[next.axis] += next.step;
-  }
-}
-
-// Along each axis a straight flight has one border ahead, a parabola may return to the one behind.
-template <int D>
-typename CellIntegrals<D>::Crossing CellIntegrals<D>::next_crossing(
-    const Flight<D>& flight, const typename FieldGrid<D>::Cell& cell, double time) const {
-  const Vec<D>& gravity = simulation_.model().gravity;
-  const Vec<D> r = flight.at(time, gravity);
-  const Vec<D> v = flight.velocity_at(time, gravity);
-  Crossing next;
-  for (int axis = 0; axis < D; ++axis) {
-    for (const int step : {-1, 1}) {
-      const double border = static_cast<double>(cell[axis] + (step > 0)) * grid_.widths()[axis];
-      const double crossing =
-          time + fall_time(step * (border - r[axis]), -step * v[axis], -step * gravity[axis]);
-      if (crossing < next.time) next = {crossing, axis, step};
-    }
-  }
-  return next;
+  grid_.walk(
+      flight, gravity, cell, begin, end,
+      [&](const auto& cell, double from, double until) {
+        const double spent = until - from;
+        const Vec<D> v = flight.velocity_at(from + 0.5 * spent, gravity);
+        const Rates rates = rates_of(v, spent * gravity, spin);
+        add(grid_.index_of(cell), 0, layout_.kinetic, rates.data(), spent);
+      },
+      [](const auto&, double, int, int) {});
 }
 
 template <int D>
@@ -241,5 +218,6 @@ CellSums CellIntegrals<D>::close_window() {
 }
 
 template class CellIntegrals<2>;
+template class CellIntegrals<3>;
 
 }  // namespace clatter

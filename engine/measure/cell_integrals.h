@@ -77,18 +77,10 @@ class CellIntegrals : public Observer<D> {
  private:
   /// A row of kinetic sums, per particle.
   using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + kSpinSize<D>>;
-  /// A flight's way out of a cell.
-  struct Crossing {
-    double time = kNever;
-    int axis = 0;
-    int step = 0;  // +1 or -1
-  };
 
   Rates rates_of(const Vec<D>& v, const Vec<D>& change, const Spin<D>& spin) const;
   void add_flight(const Flight<D>& flight, const Spin<D>& spin, double end);
   void add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin, double end);
-  Crossing next_crossing(const Flight<D>& flight, const typename FieldGrid<D>::Cell& cell,
-                         double time) const;
   void end_flight(const ParticleChange<D>& particle, double time);
   void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
                     double energy);
@@ -110,5 +102,6 @@ class CellIntegrals : public Observer<D> {
 };
 
 extern template class CellIntegrals<2>;
+extern template class CellIntegrals<3>;
 
 }  // namespace clatter

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "engine/dynamics/model.h"
+#include "engine/physics/fall_time.h"
+#include "engine/physics/flight.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -13,6 +15,10 @@ namespace clatter {
 /// Equal cells over the whole box. Along each axis cells are numbered from 0 at the box's low end
 /// on, without end to either side; folding brings such a number into the box: periodically, or,
 /// between walls, into the edge cell, which takes what lies beyond.
+///
+/// On which side of a border a place lies is a matter of rounding. Who must not count a particle
+/// twice, or not at all, therefore carries its cell from border to border: walks start, and lines
+/// end, in the cells that are given.
 template <int D>
 class FieldGrid {
  public:
@@ -20,7 +26,8 @@ class FieldGrid {
   using Cell = std::array<long, D>;
 
   FieldGrid(const Model<D>& model, const IntVec<D>& cells)
-      : cells_(cells),
+      : box_(model.box),
+        cells_(cells),
         widths_(model.box.cwiseQuotient(cells.template cast<double>())),
         per_width_(widths_.cwiseInverse()) {
     for (int axis = 0; axis < D; ++axis) periodic_[axis] = model.periodic(axis);
@@ -55,6 +62,35 @@ class FieldGrid {
     return centre;
   }
 
+  /// The image of a cell that lies at a place in it: periodic axes shift it by whole boxes.
+  Cell image_at(Cell cell, const Vec<D>& place) const {
+    const Vec<D> ahead = place - centre_of(cell);
+    for (int axis = 0; axis < D; ++axis) {
+      if (!periodic_[axis]) continue;
+      cell[axis] += std::lround(ahead[axis] / box_[axis]) * cells_[axis];
+    }
+    return cell;
+  }
+
+  /// Whether a place lies in a cell, not folded, to within rounding: more than what long flights
+  /// gather, less than any cell.
+  bool contains(const Cell& cell, const Vec<D>& place) const {
+    constexpr double kRounding = 1e-9;  // in box lengths
+    const Vec<D> ahead = place - centre_of(cell);
+    return (ahead.cwiseAbs().array() <= 0.5 * widths_.array() + kRounding * box_.array()).all();
+  }
+
+  /// The cell in the box that has an index.
+  Cell cell_of(std::size_t index) const {
+    Cell cell;
+    for (int axis = 0; axis < D; ++axis) {
+      const auto count = static_cast<std::size_t>(cells_[axis]);
+      cell[axis] = static_cast<long>(index % count);
+      index /= count;
+    }
+    return cell;
+  }
+
   /// Index of a cell, folded: in the plane (i, j) has i + j cells().x().
   std::size_t index_of(const Cell& cell) const {
     std::size_t index = 0;
@@ -69,10 +105,21 @@ class FieldGrid {
   /// of share 1.
   template <class Visit>
   void cut(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
-    Cell cell = cell_at(from);
-    const Cell last = cell_at(from + along);
+    walk(
+        from, along, cell_at(from), cell_at(from + along),
+        [&](const Cell& cell, double share) { visit(index_of(cell), share); },
+        [](const Cell&, int, int) {});
+  }
+
+  /// Walks along the line from `from` in `cell` to `from + along` in `last`. Calls piece(cell,
+  /// share) for each piece, and cross(cell, axis, step) where the line leaves a cell, along an axis
+  /// by a step of 1 or -1. How many borders it crosses follows from the two cells, only their order
+  /// from the places.
+  template <class Piece, class Cross>
+  void walk(const Vec<D>& from, const Vec<D>& along, Cell cell, const Cell& last, Piece&& piece,
+            Cross&& cross) const {
     if (cell == last) {
-      visit(index_of(cell), 1.0);
+      piece(cell, 1.0);
       return;
     }
     std::array<Borders, D> borders;
@@ -80,7 +127,8 @@ class FieldGrid {
     for (int axis = 0; axis < D; ++axis) {
       if (cell[axis] == last[axis]) continue;
       crossings += std::labs(last[axis] - cell[axis]);
-      borders[axis] = {along[axis] > 0.0 ? 1 : -1, 1.0 / along[axis]};
+      borders[axis] = {last[axis] > cell[axis] ? 1 : -1,
+                       along[axis] != 0.0 ? 1.0 / along[axis] : 0.0};
       find_next(axis, cell, from, last, borders[axis]);
     }
     double done = 0.0;
@@ -91,12 +139,40 @@ class FieldGrid {
       }
       // Rounding must not let a piece be negative.
       const double next = std::clamp(borders[axis].next, done, 1.0);
-      visit(index_of(cell), next - done);
+      piece(cell, next - done);
+      cross(cell, axis, borders[axis].step);
       done = next;
       cell[axis] += borders[axis].step;
       find_next(axis, cell, from, last, borders[axis]);
     }
-    visit(index_of(cell), 1.0 - done);
+    piece(cell, 1.0 - done);
+  }
+
+  /// Walks along a flight, which is in `cell` at `begin`, to the cell where it is at `end`. Calls
+  /// piece(cell, begin, end) for the time spent in each cell, and cross(cell, time, axis, step)
+  /// where it leaves one. A border that it reaches at the very end is not crossed: what comes then
+  /// may turn the particle back.
+  template <class Piece, class Cross>
+  void walk(const Flight<D>& flight, const Vec<D>& gravity, Cell& cell, double begin, double end,
+            Piece&& piece, Cross&& cross) const {
+    Crossing last;
+    for (double time = begin;;) {
+      Crossing next = next_crossing(flight, gravity, cell, time);
+      // The top of a parabola on a border may fall back within less than a time's rounding, and
+      // would cross to and fro at one time for ever.
+      if (next.axis == last.axis && next.step == -last.step) {
+        next.time = std::max(next.time, std::nextafter(time, kNever));
+      }
+      if (!(next.time < end)) {
+        piece(cell, time, end);
+        return;
+      }
+      piece(cell, time, next.time);
+      cross(cell, next.time, next.axis, next.step);
+      time = next.time;
+      cell[next.axis] += next.step;
+      last = next;
+    }
   }
 
  private:
@@ -106,6 +182,32 @@ class FieldGrid {
     double per_length = 0.0;                                ///< 1 / the line's extent
     double next = std::numeric_limits<double>::infinity();  ///< share of the line up to the next
   };
+
+  /// A flight's way out of a cell.
+  struct Crossing {
+    double time = kNever;
+    int axis = 0;
+    int step = 0;
+  };
+
+  // Along each axis a straight flight has one border ahead, a parabola may return to the one
+  // behind. A particle beyond a border by rounding crosses it at once if it flies outwards, and not
+  // if it flies back.
+  Crossing next_crossing(const Flight<D>& flight, const Vec<D>& gravity, const Cell& cell,
+                         double time) const {
+    const Vec<D> r = flight.at(time, gravity);
+    const Vec<D> v = flight.velocity_at(time, gravity);
+    Crossing next;
+    for (int axis = 0; axis < D; ++axis) {
+      for (const int step : {-1, 1}) {
+        const double border = static_cast<double>(cell[axis] + (step > 0)) * widths_[axis];
+        const double crossing =
+            time + fall_time(step * (border - r[axis]), -step * v[axis], -step * gravity[axis]);
+        if (crossing < next.time) next = {crossing, axis, step};
+      }
+    }
+    return next;
+  }
 
   void find_next(int axis, const Cell& cell, const Vec<D>& from, const Cell& last,
                  Borders& borders) const {
@@ -121,6 +223,7 @@ class FieldGrid {
     return static_cast<std::size_t>(inside);
   }
 
+  Vec<D> box_;
   IntVec<D> cells_;
   Vec<D> widths_;
   Vec<D> per_width_;

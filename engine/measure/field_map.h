@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "engine/scene/field.h"
@@ -10,10 +9,10 @@ namespace clatter {
 /// A field on a grid of equal box cells over the whole box, Sec. 4.
 struct FieldMap {
   Field field;
-  std::vector<int> cells = {0, 0};  ///< [D] along each axis
-  std::vector<double>
-      values;  ///< [cells_z][cells_y][cells_x], of disks without the first; NaN: never visited
-  bool whole_window = false;  ///< averaged over the whole window, not less for want of time
+  std::vector<int> cells;      ///< [D] along each axis
+  std::vector<double> values;  ///< [cells_y][cells_x], in space [cells_z][cells_y][cells_x]; NaN:
+                               ///< never visited
+  bool whole_window = false;   ///< averaged over the whole window, not less for want of time
 };
 
 }  // namespace clatter

@@ -8,9 +8,10 @@
 
 namespace clatter {
 
-FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<2>& grid,
-                   const MomentLayout<2>& layout) {
-  FieldMap map{field, {grid.cells().x(), grid.cells().y()}, std::vector<double>(grid.size())};
+template <int D>
+FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<D>& grid,
+                   const MomentLayout<D>& layout) {
+  FieldMap map{field, {grid.cells().begin(), grid.cells().end()}, std::vector<double>(grid.size())};
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     map.values[i] = sums.time > 0.0
                         ? field_value(field, averages_of(layout, sums, i, grid.cell_measure()))
@@ -43,5 +44,8 @@ void PartSums::join_neighbours() {
   parts_.resize(parts_.size() / 2);
   windows_per_part_ *= 2;
 }
+
+template FieldMap field_map(Field, const CellSums&, const FieldGrid<2>&, const MomentLayout<2>&);
+template FieldMap field_map(Field, const CellSums&, const FieldGrid<3>&, const MomentLayout<3>&);
 
 }  // namespace clatter

@@ -16,13 +16,14 @@ namespace clatter {
 struct FieldMaps {
   double begin = 0.0;  ///< simulation times
   double end = 0.0;
-  Vec2 cell = {0.0, 0.0};      ///< edges of a cell
+  std::vector<double> cell;    ///< [D] edges of a cell
   std::vector<FieldMap> maps;  ///< one of each field asked for
 };
 
 /// The map of a field that a grid's sums give, NaN where it has no value (see field_value).
-FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<2>& grid,
-                   const MomentLayout<2>& layout);
+template <int D>
+FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<D>& grid,
+                   const MomentLayout<D>& layout);
 
 /// A run's sums as a series of parts, whose number stays bounded however long the run goes on:
 /// whenever there are as many as may be, each two neighbours become one, and parts are twice as
@@ -58,5 +59,10 @@ class PartSums {
   std::uint64_t windows_per_part_ = 1;
   std::uint64_t windows_ = 0;  // in all parts
 };
+
+extern template FieldMap field_map(Field, const CellSums&, const FieldGrid<2>&,
+                                   const MomentLayout<2>&);
+extern template FieldMap field_map(Field, const CellSums&, const FieldGrid<3>&,
+                                   const MomentLayout<3>&);
 
 }  // namespace clatter

@@ -198,10 +198,16 @@ S field_value(Field field, const CellAverages<D, S>& cell) {
 }
 
 template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
+template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*);
 template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
+template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*);
 template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&, std::size_t,
                                              double);
+template CellAverages<3, double> averages_of(const MomentLayout<3>&, const CellSums&, std::size_t,
+                                             double);
 template double field_value(Field, const CellAverages<2, double>&);
+template double field_value(Field, const CellAverages<3, double>&);
 template Dual field_value(Field, const CellAverages<2, Dual>&);
+template Dual field_value(Field, const CellAverages<3, Dual>&);
 
 }  // namespace clatter

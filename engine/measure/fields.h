@@ -53,10 +53,16 @@ template <int D, class S>
 S field_value(Field field, const CellAverages<D, S>& cell);
 
 extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
+extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*);
 extern template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
+extern template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*);
 extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&,
                                                     std::size_t, double);
+extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const CellSums&,
+                                                    std::size_t, double);
 extern template double field_value(Field, const CellAverages<2, double>&);
+extern template double field_value(Field, const CellAverages<3, double>&);
 extern template Dual field_value(Field, const CellAverages<2, Dual>&);
+extern template Dual field_value(Field, const CellAverages<3, Dual>&);
 
 }  // namespace clatter

@@ -18,31 +18,38 @@ static double windows_in(double span, double series_interval) {
   return std::clamp(std::ceil(span / series_interval), kMinWindows, kMaxWindows);
 }
 
+template <int D>
+static IntVec<D> cells_of(const Measure& measure) {
+  return Eigen::Map<const IntVec<D>>(measure.cells.data());
+}
+
+template <int D>
 double cells_memory(const Measure& measure, bool spins) {
   std::vector<Field> averages = measure.fields;
   const bool balanced = std::erase_if(averages, is_residual) > 0;
-  const double cells = static_cast<double>(measure.cells[0]) * measure.cells[1];
+  const double cells = cells_of<D>(measure).template cast<double>().prod();
   double bytes = 0.0;
   if (!averages.empty()) {
-    const double row = moment_layout<2>(averages, spins).size * sizeof(double);
+    const double row = moment_layout<D>(averages, spins).size * sizeof(double);
     const auto parts =
         static_cast<double>(PartSums::max_parts(static_cast<std::size_t>(cells * row)));
     const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
-    const int columns = measure.cells[measure.profile_axis == Axis::X ? 0 : 1];
+    const int columns = measure.cells[static_cast<std::size_t>(measure.profile_axis)];
     // Beside the parts the window under way and the one that is closed, or the parts' sum.
     bytes += cells * ((parts + 2.0) * row + maps) +
              windows_in(measure.duration, measure.series_interval) * columns * row;
   }
   if (balanced) {
     // Likewise two windows.
-    constexpr std::size_t kBookings = 3 * sizeof(Booked<2>) + sizeof(Conserved<2>);
-    constexpr std::size_t kResidual = 3 * sizeof(Conserved<2>) + 4 * sizeof(double);
+    constexpr std::size_t kBookings = (D + 1) * sizeof(Booked<D>) + sizeof(Conserved<D>);
+    constexpr std::size_t kResidual = 4 * (D + 2) * sizeof(double);
     bytes += cells * static_cast<double>(2 * kBookings + kResidual);
   }
   return bytes;
 }
 
-Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, double end)
+template <int D>
+Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, double end)
     : simulation_(simulation),
       measure_(measure),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
@@ -55,7 +62,8 @@ Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, doub
   observe();
 }
 
-Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, ArchiveReader saved)
+template <int D>
+Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, ArchiveReader saved)
     : simulation_(simulation),
       measure_(measure),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
@@ -67,14 +75,16 @@ Measurement::Measurement(Simulation<2>& simulation, const Measure& measure, Arch
   observe();
 }
 
-std::string Measurement::save() {
+template <int D>
+std::string Measurement<D>::save() {
   ArchiveWriter writer;
   visit(writer);
   return writer.written();
 }
 
+template <int D>
 template <class Archive>
-void Measurement::visit(Archive& io) {
+void Measurement<D>::visit(Archive& io) {
   auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
          window, started, counts_at_start, windows, columns, parts, residuals, samples, series_time,
          series_temperature, series_spin_temperature] = *this;
@@ -85,7 +95,8 @@ void Measurement::visit(Archive& io) {
   if (balance) io(*balance);
 }
 
-void Measurement::observe() {
+template <int D>
+void Measurement<D>::observe() {
   simulation_.add_observer(totals_);
   observe_cells();
   simulation_.every(
@@ -106,16 +117,21 @@ void Measurement::observe() {
       started_ ? windows_.size() + 1 : 0);
 }
 
-void Measurement::sample(double time) {
+template <int D>
+void Measurement<D>::sample(double time) {
   const auto count = static_cast<double>(simulation_.particles().size());
   series_time_.push_back(time);
-  series_temperature_.push_back(count > 0.0 ? simulation_.kinetic_energy() / count : 0.0);
+  const auto per_component = [&](double energy, int components) {
+    return count > 0.0 ? 2.0 * energy / (components * count) : 0.0;
+  };
+  series_temperature_.push_back(per_component(simulation_.kinetic_energy(), D));
   if (!simulation_.spins().empty()) {
-    series_spin_temperature_.push_back(2.0 * simulation_.spin_energy() / count);
+    series_spin_temperature_.push_back(per_component(simulation_.spin_energy(), kSpinSize<D>));
   }
 }
 
-void Measurement::start() {
+template <int D>
+void Measurement<D>::start() {
   started_ = true;
   totals_.close_window();
   counts_at_start_ = simulation_.counts();
@@ -123,22 +139,25 @@ void Measurement::start() {
   observe_cells();
 }
 
-void Measurement::open_cells() {
-  const IntVec<2> cells(measure_.cells[0], measure_.cells[1]);
+template <int D>
+void Measurement<D>::open_cells() {
+  const IntVec<D> cells = cells_of<D>(measure_);
   if (balanced_) balance_.emplace(simulation_, cells);
   if (measure_.fields.empty()) return;
   Coarsening coarsening{measure_.estimator, {}};
   if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
-  cells_.emplace(simulation_, cells, moment_layout<2>(measure_.fields, simulation_.model().spins),
+  cells_.emplace(simulation_, cells, moment_layout<D>(measure_.fields, simulation_.model().spins),
                  coarsening);
 }
 
-void Measurement::observe_cells() {
+template <int D>
+void Measurement<D>::observe_cells() {
   if (cells_) simulation_.add_observer(*cells_);
   if (balance_) simulation_.add_observer(*balance_);
 }
 
-void Measurement::close_window() {
+template <int D>
+void Measurement<D>::close_window() {
   windows_.push_back(totals_.close_window());
   if (cells_) {
     CellSums window = cells_->close_window();
@@ -148,14 +167,16 @@ void Measurement::close_window() {
   if (balance_ && windows_.size() % kWindowsPerBalance == 0) close_balance();
 }
 
-void Measurement::close_balance() {
+template <int D>
+void Measurement<D>::close_balance() {
   residuals_.include(balance_->close_window().imbalances);
 }
 
-void Measurement::add_maps(Measured& measured) const {
-  const FieldGrid<2> grid(simulation_.model(), {measure_.cells[0], measure_.cells[1]});
+template <int D>
+void Measurement<D>::add_maps(Measured& measured) const {
+  const FieldGrid<D> grid(simulation_.model(), cells_of<D>(measure_));
   const auto maps_of = [&](const CellSums& sums, double begin, double end) {
-    FieldMaps maps{begin, end, grid.widths(), {}};
+    FieldMaps maps{begin, end, {grid.widths().begin(), grid.widths().end()}, {}};
     for (const Field field : measure_.fields) {
       maps.maps.push_back(field_map(field, sums, grid, cells_->layout()));
     }
@@ -175,8 +196,9 @@ void Measurement::add_maps(Measured& measured) const {
   }
   measured.maps = maps_of(sum, averages_start_, time_of(windows_.size()));
   if (!balanced_) return;
-  for (const Field field : residual_fields(2)) {
-    measured.maps->maps.push_back({field, measure_.cells, residuals_.map(field)});
+  for (const Field field : residual_fields(D)) {
+    const IntVec<D>& cells = grid.cells();
+    measured.maps->maps.push_back({field, {cells.begin(), cells.end()}, residuals_.map(field)});
   }
 }
 
@@ -189,7 +211,8 @@ static std::vector<double> series_of(const std::vector<Window>& windows, const Q
   return series;
 }
 
-static Estimate kurtosis_excess(const std::vector<WindowTotals<2>>& windows, int axis) {
+template <int D>
+static Estimate kurtosis_excess(const std::vector<WindowTotals<D>>& windows, int axis) {
   const auto second = series_of(windows, [&](const auto& w) { return w.second_moment[axis]; });
   auto fourth = series_of(windows, [&](const auto& w) { return w.fourth_moment[axis]; });
   const double m2 = mean_estimate(second).mean;
@@ -202,8 +225,9 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<2>>& windows, int
   return linear_estimate(m4 / (3.0 * m2 * m2) - 1.0, fourth);
 }
 
-Measured Measurement::means() const {
-  const Model<2>& model = simulation_.model();
+template <int D>
+Measured Measurement<D>::means() const {
+  const Model<D>& model = simulation_.model();
   const auto count = static_cast<double>(simulation_.particles().size());
   Measured measured;
   measured.burn_in = averages_start_;
@@ -211,6 +235,9 @@ Measured Measurement::means() const {
   measured.series_temperature = series_temperature_;
   measured.series_spin_temperature = series_spin_temperature_;
   measured.ledger_residual = totals_.ledger_residual();
+  measured.axis_temperatures.resize(D);
+  measured.kurtosis_excess.resize(D);
+  measured.pressure.resize(2 * D);
   if (count == 0.0) return measured;
   const auto estimate = [&](const auto& quantity) {
     return mean_estimate(series_of(windows_, quantity));
@@ -223,11 +250,11 @@ Measured Measurement::means() const {
   measured.kicks = counts.kicks - at_start.kicks;
   measured.elasticised = counts.elasticised - at_start.elasticised;
   measured.elasticised_wall = counts.elasticised_wall - at_start.elasticised_wall;
-  measured.temperature = estimate([](const auto& w) { return 0.5 * w.temperature.sum(); });
-  measured.temperature_x = estimate([](const auto& w) { return w.temperature.x(); });
-  measured.temperature_y = estimate([](const auto& w) { return w.temperature.y(); });
-  measured.kurtosis_excess_x = kurtosis_excess(windows_, 0);
-  measured.kurtosis_excess_y = kurtosis_excess(windows_, 1);
+  measured.temperature = estimate([](const auto& w) { return w.temperature.mean(); });
+  for (int axis = 0; axis < D; ++axis) {
+    measured.axis_temperatures[axis] = estimate([&](const auto& w) { return w.temperature[axis]; });
+    measured.kurtosis_excess[axis] = kurtosis_excess(windows_, axis);
+  }
   if (model.spins) {
     measured.spin_temperature = estimate([](const auto& w) { return w.spin_temperature; });
   }
@@ -242,24 +269,26 @@ Measured Measurement::means() const {
   }
   if (model.contact_time) {
     double dissipated = 0.0, undissipated = 0.0;
-    for (const WindowTotals<2>& window : windows_) {
+    for (const WindowTotals<D>& window : windows_) {
       dissipated += window.dissipated;
       undissipated += window.undissipated;
     }
     if (dissipated > 0.0) measured.undissipated_share = undissipated / dissipated;
   }
-  for (int side = 0; side < 4; ++side) {
+  for (int side = 0; side < 2 * D; ++side) {
     if (!model.walls[side]) continue;
     measured.walls_in = estimate([](const auto& w) { return w.walls_in / w.duration; });
-    const double length = model.box[1 - side / 2];
+    double area = 1.0;
+    for (int axis = 0; axis < D; ++axis) area *= axis == side / 2 ? 1.0 : model.box[axis];
     measured.pressure[side] =
-        estimate([&](const auto& w) { return w.wall_impulse[side] / (w.duration * length); });
+        estimate([&](const auto& w) { return w.wall_impulse[side] / (w.duration * area); });
   }
-  if (model.periodic(0) && model.periodic(1) && count >= 2.0) {
-    // Both momenta are conserved, so 2(N - 1) degrees of freedom carry the temperature.
-    const auto virial = series_of(windows_, [](const auto& w) { return 0.5 * w.virial; });
+  const bool walled = std::ranges::any_of(model.walls, [](const auto& wall) { return !!wall; });
+  if (!walled && count >= 2.0) {
+    // All momenta are conserved, so D(N - 1) degrees of freedom carry the temperature.
+    const auto virial = series_of(windows_, [](const auto& w) { return w.virial / D; });
     const auto thermal = series_of(windows_, [&](const auto& w) {
-      return count * (0.5 * w.temperature.sum() * count / (count - 1.0)) * w.duration;
+      return count * (w.temperature.mean() * count / (count - 1.0)) * w.duration;
     });
     measured.compressibility = ratio_estimate(virial, thermal);
     measured.compressibility->mean += 1.0;
@@ -267,7 +296,8 @@ Measured Measurement::means() const {
   return measured;
 }
 
-Measured Measurement::result() {
+template <int D>
+Measured Measurement<D>::result() {
   // The last window ends with the run, perhaps a rounding error before its time.
   const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
   if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
@@ -284,5 +314,10 @@ Measured Measurement::result() {
   if (cells_ || balance_) add_maps(measured);
   return measured;
 }
+
+template double cells_memory<2>(const Measure&, bool);
+template double cells_memory<3>(const Measure&, bool);
+template class Measurement<2>;
+template class Measurement<3>;
 
 }  // namespace clatter

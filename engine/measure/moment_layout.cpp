@@ -29,5 +29,6 @@ MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins) {
 }
 
 template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool);
+template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool);
 
 }  // namespace clatter

@@ -44,5 +44,6 @@ template <int D>
 MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins);
 
 extern template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool);
+extern template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool);
 
 }  // namespace clatter

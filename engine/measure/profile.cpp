@@ -12,9 +12,10 @@ namespace clatter {
 namespace {
 
 // The windows' sums in one column, and how a field follows from their totals.
+template <int D>
 class Column {
  public:
-  Column(std::span<const CellSums> windows, const MomentLayout<2>& layout, std::size_t column,
+  Column(std::span<const CellSums> windows, const MomentLayout<D>& layout, std::size_t column,
          double measure)
       : windows_(windows),
         layout_(layout),
@@ -31,12 +32,12 @@ class Column {
   // Windows are blocked by what each adds to the field, which is that of all of them, linear in
   // their sums: a window's sum k less the share that its length has in the total.
   Estimate estimate(Field field) const {
-    const double mean = field_value(field, averages_of(layout_, along(-1).data())).value;
+    const double mean = field_value(field, averages_of<D, Dual>(layout_, along(-1).data())).value;
     if (std::isnan(mean)) return {mean, 0.0};
     std::vector<double> parts(windows_.size());
     const auto count = static_cast<double>(windows_.size());
     for (int k = 0; k < layout_.size; ++k) {
-      const double slope = field_value(field, averages_of(layout_, along(k).data())).slope;
+      const double slope = field_value(field, averages_of<D, Dual>(layout_, along(k).data())).slope;
       if (slope == 0.0) continue;
       const double average = totals_[k] / total_weight(k);
       const double scale = slope * count / (total_weight(k) * measure_);
@@ -65,9 +66,9 @@ class Column {
   }
 
   std::span<const CellSums> windows_;
-  const MomentLayout<2>& layout_;
+  const MomentLayout<D>& layout_;
   std::size_t begin_;  // of the column's rows
-  double measure_;     // area of the column
+  double measure_;     // area of the column, in space its volume
   double time_ = 0.0;
   double kinetic_weight_ = 0.0;
   std::vector<double> totals_;
@@ -81,13 +82,14 @@ const std::vector<Estimate>& Profile::at(Field field) const {
   return values[static_cast<std::size_t>(found - fields.begin())];
 }
 
-CellSums columns_of(const CellSums& cells, const FieldGrid<2>& grid, Axis axis) {
-  const auto width = static_cast<std::size_t>(grid.cells().x());
+template <int D>
+CellSums columns_of(const CellSums& cells, const FieldGrid<D>& grid, Axis axis) {
+  const int along = static_cast<int>(axis);
   const std::size_t size = cells.rows.size() / grid.size();
-  const auto count = static_cast<std::size_t>(grid.cells()[static_cast<int>(axis)]);
+  const auto count = static_cast<std::size_t>(grid.cells()[along]);
   CellSums columns{cells.time, cells.kinetic_weight, std::vector<double>(count * size)};
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const std::size_t column = axis == Axis::X ? i % width : i / width;
+    const auto column = static_cast<std::size_t>(grid.cell_of(i)[along]);
     for (std::size_t k = 0; k < size; ++k) {
       columns.rows[column * size + k] += cells.rows[i * size + k];
     }
@@ -95,24 +97,33 @@ CellSums columns_of(const CellSums& cells, const FieldGrid<2>& grid, Axis axis) 
   return columns;
 }
 
-Profile profile_of(std::span<const CellSums> windows, const FieldGrid<2>& grid,
-                   const MomentLayout<2>& layout, std::span<const Field> fields, Axis axis) {
+template <int D>
+Profile profile_of(std::span<const CellSums> windows, const FieldGrid<D>& grid,
+                   const MomentLayout<D>& layout, std::span<const Field> fields, Axis axis) {
   const int along = static_cast<int>(axis);
   const int columns = grid.cells()[along];
-  const double measure = grid.cell_measure() * grid.cells()[1 - along];
+  const double measure = grid.cell_measure() * static_cast<double>(grid.size() / columns);
   Profile profile;
+  profile.dimension = D;
   profile.axis = axis;
   profile.fields.assign(fields.begin(), fields.end());
   profile.values.resize(fields.size());
   const double length = columns * grid.widths()[along];
   for (int i = 0; i <= columns; ++i) profile.edges.push_back(length * i / columns);
   for (int i = 0; i < columns; ++i) {
-    const Column column(windows, layout, static_cast<std::size_t>(i), measure);
+    const Column<D> column(windows, layout, static_cast<std::size_t>(i), measure);
     for (std::size_t f = 0; f < fields.size(); ++f) {
       profile.values[f].push_back(column.estimate(fields[f]));
     }
   }
   return profile;
 }
+
+template CellSums columns_of(const CellSums&, const FieldGrid<2>&, Axis);
+template CellSums columns_of(const CellSums&, const FieldGrid<3>&, Axis);
+template Profile profile_of(std::span<const CellSums>, const FieldGrid<2>&, const MomentLayout<2>&,
+                            std::span<const Field>, Axis);
+template Profile profile_of(std::span<const CellSums>, const FieldGrid<3>&, const MomentLayout<3>&,
+                            std::span<const Field>, Axis);
 
 }  // namespace clatter

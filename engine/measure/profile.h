@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-/// Fields along one axis, averaged over the other and over time, with standard errors by blocking.
+/// Fields along one axis, averaged over the others and over time, with standard errors by blocking.
 /// Where a field has no value (see field_value) its mean is NaN.
 struct Profile {
   int dimension = 2;  ///< of the box
@@ -23,10 +23,19 @@ struct Profile {
 };
 
 /// A window's sums on a grid added up across an axis: the rows of `grid.cells()[axis]` columns.
-CellSums columns_of(const CellSums& cells, const FieldGrid<2>& grid, Axis axis);
+template <int D>
+CellSums columns_of(const CellSums& cells, const FieldGrid<D>& grid, Axis axis);
 
 /// The profile that windows of time give, each with the rows of all columns, from columns_of().
-Profile profile_of(std::span<const CellSums> windows, const FieldGrid<2>& grid,
-                   const MomentLayout<2>& layout, std::span<const Field> fields, Axis axis);
+template <int D>
+Profile profile_of(std::span<const CellSums> windows, const FieldGrid<D>& grid,
+                   const MomentLayout<D>& layout, std::span<const Field> fields, Axis axis);
+
+extern template CellSums columns_of(const CellSums&, const FieldGrid<2>&, Axis);
+extern template CellSums columns_of(const CellSums&, const FieldGrid<3>&, Axis);
+extern template Profile profile_of(std::span<const CellSums>, const FieldGrid<2>&,
+                                   const MomentLayout<2>&, std::span<const Field>, Axis);
+extern template Profile profile_of(std::span<const CellSums>, const FieldGrid<3>&,
+                                   const MomentLayout<3>&, std::span<const Field>, Axis);
 
 }  // namespace clatter

@@ -20,39 +20,44 @@ int equation_of(Field residual, int dimension) {
   }
 }
 
-void Residuals::include(const Imbalances<2>& window) {
-  cells.resize(window.gaps.size(), Conserved<2>::Zero());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Conserved<2> residual = window.residual(i);
-    for (int k = 0; k < residual.size(); ++k) {
-      if (std::fabs(residual[k]) > std::fabs(cells[i][k])) cells[i][k] = residual[k];
+template <int D>
+void Residuals::include(const Imbalances<D>& window) {
+  equations.resize(D + 2);
+  for (std::vector<double>& cells : equations) cells.resize(window.gaps.size());
+  for (std::size_t i = 0; i < window.gaps.size(); ++i) {
+    const Conserved<D> residual = window.residual(i);
+    for (int k = 0; k < D + 2; ++k) {
+      double& largest = equations[k][i];
+      if (std::fabs(residual[k]) > std::fabs(largest)) largest = residual[k];
     }
   }
 }
 
-Conserved<2> Residuals::largest() const {
-  Conserved<2> largest = Conserved<2>::Zero();
-  for (const Conserved<2>& cell : cells) {
-    largest = largest.cwiseMax(cell.cwiseAbs());
+std::vector<double> Residuals::largest() const {
+  std::vector<double> largest;
+  for (const std::vector<double>& cells : equations) {
+    double& most = largest.emplace_back(0.0);
+    for (const double residual : cells) most = std::max(most, std::fabs(residual));
   }
   return largest;
 }
 
 std::vector<double> Residuals::map(Field residual) const {
-  std::vector<double> values;
-  values.reserve(cells.size());
-  for (const Conserved<2>& cell : cells) values.push_back(cell[equation_of(residual, 2)]);
-  return values;
+  if (equations.empty()) return {};
+  return equations[equation_of(residual, static_cast<int>(equations.size()) - 2)];
 }
 
 void require_closed(const Residuals& residuals) {
   constexpr double kMaxRounding = 1e-6;
-  const double largest = residuals.largest().maxCoeff();
+  const double largest = std::ranges::max(residuals.largest());
   if (largest <= kMaxRounding) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", largest);
   throw RunError(std::string("the balance equations do not close: residuals are as large as ") +
                  text + "; please report this scene and seed");
 }
+
+template void Residuals::include(const Imbalances<2>&);
+template void Residuals::include(const Imbalances<3>&);
 
 }  // namespace clatter

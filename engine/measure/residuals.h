@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/measure/balance.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/field.h"
 
 namespace clatter {
 
@@ -12,15 +12,16 @@ int equation_of(Field residual, int dimension);
 
 /// How the balance equations closed in the windows of a run.
 struct Residuals {
-  /// [cells], cell (i, j) at i + j cells.x(): of each equation the residual of the window in which
-  /// its magnitude was largest.
-  std::vector<Conserved<2>> cells;
+  /// [D + 2][cells], in the order of Conserved<D>, cell (i, j) at i + j cells.x(): in each cell the
+  /// residual of the window in which its magnitude was largest.
+  std::vector<std::vector<double>> equations;
 
   /// Takes a further window of the same cells into account.
-  void include(const Imbalances<2>& window);
-  /// The largest magnitude of each equation's residuals.
-  Conserved<2> largest() const;
-  /// Those of one equation; [cells].
+  template <int D>
+  void include(const Imbalances<D>& window);
+  /// The largest magnitude of each equation's residuals; [D + 2].
+  std::vector<double> largest() const;
+  /// Those of one equation; [cells], empty before the first window.
   std::vector<double> map(Field residual) const;
 };
 
@@ -30,8 +31,11 @@ void require_closed(const Residuals& residuals);
 /// Passes over all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Residuals& residuals) {
-  auto& [cells] = residuals;
-  io(cells);
+  auto& [equations] = residuals;
+  io(equations);
 }
+
+extern template void Residuals::include(const Imbalances<2>&);
+extern template void Residuals::include(const Imbalances<3>&);
 
 }  // namespace clatter

@@ -138,5 +138,6 @@ double Totals<D>::ledger_residual() const {
 }
 
 template class Totals<2>;
+template class Totals<3>;
 
 }  // namespace clatter

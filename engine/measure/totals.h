@@ -13,7 +13,7 @@ namespace clatter {
 template <int D>
 struct WindowTotals {
   double duration = 0.0;
-  Vec<D> temperature = Vec<D>::Zero();    ///< T_x, T_y: exact time averages of m <v_k^2>
+  Vec<D> temperature = Vec<D>::Zero();    ///< T_k: exact time averages of m <v_k^2>
   Vec<D> second_moment = Vec<D>::Zero();  ///< <v_k^2> over the particles at the window's end
   Vec<D> fourth_moment = Vec<D>::Zero();  ///< <v_k^4> there
   double collisions = 0.0;                ///< disk-disk
@@ -100,5 +100,6 @@ void Totals<D>::visit(Archive& io) {
 }
 
 extern template class Totals<2>;
+extern template class Totals<3>;
 
 }  // namespace clatter

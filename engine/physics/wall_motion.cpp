@@ -15,16 +15,16 @@ namespace clatter {
 
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kRadiansPerPeriod = 2.0 * std::numbers::pi;
 
 double wall_velocity(const WallMotion& motion, double phase) {
   if (motion.path == WallPath::Sawtooth) return motion.stroke * motion.frequency;
-  return 0.5 * motion.stroke * (kTwoPi * motion.frequency) * cos_2pi(phase);
+  return 0.5 * motion.stroke * (kRadiansPerPeriod * motion.frequency) * cos_2pi(phase);
 }
 
 // The amplitude of the sinusoidal wall's acceleration.
 double peak_acceleration(const WallMotion& motion) {
-  const double angular_frequency = kTwoPi * motion.frequency;
+  const double angular_frequency = kRadiansPerPeriod * motion.frequency;
   return 0.5 * motion.stroke * angular_frequency * angular_frequency;
 }
 

@@ -322,7 +322,7 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });
   io.table("collapse", [&](auto& io) { io.value("contact_time", scene.contact_time, above(0.0)); });
-  const auto dimension = static_cast<int>(scene.box.size());
+  const int dimension = scene.dimension();
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure, dimension); });
   io.table("view", [&](auto& io) { visit_view(io, scene.view, dimension); });
   io.list("change", scene.changes, [](auto& io, Change& change) { visit_change(io, change); });

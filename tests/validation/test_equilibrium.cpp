@@ -53,7 +53,7 @@ TEST_CASE("Elastic gas: the kurtosis of the velocities is that of a Gaussian") {
   // Energy and both momenta are fixed, so each component is one coordinate on a sphere in n =
   // 2(N-1) dimensions: <v^4>/(3 <v^2>^2) - 1 = -2/(n + 2) = -1/N exactly.
   const Measured result = run(gas_of_fraction(0.3, 400, 1.0), 20.0, 1000.0, 104);
-  for (const Estimate& kurtosis : {result.kurtosis_excess_x, result.kurtosis_excess_y}) {
+  for (const Estimate& kurtosis : {result.kurtosis_excess[0], result.kurtosis_excess[1]}) {
     MESSAGE("kurtosis excess = ", kurtosis.mean, " +- ", kurtosis.standard_error, ", expected ",
             -1.0 / 400.0);
     CHECK(kurtosis.standard_error < 0.005);
@@ -87,10 +87,13 @@ TEST_CASE("Elastic gas: speeds have Maxwell's distribution") {
 TEST_CASE("Elastic gas: both components have the same temperature") {
   const Measured result = run(gas(30.0, 20.0, 200, 1.0), 20.0, 1000.0, 106);
   // The energy is constant, so T_x and T_y have opposite deviations, and their errors add up.
-  const double error = result.temperature_x.standard_error + result.temperature_y.standard_error;
-  MESSAGE("T_x - T_y = ", result.temperature_x.mean - result.temperature_y.mean, " +- ", error);
+  const double error =
+      result.axis_temperatures[0].standard_error + result.axis_temperatures[1].standard_error;
+  MESSAGE("T_x - T_y = ", result.axis_temperatures[0].mean - result.axis_temperatures[1].mean,
+          " +- ", error);
   CHECK(error < 0.01);
-  CHECK(std::fabs(result.temperature_x.mean - result.temperature_y.mean) < 3.0 * error);
+  CHECK(std::fabs(result.axis_temperatures[0].mean - result.axis_temperatures[1].mean) <
+        3.0 * error);
   CHECK(result.temperature.mean == doctest::Approx(1.0).epsilon(1e-12));
 }
 

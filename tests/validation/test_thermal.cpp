@@ -92,7 +92,7 @@ TEST_CASE("Thermal walls: a gas between two of one temperature takes it") {
   CHECK(relative_error(result.temperature) < 0.003);
   CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.01);
   // Canonical: each component is Gaussian, everywhere alike, without the 1/N of a fixed energy.
-  for (const Estimate& kurtosis : {result.kurtosis_excess_x, result.kurtosis_excess_y}) {
+  for (const Estimate& kurtosis : {result.kurtosis_excess[0], result.kurtosis_excess[1]}) {
     CHECK(kurtosis.standard_error < 0.02);
     CHECK(std::fabs(kurtosis.mean) < 3.0 * kurtosis.standard_error);
   }
@@ -138,7 +138,7 @@ TEST_CASE("Thermal walls: a gas among four takes their temperature, in motion an
     MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error);
     CHECK(relative_error(result.temperature) < 0.003);
     CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.01);
-    for (const Estimate& kurtosis : {result.kurtosis_excess_x, result.kurtosis_excess_y}) {
+    for (const Estimate& kurtosis : {result.kurtosis_excess[0], result.kurtosis_excess[1]}) {
       CHECK(kurtosis.standard_error < 0.02);
       CHECK(std::fabs(kurtosis.mean) < 5.0 * kurtosis.standard_error);
     }

@@ -63,9 +63,9 @@ TEST_CASE("Vibrated gas: it is hottest along x at the walls, and densest in the 
   scene.measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0)};
   scene.measure.cells = {10, 1};
   const Measured result = run(scene, 300.0, 5000.0, 114);
-  const double error =
-      std::hypot(result.temperature_x.standard_error, result.temperature_y.standard_error);
-  CHECK(result.temperature_x.mean - result.temperature_y.mean > 10.0 * error);
+  const double error = std::hypot(result.axis_temperatures[0].standard_error,
+                                  result.axis_temperatures[1].standard_error);
+  CHECK(result.axis_temperatures[0].mean - result.axis_temperatures[1].mean > 10.0 * error);
   const auto& profile = *result.profile;
   CHECK(profile.at(Field(Quantity::Temperature, 0)).front().mean >
         1.2 * profile.at(Field(Quantity::Temperature, 0))[5].mean);

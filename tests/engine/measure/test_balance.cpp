@@ -20,13 +20,48 @@ Wall with_friction(Wall wall) {
 const Wall kRoughSawtooth = with_friction(kSawtooth);
 const Wall kRoughSinusoidal = with_friction(kSinusoidal);
 
-Model<2> with_spins(Model<2> model) {
+template <int D>
+Model<D> with_spins(Model<D> model) {
   model.spins = true;
   return model;
 }
 
-Model<2> between(const Wall& wall, int axis) {
-  return with_walls(periodic_box(9.0, 8.0), axis, wall);
+/// A periodic box, of disks or of spheres.
+template <int D>
+Model<D> box() {
+  if constexpr (D == 2) {
+    return periodic_box(9.0, 8.0);
+  } else {
+    return periodic_box(6.0, 5.0, 4.5);
+  }
+}
+
+template <int D = 2>
+Model<D> between(const Wall& wall, int axis) {
+  return with_walls(box<D>(), axis, wall);
+}
+
+/// Walls all round; along z those of x.
+template <int D>
+Model<D> walled(const Wall& sides, const Wall& ends) {
+  Model<D> model = with_walls(between<D>(sides, 0), 1, ends);
+  return D == 3 ? with_walls(model, D - 1, sides) : model;
+}
+
+/// A box that is narrow along y.
+template <int D>
+Model<D> narrow(double height) {
+  if constexpr (D == 2) {
+    return periodic_box(12.0, height);
+  } else {
+    return periodic_box(5.0, height, 3.0);
+  }
+}
+
+/// The first D of three components.
+template <int D>
+Vec<D> vector(double x, double y, double z = 0.0) {
+  return Vec<3>(x, y, z).head<D>();
 }
 
 class BaseMoves : public Observer<2> {
@@ -36,15 +71,16 @@ class BaseMoves : public Observer<2> {
 };
 
 // A run that one balance watches.
+template <int D>
 struct Watched {
-  Simulation<2> simulation;
-  Balance<2> balance;
+  Simulation<D> simulation;
+  Balance<D> balance;
 
-  Watched(const Model<2>& model, const State<2>& start, const IntVec<2>& cells, double time = 0.0)
+  Watched(const Model<D>& model, const State<D>& start, const IntVec<D>& cells, double time = 0.0)
       : simulation(model, start, time), balance(simulation, cells) {
     simulation.add_observer(balance);
   }
-  BalanceWindow<2> close_at(double time) {
+  BalanceWindow<D> close_at(double time) {
     simulation.run_until(time);
     return balance.close_window();
   }
@@ -54,21 +90,28 @@ struct Watched {
 // either axis and in all, halves of a diameter, whose faces lie where particles touch the walls,
 // and ones much smaller than a particle. 1e-15 is typical, and 1e-13 in the shortest window, where
 // gravity or a kick changes velocities by 1e-3.
-void check_closure(const std::string& name, const Model<2>& model, int count = 30,
+template <int D>
+void check_closure(const std::string& name, const Model<D>& model, int count = 30,
                    double start_time = 0.0) {
+  CAPTURE(D);
   CAPTURE(name);
-  const IntVec<2> halves = (2.0 * model.box).array().round().matrix().cast<int>();
-  const std::vector<IntVec<2>> grids = {
-      {7, 5}, {1, 1}, {1, 4}, {4, 1}, halves, (halves * 3).eval(), IntVec<2>(2, 2)};
-  for (const IntVec<2>& cells : grids) {
+  const IntVec<D> halves = (2.0 * model.box).array().round().matrix().template cast<int>();
+  std::vector<IntVec<D>> grids = {IntVec<3>(7, 5, 3).head<D>(),
+                                  IntVec<D>::Ones(),
+                                  IntVec<3>(1, 4, 2).head<D>(),
+                                  IntVec<3>(4, 1, 1).head<D>(),
+                                  halves,
+                                  IntVec<D>::Constant(2)};
+  if (D == 2) grids.push_back(3 * halves);
+  for (const IntVec<D>& cells : grids) {
     CAPTURE(cells.x());
     CAPTURE(cells.y());
-    Watched run(model, clear_gas(model, count, 84), cells, start_time);
+    Watched<D> run(model, clear_gas(model, count, 84), cells, start_time);
     double time = start_time;
     for (const double duration : {1.0, 0.01, 0.3, 2.5, 0.3}) {
       time += duration;
       CAPTURE(time);
-      const BalanceWindow<2> window = run.close_at(time);
+      const BalanceWindow<D> window = run.close_at(time);
       CHECK(window.imbalances.largest()[0] == 0.0);
       CHECK(window.imbalances.largest().maxCoeff() < 1e-12);
     }
@@ -83,92 +126,144 @@ void check_closure(const std::string& name, const Model<2>& model, int count = 3
 
 }  // namespace
 
+template <int D>
+static void check_particles() {
+  check_closure("smooth", box<D>());
+  check_closure("inelastic", inelastic(box<D>(), 0.8));
+  check_closure("Coulomb", rough(inelastic(box<D>(), 0.9), 0.2, 1.0));
+  check_closure("constant beta", rough(inelastic(box<D>(), 0.9), kInfinity, 0.4));
+  check_closure("lossless rough", rough(box<D>(), kInfinity, 1.0));
+}
+
 TEST_CASE("Balance: closes for smooth, inelastic and rough particles") {
-  check_closure("smooth", periodic_box(9.0, 8.0));
-  check_closure("inelastic", inelastic(periodic_box(9.0, 8.0), 0.8));
-  check_closure("Coulomb", rough(inelastic(periodic_box(9.0, 8.0), 0.9), 0.2, 1.0));
-  check_closure("constant beta", rough(inelastic(periodic_box(9.0, 8.0), 0.9), kInfinity, 0.4));
-  check_closure("lossless rough", rough(periodic_box(9.0, 8.0), kInfinity, 1.0));
+  check_particles<2>();
+  check_particles<3>();
+}
+
+template <int D>
+static void check_gravity() {
+  const auto fall = [](const Model<D>& model, double x, double y, double z = 0.0) {
+    return falling(model, vector<D>(x, y, z));
+  };
+  check_closure("down, elastic", fall(between<D>(kStatic, 1), 0.0, -0.5));
+  check_closure("down, inelastic", fall(inelastic(between<D>(kDriven, 1), 0.9), 0.0, -0.7));
+  check_closure("up", fall(inelastic(between<D>(kThermal, 1), 0.9), 0.0, 1.0));
+  check_closure("right", fall(inelastic(between<D>(kDriven, 0), 0.9), 0.8, 0.0));
+  check_closure("left", fall(inelastic(between<D>(kDriven, 0), 0.9), -0.8, 0.0));
+  check_closure("aslant", fall(inelastic(walled<D>(kDriven, kDriven), 0.95), 0.3, -0.7, 0.4));
+  check_closure("along a periodic axis", fall(box<D>(), 0.5, 0.0));
+  check_closure("along all", fall(inelastic(box<D>(), 0.9), -0.5, 0.8, 0.6));
+  check_closure("strong, in a narrow channel",
+                fall(inelastic(with_walls(narrow<D>(1.5), 1, kDriven), 0.9), 0.0, -30.0), 6);
 }
 
 TEST_CASE("Balance: closes under gravity, upwards, downwards, aslant and round the box") {
-  check_closure("down, elastic", falling(between(kStatic, 1), {0.0, -0.5}));
-  check_closure("down, inelastic", falling(inelastic(between(kDriven, 1), 0.9), {0.0, -0.7}));
-  check_closure("up", falling(inelastic(between(kThermal, 1), 0.9), {0.0, 1.0}));
-  check_closure("right", falling(inelastic(between(kDriven, 0), 0.9), {0.8, 0.0}));
-  check_closure("left", falling(inelastic(between(kDriven, 0), 0.9), {-0.8, 0.0}));
-  check_closure("aslant", falling(inelastic(four(kDriven, kDriven), 0.95), {0.3, -0.7}));
-  check_closure("along a periodic axis", falling(periodic_box(9.0, 8.0), {0.5, 0.0}));
-  check_closure("along both", falling(inelastic(periodic_box(9.0, 8.0), 0.9), {-0.5, 0.8}));
-  check_closure(
-      "strong, in a narrow channel",
-      falling(inelastic(with_walls(periodic_box(12.0, 1.5), 1, kDriven), 0.9), {0.0, -30.0}), 6);
+  check_gravity<2>();
+  check_gravity<3>();
+}
+
+template <int D>
+static void check_kicks() {
+  check_closure("smooth", kicked(inelastic(box<D>(), 0.8), 0.05, 0.2));
+  check_closure("rough", kicked(rough(inelastic(box<D>(), 0.8), 0.5, 0.5), 0.03, 0.2));
+  check_closure("between walls, under gravity",
+                falling(kicked(inelastic(walled<D>(kDriven, kStatic), 0.8), 0.11, 0.1),
+                        vector<D>(0.0, -0.2)));
 }
 
 TEST_CASE("Balance: closes with kicks") {
-  check_closure("smooth", kicked(inelastic(periodic_box(9.0, 8.0), 0.8), 0.05, 0.2));
-  check_closure("rough",
-                kicked(rough(inelastic(periodic_box(9.0, 8.0), 0.8), 0.5, 0.5), 0.03, 0.2));
-  check_closure("between walls, under gravity",
-                falling(kicked(inelastic(four(kDriven, kStatic), 0.8), 0.11, 0.1), {0.0, -0.2}));
+  check_kicks<2>();
+  check_kicks<3>();
+}
+
+template <int D>
+static void check_walls() {
+  check_closure("static", between<D>(kStatic, 0));
+  check_closure("lossy", inelastic(between<D>(kLossy, 1), 0.9));
+  check_closure("thermal", inelastic(between<D>(kThermal, 0), 0.7));
+  check_closure("thermal, with spins", with_spins(inelastic(between<D>(kThermal, 1), 0.9)));
+  check_closure("driven", inelastic(between<D>(kDriven, 0), 0.9));
+  check_closure("rough driven", rough(inelastic(between<D>(kRoughDriven, 1), 0.9), 0.3, 0.5));
+  check_closure("saw-tooth", with_spins(inelastic(between<D>(kRoughSawtooth, 0), 0.9)));
+  check_closure("sinusoidal", with_spins(inelastic(between<D>(kRoughSinusoidal, 1), 0.9)));
+  check_closure("along the last axis", inelastic(between<D>(kDriven, D - 1), 0.9));
+  check_closure("lossless",
+                rough(walled<D>(kStatic, Wall{.roughness = {kInfinity, 1.0}}), kInfinity, 1.0));
+  check_closure("corners", inelastic(walled<D>(kDriven, kLossy), 0.9));
+  check_closure("rough corners",
+                rough(inelastic(walled<D>(kRoughSinusoidal, kRoughSawtooth), 0.9), 0.3, 0.5), 20);
+  check_closure(
+      "a shaken floor under gravity",
+      falling(with_spins(inelastic(between<D>(kRoughSinusoidal, 1), 0.9)), vector<D>(0.0, -1.0)));
 }
 
 TEST_CASE("Balance: closes with every wall, rough and smooth, and at corners") {
-  check_closure("static", between(kStatic, 0));
-  check_closure("lossy", inelastic(between(kLossy, 1), 0.9));
-  check_closure("thermal", inelastic(between(kThermal, 0), 0.7));
-  check_closure("thermal, with spins", with_spins(inelastic(between(kThermal, 1), 0.9)));
-  check_closure("driven", inelastic(between(kDriven, 0), 0.9));
-  check_closure("rough driven", rough(inelastic(between(kRoughDriven, 1), 0.9), 0.3, 0.5));
-  check_closure("saw-tooth", with_spins(inelastic(between(kRoughSawtooth, 0), 0.9)));
-  check_closure("sinusoidal", with_spins(inelastic(between(kRoughSinusoidal, 1), 0.9)));
-  check_closure("lossless",
-                rough(four(kStatic, Wall{.roughness = {kInfinity, 1.0}}), kInfinity, 1.0));
-  check_closure("corners", inelastic(four(kDriven, kLossy), 0.9));
-  check_closure("rough corners",
-                rough(inelastic(four(kRoughSinusoidal, kRoughSawtooth), 0.9), 0.3, 0.5), 20);
+  check_walls<2>();
+  check_walls<3>();
+}
+
+TEST_CASE("Balance: closes where a wall's stroke goes over several cells") {
   Wall swinging = kRoughSinusoidal;
   swinging.stroke = 5.0;
   swinging.frequency = 0.2;
-  check_closure("a stroke over several cells",
+  check_closure("disks",
                 with_spins(inelastic(with_walls(periodic_box(14.0, 4.0), 0, swinging), 0.9)), 8);
-  check_closure("a shaken floor under gravity",
-                falling(with_spins(inelastic(between(kRoughSinusoidal, 1), 0.9)), {0.0, -1.0}));
+  check_closure("spheres",
+                with_spins(inelastic(with_walls(periodic_box(14.0, 2.5, 2.5), 0, swinging), 0.9)),
+                10);
+}
+
+template <int D>
+static void check_contact_time() {
+  check_closure("driven", with_contact_time(inelastic(walled<D>(kDriven, kLossy), 0.7), 0.1));
+  check_closure("rough, under gravity",
+                with_contact_time(
+                    falling(rough(inelastic(walled<D>(kStatic, kRoughSinusoidal), 0.6), 0.3, 0.3),
+                            vector<D>(0.0, -1.0)),
+                    0.02),
+                20);
 }
 
 TEST_CASE("Balance: closes with the TC model") {
-  check_closure("driven", with_contact_time(inelastic(four(kDriven, kLossy), 0.7), 0.1));
-  check_closure(
-      "rough, under gravity",
-      with_contact_time(
-          falling(rough(inelastic(four(kStatic, kRoughSinusoidal), 0.6), 0.3, 0.3), {0.0, -1.0}),
-          0.02),
-      20);
+  check_contact_time<2>();
+  check_contact_time<3>();
+}
+
+template <int D>
+static void check_images() {
+  check_closure("elastic", narrow<D>(1.2), 6);
+  check_closure("rough, driven",
+                rough(inelastic(with_walls(narrow<D>(1.2), 0, kRoughDriven), 0.9), 0.3, 0.7), 6);
+  check_closure("falling round", falling(inelastic(narrow<D>(1.2), 0.9), vector<D>(0.2, 1.0)), 6);
 }
 
 TEST_CASE("Balance: closes where particles touch at images that are not the nearest") {
-  check_closure("elastic", periodic_box(12.0, 1.2), 6);
-  check_closure(
-      "rough, driven",
-      rough(inelastic(with_walls(periodic_box(12.0, 1.2), 0, kRoughDriven), 0.9), 0.3, 0.7), 6);
-  check_closure("falling round", falling(inelastic(periodic_box(12.0, 1.2), 0.9), {0.2, 1.0}), 6);
-  check_closure("one particle wide", periodic_box(1.2, 12.0), 6);
+  check_images<2>();
+  check_images<3>();
+  check_closure("one disk wide", periodic_box(1.2, 12.0), 6);
+  check_closure("one sphere wide", periodic_box(1.2, 1.3, 9.0), 6);
 }
 
-TEST_CASE("Balance: closes with everything at once, at time 0 and at 1e9") {
-  const Model<2> model = with_contact_time(
-      kicked(falling(rough(inelastic(four(kRoughSinusoidal, kRoughDriven), 0.8), 0.4, 0.6),
-                     {0.2, -0.5}),
+template <int D>
+static void check_everything() {
+  const Model<D> model = with_contact_time(
+      kicked(falling(rough(inelastic(walled<D>(kRoughSinusoidal, kRoughDriven), 0.8), 0.4, 0.6),
+                     vector<D>(0.2, -0.5, 0.3)),
              0.17, 0.1),
       0.01);
   check_closure("all", model, 20);
   check_closure("all, late", model, 20, 1e9);
-  check_closure("periodic, late", falling(periodic_box(9.0, 8.0), {0.5, 0.1}), 30, 1e9);
+  check_closure("periodic, late", falling(box<D>(), vector<D>(0.5, 0.1)), 30, 1e9);
+}
+
+TEST_CASE("Balance: closes with everything at once, at time 0 and at 1e9") {
+  check_everything<2>();
+  check_everything<3>();
 }
 
 TEST_CASE("Balance: closes over windows in which the base moves") {
   const Model<2> model = falling(inelastic(between(kDriven, 1), 0.9), {0.1, -0.5});
-  Watched run(model, clear_gas(model, 12, 85), {9, 8});
+  Watched<2> run(model, clear_gas(model, 12, 85), {9, 8});
   BaseMoves moves;
   run.simulation.add_observer(moves);
   for (int window = 1; window <= 5; ++window) {
@@ -205,7 +300,7 @@ TEST_CASE("Balance: a watch that begins finds the particles where they are") {
 // sqrt(2).
 TEST_CASE("Balance: a particle carries through a face what it has there and then") {
   const Model<2> model = falling(periodic_box(9.0, 8.0), {-1.0, 0.0});
-  Watched run(model, {{{2.5, 4.5}}, {{1.0, 0.1}}}, {9, 8});
+  Watched<2> run(model, {{{2.5, 4.5}}, {{1.0, 0.1}}}, {9, 8});
   const std::size_t row = 9 * 4;
   const BalanceWindow<2> rising = run.close_at(0.999);
   CHECK(rising.booked.faces[0][row + 2].size[0] == 0.0);
@@ -228,7 +323,7 @@ TEST_CASE("Balance: a particle carries through a face what it has there and then
 // 4 and 4.5. alpha = 1/2: the second gains 3/4, the first ends at 1/4.
 TEST_CASE("Balance: a collision carries along its branch and dissipates at its ends") {
   Model<2> model = inelastic(periodic_box(9.0, 8.0), 0.5);
-  Watched run(model, {{{3.6, 4.1}, {4.75, 4.1}}, {{1.0, 0.0}, {0.0, 0.0}}}, {18, 16});
+  Watched<2> run(model, {{{3.6, 4.1}, {4.75, 4.1}}, {{1.0, 0.0}, {0.0, 0.0}}}, {18, 16});
   const BalanceWindow<2> window = run.close_at(0.2);
   REQUIRE(run.simulation.counts().pair_collisions == 1);
   const std::size_t row = 18 * 8;
@@ -265,7 +360,7 @@ TEST_CASE("Balance: a branch passes the faces between images that touch, in orde
     State<2> start{{{4.5, 1.0}, {4.5, 1.0}}, {{0.0, 0.0}, {0.0, 0.0}}};
     start.positions[moving] = {3.5, 0.2};
     start.velocities[moving] = {1.0, 0.0};
-    Watched run(periodic_box(9.0, 1.2), start, {9, 3});
+    Watched<2> run(periodic_box(9.0, 1.2), start, {9, 3});
     const BalanceWindow<2> window = run.close_at(0.1);
     REQUIRE(run.simulation.counts().pair_collisions == 1);
     const Conserved<2> given(0.0, -0.84, 0.4 * std::sqrt(0.84), -0.42);
@@ -283,7 +378,7 @@ TEST_CASE("Balance: a branch passes the faces between images that touch, in orde
 // The particle, of velocity (1, 0), touches the far wall with its centre at 8.5; faces
 // at 8.25, 8.5, 8.75. alpha_w = 0.8: it gains momentum -1.8 and energy -0.18.
 TEST_CASE("Balance: what a wall gives comes in where it touches") {
-  Watched run(between(kLossy, 0), {{{8.4, 4.1}}, {{1.0, 0.0}}}, {36, 8});
+  Watched<2> run(between(kLossy, 0), {{{8.4, 4.1}}, {{1.0, 0.0}}}, {36, 8});
   const BalanceWindow<2> window = run.close_at(0.15);
   REQUIRE(run.simulation.counts().wall_collisions == 1);
   const std::size_t row = 36 * 4;
@@ -309,7 +404,7 @@ TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
                       .frequency = 0.001,
                       .phase = 0.5};
   model.walls = {creeping, kStatic, {}, {}};
-  Watched run(model, {{{1.6, 4.1}}, {{-1.0, 0.0}}}, {36, 8});
+  Watched<2> run(model, {{{1.6, 4.1}}, {{-1.0, 0.0}}}, {36, 8});
   const BalanceWindow<2> window = run.close_at(0.15);
   REQUIRE(run.simulation.counts().wall_collisions == 1);
   const std::size_t row = 36 * 4;
@@ -326,7 +421,7 @@ TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
 // it on a face.
 TEST_CASE("Balance: a flight over many windows, each ending on a face") {
   for (const Vec2& v : {Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(1.0, -1.0), Vec2(0.1, 0.3)}) {
-    Watched run(periodic_box(9.0, 8.0), {{{2.0, 4.0}}, {v}}, {9, 8});
+    Watched<2> run(periodic_box(9.0, 8.0), {{{2.0, 4.0}}, {v}}, {9, 8});
     double passed = 0.0;
     for (int window = 1; window <= 900; ++window) {
       const BalanceWindow<2> balance = run.close_at(window);
@@ -350,7 +445,7 @@ TEST_CASE("Balance: collisions on faces and at corners of cells") {
         start.positions.push_back({1.0 + 2.0 * (i % 4), 1.0 + 2.0 * (i / 4)});
         start.velocities.push_back(directions[(i + i / 4) % 4]);
       }
-      Watched run(model, start, {16, 16});
+      Watched<2> run(model, start, {16, 16});
       for (int window = 1; window <= 20; ++window) {
         CHECK(run.close_at(0.5 * window).imbalances.largest().maxCoeff() < 1e-10);
       }
@@ -376,7 +471,7 @@ TEST_CASE("Balance: a particle that turns on a face does not cross it for ever")
 }
 
 TEST_CASE("Balance: an empty gas and untouched cells have nothing to close") {
-  Watched run(between(kStatic, 0), {}, {3, 2});
+  Watched<2> run(between(kStatic, 0), {}, {3, 2});
   const BalanceWindow<2> window = run.close_at(1.0);
   CHECK(window.imbalances.gaps.size() == 6);
   CHECK(window.imbalances.largest().maxCoeff() == 0.0);

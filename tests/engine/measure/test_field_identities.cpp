@@ -34,33 +34,34 @@ struct Booked {
 
 /// What walls, kicks and gravity add to the moments, from velocities and not from
 /// ParticleChange::energy.
-class Sources : public Observer<2> {
+template <int D>
+class Sources : public Observer<D> {
  public:
-  explicit Sources(const Simulation<2>& simulation)
+  explicit Sources(const Simulation<D>& simulation)
       : simulation_(simulation), begin_(simulation.base_time()) {}
 
-  Booked momentum[2][2];    ///< [k][l] of sum r_k v_l
-  Booked energy_moment[2];  ///< of sum r_k E
+  Booked momentum[D][D];    ///< [k][l] of sum r_k v_l
+  Booked energy_moment[D];  ///< of sum r_k E
   Booked energy;            ///< of sum E, without what collisions of particles dissipate
 
-  void on_collision(const PairCollision<2>& c) override {
-    for (const ParticleChange<2>& particle : c.particles) fall(particle.before, c.time);
+  void on_collision(const PairCollision<D>& c) override {
+    for (const ParticleChange<D>& particle : c.particles) fall(particle.before, c.time);
     const double gained = energy_gain(c.particles[0]) + energy_gain(c.particles[1]);
-    const Vec2 ends = 2.0 * c.particles[0].position - c.separation;
-    for (int k = 0; k < 2; ++k) energy_moment[k].add(0.5 * gained * ends[k]);
+    const Vec<D> ends = 2.0 * c.particles[0].position - c.separation;
+    for (int k = 0; k < D; ++k) energy_moment[k].add(0.5 * gained * ends[k]);
   }
 
-  void on_wall(const WallCollision<2>& c) override {
+  void on_wall(const WallCollision<D>& c) override {
     fall(c.particle.before, c.time);
     // The wall's face, where it is now.
     const double inset = simulation_.wall(c.side).displacement;
     const int axis = c.side / 2;
-    Vec2 contact = c.particle.position;
+    Vec<D> contact = c.particle.position;
     contact[axis] = c.side % 2 ? simulation_.model().box[axis] - inset : inset;
     add(c.particle, contact);
   }
 
-  void on_kick(const Kick<2>& kick) override {
+  void on_kick(const Kick<D>& kick) override {
     fall(kick.particle.before, kick.time);
     add(kick.particle, kick.particle.position);
   }
@@ -68,62 +69,63 @@ class Sources : public Observer<2> {
   void on_base_moved(double shift) override { begin_ -= shift; }
 
   void close() {
-    for (const Particle<2>& particle : simulation_.particles())
+    for (const Particle<D>& particle : simulation_.particles())
       fall(particle.flight, simulation_.base_time());
   }
 
  private:
-  double energy_gain(const ParticleChange<2>& particle) const {
+  double energy_gain(const ParticleChange<D>& particle) const {
     const double inertia = 0.25 * simulation_.model().inertia;
-    const Vec2 after = particle.velocity + particle.gain.momentum;
-    const double w = particle.spin[0], w_after = w + particle.gain.spin[0];
+    const Vec<D> after = particle.velocity + particle.gain.momentum;
+    const Spin<D> w = particle.spin + particle.gain.spin;
     return 0.5 * (after.squaredNorm() - particle.velocity.squaredNorm()) +
-           0.5 * inertia * (w_after * w_after - w * w);
+           0.5 * inertia * (w.squaredNorm() - particle.spin.squaredNorm());
   }
 
-  void add(const ParticleChange<2>& particle, const Vec2& place) {
+  void add(const ParticleChange<D>& particle, const Vec<D>& place) {
     const double gained = energy_gain(particle);
     energy.add(gained);
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < D; ++k) {
       energy_moment[k].add(place[k] * gained);
-      for (int l = 0; l < 2; ++l) momentum[k][l].add(place[k] * particle.gain.momentum[l]);
+      for (int l = 0; l < D; ++l) momentum[k][l].add(place[k] * particle.gain.momentum[l]);
     }
   }
 
   // Gravity along a flight, by Gauss quadrature with two points: exact for cubics.
-  void fall(const Flight<2>& flight, double end) {
-    const Vec2& gravity = simulation_.model().gravity;
+  void fall(const Flight<D>& flight, double end) {
+    const Vec<D>& gravity = simulation_.model().gravity;
     const double begin = std::max(begin_, flight.time);
     if (!(end > begin) || gravity.isZero(0.0)) return;
     for (const double node : {-1.0 / std::sqrt(3.0), 1.0 / std::sqrt(3.0)}) {
       const double time = 0.5 * (begin + end) + 0.5 * node * (end - begin);
       const double weight = 0.5 * (end - begin);
-      const Vec2 r = flight.at(time, gravity);
+      const Vec<D> r = flight.at(time, gravity);
       const double power = gravity.dot(flight.velocity_at(time, gravity));
       energy.add(weight * power);
-      for (int k = 0; k < 2; ++k) {
+      for (int k = 0; k < D; ++k) {
         energy_moment[k].add(weight * r[k] * power);
-        for (int l = 0; l < 2; ++l) momentum[k][l].add(weight * r[k] * gravity[l]);
+        for (int l = 0; l < D; ++l) momentum[k][l].add(weight * r[k] * gravity[l]);
       }
     }
   }
 
-  const Simulation<2>& simulation_;
+  const Simulation<D>& simulation_;
   double begin_;
 };
 
 /// The moments of the particles as they are.
-struct State2 {
-  Eigen::Matrix2d momentum = Eigen::Matrix2d::Zero();  ///< sum r_k v_l
-  Vec2 energy_moment = Vec2::Zero();                   ///< sum r_k E
+template <int D>
+struct Moments {
+  Eigen::Matrix<double, D, D> momentum = Eigen::Matrix<double, D, D>::Zero();  ///< sum r_k v_l
+  Vec<D> energy_moment = Vec<D>::Zero();                                       ///< sum r_k E
   double energy = 0.0;
 
-  explicit State2(const Simulation<2>& simulation) {
-    const State<2> state = simulation.state();
+  explicit Moments(const Simulation<D>& simulation) {
+    const State<D> state = simulation.state();
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
-      const double w = state.spins.empty() ? 0.0 : state.spins[i][0];
+      const double squares = state.spins.empty() ? 0.0 : state.spins[i].squaredNorm();
       const double e =
-          0.5 * state.velocities[i].squaredNorm() + 0.125 * simulation.model().inertia * w * w;
+          0.5 * state.velocities[i].squaredNorm() + 0.125 * simulation.model().inertia * squares;
       momentum += state.positions[i] * state.velocities[i].transpose();
       energy_moment += state.positions[i] * e;
       energy += e;
@@ -132,14 +134,16 @@ struct State2 {
 };
 
 /// Of the fields as they are reported, cell by cell.
+template <int D>
 struct Reported {
-  Booked momentum[2][2];
-  Booked energy_moment[2];
+  Booked momentum[D][D];
+  Booked energy_moment[D];
   Booked dissipation;
 };
 
-Reported reported(const CellIntegrals<2>& integrals, const CellSums& sums, bool spins) {
-  Reported result;
+template <int D>
+Reported<D> reported(const CellIntegrals<D>& integrals, const CellSums& sums, bool spins) {
+  Reported<D> result;
   const double area = integrals.grid().cell_measure();
   const double measure = sums.time * area;
   for (std::size_t i = 0; i < integrals.grid().size(); ++i) {
@@ -149,20 +153,26 @@ Reported reported(const CellIntegrals<2>& integrals, const CellSums& sums, bool 
       return std::isnan(number) ? 0.0 : number;
     };
     const double density = value(Quantity::Density);
-    const Vec2 V(value(Field(Quantity::Velocity, 0)), value(Field(Quantity::Velocity, 1)));
-    // What rough particles and thermal walls pass on is askew: xy and yx differ, and only xy is
-    // reported.
-    const double xy = value(Field(Quantity::Stress, 0, 1));
-    const double yx = xy + cell.transfer[0][1] - cell.transfer[1][0];
-    const Eigen::Matrix2d sigma{{value(Field(Quantity::Stress, 0, 0)), xy},
-                                {yx, value(Field(Quantity::Stress, 1, 1))}};
-    const Vec2 q(value(Field(Quantity::HeatFlux, 0)), value(Field(Quantity::HeatFlux, 1)));
-    const double E = density * (value(Quantity::Temperature) + 0.5 * V.squaredNorm() +
-                                (spins ? 0.5 * value(Quantity::SpinTemperature) : 0.0));
-    const Vec2 flux = q + E * V - sigma * V;
-    for (int k = 0; k < 2; ++k) {
+    Vec<D> V, q;
+    Eigen::Matrix<double, D, D> sigma;
+    for (int k = 0; k < D; ++k) {
+      V[k] = value(Field(Quantity::Velocity, k));
+      q[k] = value(Field(Quantity::HeatFlux, k));
+      sigma(k, k) = value(Field(Quantity::Stress, k, k));
+      // What rough particles and thermal walls pass on is askew: xy and yx differ, and only xy is
+      // reported.
+      for (int l = k + 1; l < D; ++l) {
+        sigma(k, l) = value(Field(Quantity::Stress, k, l));
+        sigma(l, k) = sigma(k, l) + cell.transfer[k][l] - cell.transfer[l][k];
+      }
+    }
+    const double spin_energy = spins ? 0.5 * kSpinSize<D> * value(Quantity::SpinTemperature) : 0.0;
+    const double E =
+        density * (0.5 * D * value(Quantity::Temperature) + 0.5 * V.squaredNorm() + spin_energy);
+    const Vec<D> flux = q + E * V - sigma * V;
+    for (int k = 0; k < D; ++k) {
       result.energy_moment[k].add(measure * flux[k]);
-      for (int l = 0; l < 2; ++l) {
+      for (int l = 0; l < D; ++l) {
         result.momentum[k][l].add(measure * (density * V[k] * V[l] - sigma(k, l)));
       }
     }
@@ -180,25 +190,29 @@ double residual(double change, std::initializer_list<Booked> terms) {
   return sizes > 0.0 ? std::fabs(sum) / sizes : 0.0;
 }
 
+template <int D>
 void check_identities(const Scene& scene, std::uint64_t seed) {
+  CAPTURE(D);
   constexpr double kResidual = 1e-10;
-  const auto simulation = simulation_of(scene, seed);
-  simulation->run_until(2.345);
-  CellIntegrals<2> integrals(*simulation, {7, 5}, full_layout(scene.spins()));
-  Sources sources(*simulation);
-  simulation->add_observer(integrals);
-  simulation->add_observer(sources);
-  const State2 before(*simulation);
-  simulation->run_until(22.3);
-  const State2 after(*simulation);
+  Simulation<D> simulation(model_of<D>(scene, seed), start_state<D>(scene, seed));
+  simulation.run_until(2.345);
+  const std::vector<Field> all = all_fields(D);
+  CellIntegrals<D> integrals(simulation, IntVec<3>(7, 5, 3).head<D>(),
+                             moment_layout<D>(all, scene.spins()));
+  Sources<D> sources(simulation);
+  simulation.add_observer(integrals);
+  simulation.add_observer(sources);
+  const Moments<D> before(simulation);
+  simulation.run_until(22.3);
+  const Moments<D> after(simulation);
   sources.close();
-  const Reported fields = reported(integrals, integrals.close_window(), scene.spins());
-  REQUIRE(simulation->counts().pair_collisions > 200);
+  const Reported<D> fields = reported(integrals, integrals.close_window(), scene.spins());
+  REQUIRE(simulation.counts().pair_collisions > 200);
   double worst = residual(after.energy - before.energy, {fields.dissipation, sources.energy});
   CHECK(worst < kResidual);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < D; ++k) {
     if (scene.periodic(k)) continue;
-    for (int l = 0; l < 2; ++l) {
+    for (int l = 0; l < D; ++l) {
       CAPTURE(k);
       CAPTURE(l);
       const double off = residual(after.momentum(k, l) - before.momentum(k, l),
@@ -215,11 +229,23 @@ void check_identities(const Scene& scene, std::uint64_t seed) {
   MESSAGE("largest residual ", worst);
 }
 
-/// Walls all round.
+/// A periodic box.
+template <int D>
+Scene periodic() {
+  Scene scene = default_scene(D);
+  scene.box = Vec<3>(D == 2 ? 9.0 : 5.0, D == 2 ? 7.0 : 4.5, 4.0).head<D>();
+  scene.particles.count = 25;
+  scene.particles.restitution = 0.85;
+  return scene;
+}
+
+/// Walls all round; along z those of x.
+template <int D>
 Scene boxed(const Wall& along_x, const Wall& along_y) {
-  Scene scene = gas(9.0, 7.0, 25, 0.85);
+  Scene scene = periodic<D>();
   wall_in(scene, 0, along_x);
   wall_in(scene, 1, along_y);
+  if (D == 3) wall_in(scene, 2, along_x);
   return scene;
 }
 
@@ -241,53 +267,101 @@ const Wall kSinusoidal = {
 
 }  // namespace
 
-TEST_CASE("first moments of the fields: smooth particles between driven and lossy walls") {
-  check_identities(boxed(kDriven, kLossy), 81);
+template <int D>
+static void check_driven_and_lossy() {
+  check_identities<D>(boxed<D>(kDriven, kLossy), 81);
 }
 
-TEST_CASE("first moments of the fields: a periodic axis beside a walled one") {
-  Scene scene = gas(9.0, 6.0, 25, 0.85);
-  wall_in(scene, 0, kDriven);
-  check_identities(scene, 82);
-  scene = gas(9.0, 6.0, 25, 0.85);
-  wall_in(scene, 1, kDriven);
-  check_identities(with_spins(scene), 83);
+TEST_CASE("First moments of the fields: smooth particles between driven and lossy walls") {
+  check_driven_and_lossy<2>();
+  check_driven_and_lossy<3>();
 }
 
-TEST_CASE("first moments of the fields: rough particles and walls") {
-  check_identities(with_spins(boxed(kDriven, kLossy)), 84);
+template <int D>
+static void check_half_walled() {
+  for (int axis = 0; axis < D; ++axis) {
+    Scene scene = periodic<D>();
+    wall_in(scene, axis, kDriven);
+    check_identities<D>(scene, 82);
+    check_identities<D>(with_spins(scene), 83);
+  }
 }
 
-TEST_CASE("first moments of the fields: gravity") {
-  Scene scene = boxed(kLossy, kDriven);
-  scene.gravity = Vec2(0.3, -0.8);
-  check_identities(scene, 85);
+TEST_CASE("First moments of the fields: periodic axes beside a walled one") {
+  check_half_walled<2>();
+  check_half_walled<3>();
 }
 
-TEST_CASE("first moments of the fields: bulk driving") {
-  Scene scene = boxed(kLossy, kLossy);
+template <int D>
+static void check_rough() {
+  check_identities<D>(with_spins(boxed<D>(kDriven, kLossy)), 84);
+}
+
+TEST_CASE("First moments of the fields: rough particles and walls") {
+  check_rough<2>();
+  check_rough<3>();
+}
+
+template <int D>
+static void check_gravity() {
+  Scene scene = boxed<D>(kLossy, kDriven);
+  scene.gravity = Vec<3>(0.3, -0.8, 0.4).head<D>();
+  check_identities<D>(scene, 85);
+}
+
+TEST_CASE("First moments of the fields: gravity") {
+  check_gravity<2>();
+  check_gravity<3>();
+}
+
+template <int D>
+static void check_bulk_drive() {
+  Scene scene = boxed<D>(kLossy, kLossy);
   scene.bulk_drive = {.interval = 0.13, .kick_speed = 0.3};
-  check_identities(scene, 86);
+  check_identities<D>(scene, 86);
   scene.bulk_drive->kick_spin = 0.5;
-  check_identities(with_spins(scene), 87);
+  check_identities<D>(with_spins(scene), 87);
 }
 
-TEST_CASE("first moments of the fields: thermal walls") {
-  check_identities(boxed(kThermal, kThermal), 88);
-  check_identities(with_spins(boxed(kThermal, kDriven)), 89);
+TEST_CASE("First moments of the fields: bulk driving") {
+  check_bulk_drive<2>();
+  check_bulk_drive<3>();
 }
 
-TEST_CASE("first moments of the fields: saw-tooth and sinusoidal walls") {
-  check_identities(boxed(kSawtooth, kSinusoidal), 90);
-  check_identities(boxed(kSinusoidal, kSawtooth), 91);
+template <int D>
+static void check_thermal() {
+  check_identities<D>(boxed<D>(kThermal, kThermal), 88);
+  check_identities<D>(with_spins(boxed<D>(kThermal, kDriven)), 89);
 }
 
-TEST_CASE("first moments of the fields: everything at once") {
-  Scene scene = with_spins(boxed(kSawtooth, kSinusoidal));
+TEST_CASE("First moments of the fields: thermal walls") {
+  check_thermal<2>();
+  check_thermal<3>();
+}
+
+template <int D>
+static void check_moving_walls() {
+  check_identities<D>(boxed<D>(kSawtooth, kSinusoidal), 90);
+  check_identities<D>(boxed<D>(kSinusoidal, kSawtooth), 91);
+}
+
+TEST_CASE("First moments of the fields: saw-tooth and sinusoidal walls") {
+  check_moving_walls<2>();
+  check_moving_walls<3>();
+}
+
+template <int D>
+static void check_everything() {
+  Scene scene = with_spins(boxed<D>(kSawtooth, kSinusoidal));
   scene.walls[kRight] = kThermal;
   scene.walls[kTop] = kDriven;
-  scene.gravity = Vec2(-0.2, -0.5);
+  scene.gravity = Vec<3>(-0.2, -0.5, 0.3).head<D>();
   scene.bulk_drive = {.interval = 0.31, .kick_speed = 0.2, .kick_spin = 0.2};
   scene.contact_time = 0.01;
-  check_identities(scene, 92);
+  check_identities<D>(scene, 92);
+}
+
+TEST_CASE("First moments of the fields: everything at once") {
+  check_everything<2>();
+  check_everything<3>();
 }

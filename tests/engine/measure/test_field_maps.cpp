@@ -81,7 +81,7 @@ TEST_CASE("Measurement: maps average to the profile, and their parts to the maps
     REQUIRE(result.maps);
     CHECK(result.maps->begin == result.burn_in);
     CHECK(result.maps->end == result.burn_in + result.duration);
-    CHECK(result.maps->cell == Vec2(1.5, 2.0));
+    CHECK(result.maps->cell == std::vector{1.5, 2.0});
     CHECK(result.map_series.size() == 64);
     CHECK(result.map_series.front().begin == result.maps->begin);
     CHECK(result.map_series.back().end == result.maps->end);

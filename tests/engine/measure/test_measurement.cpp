@@ -34,9 +34,9 @@ bool finite(const Estimate& estimate) {
 /// Whether every number that there is is one.
 bool finite(const Measured& result) {
   bool all = std::isfinite(result.duration) && std::isfinite(result.ledger_residual);
-  for (const Estimate& e :
-       {result.temperature, result.temperature_x, result.temperature_y, result.kurtosis_excess_x,
-        result.kurtosis_excess_y, result.collision_rate, result.dissipated}) {
+  for (const Estimate& e : {result.temperature, result.axis_temperatures[0],
+                            result.axis_temperatures[1], result.kurtosis_excess[0],
+                            result.kurtosis_excess[1], result.collision_rate, result.dissipated}) {
     all = all && finite(e);
   }
   for (const auto& e : {result.walls_in, result.compressibility, result.pressure[0],
@@ -77,8 +77,8 @@ TEST_CASE("Measurement: averages over the time after the burn-in, all of it and 
   CHECK(again->state_hash() == simulation->state_hash());
   CHECK(result.pair_collisions == again->counts().pair_collisions - at_start.pair_collisions);
   CHECK(result.wall_collisions == again->counts().wall_collisions - at_start.wall_collisions);
-  CHECK(result.temperature_x.mean == doctest::Approx(window.temperature.x()).epsilon(1e-9));
-  CHECK(result.temperature_y.mean == doctest::Approx(window.temperature.y()).epsilon(1e-9));
+  CHECK(result.axis_temperatures[0].mean == doctest::Approx(window.temperature.x()).epsilon(1e-9));
+  CHECK(result.axis_temperatures[1].mean == doctest::Approx(window.temperature.y()).epsilon(1e-9));
   CHECK(result.temperature.mean == doctest::Approx(0.5 * window.temperature.sum()).epsilon(1e-9));
   CHECK(result.dissipated.mean == doctest::Approx(window.dissipated / 31.9).epsilon(1e-9));
   CHECK(result.collision_rate.mean ==

@@ -45,12 +45,12 @@ Measure measure_of(std::vector<Field> fields) {
 /// A run and its measurement.
 struct Run {
   std::unique_ptr<Simulation<2>> simulation;
-  std::unique_ptr<Measurement> measurement;
+  std::unique_ptr<Measurement<2>> measurement;
 };
 
 Run started(const Scene& scene, const Measure& measure) {
   Run run{simulation_of(scene, 5), nullptr};
-  run.measurement = std::make_unique<Measurement>(*run.simulation, measure, kEnd);
+  run.measurement = std::make_unique<Measurement<2>>(*run.simulation, measure, kEnd);
   return run;
 }
 
@@ -59,7 +59,7 @@ Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
   Run run{std::make_unique<Simulation<2>>(model_of<2>(scene, 5), before.simulation->save()),
           nullptr};
   run.measurement =
-      std::make_unique<Measurement>(*run.simulation, measure, ArchiveReader(saved, "saved"));
+      std::make_unique<Measurement<2>>(*run.simulation, measure, ArchiveReader(saved, "saved"));
   // Saving twice gives the same, and saving is no more than looking.
   REQUIRE(run.measurement->save() == saved);
   return run;
@@ -102,7 +102,7 @@ void check_same(const Run& a, const Run& b) {
   CHECK(x.series_time == y.series_time);
   CHECK(x.series_temperature == y.series_temperature);
   REQUIRE(x.residuals.has_value() == y.residuals.has_value());
-  if (x.residuals) CHECK(x.residuals->cells == y.residuals->cells);
+  if (x.residuals) CHECK(x.residuals->equations == y.residuals->equations);
   CHECK(x.maps.has_value() == y.maps.has_value());
   if (x.maps) CHECK(same(*x.maps, *y.maps));
   CHECK(
@@ -147,7 +147,7 @@ TEST_CASE("Measurement: taken up for longer it goes on with windows of the same 
   CHECK(measured.duration == doctest::Approx(3.0 * span));
   CHECK(measured.series_time.back() == doctest::Approx(kBurnIn + 3.0 * span).epsilon(0.01));
   CHECK(measured.ledger_residual < 1e-12);
-  CHECK(measured.residuals->largest().maxCoeff() < 1e-12);
+  CHECK(std::ranges::max(measured.residuals->largest()) < 1e-12);
 }
 
 TEST_CASE("Measurement: one that starts in the midst of a run averages from then on") {
@@ -176,7 +176,7 @@ TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledg
              nullptr};
   const std::string saved = rough.measurement->save();
   smooth.measurement =
-      std::make_unique<Measurement>(*smooth.simulation, measure, ArchiveReader(saved, "saved"));
+      std::make_unique<Measurement<2>>(*smooth.simulation, measure, ArchiveReader(saved, "saved"));
   CHECK(smooth.simulation->spin_energy() == 0.0);
   smooth.simulation->run_until(kEnd);
   CHECK(smooth.measurement->result().ledger_residual < 1e-12);
@@ -191,6 +191,6 @@ TEST_CASE("Measurement: what is no measurement is refused") {
   for (const std::string& bytes :
        {std::string(), saved + '\0', saved.substr(0, saved.size() - 1), saved.substr(8)}) {
     Simulation<2> other(simulation.model(), simulation.save());
-    CHECK_THROWS_AS(Measurement(other, measure, ArchiveReader(bytes, "saved")), UserError);
+    CHECK_THROWS_AS(Measurement<2>(other, measure, ArchiveReader(bytes, "saved")), UserError);
   }
 }

@@ -38,7 +38,7 @@ TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere
   LiveField live(*simulation, view_of(Quantity::Density, 2000.0));
   simulation->run_until(2000.0);
   const FieldMap map = map_of(live);
-  REQUIRE(map.cells == std::vector<int>{12, 8});
+  REQUIRE(map.cells == std::vector{12, 8});
   REQUIRE(map.values.size() == 96);
   // Cells of area 1: exactly N particles in all.
   CHECK(std::accumulate(map.values.begin(), map.values.end(), 0.0) ==
@@ -243,7 +243,7 @@ TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
 TEST_CASE("LiveField: it has at most 512 cells along an axis, and at least one") {
   const auto simulation = lone_particle(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
   LiveField live(*simulation, view_of(Quantity::Density, 1.0));
-  CHECK(map_of(live).cells == std::vector<int>{512, 1});
+  CHECK(map_of(live).cells == std::vector{512, 1});
 }
 
 TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <type_traits>
 
 #include "engine/dynamics/model.h"
 
@@ -68,7 +67,7 @@ Model<D> rough(Model<D> model, double friction, double tangential_restitution) {
 
 /// The same model under gravity.
 template <int D>
-Model<D> falling(Model<D> model, const std::type_identity_t<Vec<D>>& gravity) {
+Model<D> falling(Model<D> model, const Vec<D>& gravity) {
   model.gravity = gravity;
   return model;
 }
