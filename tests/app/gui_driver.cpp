@@ -26,12 +26,8 @@ GuiDriver::GuiDriver(const std::string& arguments, const std::string& size) {
              " >out 2>err; echo $? >code) >/dev/null 2>&1 &");
   wait_for("status");
   tool("search --sync --name clatter windowmove 0 0 windowfocus --sync");
-  wait_for("widget", 0, [](const json& event) { return event["name"] == "stage"; });
+  wait_for("widget", 0, [](const json& event) { return event["name"] == "viewport"; });
   std::this_thread::sleep_for(300ms);
-}
-
-GuiDriver::~GuiDriver() {
-  shell_.run("kill $(cat xvfb)");
 }
 
 Outcome GuiDriver::run(const std::string& line) const {

@@ -16,7 +16,6 @@ class GuiDriver {
   /// Opens `clatter view` with these arguments on a screen of this size, and waits until it shows
   /// a gas and all that it shows has its place.
   explicit GuiDriver(const std::string& arguments, const std::string& size = "1280x800");
-  ~GuiDriver();
 
   /// Runs a line of the shell on the display.
   Outcome run(const std::string& line) const;
@@ -50,10 +49,17 @@ class GuiDriver {
   const Shell& shell() const { return shell_; }
 
  private:
+  /// Ends the screen and the program on it, also where the driver does not come about.
+  struct Screen {
+    const Shell& shell;
+    ~Screen() { shell.run("kill $(cat xvfb)"); }
+  };
+
   /// Place of a widget: left, top, width, height.
   std::vector<double> place(const std::string& widget) const;
 
   Shell shell_;
+  Screen screen_{shell_};
   std::string display_;
 };
 

@@ -112,26 +112,6 @@ TEST_CASE("Commands: the version is printed") {
   CHECK(outcome.out == "clatter " CLATTER_VERSION "\n");
 }
 
-TEST_CASE("Bench: the table of render has the cost of each stage for two sizes") {
-  const Shell shell;
-  const Outcome outcome = shell.run("clatter bench render --count 500 --json table.json");
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(std::ranges::count(outcome.out, '\n') == 3);
-  const auto rows = nlohmann::json::parse(shell.read("table.json"));
-  REQUIRE(rows.size() == 2);
-  for (const auto& row : rows) {
-    CHECK(row["count"] == 500);
-    for (const std::string stage :
-         {"simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"}) {
-      CAPTURE(stage);
-      CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
-    }
-  }
-  CHECK(rows[0]["width"] == 1280);
-  CHECK(rows[1]["width"] == 1920);
-}
-
 TEST_CASE("Commands: every command explains its flags, and only those") {
   const Shell shell;
   const std::set<std::string> scene = {"SCENE", "--set", "--seed", "--until"};

@@ -65,11 +65,11 @@ std::vector<double> column_of(const std::string& table, const std::string& name)
   return values;
 }
 
-// The upper left corner of the stage's picture.
+// The upper left corner of the viewport.
 std::vector<int> corner_colour(const GuiDriver& driver) {
-  const json stage = driver.wait_for(
-      "widget", 0, [](const json& event) { return event["name"] == "stage"; })["place"];
-  return driver.pixel(stage[0].get<int>() + 3, stage[1].get<int>() + 3);
+  const json place = driver.wait_for(
+      "widget", 0, [](const json& event) { return event["name"] == "viewport"; })["place"];
+  return driver.pixel(place[0].get<int>() + 3, place[1].get<int>() + 3);
 }
 
 }  // namespace
@@ -256,7 +256,7 @@ TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a pro
   const auto height = [&](std::size_t told) {
     return driver
         .wait_for("widget", told,
-                  [](const json& event) { return event["name"] == "stage"; })["place"][3]
+                  [](const json& event) { return event["name"] == "viewport"; })["place"][3]
         .get<double>();
   };
   const double before = height(0);
@@ -297,12 +297,12 @@ TEST_CASE("Window: trails appear with their slider, vanish with undo, and are sa
   CHECK(with["changes"] == 0);
   driver.key("space");
   driver.wait_for("status", told, halted);
-  const double bright = driver.brightness("stage");
+  const double bright = driver.brightness("viewport");
   // A drag is one step to take back.
   told = driver.told();
   driver.key("ctrl+z");
   driver.wait_for("status", told, [](const json& status) { return status["flights"] == 0; });
-  const double dark = driver.brightness("stage");
+  const double dark = driver.brightness("viewport");
   MESSAGE("brightness " << bright << " with trails, " << dark << " without");
   CHECK(dark < 0.8 * bright);
   driver.key("ctrl+y");

@@ -1,8 +1,6 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <thread>
 
@@ -62,14 +60,13 @@ TEST_CASE("write_file: a link stays, and what it points to is replaced") {
   CHECK(names_in(folder / "") == std::set<std::string>{"link", "results"});
 }
 
-TEST_CASE("write_file: a device or a pipe is written into") {
+TEST_CASE("write_file: a pipe is written into") {
   const TemporaryFolder folder;
-  CHECK_THROWS_WITH_AS(write_file("/dev/full", "bytes"),
-                       "cannot write /dev/full: No space left on device", RunError);
-  CHECK(is_special("/dev/full"));
   const std::filesystem::path pipe = folder / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(is_special(pipe));
+  CHECK(is_special("/dev/null"));
+  CHECK_FALSE(is_special(folder / ""));
   std::string read;
   std::thread reader([&] { read = bytes_of(pipe); });
   write_file(pipe, "bytes");
