@@ -44,7 +44,7 @@ void compare(const Case& c) {
 
 }  // namespace
 
-TEST_CASE("reference: periodic boxes") {
+TEST_CASE("Reference: gases in periodic boxes have the same bits") {
   compare({"wide", periodic_box(9.0, 8.0), {2, 3, 7, 16, 30}});
   compare({"dense", periodic_box(6.2, 6.1), {30}});
   compare({"one particle high: contacts through images that are not the nearest",
@@ -56,7 +56,7 @@ TEST_CASE("reference: periodic boxes") {
   compare({"inelastic", inelastic(periodic_box(9.0, 8.0), 0.9), {2, 12, 30}});
 }
 
-TEST_CASE("reference: walls on two sides and on four") {
+TEST_CASE("Reference: walls on two sides and on four give the same bits") {
   compare({"static", with_walls(periodic_box(9.0, 8.0), 0, kStatic), {2, 12, 30}});
   compare({"four static",
            with_walls(with_walls(periodic_box(7.0, 8.0), 0, kStatic), 1, kStatic),
@@ -79,14 +79,14 @@ TEST_CASE("reference: walls on two sides and on four") {
            {2, 6}});
 }
 
-TEST_CASE("reference: wholly inelastic particles between driven walls") {
+TEST_CASE("Reference: wholly inelastic particles between driven walls have the same bits") {
   const Model<2> model = inelastic(with_walls(periodic_box(9.0, 8.0), 0, kDriven), 0.0);
   for (const int count : {2, 5, 20}) compare(model, random_gas(model, count, 82));
 }
 
 // Particles on a square lattice, four velocities that repeat: several pairs collide at the same
 // times.
-TEST_CASE("reference: simultaneous collisions") {
+TEST_CASE("Reference: simultaneous collisions happen in the same order") {
   for (const bool walled : {false, true}) {
     for (const double restitution : {1.0, 0.5}) {
       Model<2> model = inelastic(periodic_box(8.0, 8.0), restitution);
@@ -103,7 +103,7 @@ TEST_CASE("reference: simultaneous collisions") {
 }
 
 // The second particle crosses the box some hundred times before it meets the first.
-TEST_CASE("reference: a first contact after many box lengths") {
+TEST_CASE("Reference: a first contact after many box lengths is found") {
   const Model<2> model = periodic_box(10.0, 9.0);
   State<2> start;
   start.positions = {{1.0, 1.0}, {4.0, 6.0}};

@@ -241,11 +241,11 @@ const Wall kSinusoidal = {
 
 }  // namespace
 
-TEST_CASE("first moments of the fields: smooth particles between driven and lossy walls") {
+TEST_CASE("First moments: they agree for smooth particles between driven and lossy walls") {
   check_identities(boxed(kDriven, kLossy), 81);
 }
 
-TEST_CASE("first moments of the fields: a periodic axis beside a walled one") {
+TEST_CASE("First moments: they agree where an axis is periodic and the other walled") {
   Scene scene = gas(9.0, 6.0, 25, 0.85);
   wall_in(scene, 0, kDriven);
   check_identities(scene, 82);
@@ -254,17 +254,17 @@ TEST_CASE("first moments of the fields: a periodic axis beside a walled one") {
   check_identities(with_spins(scene), 83);
 }
 
-TEST_CASE("first moments of the fields: rough particles and walls") {
+TEST_CASE("First moments: they agree for rough particles and walls") {
   check_identities(with_spins(boxed(kDriven, kLossy)), 84);
 }
 
-TEST_CASE("first moments of the fields: gravity") {
+TEST_CASE("First moments: they agree under gravity") {
   Scene scene = boxed(kLossy, kDriven);
   scene.gravity = Vec2(0.3, -0.8);
   check_identities(scene, 85);
 }
 
-TEST_CASE("first moments of the fields: bulk driving") {
+TEST_CASE("First moments: they agree with bulk driving") {
   Scene scene = boxed(kLossy, kLossy);
   scene.bulk_drive = {.interval = 0.13, .kick_speed = 0.3};
   check_identities(scene, 86);
@@ -272,17 +272,17 @@ TEST_CASE("first moments of the fields: bulk driving") {
   check_identities(with_spins(scene), 87);
 }
 
-TEST_CASE("first moments of the fields: thermal walls") {
+TEST_CASE("First moments: they agree with thermal walls") {
   check_identities(boxed(kThermal, kThermal), 88);
   check_identities(with_spins(boxed(kThermal, kDriven)), 89);
 }
 
-TEST_CASE("first moments of the fields: saw-tooth and sinusoidal walls") {
+TEST_CASE("First moments: they agree with saw-tooth and sinusoidal walls") {
   check_identities(boxed(kSawtooth, kSinusoidal), 90);
   check_identities(boxed(kSinusoidal, kSawtooth), 91);
 }
 
-TEST_CASE("first moments of the fields: everything at once") {
+TEST_CASE("First moments: they agree with everything at once") {
   Scene scene = with_spins(boxed(kSawtooth, kSinusoidal));
   scene.walls[kRight] = kThermal;
   scene.walls[kTop] = kDriven;
