@@ -398,10 +398,12 @@ TEST_CASE("Measure: a gas that cools is reported as not stationary") {
 
 TEST_CASE("Measure: progress is written to stderr as asked") {
   const Shell shell;
-  const std::string interrupted =
-      "timeout --preserve-status -s INT 8 clatter measure vibrated --until 1e6 ";
-  const Outcome outcome = shell.run(interrupted + "--progress json");
-  const json progress = json::parse(outcome.err.substr(0, outcome.err.find('\n')));
+  const Outcome outcome = shell.run(
+      "clatter measure vibrated --until 1e6 --progress json 2>told & pid=$!\n"
+      "while [ ! -s told ] && kill -0 $pid; do sleep 0.05; done; kill -INT $pid; wait $pid");
+  CHECK(outcome.code == 130);
+  const std::string told = shell.read("told");
+  const json progress = json::parse(told.substr(0, told.find('\n')));
   CHECK(progress.at("until") == 1e6);
   CHECK(progress.at("time") > 0.0);
   CHECK(progress.at("done") < 1.0);

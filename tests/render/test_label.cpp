@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-TEST_CASE("Labels have a symbol and a unit") {
+TEST_CASE("Label: it has a symbol and a unit") {
   CHECK(label_of(Field(Quantity::Temperature, 0), 2) ==
         Label{"temperature T", "x", Sign::Positive, "m a²/t²"});
   CHECK(label_of(Field(Quantity::HeatFlux, 1), 2) ==

@@ -37,7 +37,7 @@ class EventCounter : public Observer<2> {
 
 }  // namespace
 
-TEST_CASE("absent parts: a smooth gas holds no spins, and without t_c no times of collisions") {
+TEST_CASE("Absent parts: a smooth gas holds no spins, and without t_c no times of collisions") {
   constexpr std::size_t kCount = 10000;
   const Scene smooth = gas(150.0, 150.0, kCount, 0.9);
   const State<2> start = start_state<2>(smooth, 121);
@@ -54,7 +54,7 @@ TEST_CASE("absent parts: a smooth gas holds no spins, and without t_c no times o
   CHECK(simulation_bytes(model) == bare + kCount * sizeof(Spin<2>));
 }
 
-TEST_CASE("absent parts: without fields there is no grid") {
+TEST_CASE("Absent parts: without fields there is no grid") {
   constexpr std::size_t kGrid = 1000 * 1000 * sizeof(double);
   Scene scene = gas(20.0, 20.0, 50, 0.9);
   scene.measure.burn_in = 0.0;
@@ -72,7 +72,7 @@ TEST_CASE("absent parts: without fields there is no grid") {
   CHECK(measured_bytes() > kGrid);
 }
 
-TEST_CASE("absent parts: who does not watch is told nothing, and who does changes nothing") {
+TEST_CASE("Absent parts: only observers of an event are called, and they change nothing") {
   Scene scene = rough_mixture(30);
   scene.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.1};
   const auto watched = simulation_of(scene, 123), unwatched = simulation_of(scene, 123);
@@ -87,7 +87,7 @@ TEST_CASE("absent parts: who does not watch is told nothing, and who does change
   CHECK(watched->state_hash() == unwatched->state_hash());
 }
 
-TEST_CASE("absent parts: a part that is there but switched off changes no bit") {
+TEST_CASE("Absent parts: a part that is there but switched off changes no bit") {
   const std::string scene =
       "box.size = [20, 25]\nparticles = { count = 100, restitution = 0.9 }\n"
       "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n";
@@ -111,7 +111,7 @@ TEST_CASE("absent parts: a part that is there but switched off changes no bit") 
   CHECK(hash_of({{"particles.friction", "0.1"}}) != plain);
 }
 
-TEST_CASE("absent parts: what is there but switched off costs no time" *
+TEST_CASE("Absent parts: what is there but switched off costs no time" *
           doctest::test_suite("slow")) {
   // The median over 51 interleaved pairs of slices; of a run and its twin it is within 1 %.
   constexpr int kPairs = 51;

@@ -46,7 +46,7 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("independent_estimate: the error of few values, and none of a single one") {
+TEST_CASE("Independent estimate: few values have an error, a single one has none") {
   const std::vector<double> values = {1.0, 2.0, 6.0};  // variance 7
   const Estimate estimate = independent_estimate(values);
   CHECK(estimate.mean == doctest::Approx(3.0));
@@ -56,7 +56,7 @@ TEST_CASE("independent_estimate: the error of few values, and none of a single o
   CHECK(std::isnan(independent_estimate(one).standard_error));
 }
 
-TEST_CASE("blocked_error: white noise has the error sigma/sqrt(n)") {
+TEST_CASE("Blocked error: white noise has the error sigma/sqrt(n)") {
   // Not below: the level without blocking is known to 1/sqrt(2 n) = 1.1 %. Above by up to the
   // uncertainty of the last level, 1/sqrt(62) = 13 %, since the largest of the levels is taken.
   const auto errors = relative_errors(100, 4096, 0.0);
@@ -66,7 +66,7 @@ TEST_CASE("blocked_error: white noise has the error sigma/sqrt(n)") {
   CHECK(mean(errors) < 1.13);
 }
 
-TEST_CASE("blocked_error: finds the error of a correlated series within 20 %") {
+TEST_CASE("Blocked error: it finds the error of a correlated series within 20 %") {
   // rho = 0.9: the mean of 65,536 values is as uncertain as that of 65,536/19 independent ones. The
   // last level has blocks of 2048 values, 200 correlation times. Mean of 32 series: known to 2 %.
   const auto errors = relative_errors(32, 65536, 0.9);
@@ -75,14 +75,14 @@ TEST_CASE("blocked_error: finds the error of a correlated series within 20 %") {
   CHECK(errors.back() < 1.0 + 5.0 * 0.127);
 }
 
-TEST_CASE("blocked_error: negative correlations do not make the error small") {
+TEST_CASE("Blocked error: negative correlations do not make the error small") {
   // x, -x, x, -x: blocks of two are all zero, and the level without blocking is kept.
   std::vector<double> series;
   for (int k = 0; k < 64; ++k) series.push_back(k % 2 ? -1.0 : 1.0);
   CHECK(blocked_error(series) == doctest::Approx(1.0 / std::sqrt(63.0)));
 }
 
-TEST_CASE("mean_estimate: constants, and series too short for an error") {
+TEST_CASE("Mean estimate: constants have no error, too short a series an unknown one") {
   CHECK(mean_estimate({}).mean == 0.0);
   CHECK(mean_estimate({}).standard_error == 0.0);
 
@@ -99,14 +99,14 @@ TEST_CASE("mean_estimate: constants, and series too short for an error") {
   CHECK(constant.standard_error < 1e-15);
 }
 
-TEST_CASE("mean_estimate: three values by hand") {
+TEST_CASE("Mean estimate: three values have the error computed by hand") {
   // Mean 3, squares 4 + 1 + 9 = 14, error sqrt(14/(3*2)); two blocks are too few to be asked.
   const Estimate three = mean_estimate(std::vector{1.0, 2.0, 6.0});
   CHECK(three.mean == 3.0);
   CHECK(three.standard_error == doctest::Approx(std::sqrt(14.0 / 6.0)));
 }
 
-TEST_CASE("ratio_estimate: a fixed ratio has no error however both vary") {
+TEST_CASE("Ratio estimate: a fixed ratio has no error however both vary") {
   const auto denominator = std::vector{1.0, 5.0, 2.0, 8.0};
   const auto numerator = std::vector{2.5, 12.5, 5.0, 20.0};
   const Estimate ratio = ratio_estimate(numerator, denominator);
@@ -114,7 +114,7 @@ TEST_CASE("ratio_estimate: a fixed ratio has no error however both vary") {
   CHECK(ratio.standard_error < 1e-15);
 }
 
-TEST_CASE("ratio_estimate: independent errors add up as in the textbook") {
+TEST_CASE("Ratio estimate: independent errors add up as in the textbook") {
   // a = 2 + 0.1 x, b = 1 + 0.1 y: the error of a/b is sqrt(0.1^2 + (2*0.1)^2)/sqrt(n).
   constexpr std::size_t kCount = 4096;
   auto numerator = autoregressive(kCount, 0.0, 1001);
@@ -128,14 +128,14 @@ TEST_CASE("ratio_estimate: independent errors add up as in the textbook") {
   CHECK(ratio.standard_error < error * (1.0 + 5.0 * 0.127));
 }
 
-TEST_CASE("ratio_estimate: nothing below the line gives nothing") {
+TEST_CASE("Ratio estimate: nothing below the line gives nothing") {
   CHECK(ratio_estimate({}, {}).mean == 0.0);
   const Estimate ratio = ratio_estimate(std::vector{1.0, 2.0}, std::vector{0.0, 0.0});
   CHECK(ratio.mean == 0.0);
   CHECK(ratio.standard_error == 0.0);
 }
 
-TEST_CASE("mean_estimate: a stationary series has no drift, and one that rises has") {
+TEST_CASE("Mean estimate: a stationary series has no drift, and one that rises has") {
   // Of 100 series of 4096 values none is expected beyond 5 errors; of one that is higher by 20
   // errors in its second half the drift is that, within the 13 % to which errors are known.
   std::vector<double> drifts;
@@ -153,7 +153,7 @@ TEST_CASE("mean_estimate: a stationary series has no drift, and one that rises h
   CHECK(mean_estimate(autoregressive(511, 0.5, 0)).drift == 0.0);
 }
 
-TEST_CASE("mean_estimate: its error is known to rise where blocks are shorter than correlations") {
+TEST_CASE("Mean estimate: its error is known to rise where blocks are shorter than correlations") {
   // Blocks of 4, 2 and 1 of 128 values, against a correlation time of 100; and of 4096 values that
   // are independent, of which the last level is uncertain to 1/sqrt(62).
   double slow = 0.0, white = 0.0;

@@ -53,8 +53,7 @@ bool needs_visitors(Field field) {
 
 }  // namespace
 
-TEST_CASE(
-    "field_value: every field by its definition, with the mean taken off particle by particle") {
+TEST_CASE("Field value: every field is that of its definition, particle by particle") {
   const Content content;
   const double area = 0.5;
   const CellAverages<2, double> cell = averages(content, area);
@@ -101,8 +100,7 @@ TEST_CASE(
   check(Quantity::SpinTemperature, 2.0 * 2.625 / 3.0);
 }
 
-TEST_CASE(
-    "field_value: where no particle ever was only densities and collisional parts are known") {
+TEST_CASE("Field value: cells without particles have only densities and collisional parts") {
   const CellAverages<2, double> nothing;
   for (const Field field : average_fields()) {
     CAPTURE(name_of(field));
@@ -165,7 +163,7 @@ TEST_CASE("Dual: derivatives of all fields as finite differences have them") {
   }
 }
 
-TEST_CASE("moment_layout: every field has what it needs, and no field keeps all") {
+TEST_CASE("Moment layout: every field has what it needs, and no field keeps all") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   scene.particles.start.spin_temperature = 1.0;
@@ -194,7 +192,7 @@ TEST_CASE("moment_layout: every field has what it needs, and no field keeps all"
   }
 }
 
-TEST_CASE("moment_layout: what the fields asked for do not need is not stored") {
+TEST_CASE("Moment layout: what the fields asked for do not need is not stored") {
   const auto size = [](std::vector<Field> fields, bool spins) {
     return moment_layout<2>(fields, spins).size;
   };
@@ -209,7 +207,7 @@ TEST_CASE("moment_layout: what the fields asked for do not need is not stored") 
   CHECK(size(average_fields(), true) == 17);
 }
 
-TEST_CASE("averages_of: kinetic sums go by their weight, sums over events by time") {
+TEST_CASE("Averages: kinetic sums are divided by their weight, sums over events by time") {
   const Field fields[] = {Field(Quantity::Velocity, 0), Quantity::Dissipation,
                           Field(Quantity::Stress, 0, 0, Part::Collisional)};
   const MomentLayout<2> layout = moment_layout<2>(fields, false);

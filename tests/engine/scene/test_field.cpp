@@ -34,7 +34,7 @@ Scene scene_with(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("the names of fields are those that scripts rely on, in the order of files") {
+TEST_CASE("Field: the names are those that scripts rely on, in the order of files") {
   CHECK(names_in(field_names(2)) == std::vector<std::string>{"density",
                                                              "velocity_x",
                                                              "velocity_y",
@@ -70,7 +70,7 @@ TEST_CASE("the names of fields are those that scripts rely on, in the order of f
                                  "dissipation", "spin", "spin_temperature", "balance"});
 }
 
-TEST_CASE("in space there are components along z, and spins have three") {
+TEST_CASE("Field: in space there are components along z, and spins have three") {
   const std::vector<std::string> names = names_in(field_names(3));
   const std::set<std::string> all(names.begin(), names.end());
   CHECK(all.size() == names.size());
@@ -90,7 +90,7 @@ TEST_CASE("in space there are components along z, and spins have three") {
   CHECK(stress == std::vector<std::string>{"xx", "yy", "zz", "xy", "xz", "yz"});
 }
 
-TEST_CASE("a field has one name, and a name one field") {
+TEST_CASE("Field: a field has one name, and a name one field") {
   for (const int dimension : {2, 3}) {
     const std::vector<NamedField> names = field_names(dimension);
     const std::vector<Field> fields = all_fields(dimension);
@@ -135,7 +135,7 @@ TEST_CASE("Fields: what only spheres have is refused for disks, with the reason"
   }
 }
 
-TEST_CASE("units follow from the dimension") {
+TEST_CASE("Field: units follow from the dimension") {
   const std::map<std::string, std::array<std::string, 2>> expected = {
       {"density", {"1/a^2", "1/a^3"}},
       {"velocity", {"a/t", "a/t"}},
@@ -156,7 +156,7 @@ TEST_CASE("units follow from the dimension") {
   }
 }
 
-TEST_CASE("normal stress is negative, shear and flows have either sign") {
+TEST_CASE("Field: normal stress is negative, shear and flows have either sign") {
   const std::set<std::string> negative = {"stress_xx",
                                           "stress_yy",
                                           "stress_zz",

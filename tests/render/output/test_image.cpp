@@ -103,7 +103,7 @@ TEST_CASE("Image: a text in a PNG file is found by its key") {
   CHECK_FALSE(png_text(folder / "plain.png", "Scene"));
 }
 
-TEST_CASE("A PNG file whose texts are damaged is refused, whatever length it claims") {
+TEST_CASE("Image: a PNG file with damaged texts is refused, whatever length it claims") {
   const TemporaryFolder folder;
   const Image image{{2, 2}, std::vector<unsigned char>(16, 7)};
   const std::vector<unsigned char> sound =
