@@ -38,6 +38,9 @@ Area WallGrip::handle(const Viewport& viewport, const Frame& frame, ImVec2 corne
     case kTop:
       area.high.y = std::exchange(area.low.y, high.y - depth);
       break;
+    case kBack:
+    case kFront:
+      break;  // not seen from the front
   }
   return area;
 }

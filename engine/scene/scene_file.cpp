@@ -83,7 +83,9 @@ int dimension_of(const toml::table& root) {
 }
 
 SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {
-  SceneInput input{.spins = spins, .scene = default_scene(dimension_of(root))};
+  SceneInput input;
+  input.spins = spins;
+  input.scene = default_scene(dimension_of(root));
   KeyReader reader(root, file);
   visit_scene(reader, input);
   return input;
@@ -93,7 +95,8 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
 /// is read.
 Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
                  const std::function<void(Scene&)>& load_state) {
-  SceneInput any{.scene = default_scene(dimension_of(root))};
+  SceneInput any;
+  any.scene = default_scene(dimension_of(root));
   KeyLister lister;
   visit_scene(lister, any);
   refuse_unknown_keys(root, lister.keys());
