@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 namespace clatter {
 
@@ -16,5 +18,18 @@ using Vec2 = Vec<2>;
 
 /// A vector of two or three components, as many as the scene has dimensions.
 using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;
+
+/// [D][N] vectors of two or three components, a column each.
+using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3>;
+
+/// The vectors of a list as columns.
+template <int D>
+Vectors as_columns(const std::vector<Vec<D>>& vectors) {
+  Vectors columns(D, static_cast<Eigen::Index>(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    columns.col(static_cast<Eigen::Index>(i)) = vectors[i];
+  }
+  return columns;
+}
 
 }  // namespace clatter

@@ -7,8 +7,8 @@ namespace clatter {
 
 static Camera aimed_at(const CameraKey& key, const Snapshot& snapshot, const Camera& whole) {
   Camera camera{key.centre.value_or(whole.centre), key.width.value_or(whole.width)};
-  if (key.follow && static_cast<std::size_t>(*key.follow) < snapshot.positions.size()) {
-    camera.centre = snapshot.positions[static_cast<std::size_t>(*key.follow)];
+  if (key.follow && *key.follow < snapshot.positions.cols()) {
+    camera.centre = snapshot.positions.col(*key.follow);
   }
   return camera;
 }

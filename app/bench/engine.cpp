@@ -53,7 +53,7 @@ EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) 
   restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
-  const auto simulation = simulation_of(scene, 1);
+  const auto simulation = simulation_of<2>(scene, 1);
   EngineRate result{scene.particles.count, scene.packing_fraction(), 0.0,
                     cpu_seconds() - setup_began, 0.0};
   simulation->run_until(kNever, equilibration * disks / 2);

@@ -46,7 +46,7 @@ struct Feature {
 class Trial {
  public:
   Trial(const Feature& feature, const Scene& scene)
-      : feature_(feature), scene_(scene), simulation_(simulation_of(scene, 1)) {
+      : feature_(feature), scene_(scene), simulation_(simulation_of<2>(scene, 1)) {
     equilibrate();
     if (!feature.fields.empty()) take_fields();
     if (feature.balance) {

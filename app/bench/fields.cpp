@@ -43,7 +43,7 @@ double mean_variance(const std::vector<Estimate>& column) {
 
 Outcome observe(const Scene& scene, double duration, const Observation& how) {
   constexpr double kWindows = 512.0, kWindowsPerBalance = 32.0;
-  const auto simulation = simulation_of(scene, 1);
+  const auto simulation = simulation_of<2>(scene, 1);
   simulation->run_until(kBurnIn);
   const auto collisions_before = static_cast<double>(simulation->counts().pair_collisions);
   const bool samples = how.interval.has_value();

@@ -55,16 +55,17 @@ Drawn draw(const Gl& gl, const Snapshot& snapshot, Size size, int samples) {
 Snapshot apart(const Snapshot& snapshot) {
   constexpr double kSpacing = 2.5;
   Snapshot sparse = snapshot;
-  sparse.positions.clear();
+  std::vector<Vec2> places;
   double shift = 0.0;
   for (double y = kSpacing; y < sparse.box.y() - 0.5 * kSpacing; y += kSpacing) {
     for (double x = kSpacing; x < sparse.box.x() - 0.5 * kSpacing; x += kSpacing) {
       shift = std::fmod(shift + std::numbers::phi - 1.0, 1.0);
-      sparse.positions.push_back({x + 0.3 * shift, y + 0.3 * std::fmod(7.0 * shift, 1.0)});
+      places.emplace_back(x + 0.3 * shift, y + 0.3 * std::fmod(7.0 * shift, 1.0));
     }
   }
-  sparse.velocities.assign(sparse.positions.size(), Vec2(0.0, 0.0));
-  sparse.spins.clear();
+  sparse.positions = as_columns(places);
+  sparse.velocities.setZero(2, sparse.positions.cols());
+  sparse.spins.resize(0, 0);
   return sparse;
 }
 
@@ -95,13 +96,13 @@ Vec2 centre_of_light(const Image& image, const Vec2& place, double radius) {
 // Root mean square distance of centres in a picture from where disks are, in its pixels.
 double centre_error(const Drawn& drawn, const Snapshot& snapshot) {
   double squares = 0.0;
-  for (const Vec2& position : snapshot.positions) {
+  for (const auto& position : snapshot.positions.colwise()) {
     Vec2 place = drawn.projection.pixels(position);
     place.y() = drawn.projection.size.height - place.y();
     const double radius = 0.9 * snapshot.diameter * drawn.projection.scale();
     squares += (centre_of_light(drawn.image, place, radius) - place).squaredNorm();
   }
-  return std::sqrt(squares / static_cast<double>(snapshot.positions.size()));
+  return std::sqrt(squares / static_cast<double>(snapshot.count()));
 }
 
 PictureTable antialiasing(const Gl& gl, const Snapshot& snapshot) {
@@ -144,14 +145,14 @@ PictureTable frame_rates(const Gl& gl, Simulation<2>& simulation, double speed) 
     start = simulation.time();
     const Drawn drawn = draw(gl, shown, kMedium, 1);
     double squares = 0.0;
-    for (std::size_t i = 0; i < now.positions.size(); ++i) {
-      Vec2 moved = now.positions[i] - shown.positions[i];
+    for (Eigen::Index i = 0; i < now.positions.cols(); ++i) {
+      Vec2 moved = now.positions.col(i) - shown.positions.col(i);
       for (int axis = 0; axis < 2; ++axis) {
         moved[axis] -= now.box[axis] * std::round(moved[axis] / now.box[axis]);
       }
       squares += moved.squaredNorm();
     }
-    const auto count = static_cast<double>(now.positions.size());
+    const auto count = static_cast<double>(now.count());
     table.rows.push_back(
         {std::to_string(static_cast<int>(fps)), fps, fps * drawn.cpu_seconds,
          structural_similarity(drawn.image, draw(gl, now, kMedium, kMaxSamples).image),
@@ -172,7 +173,7 @@ void mark_dominated(std::vector<PictureRow>& rows) {
 }  // namespace
 
 PictureTable measure_pictures(const std::string& dial, const Scene& scene, double time) {
-  const auto simulation = simulation_of(scene, 1);
+  const auto simulation = simulation_of<2>(scene, 1);
   simulation->run_until(time);
   const auto context = open_context(Backend::Auto);
   PictureTable table;

@@ -135,7 +135,7 @@ double encode(std::vector<Image> images) {
 // A film of the simulation from now on.
 class Filming {
  public:
-  Filming(const Gl& gl, Simulation<2>& simulation, LiveField& field, const View& view, Size size)
+  Filming(const Gl& gl, Simulation<2>& simulation, LiveField<2>& field, const View& view, Size size)
       : gl_(gl),
         simulation_(simulation),
         field_(field),
@@ -197,7 +197,7 @@ class Filming {
 
   const Gl& gl_;
   Simulation<2>& simulation_;
-  LiveField& field_;
+  LiveField<2>& field_;
   const View& view_;
   Canvas canvas_;
   Renderer renderer_;
@@ -226,8 +226,8 @@ int bench_render(const std::string& json, int count) {
   auto rows = nlohmann::ordered_json::array();
   for (const int disks : counts) {
     const Scene scene = scene_of(disks);
-    const auto simulation = simulation_of(scene, 1);
-    LiveField field(*simulation, scene.view);
+    const auto simulation = simulation_of<2>(scene, 1);
+    LiveField<2> field(*simulation, scene.view);
     for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
       const Times times = Filming(context->gl(), *simulation, field, scene.view, size).measure();
       std::printf("%8d %10s", disks, size_text(size).c_str());

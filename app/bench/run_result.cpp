@@ -58,7 +58,7 @@ RunResult observe(const Scene& scene, const Effort& effort, std::uint64_t seed) 
   const double end = effort.burn_in + effort.duration;
 
   const double bytes_before = heap_bytes();
-  const auto simulation = simulation_of(scene, seed);
+  const auto simulation = simulation_of<2>(scene, seed);
   Measurement measurement(*simulation, measure, end);
   simulation->run_until(effort.burn_in);
   const auto events = [&] {
@@ -95,7 +95,7 @@ RunResult observe_stepped(const Scene& scene, double step, const Effort& effort,
                           std::uint64_t seed) {
   const auto axis = static_cast<int>(compared_axis(scene));
   const int columns = scene.measure.cells[axis];
-  const auto exact = simulation_of(scene, seed);
+  const auto exact = simulation_of<2>(scene, seed);
   exact->run_until(effort.burn_in);
   TimeStepped stepped(scene, exact->state(), step, columns);
   stepped.run(0.2 * effort.duration);  // the way to its own stationary state

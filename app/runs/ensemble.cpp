@@ -85,9 +85,9 @@ class Replicas {
   void measure(std::size_t index) {
     constexpr std::uint64_t kSlice = 1 << 16;  // steps between looks at interrupts
     const std::uint64_t seed = ensemble_.first_seed + index;
-    const auto simulation = simulation_of(scene_, seed);
+    const auto simulation = simulation_of<2>(scene_, seed);
     Measurement measurement(*simulation, scene_.measure, ensemble_.end);
-    while (!simulation->run_until(ensemble_.end, Simulation<2>::kNoLimit,
+    while (!simulation->run_until(ensemble_.end, kNoLimit,
                                   simulation->counts().steps() + kSlice)) {
       if (interrupted() || !tell(index, simulation->time())) return;
     }

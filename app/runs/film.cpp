@@ -104,8 +104,8 @@ bool Film::choose_ranges(Progress& progress) {
 // The largest of what disks show at the ends of the window's parts, and what its average shows.
 RangeEnds Film::look_ahead() const {
   constexpr std::uint64_t kSteps = 1'000'000;  // between looks for an interrupt
-  const ScheduledRun& run = run_.scheduled();
-  ScheduledRun ahead(scene_, run.seed(), run.simulation().save());
+  const ScheduledRun<2>& run = run_.scheduled();
+  ScheduledRun<2> ahead(scene_, run.seed(), run.simulation().save());
   ahead.show(view_, run.save_shown(), state_.exposure());
   const double start = run.simulation().time();
   const double window = std::min(view_.window, state_.times.last() - start);
@@ -113,7 +113,7 @@ RangeEnds Film::look_ahead() const {
   try {
     for (int part = 1; part <= kWindowParts; ++part) {
       const double time = start + window * part / kWindowParts;
-      while (!ahead.run_until(time, Simulation<2>::kNoLimit,
+      while (!ahead.run_until(time, kNoLimit,
                               ahead.simulation().counts().steps() + kSteps)) {
         if (interrupted()) return ends;
       }

@@ -27,7 +27,8 @@ static bool is_fixed(const KeyDifference& difference) {
 }
 
 double Resumed::time() const {
-  return Clock(checkpoint.saved.base).absolute(checkpoint.saved.now);
+  return std::visit([](const auto& saved) { return Clock(saved.base).absolute(saved.now); },
+                    checkpoint.saved);
 }
 
 std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
@@ -36,7 +37,8 @@ std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
   Resumed resumed{file, read_checkpoint(file), {}};
   if (scene.particles.start.layout == Layout::File) {
     if (scene.particles.count == 0) {
-      scene.particles.count = static_cast<int>(resumed.checkpoint.saved.flights.size());
+      scene.particles.count = static_cast<int>(std::visit(
+          [](const auto& saved) { return saved.flights.size(); }, resumed.checkpoint.saved));
     }
     scene.particles.start.temperature = resumed.checkpoint.start_temperature;
   }

@@ -63,7 +63,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
     run_.emplace(scene, seed_);
     return;
   }
-  RunState<2>& saved = resumed_->checkpoint.saved;
+  auto& saved = std::get<RunState<2>>(resumed_->checkpoint.saved);
   run_.emplace(scene, seed_, saved);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
@@ -117,7 +117,7 @@ bool Run::until(double time, Progress& progress) {
       if (interrupted()) return false;
       const auto began = Clock::now();
       arrived =
-          run_->run_until(time, Simulation<2>::kNoLimit, simulation().counts().steps() + slice);
+          run_->run_until(time, kNoLimit, simulation().counts().steps() + slice);
       slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();

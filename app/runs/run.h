@@ -30,7 +30,7 @@ class Run {
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
 
   /// The run itself, at the time from which it goes on.
-  ScheduledRun& scheduled() { return *run_; }
+  ScheduledRun<2>& scheduled() { return *run_; }
   /// Its simulation, until laws change.
   Simulation<2>& simulation() { return run_->simulation(); }
   /// The flag's, or that of the checkpoint, or 1.
@@ -70,7 +70,7 @@ class Run {
   std::optional<Resumed> resumed_;
   bool averages_go_on_ = false;  // those of the run that is resumed
   std::uint64_t seed_;
-  std::optional<ScheduledRun> run_;
+  std::optional<ScheduledRun<2>> run_;
   double measure_end_ = 0.0;
   std::optional<Measurement<2>> measurement_;
   std::optional<Checkpoint> marked_;

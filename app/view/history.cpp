@@ -9,14 +9,15 @@ void VelocityHistogram::add(const Snapshot& snapshot) {
   // What is older than about this many frames counts little.
   constexpr double kForgets = 1.0 / 600.0;
   for (int axis : {0, 1}) {
-    double squares = 0.0;
-    for (const Vec2& v : snapshot.velocities) squares += v[axis] * v[axis];
-    if (!(squares > 0.0)) continue;
-    const double deviation = std::sqrt(squares / static_cast<double>(snapshot.velocities.size()));
+    if (snapshot.count() == 0) return;
+    const auto velocities = snapshot.velocities.row(axis);
+    const double deviation =
+        std::sqrt(velocities.squaredNorm() / static_cast<double>(snapshot.count()));
+    if (!(deviation > 0.0)) continue;
     auto& weights = weights_[static_cast<std::size_t>(axis)];
     for (double& weight : weights) weight *= 1.0 - kForgets;
-    for (const Vec2& v : snapshot.velocities) {
-      const double place = (v[axis] / deviation + kReach) / (2.0 * kReach) * kClasses;
+    for (const double v : velocities) {
+      const double place = (v / deviation + kReach) / (2.0 * kReach) * kClasses;
       if (place >= 0.0 && place < kClasses) weights[static_cast<std::size_t>(place)] += 1.0;
     }
   }

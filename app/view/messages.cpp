@@ -60,7 +60,7 @@ static void show_collision(const char* which, const ParticleCollision& collision
 void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place,
                 const Area& area) {
   const Snapshot& gas = frame.snapshot;
-  if (disk >= gas.positions.size()) return;
+  if (disk >= gas.count()) return;
   const float unit = ImGui::GetFontSize();
   // Towards the middle, where there is room for it.
   const bool left = place.x > 0.5f * (area.low.x + area.high.x);
@@ -70,11 +70,12 @@ void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place
                     std::clamp(place.y + (up ? -unit : unit), area.low.y, area.high.y)),
              ImVec2(left ? 1.0f : 0.0f, up ? 1.0f : 0.0f));
   ImGui::Text("Disk %zu", disk);
-  const Vec2 &r = gas.positions[disk], &v = gas.velocities[disk];
+  const auto column = static_cast<Eigen::Index>(disk);
+  const Vec2 r = gas.positions.col(column), v = gas.velocities.col(column);
   ImGui::TextDisabled("place %.2f, %.2f", r.x(), r.y());
   ImGui::TextDisabled("velocity %.3f, %.3f", v.x(), v.y());
   ImGui::TextDisabled("speed %.3f", v.norm());
-  if (!gas.spins.empty()) ImGui::TextDisabled("spin %.3f", gas.spins[disk]);
+  if (gas.spins.size() > 0) ImGui::TextDisabled("spin %.3f", gas.spins(0, column));
   if (frame.last_collision) show_collision("last hit", *frame.last_collision);
   if (frame.next_collision) show_collision("next hit", *frame.next_collision);
   ImGui::TextDisabled(follows ? "followed; Esc lets go" : "double-click to follow");

@@ -147,13 +147,13 @@ LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas)
 
 std::vector<std::string> profile_names() {
   std::vector<std::string> names;
-  for (const Field field : LiveProfile::kFields) names.push_back(in_words(name_of(field)));
+  for (const Field field : kProfiledFields) names.push_back(in_words(name_of(field)));
   names.push_back("balance residuals");
   return names;
 }
 
 Profiled profiled_by(std::size_t name) {
-  return name < LiveProfile::kFields.size() ? Profiled::Fields : Profiled::Balances;
+  return name < kProfiledFields.size() ? Profiled::Fields : Profiled::Balances;
 }
 
 std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,

@@ -31,7 +31,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"held", frame.held},
                          {"changes", frame.scene->changes.size()},
                          {"box", {frame.snapshot.box.x(), frame.snapshot.box.y()}},
-                         {"particles", frame.snapshot.positions.size()},
+                         {"particles", frame.snapshot.count()},
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
   if (frame.state_hash) told["hash"] = fmt::format("{:016x}", *frame.state_hash);

@@ -15,9 +15,9 @@ static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
   constexpr double kSeconds = 3.0;
   constexpr std::uint64_t kMaxSteps = 20'000;
   const Scene scene = load_gallery_scene(file);
-  ScheduledRun run(scene, 1);
+  ScheduledRun<2> run(scene, 1);
   run.show(scene.view);
-  run.run_until(kSeconds * scene.view.speed, Simulation<2>::kNoLimit, kMaxSteps);
+  run.run_until(kSeconds * scene.view.speed, kNoLimit, kMaxSteps);
   return run.snapshot();
 }
 

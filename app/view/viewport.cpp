@@ -21,8 +21,8 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
   stale_ = false;
   const OverlayText text{frame.scene->title, frame.scene->caption, 0.0, letters};
   if (fits_) camera_ = renderer_.fit(frame.snapshot, size, view, text);
-  if (follows_ && *picked_ < frame.snapshot.positions.size()) {
-    camera_.centre = frame.snapshot.positions[*picked_];
+  if (follows_ && *picked_ < frame.snapshot.count()) {
+    camera_.centre = frame.snapshot.positions.col(*picked_);
   }
   canvas_->bind();
   renderer_.draw(frame.snapshot, camera_, size, view, text);
@@ -59,15 +59,14 @@ ImVec2 Viewport::place(const Vec2& world, ImVec2 corner, float scale) const {
 }
 
 std::optional<ImVec2> Viewport::picked_place(const Frame& frame, ImVec2 corner, float scale) const {
-  const auto& positions = frame.snapshot.positions;
-  if (!canvas_ || !picked_ || *picked_ >= positions.size()) return std::nullopt;
-  return place(positions[*picked_], corner, scale);
+  if (!canvas_ || !picked_ || *picked_ >= frame.snapshot.count()) return std::nullopt;
+  return place(frame.snapshot.positions.col(*picked_), corner, scale);
 }
 
 std::optional<std::size_t> Viewport::disk_at(const Frame& frame, const Vec2& point) const {
   const auto& positions = frame.snapshot.positions;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if ((positions[i] - point).norm() < 0.5 * frame.snapshot.diameter) return i;
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    if ((positions.col(i) - point).norm() < 0.5 * frame.snapshot.diameter) return i;
   }
   return std::nullopt;
 }
@@ -103,13 +102,12 @@ void Viewport::use_mouse(const Frame& frame, ImVec2 corner, float scale) {
 
 void Viewport::mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const {
   if (!canvas_) return;
-  const auto& positions = frame.snapshot.positions;
   const float radius = static_cast<float>(0.5 * frame.snapshot.diameter *
                                           Projection{camera_, canvas_->size()}.scale()) /
                        scale;
-  const auto ring = [&](std::size_t disk, ImU32 ink) {
-    if (disk >= positions.size()) return;
-    list.AddCircle(place(positions[disk], corner, scale), radius + 2.0f, ink, 0, 2.5f);
+  const auto ring = [&](std::uint32_t disk, ImU32 ink) {
+    if (disk >= frame.snapshot.count()) return;
+    list.AddCircle(place(frame.snapshot.positions.col(disk), corner, scale), radius + 2.0f, ink, 0, 2.5f);
   };
   if (picked_) ring(*picked_, packed(accent_colour()));
   if (!frame.partners) return;

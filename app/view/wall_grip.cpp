@@ -59,7 +59,7 @@ static std::optional<Side> wall_at(const Viewport& viewport, const Frame& frame,
 std::optional<WallGrip::Resized> WallGrip::use(const Viewport& viewport, const Frame& frame,
                                                ImVec2 corner, float scale, bool over) {
   constexpr double kShortest = 4.0;
-  const Vec2& box = frame.snapshot.box;
+  const Vec2 box = frame.snapshot.box;
   if (!held_) {
     side_ = over ? wall_at(viewport, frame, corner, scale) : std::nullopt;
     if (side_) length_ = box[axis_of(*side_)];

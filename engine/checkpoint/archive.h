@@ -12,6 +12,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 // What a checkpoint keeps of a type is told once, beside it: a function that passes over the
@@ -92,6 +93,14 @@ class Archive {
     if (!present) optional.reset();
     if (present) item(*optional);
   }
+
+  template <class... T>
+  void item(std::variant<T...>& variant) {
+    auto index = static_cast<std::uint8_t>(variant.index());
+    self().number(index);
+    self().choose(variant, index);
+    std::visit([this](auto& value) { item(value); }, variant);
+  }
 };
 
 /// Collects values as bytes: numbers in the order of little-endian machines, bit for bit.
@@ -115,6 +124,8 @@ class ArchiveWriter : public Archive<ArchiveWriter> {
     number(static_cast<std::uint64_t>(container.size()));
   }
   void bytes(const char* from, std::size_t count) { bytes_.append(from, count); }
+  template <class Variant>
+  void choose(const Variant&, std::size_t) {}
 
   std::string bytes_;
 };
@@ -150,6 +161,13 @@ class ArchiveReader : public Archive<ArchiveReader> {
     number(size);
     if (size > bytes_.size()) refuse();
     container.resize(size);
+  }
+  // Makes the variant hold its alternative of that index.
+  template <class... T>
+  void choose(std::variant<T...>& variant, std::size_t index) {
+    if (index >= sizeof...(T)) refuse();
+    std::size_t alternative = 0;
+    ((alternative++ == index ? void(variant.template emplace<T>()) : void()), ...);
   }
   void bytes(char* to, std::size_t count) {
     if (count > bytes_.size()) refuse();

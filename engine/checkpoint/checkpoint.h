@@ -15,7 +15,7 @@ struct Checkpoint {
   std::string scene;               ///< the whole scene as TOML, every default written out
   double start_temperature = 0.0;  ///< T at time 0, which the scene lacks where a file has it
   std::uint64_t seed = 1;          ///< of the run
-  RunState<2> saved;               ///< the run itself
+  AnyRunState saved;               ///< the run itself
   std::string measurement;         ///< what Measurement::save() gave; empty: nothing was measured
   std::string film;                ///< how far a film has come; empty: none was made
 };

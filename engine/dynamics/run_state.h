@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "engine/dynamics/clock.h"
@@ -10,6 +11,9 @@
 #include "engine/physics/wall_motion.h"
 
 namespace clatter {
+
+/// A number of events that no run reaches.
+inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
 /// How many events of each kind have happened.
 struct EventCounts {
@@ -58,6 +62,9 @@ struct RunState {
   EventCounts counts;
   RunChecks checks;
 };
+
+/// A run of disks or of spheres.
+using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 
 // What checkpoints keep of all this, see engine/checkpoint/archive.h.
 

@@ -84,7 +84,6 @@ class Simulation {
   const RunChecks& checks() const { return checks_; }
 
   /// For run_until: however many collisions, or steps, there are.
-  static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
  private:
   struct Timer {

@@ -14,6 +14,24 @@ CellSums& CellSums::operator+=(const CellSums& other) {
 }
 
 template <int D>
+CellSums block_sums(const CellSums& cells, const FieldGrid<D>& grid, const IntVec<D>& block) {
+  const std::size_t size = cells.rows.size() / grid.size();
+  const IntVec<D> blocks = (grid.cells().array() + block.array() - 1) / block.array();
+  CellSums sums{cells.time, cells.kinetic_weight,
+                std::vector<double>(static_cast<std::size_t>(blocks.prod()) * size)};
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    const auto place = grid.cell_of(cell);
+    std::size_t row = 0;
+    for (int axis = D - 1; axis >= 0; --axis) {
+      row = row * static_cast<std::size_t>(blocks[axis]) +
+            static_cast<std::size_t>(place[axis] / block[axis]);
+    }
+    for (std::size_t k = 0; k < size; ++k) sums.rows[row * size + k] += cells.rows[cell * size + k];
+  }
+  return sums;
+}
+
+template <int D>
 CellIntegrals<D>::CellIntegrals(const Simulation<D>& simulation, const IntVec<D>& cells,
                                 const MomentLayout<D>& layout, const Coarsening& coarsening)
     : simulation_(simulation),
@@ -217,6 +235,8 @@ CellSums CellIntegrals<D>::close_window() {
   return closed;
 }
 
+template CellSums block_sums(const CellSums&, const FieldGrid<2>&, const IntVec<2>&);
+template CellSums block_sums(const CellSums&, const FieldGrid<3>&, const IntVec<3>&);
 template class CellIntegrals<2>;
 template class CellIntegrals<3>;
 

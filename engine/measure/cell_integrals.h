@@ -32,6 +32,11 @@ void visit(Archive& io, CellSums& sums) {
   io(time, kinetic_weight, rows);
 }
 
+/// Sums of a grid added up over blocks of so many cells along each axis; the last block along an
+/// axis may have fewer. The rows of the blocks, in the order of cells.
+template <int D>
+CellSums block_sums(const CellSums& cells, const FieldGrid<D>& grid, const IntVec<D>& block);
+
 /// How particles and collisions are spread over cells.
 struct Coarsening {
   Estimator estimator = Estimator::Exact;

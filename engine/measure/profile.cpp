@@ -84,17 +84,9 @@ const std::vector<Estimate>& Profile::at(Field field) const {
 
 template <int D>
 CellSums columns_of(const CellSums& cells, const FieldGrid<D>& grid, Axis axis) {
-  const int along = static_cast<int>(axis);
-  const std::size_t size = cells.rows.size() / grid.size();
-  const auto count = static_cast<std::size_t>(grid.cells()[along]);
-  CellSums columns{cells.time, cells.kinetic_weight, std::vector<double>(count * size)};
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto column = static_cast<std::size_t>(grid.cell_of(i)[along]);
-    for (std::size_t k = 0; k < size; ++k) {
-      columns.rows[column * size + k] += cells.rows[i * size + k];
-    }
-  }
-  return columns;
+  IntVec<D> column = grid.cells();
+  column[static_cast<int>(axis)] = 1;
+  return block_sums(cells, grid, column);
 }
 
 template <int D>

@@ -4,24 +4,28 @@
 
 namespace clatter {
 
-void CollisionWatch::on_collision(const PairCollision<2>& collision) {
+template <int D>
+void CollisionWatch<D>::on_collision(const PairCollision<D>& collision) {
   const std::uint32_t first = collision.particles[0].particle,
                       second = collision.particles[1].particle;
   if (first != particle_ && second != particle_) return;
   last_ = {simulation_.time(), first == particle_ ? second : first, 0};
 }
 
-void CollisionWatch::on_wall(const WallCollision<2>& collision) {
+template <int D>
+void CollisionWatch<D>::on_wall(const WallCollision<D>& collision) {
   if (collision.particle.particle == particle_)
     last_ = {simulation_.time(), std::nullopt, collision.side};
 }
 
-CollisionLookahead::CollisionLookahead(const Simulation<2>& simulation, std::uint32_t particle)
+template <int D>
+CollisionLookahead<D>::CollisionLookahead(const Simulation<D>& simulation, std::uint32_t particle)
     : ahead_(simulation.model(), simulation.save()), particle_(particle), watch_(ahead_, particle) {
   ahead_.add_observer(watch_);
 }
 
-const std::optional<ParticleCollision>& CollisionLookahead::next_after(double time,
+template <int D>
+const std::optional<ParticleCollision>& CollisionLookahead<D>::next_after(double time,
                                                                        std::uint64_t most_steps) {
   const EventCounts& counts = ahead_.counts();
   const std::uint64_t last_step = counts.steps() + most_steps;
@@ -38,5 +42,10 @@ const std::optional<ParticleCollision>& CollisionLookahead::next_after(double ti
   }
   return watch_.last();
 }
+
+template class CollisionWatch<2>;
+template class CollisionWatch<3>;
+template class CollisionLookahead<2>;
+template class CollisionLookahead<3>;
 
 }  // namespace clatter

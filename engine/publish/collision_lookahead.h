@@ -15,11 +15,12 @@ struct ParticleCollision {
 };
 
 /// Keeps the last collision of one particle.
-class CollisionWatch : public Observer<2> {
+template <int D>
+class CollisionWatch : public Observer<D> {
  public:
   /// Of a simulation, which outlives it; it still is to be made an observer of that. Absent: of no
   /// particle.
-  CollisionWatch(const Simulation<2>& simulation, std::optional<std::uint32_t> particle)
+  CollisionWatch(const Simulation<D>& simulation, std::optional<std::uint32_t> particle)
       : simulation_(simulation), particle_(particle) {}
 
   /// Of another particle from now on.
@@ -28,24 +29,25 @@ class CollisionWatch : public Observer<2> {
     last_.reset();
   }
 
-  void on_collision(const PairCollision<2>& collision) override;
-  void on_wall(const WallCollision<2>& collision) override;
+  void on_collision(const PairCollision<D>& collision) override;
+  void on_wall(const WallCollision<D>& collision) override;
 
   /// Absent: none so far.
   const std::optional<ParticleCollision>& last() const { return last_; }
 
  private:
-  const Simulation<2>& simulation_;
+  const Simulation<D>& simulation_;
   std::optional<std::uint32_t> particle_;
   std::optional<ParticleCollision> last_;
 };
 
 /// A copy of a run that goes ahead of it, under the laws in force, to see what a particle meets
 /// next. Where both go on it has as much work as the run itself.
+template <int D>
 class CollisionLookahead {
  public:
   /// Sets out from where the simulation is.
-  CollisionLookahead(const Simulation<2>& simulation, std::uint32_t particle);
+  CollisionLookahead(const Simulation<D>& simulation, std::uint32_t particle);
   CollisionLookahead(const CollisionLookahead&) = delete;
   CollisionLookahead& operator=(const CollisionLookahead&) = delete;
 
@@ -54,9 +56,9 @@ class CollisionLookahead {
   const std::optional<ParticleCollision>& next_after(double time, std::uint64_t most_steps);
 
  private:
-  Simulation<2> ahead_;
+  Simulation<D> ahead_;
   std::uint32_t particle_;
-  CollisionWatch watch_;
+  CollisionWatch<D> watch_;
   bool ended_ = false;  // time stands still before another
 };
 

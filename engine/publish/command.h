@@ -48,13 +48,13 @@ struct Pick {
   std::optional<std::uint32_t> particle;
 };
 /// Starts a scene, and plays it or halts there: from its beginning, or from as much of the gas
-/// that there is as fits, see adapt_to_scene().
+/// that there is as fits, see adapt_to_scene(); a gas of another dimension is not kept.
 struct Open {
   Scene scene;
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
-  Vec2 shift = {0.0, 0.0};  ///< of the particles that are kept
+  VecX shift;  ///< of the particles that are kept; empty: none
 };
 
 }  // namespace command

@@ -5,40 +5,46 @@
 
 namespace clatter {
 
-FlightRecorder::FlightRecorder(Simulation<2>& simulation, double span)
+template <int D>
+FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span)
     : simulation_(simulation), span_(span), since_(simulation.base_time()) {
   simulation.add_observer(*this);
 }
 
 // Other laws may begin flights without an event.
-FlightRecorder::FlightRecorder(Simulation<2>& simulation, double span, FlightRecorder&& before)
+template <int D>
+FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before)
     : simulation_(simulation),
       span_(span),
       since_(std::max(before.since_, simulation.base_time() - before.span_)),
       ended_(std::move(before.ended_)) {
   const auto& flights_before = before.simulation_.particles();
   for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
-    const Flight<2>& flight = flights_before[i].flight;
+    const Flight<D>& flight = flights_before[i].flight;
     if (flight.time == simulation.particles()[i].flight.time) continue;
     ended_.push_back({i, flight, simulation.base_time(), before.simulation_.model().gravity});
   }
   simulation.add_observer(*this);
 }
 
-void FlightRecorder::on_collision(const PairCollision<2>& collision) {
-  for (const ParticleChange<2>& particle : collision.particles)
+template <int D>
+void FlightRecorder<D>::on_collision(const PairCollision<D>& collision) {
+  for (const ParticleChange<D>& particle : collision.particles)
     end_flight(particle, collision.time);
 }
 
-void FlightRecorder::on_wall(const WallCollision<2>& collision) {
+template <int D>
+void FlightRecorder<D>::on_wall(const WallCollision<D>& collision) {
   end_flight(collision.particle, collision.time);
 }
 
-void FlightRecorder::on_kick(const Kick<2>& kick) {
+template <int D>
+void FlightRecorder<D>::on_kick(const Kick<D>& kick) {
   end_flight(kick.particle, kick.time);
 }
 
-void FlightRecorder::on_base_moved(double shift) {
+template <int D>
+void FlightRecorder<D>::on_base_moved(double shift) {
   since_ -= shift;
   for (Ended& flight : ended_) {
     flight.flight.time -= shift;
@@ -46,11 +52,13 @@ void FlightRecorder::on_base_moved(double shift) {
   }
 }
 
-double FlightRecorder::reach() const {
+template <int D>
+double FlightRecorder<D>::reach() const {
   return std::min(span_, simulation_.base_time() - since_);
 }
 
-std::vector<FlightPiece> FlightRecorder::pieces() const {
+template <int D>
+std::vector<FlightPiece> FlightRecorder<D>::pieces() const {
   std::vector<FlightPiece> pieces;
   for (const Ended& flight : ended_) add_piece(pieces, flight);
   for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
@@ -60,28 +68,34 @@ std::vector<FlightPiece> FlightRecorder::pieces() const {
   return pieces;
 }
 
-void FlightRecorder::add_piece(std::vector<FlightPiece>& pieces, const Ended& ended) const {
+template <int D>
+void FlightRecorder<D>::add_piece(std::vector<FlightPiece>& pieces, const Ended& ended) const {
   const double now = simulation_.base_time();
   const double from = std::max(ended.flight.time, now - reach());
   if (!(from < ended.end)) return;
-  const Vec2 r = ended.flight.at(from, ended.gravity);
-  const Vec2 boxes = simulation_.model().image_index(r);
+  const Vec<D> r = ended.flight.at(from, ended.gravity);
+  const Vec<D> boxes = simulation_.model().image_index(r);
   pieces.push_back({ended.particle, from - now, ended.end - now,
                     r - boxes.cwiseProduct(simulation_.model().box),
                     ended.flight.velocity_at(from, ended.gravity), ended.gravity});
 }
 
-void FlightRecorder::end_flight(const ParticleChange<2>& change, double time) {
+template <int D>
+void FlightRecorder<D>::end_flight(const ParticleChange<D>& change, double time) {
   if (ended_.size() >= forget_at_) forget();
   ended_.push_back({change.particle, change.before, time, simulation_.model().gravity});
 }
 
 // Now and then only, so that each flight costs little.
-void FlightRecorder::forget() {
+template <int D>
+void FlightRecorder<D>::forget() {
   constexpr std::size_t kMin = 1024;
   const double oldest = simulation_.base_time() - span_;
   std::erase_if(ended_, [&](const Ended& flight) { return flight.end < oldest; });
   forget_at_ = 2 * ended_.size() + kMin;
 }
+
+template class FlightRecorder<2>;
+template class FlightRecorder<3>;
 
 }  // namespace clatter

@@ -9,17 +9,18 @@
 namespace clatter {
 
 /// Keeps the particles' flights of the last while, for pictures that show more than an instant.
-class FlightRecorder : public Observer<2> {
+template <int D>
+class FlightRecorder : public Observer<D> {
  public:
   /// Watches a simulation from now on; its flights of a time `span` > 0 are kept.
-  FlightRecorder(Simulation<2>& simulation, double span);
+  FlightRecorder(Simulation<D>& simulation, double span);
   /// Goes on with what that of the simulation before has kept: this one has its particles at its
   /// time, maybe under other laws.
-  FlightRecorder(Simulation<2>& simulation, double span, FlightRecorder&& before);
+  FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before);
 
-  void on_collision(const PairCollision<2>& collision) override;
-  void on_wall(const WallCollision<2>& collision) override;
-  void on_kick(const Kick<2>& kick) override;
+  void on_collision(const PairCollision<D>& collision) override;
+  void on_wall(const WallCollision<D>& collision) override;
+  void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
   /// For how long it has watched, at most its span.
@@ -36,9 +37,9 @@ class FlightRecorder : public Observer<2> {
  private:
   struct Ended {
     std::uint32_t particle = 0;
-    Flight<2> flight;
+    Flight<D> flight;
     double end = 0.0;  // on the moving base
-    Vec2 gravity = Vec2::Zero();
+    Vec<D> gravity = Vec<D>::Zero();
 
     template <class Archive>
     void visit(Archive& io) {
@@ -46,11 +47,11 @@ class FlightRecorder : public Observer<2> {
     }
   };
 
-  void end_flight(const ParticleChange<2>& change, double time);
+  void end_flight(const ParticleChange<D>& change, double time);
   void forget();
   void add_piece(std::vector<FlightPiece>& pieces, const Ended& flight) const;
 
-  const Simulation<2>& simulation_;
+  const Simulation<D>& simulation_;
   double span_;
   double since_;  // on the moving base
   std::vector<Ended> ended_;

@@ -17,13 +17,13 @@ namespace clatter {
 /// however many frames were left out.
 struct Tally {
   double time = 0.0;                         ///< that the sums stand for
-  Vec2 temperature_integral = Vec2::Zero();  ///< of T_x and T_y over time
+  VecX temperature_integral;    ///< of T_x, T_y and, of spheres, T_z over time
   double walls_in = 0.0;                     ///< energy that the walls gave
   double bulk_in = 0.0;                      ///< energy that kicks gave
   double gravity_in = 0.0;                   ///< work of gravity
   double dissipated = 0.0;                   ///< energy lost between particles, > 0
   double undissipated = 0.0;                 ///< what they would have lost more without t_c
-  std::uint64_t collisions = 0;              ///< disk-disk
+  std::uint64_t collisions = 0;              ///< of particles with particles
   std::uint64_t elasticised = 0;             ///< of these, by t_c
 };
 

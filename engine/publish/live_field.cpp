@@ -11,42 +11,46 @@
 
 namespace clatter {
 
-static IntVec<2> cells_of_one_diameter(const Model<2>& model) {
-  constexpr double kMaxCells = 512.0;
-  IntVec<2> cells;
-  for (int axis = 0; axis < 2; ++axis) {
+template <int D>
+static IntVec<D> cells_of_one_diameter(const Model<D>& model) {
+  constexpr double kMaxCells = D == 2 ? 512.0 : 64.0;
+  IntVec<D> cells;
+  for (int axis = 0; axis < D; ++axis) {
     cells[axis] =
         static_cast<int>(std::clamp(std::round(model.box[axis] / model.diameter), 1.0, kMaxCells));
   }
   return cells;
 }
 
-static std::vector<Field> averages_in(const View& view) {
+static std::vector<Field> averages_in(const View& view, int dimension) {
   std::vector<Field> fields;
   if (view.field && !is_residual(*view.field)) fields.push_back(*view.field);
   if (view.arrows) {
-    for (int axis = 0; axis < 2; ++axis) fields.emplace_back(*view.arrows, axis);
+    for (int axis = 0; axis < dimension; ++axis) fields.emplace_back(*view.arrows, axis);
   }
   return fields;
 }
 
-std::optional<LiveField::Averages> LiveField::averages_for(const Simulation<2>& simulation,
+template <int D>
+std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(const Simulation<D>& simulation,
                                                            const View& view) {
-  const std::vector<Field> fields = averages_in(view);
+  const std::vector<Field> fields = averages_in(view, D);
   if (fields.empty()) return std::nullopt;
-  const Model<2>& model = simulation.model();
-  const MomentLayout<2> layout = moment_layout<2>(fields, model.spins);
+  const Model<D>& model = simulation.model();
+  const MomentLayout<D> layout = moment_layout<D>(fields, model.spins);
   return Averages{
-      CellIntegrals<2>(simulation, cells_of_one_diameter(model), layout, {view.estimator, {}}), {}};
+      CellIntegrals<D>(simulation, cells_of_one_diameter(model), layout, {view.estimator, {}}), {}};
 }
 
-std::optional<LiveField::Closure> LiveField::closure_for(const Simulation<2>& simulation,
+template <int D>
+std::optional<typename LiveField<D>::Closure> LiveField<D>::closure_for(const Simulation<D>& simulation,
                                                          const View& view) {
   if (!view.field || !is_residual(*view.field)) return std::nullopt;
-  return Closure{Balance<2>(simulation, cells_of_one_diameter(simulation.model())), {}};
+  return Closure{Balance<D>(simulation, cells_of_one_diameter(simulation.model())), {}};
 }
 
-LiveField::LiveField(Simulation<2>& simulation, const View& view)
+template <int D>
+LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
     : field_(view.field),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
@@ -56,7 +60,8 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view)
   watch(simulation, view);
 }
 
-LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& before)
+template <int D>
+LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&& before)
     : field_(view.field),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
@@ -74,7 +79,8 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view, LiveField&& be
   watch(simulation, view);
 }
 
-LiveField::LiveField(Simulation<2>& simulation, const View& view, ArchiveReader saved)
+template <int D>
+LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, ArchiveReader saved)
     : field_(view.field),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
@@ -84,21 +90,24 @@ LiveField::LiveField(Simulation<2>& simulation, const View& view, ArchiveReader 
   watch(simulation, view);
 }
 
-std::string LiveField::save() {
+template <int D>
+std::string LiveField<D>::save() {
   ArchiveWriter writer;
   visit(writer);
   return writer.written();
 }
 
+template <int D>
 template <class Archive>
-void LiveField::visit(Archive& io) {
+void LiveField<D>::visit(Archive& io) {
   auto& [field, arrows, averages, closure, start, closed, sampled_from, samples] = *this;
   if (averages) io(averages->observer, averages->sums);
   if (closure) io(closure->observer, closure->sums);
   io(start, closed, sampled_from, samples);
 }
 
-void LiveField::watch(Simulation<2>& simulation, const View& view) {
+template <int D>
+void LiveField<D>::watch(Simulation<D>& simulation, const View& view) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);
   // Before the parts, so that a sample at the end of one belongs to it.
@@ -118,63 +127,60 @@ void LiveField::watch(Simulation<2>& simulation, const View& view) {
   simulation.every(start_, view.window / kWindowParts, close, closed_);
 }
 
-void LiveField::look() {
+template <int D>
+void LiveField<D>::look() {
   if (averages_) averages_->sums.add(averages_->observer.close_window());
   if (closure_) closure_->sums.add(closure_->observer.close_window().imbalances);
 }
 
 // Where nothing was booked nothing was tried.
-FieldMap LiveField::Closure::map(Field field) const {
-  const Imbalances<2> sum = sums.sum();
-  FieldMap map{field, {observer.cells().x(), observer.cells().y()}, {}};
+template <int D>
+FieldMap LiveField<D>::Closure::map(Field field) const {
+  const Imbalances<D> sum = sums.sum();
+  const IntVec<D>& cells = observer.cells();
+  FieldMap map{field, {cells.begin(), cells.end()}, {}};
   map.values.assign(sum.gaps.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < map.values.size(); ++i) {
-    const Conserved<2> residual = sum.residual(i);
+    const Conserved<D> residual = sum.residual(i);
     if (!sum.sizes[i].isZero(0.0) || !residual.isZero(0.0))
-      map.values[i] = residual[equation_of(field, 2)];
+      map.values[i] = residual[equation_of(field, D)];
   }
   return map;
-}
-
-// The sums of the cells from `first` on and before `end`, as those of one cell.
-static CellSums sum_of(const CellSums& sums, const IntVec<2>& cells, const IntVec<2>& first,
-                       const IntVec<2>& end) {
-  const std::size_t size = sums.rows.size() / static_cast<std::size_t>(cells.prod());
-  CellSums block{sums.time, sums.kinetic_weight, std::vector<double>(size)};
-  for (int y = first.y(); y < end.y(); ++y) {
-    for (int x = first.x(); x < end.x(); ++x) {
-      const std::size_t row = size * static_cast<std::size_t>(x + y * cells.x());
-      for (std::size_t k = 0; k < size; ++k) block.rows[k] += sums.rows[row + k];
-    }
-  }
-  return block;
 }
 
 // Blocks of cells have an arrow each, so that few enough are left to be told apart. Sums add up
 // over cells: an arrow is the field of its block as if that were one cell.
-static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid<2>& grid,
-                          const MomentLayout<2>& layout) {
+template <int D>
+static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid<D>& grid,
+                          const MomentLayout<D>& layout) {
   constexpr int kMaxArrows = 20;  // along an axis
-  const IntVec<2>& cells = grid.cells();
-  const int side = (cells.maxCoeff() + kMaxArrows - 1) / kMaxArrows;
-  ArrowMap map{arrows, side * grid.widths(), {}};
+  const IntVec<D>& cells = grid.cells();
+  const int edge = (cells.maxCoeff() + kMaxArrows - 1) / kMaxArrows;
+  ArrowMap map{arrows, edge * grid.widths(), {}};
   if (!(sums.time > 0.0)) return map;
-  for (int y = 0; y < cells.y(); y += side) {
-    for (int x = 0; x < cells.x(); x += side) {
-      const IntVec<2> first(x, y), end = cells.cwiseMin(first + IntVec<2>::Constant(side));
-      const double area = (end - first).prod() * grid.cell_measure();
-      const auto averages = averages_of(layout, sum_of(sums, cells, first, end), 0, area);
-      const Vec2 value(field_value(Field(arrows, 0), averages),
-                       field_value(Field(arrows, 1), averages));
-      if (value.hasNaN()) continue;
-      const Vec2 middle = 0.5 * (first + end).cast<double>();
-      map.arrows.push_back({middle.cwiseProduct(grid.widths()), value});
+  const CellSums blocks = block_sums<D>(sums, grid, IntVec<D>::Constant(edge));
+  for (std::size_t block = 0; block * layout.size < blocks.rows.size(); ++block) {
+    IntVec<D> first;
+    auto index = static_cast<int>(block);
+    for (int axis = 0; axis < D; ++axis) {
+      const int count = (cells[axis] + edge - 1) / edge;
+      first[axis] = index % count * edge;
+      index /= count;
     }
+    const IntVec<D> end = cells.cwiseMin(first + IntVec<D>::Constant(edge));
+    const double measure = (end - first).prod() * grid.cell_measure();
+    const auto averages = averages_of(layout, blocks, block, measure);
+    Vec<D> value;
+    for (int axis = 0; axis < D; ++axis) value[axis] = field_value(Field(arrows, axis), averages);
+    if (value.hasNaN()) continue;
+    const Vec<D> middle = 0.5 * (first + end).template cast<double>();
+    map.arrows.push_back({middle.cwiseProduct(grid.widths()), value});
   }
   return map;
 }
 
-void LiveField::publish(Snapshot& snapshot) {
+template <int D>
+void LiveField<D>::publish(Snapshot& snapshot) {
   look();
   if (closure_) {
     snapshot.field = closure_->map(*field_);
@@ -182,13 +188,16 @@ void LiveField::publish(Snapshot& snapshot) {
   }
   if (!averages_) return;
   const CellSums sums = averages_->sums.sum();
-  const FieldGrid<2>& grid = averages_->observer.grid();
-  const MomentLayout<2>& layout = averages_->observer.layout();
+  const FieldGrid<D>& grid = averages_->observer.grid();
+  const MomentLayout<D>& layout = averages_->observer.layout();
   if (field_ && !closure_) {
     snapshot.field = field_map(*field_, sums, grid, layout);
     snapshot.field->whole_window = averages_->sums.whole();
   }
   if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout);
 }
+
+template class LiveField<2>;
+template class LiveField<3>;
 
 }  // namespace clatter

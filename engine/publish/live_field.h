@@ -13,18 +13,19 @@ namespace clatter {
 
 /// Fields over the last window of time, as the view shows them while a run goes on: averages, or
 /// how balance equations close.
+template <int D>
 class LiveField {
  public:
   /// Watches the simulation through `view.field` and `view.arrows`, of which the view must have
-  /// one, on cells of about one diameter (at most 512 along an axis); the window reaches back by
-  /// view.window, or by up to an eighth more.
-  LiveField(Simulation<2>& simulation, const View& view);
+  /// one, on cells of about one diameter (at most 512 along an axis, of three 64); the window
+  /// reaches back by view.window, or by up to an eighth more.
+  LiveField(Simulation<D>& simulation, const View& view);
   /// Goes on where that of the simulation before ended: this one has its particles at its time,
   /// under other laws.
-  LiveField(Simulation<2>& simulation, const View& view, LiveField&& before);
+  LiveField(Simulation<D>& simulation, const View& view, LiveField&& before);
   /// Goes on where one that was saved ended: the simulation is at that time, under those laws.
   /// Throws UserError where the view is another one.
-  LiveField(Simulation<2>& simulation, const View& view, ArchiveReader saved);
+  LiveField(Simulation<D>& simulation, const View& view, ArchiveReader saved);
   LiveField(const LiveField&) = delete;
   LiveField& operator=(const LiveField&) = delete;
 
@@ -37,21 +38,21 @@ class LiveField {
 
  private:
   struct Averages {
-    CellIntegrals<2> observer;
+    CellIntegrals<D> observer;
     MovingSum<CellSums> sums;
   };
   struct Closure {
-    Balance<2> observer;
-    MovingSum<Imbalances<2>> sums;
+    Balance<D> observer;
+    MovingSum<Imbalances<D>> sums;
 
     FieldMap map(Field field) const;
   };
 
   template <class Archive>
   void visit(Archive& io);
-  static std::optional<Averages> averages_for(const Simulation<2>& simulation, const View& view);
-  static std::optional<Closure> closure_for(const Simulation<2>& simulation, const View& view);
-  void watch(Simulation<2>& simulation, const View& view);
+  static std::optional<Averages> averages_for(const Simulation<D>& simulation, const View& view);
+  static std::optional<Closure> closure_for(const Simulation<D>& simulation, const View& view);
+  void watch(Simulation<D>& simulation, const View& view);
   void look();
 
   std::optional<Field> field_;

@@ -5,27 +5,32 @@
 
 namespace clatter {
 
-static IntVec<2> columns_in(const Model<2>& model) {
+template <int D>
+static IntVec<D> columns_in(const Model<D>& model) {
   constexpr double kMaxColumns = 40.0;
-  return {
-      static_cast<int>(std::clamp(std::round(model.box.x() / model.diameter), 1.0, kMaxColumns)),
-      1};
+  const double diameters = std::round(model.box.x() / model.diameter);
+  IntVec<D> columns = IntVec<D>::Ones();
+  columns.x() = static_cast<int>(std::clamp(diameters, 1.0, kMaxColumns));
+  return columns;
 }
 
-LiveProfile::LiveProfile(Simulation<2>& simulation, double window)
+template <int D>
+LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window)
     : observer_(simulation, columns_in(simulation.model()),
-                moment_layout<2>(kFields, simulation.model().spins)) {
+                moment_layout<D>(kProfiledFields, simulation.model().spins)) {
   simulation.add_observer(observer_);
   simulation.every(simulation.time() + window, window,
                    [this](double) { sums_.add(observer_.close_window()); });
 }
 
-Profile LiveProfile::profile() const {
+template <int D>
+Profile LiveProfile<D>::profile() const {
   if (sums_.parts().size() < 2) return {};
-  return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), kFields, Axis::X);
+  return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), kProfiledFields, Axis::X);
 }
 
-LiveResiduals::LiveResiduals(Simulation<2>& simulation, double window)
+template <int D>
+LiveResiduals<D>::LiveResiduals(Simulation<D>& simulation, double window)
     : observer_(simulation, columns_in(simulation.model())) {
   profile_.width = simulation.model().box.x() / observer_.cells().x();
   simulation.add_observer(observer_);
@@ -33,5 +38,10 @@ LiveResiduals::LiveResiduals(Simulation<2>& simulation, double window)
     profile_.residuals.include(observer_.close_window().imbalances);
   });
 }
+
+template class LiveProfile<2>;
+template class LiveProfile<3>;
+template class LiveResiduals<2>;
+template class LiveResiduals<3>;
 
 }  // namespace clatter

@@ -10,25 +10,26 @@
 
 namespace clatter {
 
+/// The fields of a LiveProfile, in their order.
+inline constexpr std::array<Field, 5> kProfiledFields = {
+    Quantity::Density, Quantity::Temperature, Field(Quantity::Stress, 0, 0),
+    Field(Quantity::HeatFlux, 0), Quantity::Dissipation};
+
 /// Profiles of a run that goes on, along x, from when it is made.
+template <int D>
 class LiveProfile {
  public:
   /// Watches the simulation in windows of that length of time, whose spread tells standard errors,
   /// in columns of about one diameter, at most 40.
-  LiveProfile(Simulation<2>& simulation, double window);
+  LiveProfile(Simulation<D>& simulation, double window);
   LiveProfile(const LiveProfile&) = delete;
   LiveProfile& operator=(const LiveProfile&) = delete;
-
-  /// The fields that it has, in their order.
-  static constexpr std::array<Field, 5> kFields = {
-      Quantity::Density, Quantity::Temperature, Field(Quantity::Stress, 0, 0),
-      Field(Quantity::HeatFlux, 0), Quantity::Dissipation};
 
   /// The averages over the windows that are whole; no values before the first two are.
   Profile profile() const;
 
  private:
-  CellIntegrals<2> observer_;
+  CellIntegrals<D> observer_;
   PartSums sums_;
 };
 
@@ -40,10 +41,11 @@ struct ResidualProfile {
 
 /// Closes the balance equations of a run that goes on in the columns of its LiveProfile, from when
 /// it is made.
+template <int D>
 class LiveResiduals {
  public:
   /// Watches the simulation in windows of that length of time.
-  LiveResiduals(Simulation<2>& simulation, double window);
+  LiveResiduals(Simulation<D>& simulation, double window);
   LiveResiduals(const LiveResiduals&) = delete;
   LiveResiduals& operator=(const LiveResiduals&) = delete;
 
@@ -51,7 +53,7 @@ class LiveResiduals {
   const ResidualProfile& profile() const { return profile_; }
 
  private:
-  Balance<2> observer_;
+  Balance<D> observer_;
   ResidualProfile profile_;
 };
 

@@ -6,6 +6,7 @@
 namespace clatter {
 
 /// The gas at the simulation's time, without a field.
-Snapshot snapshot_of(const Simulation<2>& simulation);
+template <int D>
+Snapshot snapshot_of(const Simulation<D>& simulation);
 
 }  // namespace clatter

@@ -10,21 +10,25 @@
 
 namespace clatter {
 
-std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed) {
+template <int D>
+std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed) {
   require_memory(scene);
-  return std::make_unique<Simulation<2>>(model_of<2>(scene, seed), start_state<2>(scene, seed));
+  return std::make_unique<Simulation<D>>(model_of<D>(scene, seed), start_state<D>(scene, seed));
 }
 
-ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed)
-    : schedule_(scene), seed_(seed), simulation_(simulation_of(scene, seed)) {}
+template <int D>
+ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed)
+    : schedule_(scene), seed_(seed), simulation_(simulation_of<D>(scene, seed)) {}
 
-ScheduledRun::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<2>& saved)
+template <int D>
+ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved)
     : schedule_(scene), seed_(seed) {
   schedule_.skip_to(Clock(saved.base).absolute(saved.now));
-  simulation_ = std::make_unique<Simulation<2>>(model_of<2>(schedule_.scene(), seed), saved);
+  simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.scene(), seed), saved);
 }
 
-bool ScheduledRun::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
+template <int D>
+bool ScheduledRun<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
   while (schedule_.next() <= time) {
     if (!simulation_->run_until(schedule_.next(), collisions, steps)) return false;
     Schedule changed = schedule_;
@@ -34,7 +38,8 @@ bool ScheduledRun::run_until(double time, std::uint64_t collisions, std::uint64_
   return simulation_->run_until(time, collisions, steps);
 }
 
-void ScheduledRun::settle() {
+template <int D>
+void ScheduledRun<D>::settle() {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
   try {
     run_until(simulation_->time() * (1.0 + kRoundings));
@@ -43,7 +48,8 @@ void ScheduledRun::settle() {
   }
 }
 
-void ScheduledRun::change(const std::vector<Override>& laws) {
+template <int D>
+void ScheduledRun<D>::change(const std::vector<Override>& laws) {
   settle();
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
@@ -51,51 +57,63 @@ void ScheduledRun::change(const std::vector<Override>& laws) {
   change_laws(std::move(changed));
 }
 
-void ScheduledRun::change_laws(Schedule changed) {
+template <int D>
+void ScheduledRun<D>::change_laws(Schedule changed) {
   go_on_as(
-      std::make_unique<Simulation<2>>(model_of<2>(changed.scene(), seed_), simulation_->save()));
+      std::make_unique<Simulation<D>>(model_of<D>(changed.scene(), seed_), simulation_->save()));
   schedule_ = std::move(changed);
 }
 
 // All that watches is handed over to another simulation with the particles where they are.
-void ScheduledRun::go_on_as(std::unique_ptr<Simulation<2>> next) {
+template <int D>
+void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next) {
   if (on_change) on_change(*next);
-  if (shown_) shown_ = std::make_unique<ViewObservers>(*next, view_, exposure_, shown_.get());
+  if (shown_) shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_, shown_.get());
   simulation_ = std::move(next);
 }
 
-void ScheduledRun::renew() {
-  go_on_as(std::make_unique<Simulation<2>>(simulation_->model(), simulation_->save()));
+template <int D>
+void ScheduledRun<D>::renew() {
+  go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), simulation_->save()));
 }
 
 // Observers stay with their simulation, so that those of another view need another one.
-void ScheduledRun::show(const View& view, double exposure) {
+template <int D>
+void ScheduledRun<D>::show(const View& view, double exposure) {
   view_ = view;
   exposure_ = exposure;
   if (shown_) {
     renew();
   } else {
-    shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure);
+    shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view, exposure);
   }
 }
 
-void ScheduledRun::show(const View& view, const std::string& saved, double exposure) {
+template <int D>
+void ScheduledRun<D>::show(const View& view, const std::string& saved, double exposure) {
   if (saved.empty()) return show(view, exposure);
   if (std::exchange(shown_, nullptr)) renew();
   view_ = view;
   exposure_ = exposure;
-  shown_ = std::make_unique<ViewObservers>(*simulation_, view, exposure,
+  shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view, exposure,
                                            ArchiveReader(saved, "what is shown"));
 }
 
-std::string ScheduledRun::save_shown() const {
+template <int D>
+std::string ScheduledRun<D>::save_shown() const {
   return shown_ ? shown_->save() : "";
 }
 
-Snapshot ScheduledRun::snapshot() {
+template <int D>
+Snapshot ScheduledRun<D>::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   if (shown_) shown_->publish(snapshot);
   return snapshot;
 }
+
+template std::unique_ptr<Simulation<2>> simulation_of(const Scene&, std::uint64_t);
+template std::unique_ptr<Simulation<3>> simulation_of(const Scene&, std::uint64_t);
+template class ScheduledRun<2>;
+template class ScheduledRun<3>;
 
 }  // namespace clatter

@@ -15,21 +15,23 @@ namespace clatter {
 
 /// The simulation that a scene and a seed ask for, at time 0. Throws UserError where the machine
 /// has not enough memory for it.
-std::unique_ptr<Simulation<2>> simulation_of(const Scene& scene, std::uint64_t seed);
+template <int D>
+std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed);
 
 /// A simulation whose laws change as its scene says, and what is seen of it. At a change the
 /// simulation is put aside and goes on under the new laws, so that all that watches it must be
 /// handed over.
+template <int D>
 class ScheduledRun {
  public:
   /// From the start that the scene describes.
   ScheduledRun(const Scene& scene, std::uint64_t seed);
   /// Goes on from where a run was saved; the scene's changes up to then are in force.
-  ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<2>& saved);
+  ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved);
 
   /// The simulation, until laws change.
-  Simulation<2>& simulation() { return *simulation_; }
-  const Simulation<2>& simulation() const { return *simulation_; }  ///< likewise
+  Simulation<D>& simulation() { return *simulation_; }
+  const Simulation<D>& simulation() const { return *simulation_; }  ///< likewise
   /// The scene with the laws in force, and all its changes.
   const Scene& scene() const { return schedule_.scene(); }
   /// Of every random number of the run.
@@ -37,8 +39,8 @@ class ScheduledRun {
 
   /// As Simulation::run_until: changes of that time are made. Throws PhysicalStop also where no gas
   /// can go on under new laws; the old ones then hold.
-  bool run_until(double time, std::uint64_t collisions = Simulation<2>::kNoLimit,
-                 std::uint64_t steps = Simulation<2>::kNoLimit);
+  bool run_until(double time, std::uint64_t collisions = kNoLimit,
+                 std::uint64_t steps = kNoLimit);
   /// Goes on by a few roundings of its time: however a run was halted before, one that runs until
   /// simulation().time() now has come through the same events. Where time stands still it stays
   /// there, and tells nothing: run_until throws.
@@ -62,18 +64,18 @@ class ScheduledRun {
   Snapshot snapshot();
 
   /// Called with the simulation to come while the one before still is simulation().
-  std::function<void(Simulation<2>& next)> on_change;
+  std::function<void(Simulation<D>& next)> on_change;
 
  private:
   void change_laws(Schedule changed);
-  void go_on_as(std::unique_ptr<Simulation<2>> next);
+  void go_on_as(std::unique_ptr<Simulation<D>> next);
 
   Schedule schedule_;
   std::uint64_t seed_;
-  std::unique_ptr<Simulation<2>> simulation_;
+  std::unique_ptr<Simulation<D>> simulation_;
   View view_;
   double exposure_ = 0.0;
-  std::unique_ptr<ViewObservers> shown_;  // absent: nothing asked for
+  std::unique_ptr<ViewObservers<D>> shown_;  // absent: nothing asked for
 };
 
 }  // namespace clatter

@@ -5,7 +5,8 @@
 
 namespace clatter {
 
-ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
+template <int D>
+ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                              ViewObservers* before)
     : view_(view), exposure_(exposure) {
   if (view.shows_averages()) watch_field(simulation, before);
@@ -13,7 +14,8 @@ ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double
   if (simulation.model().spins) watch_spins(simulation, before);
 }
 
-ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
+template <int D>
+ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                              ArchiveReader saved)
     : view_(view), exposure_(exposure) {
   if (view.shows_averages()) {
@@ -28,7 +30,8 @@ ViewObservers::ViewObservers(Simulation<2>& simulation, const View& view, double
   saved.finish();
 }
 
-std::string ViewObservers::save() {
+template <int D>
+std::string ViewObservers<D>::save() {
   ArchiveWriter writer;
   if (field_) {
     std::string averages = field_->save();
@@ -39,7 +42,8 @@ std::string ViewObservers::save() {
   return writer.written();
 }
 
-void ViewObservers::watch_field(Simulation<2>& simulation, ViewObservers* before) {
+template <int D>
+void ViewObservers<D>::watch_field(Simulation<D>& simulation, ViewObservers* before) {
   if (before && before->field_ && before->view_.averages_like(view_)) {
     field_.emplace(simulation, view_, std::move(*before->field_));
   } else {
@@ -47,7 +51,8 @@ void ViewObservers::watch_field(Simulation<2>& simulation, ViewObservers* before
   }
 }
 
-void ViewObservers::watch_flights(Simulation<2>& simulation, ViewObservers* before) {
+template <int D>
+void ViewObservers<D>::watch_flights(Simulation<D>& simulation, ViewObservers* before) {
   const double span = std::max(exposure_, view_.trails.value_or(0.0));
   if (before && before->flights_) {
     flights_.emplace(simulation, span, std::move(*before->flights_));
@@ -56,20 +61,27 @@ void ViewObservers::watch_flights(Simulation<2>& simulation, ViewObservers* befo
   }
 }
 
-void ViewObservers::watch_spins(Simulation<2>& simulation, ViewObservers* before) {
-  if (before && before->angles_) {
-    angles_.emplace(simulation, std::move(*before->angles_));
-  } else {
-    angles_.emplace(simulation);
+template <int D>
+void ViewObservers<D>::watch_spins(Simulation<D>& simulation, ViewObservers* before) {
+  if constexpr (D == 2) {
+    if (before && before->angles_) {
+      angles_.emplace(simulation, std::move(*before->angles_));
+    } else {
+      angles_.emplace(simulation);
+    }
   }
 }
 
-void ViewObservers::publish(Snapshot& snapshot) {
+template <int D>
+void ViewObservers<D>::publish(Snapshot& snapshot) {
   if (field_) field_->publish(snapshot);
   if (angles_) snapshot.angles = angles_->angles();
   if (!flights_) return;
   snapshot.exposure = std::min(exposure_, flights_->reach());
   snapshot.flights = flights_->pieces();
 }
+
+template class ViewObservers<2>;
+template class ViewObservers<3>;
 
 }  // namespace clatter

@@ -12,16 +12,17 @@ namespace clatter {
 
 /// What watches a simulation so that pictures can show more than its state at an instant; no more
 /// of it than they do show.
+template <int D>
 class ViewObservers {
  public:
   /// Watches for `view`, in pictures that each show a time `exposure` >= 0; from now on, or going
   /// on with all that those `before` have of it, whose simulation had its particles there at its
   /// time.
-  ViewObservers(Simulation<2>& simulation, const View& view, double exposure,
+  ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                 ViewObservers* before = nullptr);
   /// Goes on where those that were saved ended: the simulation is at that time, under those laws.
   /// Throws UserError where they watched for another view.
-  ViewObservers(Simulation<2>& simulation, const View& view, double exposure, ArchiveReader saved);
+  ViewObservers(Simulation<D>& simulation, const View& view, double exposure, ArchiveReader saved);
   ViewObservers(const ViewObservers&) = delete;
   ViewObservers& operator=(const ViewObservers&) = delete;
 
@@ -31,15 +32,15 @@ class ViewObservers {
   void publish(Snapshot& snapshot);
 
  private:
-  void watch_field(Simulation<2>& simulation, ViewObservers* before);
-  void watch_flights(Simulation<2>& simulation, ViewObservers* before);
-  void watch_spins(Simulation<2>& simulation, ViewObservers* before);
+  void watch_field(Simulation<D>& simulation, ViewObservers* before);
+  void watch_flights(Simulation<D>& simulation, ViewObservers* before);
+  void watch_spins(Simulation<D>& simulation, ViewObservers* before);
 
   View view_;
   double exposure_;
-  std::optional<LiveField> field_;
-  std::optional<FlightRecorder> flights_;
-  std::optional<SpinAngles> angles_;  // where particles spin
+  std::optional<LiveField<D>> field_;
+  std::optional<FlightRecorder<D>> flights_;
+  std::optional<SpinAngles> angles_;  // where disks spin
 };
 
 }  // namespace clatter

@@ -2,14 +2,76 @@
 
 #include <utility>
 
+#include "engine/dimension.h"
+#include "engine/measure/totals.h"
+#include "engine/publish/live_profile.h"
 #include "engine/publish/moving_sum.h"
+#include "engine/publish/scheduled_run.h"
 
 namespace clatter {
 
-WatchedRun::WatchedRun(const Scene& scene, std::uint64_t seed)
+namespace {
+
+template <int D>
+class RunOf : public WatchedRun {
+ public:
+  RunOf(const Scene& scene, std::uint64_t seed);
+  RunOf(const RunOf&) = delete;
+  RunOf& operator=(const RunOf&) = delete;
+
+  double time() const override { return run_.simulation().time(); }
+  const EventCounts& counts() const override { return run_.simulation().counts(); }
+  AnyState state() const override { return run_.simulation().state(); }
+  bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override {
+    return run_.run_until(time, collisions, steps);
+  }
+  void settle() override { run_.settle(); }
+  void change(const std::vector<Override>& laws) override { run_.change(laws); }
+  void show(const View& view) override { run_.show(view); }
+  void show_profile(Profiled what) override;
+  void pick(std::optional<std::uint32_t> particle) override;
+  void tell(Frame& frame, bool halted) override;
+  const std::optional<std::array<std::uint32_t, 2>>& partners() const override {
+    return last_.partners;
+  }
+
+ private:
+  struct LastCollision : Observer<D> {
+    void on_collision(const PairCollision<D>& collision) override {
+      partners = {{collision.particles[0].particle, collision.particles[1].particle}};
+    }
+    std::optional<std::array<std::uint32_t, 2>> partners;
+  };
+
+  void observe(Simulation<D>& simulation);
+  void close_window();
+  std::optional<ParticleCollision> next_collision(bool halted);
+  std::optional<ContactTimeError> contact_time_error() const;
+
+  ScheduledRun<D> run_;
+  std::optional<Totals<D>> totals_;
+  LastCollision last_;
+  std::optional<std::uint32_t> picked_;
+  std::optional<CollisionWatch<D>> picked_collisions_;  // of that particle
+  std::optional<ParticleCollision> last_collision_;     // its last before laws changed
+  std::optional<CollisionLookahead<D>> lookahead_;  // of that particle, once frames have shown it
+  std::uint64_t steps_told_ = 0;                    // of the run, by the last frame
+  Profiled profiled_ = Profiled::Nothing;
+  std::optional<LiveProfile<D>> profile_;  // of that
+  std::optional<LiveResiduals<D>> residuals_;
+  Tally tally_;
+  Tally tally_at_laws_;  // when those in force came
+  std::shared_ptr<const Scene> started_;
+  std::shared_ptr<const Scene> scene_;  // of the last frame
+};
+
+template <int D>
+RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed)
     : run_(scene, seed), started_(std::make_shared<const Scene>(scene)) {
+  tally_.temperature_integral = Vec<D>::Zero();
+  tally_at_laws_ = tally_;
   run_.show(scene.view);
-  run_.on_change = [this](Simulation<2>& next) {
+  run_.on_change = [this](Simulation<D>& next) {
     close_window();
     observe(next);
     scene_.reset();
@@ -17,7 +79,8 @@ WatchedRun::WatchedRun(const Scene& scene, std::uint64_t seed)
   observe(run_.simulation());
 }
 
-void WatchedRun::observe(Simulation<2>& simulation) {
+template <int D>
+void RunOf<D>::observe(Simulation<D>& simulation) {
   totals_.emplace(simulation);
   tally_at_laws_ = tally_;
   simulation.add_observer(*totals_);
@@ -33,7 +96,8 @@ void WatchedRun::observe(Simulation<2>& simulation) {
   if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window);
 }
 
-void WatchedRun::pick(std::optional<std::uint32_t> particle) {
+template <int D>
+void RunOf<D>::pick(std::optional<std::uint32_t> particle) {
   if (particle && *particle >= run_.simulation().particles().size()) particle.reset();
   picked_ = particle;
   last_collision_.reset();
@@ -41,14 +105,16 @@ void WatchedRun::pick(std::optional<std::uint32_t> particle) {
   lookahead_.reset();
 }
 
-void WatchedRun::show_profile(Profiled what) {
+template <int D>
+void RunOf<D>::show_profile(Profiled what) {
   if (what == profiled_) return;
   profiled_ = what;
   run_.renew();
 }
 
-void WatchedRun::close_window() {
-  const WindowTotals<2> window = totals_->close_window();
+template <int D>
+void RunOf<D>::close_window() {
+  const WindowTotals<D> window = totals_->close_window();
   tally_.time += window.duration;
   tally_.temperature_integral += window.duration * window.temperature;
   tally_.walls_in += window.walls_in;
@@ -60,7 +126,8 @@ void WatchedRun::close_window() {
   tally_.elasticised += static_cast<std::uint64_t>(window.elasticised);
 }
 
-std::optional<ContactTimeError> WatchedRun::contact_time_error() const {
+template <int D>
+std::optional<ContactTimeError> RunOf<D>::contact_time_error() const {
   const double dissipated = tally_.dissipated - tally_at_laws_.dissipated;
   const auto collisions = static_cast<double>(tally_.collisions - tally_at_laws_.collisions);
   if (!run_.scene().contact_time || !(dissipated > 0.0)) return std::nullopt;
@@ -71,9 +138,10 @@ std::optional<ContactTimeError> WatchedRun::contact_time_error() const {
 
 // While the run goes on the scout takes about as many steps as it does; where it halts there is
 // time for more, for most particles collide while all the others do so a few times.
-std::optional<ParticleCollision> WatchedRun::next_collision(bool halted) {
+template <int D>
+std::optional<ParticleCollision> RunOf<D>::next_collision(bool halted) {
   constexpr std::uint64_t kHeadStart = 5000;
-  const Simulation<2>& simulation = run_.simulation();
+  const Simulation<D>& simulation = run_.simulation();
   const std::uint64_t steps = simulation.counts().steps();
   const std::uint64_t since = steps - std::exchange(steps_told_, steps);
   if (!picked_) return std::nullopt;
@@ -83,7 +151,8 @@ std::optional<ParticleCollision> WatchedRun::next_collision(bool halted) {
   return lookahead_->next_after(simulation.time(), most);
 }
 
-void WatchedRun::tell(Frame& frame, bool halted) {
+template <int D>
+void RunOf<D>::tell(Frame& frame, bool halted) {
   close_window();
   if (!scene_) scene_ = std::make_shared<const Scene>(run_.scene());
   frame.snapshot = run_.snapshot();
@@ -102,6 +171,14 @@ void WatchedRun::tell(Frame& frame, bool halted) {
   frame.next_collision = next_collision(halted);
   frame.state_hash.reset();
   if (halted) frame.state_hash = run_.simulation().state_hash();
+}
+
+}  // namespace
+
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed) {
+  return with_dimension(scene.dimension(), [&](auto dimension) -> std::unique_ptr<WatchedRun> {
+    return std::make_unique<RunOf<dimension()>>(scene, seed);
+  });
 }
 
 }  // namespace clatter

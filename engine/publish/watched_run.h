@@ -1,63 +1,51 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
-#include "engine/measure/totals.h"
+#include "engine/dynamics/run_state.h"
+#include "engine/physics/state.h"
 #include "engine/publish/command.h"
 #include "engine/publish/frame.h"
-#include "engine/publish/live_profile.h"
-#include "engine/publish/scheduled_run.h"
 
 namespace clatter {
 
-/// A run and what frames tell of it.
+/// A run of disks or of spheres, and the frames that show it. Its frames, like its scene, are the
+/// same types in two dimensions and in three.
 class WatchedRun {
  public:
-  /// From the scene's start.
-  WatchedRun(const Scene& scene, std::uint64_t seed);
-  WatchedRun(const WatchedRun&) = delete;
-  WatchedRun& operator=(const WatchedRun&) = delete;
+  virtual ~WatchedRun() = default;
 
-  /// The run itself.
-  ScheduledRun& run() { return run_; }
-  /// What frames have profiles of from now on.
-  void show_profile(Profiled what);
-  /// Frames tell the collisions of this particle from now on; absent, or no particle: of none.
-  void pick(std::optional<std::uint32_t> particle);
-  /// Fills in what it knows; a hash where `halted`.
-  void tell(Frame& frame, bool halted);
+  /// Simulation time.
+  virtual double time() const = 0;
+  /// Events since time 0.
+  virtual const EventCounts& counts() const = 0;
+  /// All particles at time().
+  virtual AnyState state() const = 0;
+
+  /// As ScheduledRun::run_until.
+  virtual bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) = 0;
+  /// As ScheduledRun::settle.
+  virtual void settle() = 0;
+  /// As ScheduledRun::change.
+  virtual void change(const std::vector<Override>& laws) = 0;
+  /// As ScheduledRun::show.
+  virtual void show(const View& view) = 0;
+
+  /// The profile of frames from now on.
+  virtual void show_profile(Profiled what) = 0;
+  /// Frames have the collisions of this particle from now on; absent, or no particle: of none.
+  virtual void pick(std::optional<std::uint32_t> particle) = 0;
+  /// Fills in the frame's snapshot, sums and scene; also the hash of the state where `halted`.
+  virtual void tell(Frame& frame, bool halted) = 0;
   /// The particles that collided last, if any have.
-  const std::optional<std::array<std::uint32_t, 2>>& partners() const { return last_.partners; }
-
- private:
-  struct LastCollision : Observer<2> {
-    void on_collision(const PairCollision<2>& collision) override {
-      partners = {{collision.particles[0].particle, collision.particles[1].particle}};
-    }
-    std::optional<std::array<std::uint32_t, 2>> partners;
-  };
-
-  void observe(Simulation<2>& simulation);
-  void close_window();
-  std::optional<ParticleCollision> next_collision(bool halted);
-  std::optional<ContactTimeError> contact_time_error() const;
-
-  ScheduledRun run_;
-  std::optional<Totals<2>> totals_;
-  LastCollision last_;
-  std::optional<std::uint32_t> picked_;
-  std::optional<CollisionWatch> picked_collisions_;  // of that particle
-  std::optional<ParticleCollision> last_collision_;  // its last before laws changed
-  std::optional<CollisionLookahead> lookahead_;  // of that particle, once frames have told of it
-  std::uint64_t steps_told_ = 0;                 // of the run, by the last frame
-  Profiled profiled_ = Profiled::Nothing;
-  std::optional<LiveProfile> profile_;  // of that
-  std::optional<LiveResiduals> residuals_;
-  Tally tally_;
-  Tally tally_at_laws_;  // when those in force came
-  std::shared_ptr<const Scene> started_;
-  std::shared_ptr<const Scene> scene_;  // as told last
+  virtual const std::optional<std::array<std::uint32_t, 2>>& partners() const = 0;
 };
+
+/// The run that a scene and a seed ask for, at time 0. Throws UserError as ScheduledRun does.
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

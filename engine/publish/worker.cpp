@@ -59,8 +59,7 @@ class Work {
 
  private:
   bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
-  ScheduledRun& gas() { return watched_->run(); }
-  double time() { return gas().simulation().time(); }
+  double time() { return watched_->time(); }
 
   void tell(const std::string& message) {
     message_ = message;
@@ -92,7 +91,7 @@ class Work {
     halt();
     plays_ = asked.on;
     until_ = asked.until;
-    if (watched_ && !plays_) gas().settle();
+    if (watched_ && !plays_) watched_->settle();
   }
   void obey(const command::Step& asked) {
     halt();
@@ -100,14 +99,14 @@ class Work {
   }
   void obey(const command::StepCollision&) {
     halt();
-    if (watched_) to_collision_ = gas().simulation().counts().pair_collisions + 1;
+    if (watched_) to_collision_ = watched_->counts().pair_collisions + 1;
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
-    if (watched_) gas().change(asked.laws);
+    if (watched_) watched_->change(asked.laws);
   }
   void obey(const command::Show& asked) {
-    if (watched_) gas().show(asked.view);
+    if (watched_) watched_->show(asked.view);
   }
   void obey(const command::ShowProfile& asked) {
     profiled_ = asked.what;
@@ -119,16 +118,10 @@ class Work {
   void obey(const command::Open& asked) {
     Scene scene = asked.scene;
     if (asked.keeps_gas && watched_) {
-      State<2> state = gas().simulation().state();
-      for (Vec2& position : state.positions) position += asked.shift;
-      state = adapt_to_scene(state, scene, asked.seed);
-      const double temperature = temperature_of(state);
-      scene.particles.start = {.layout = Layout::File,
-                               .file = "",
-                               .state = std::move(state),
-                               .temperature = temperature};
+      std::visit([&](auto&& state) { start_from(std::move(state), asked, scene); },
+                 watched_->state());
     }
-    auto opened = std::make_unique<WatchedRun>(scene, asked.seed);
+    auto opened = watched_run(scene, asked.seed);
     halt();
     watched_ = std::move(opened);
     watched_->show_profile(profiled_);
@@ -137,6 +130,19 @@ class Work {
     until_ = std::numeric_limits<double>::infinity();
     ++runs_;
     rate_since_ = {};
+  }
+
+  // Makes of a gas the start of another scene.
+  template <int D>
+  static void start_from(State<D> state, const command::Open& asked, Scene& scene) {
+    if (scene.dimension() != D) return;
+    if (asked.shift.size() > 0) {
+      for (Vec<D>& position : state.positions) position += asked.shift;
+    }
+    state = adapt_to_scene(state, scene, asked.seed);
+    const double temperature = temperature_of(state);
+    scene.particles.start = {
+        .layout = Layout::File, .file = "", .state = std::move(state), .temperature = temperature};
   }
 
   // Runs up to a time, or as far as it gets until `due`, or until something is asked for.
@@ -150,9 +156,9 @@ class Work {
     constexpr std::chrono::milliseconds kSlice{2};
     for (;;) {
       const auto began = Clock::now();
-      const EventCounts& counts = gas().simulation().counts();
-      const bool arrived = gas().run_until(time, collisions, counts.steps() + slice_);
-      const bool collided = gas().simulation().counts().collisions() >= collisions;
+      const EventCounts& counts = watched_->counts();
+      const bool arrived = watched_->run_until(time, collisions, counts.steps() + slice_);
+      const bool collided = watched_->counts().collisions() >= collisions;
       const auto now = Clock::now();
       slice_ = now - began < kSlice ? 2 * slice_ : std::max<std::uint64_t>(1, slice_ / 2);
       slice_ = std::min(slice_, kLongestSlice);
@@ -163,7 +169,7 @@ class Work {
 
   void play() {
     const Pace::Goal goal = pace_.next(Clock::now(), time());
-    const bool arrived = advance(std::min(goal.time, until_), Simulation<2>::kNoLimit, goal.due);
+    const bool arrived = advance(std::min(goal.time, until_), kNoLimit, goal.due);
     if (arrived && time() >= until_) halt();
     publish();
     if (arrived && plays_) commands_.wait_until(goal.due);
@@ -174,12 +180,12 @@ class Work {
     const auto due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(frame_seconds_));
     if (step_to_) {
-      if (advance(*step_to_, Simulation<2>::kNoLimit, due)) halt();
+      if (advance(*step_to_, kNoLimit, due)) halt();
     } else {
       const double ahead = time() + pace_.speed() * frame_seconds_;
       while (to_collision_ && time() < ahead && Clock::now() < due && !commands_.pending()) {
-        advance(ahead, gas().simulation().counts().collisions() + 1, due);
-        const std::uint64_t collisions = gas().simulation().counts().pair_collisions;
+        advance(ahead, watched_->counts().collisions() + 1, due);
+        const std::uint64_t collisions = watched_->counts().pair_collisions;
         if (to_collision_ && collisions >= *to_collision_) halt_at_collision();
       }
     }
@@ -189,7 +195,7 @@ class Work {
   void halt_at_collision() {
     halt();
     partners_ = watched_->partners();
-    attempt([this] { gas().settle(); });
+    attempt([this] { watched_->settle(); });
   }
 
   void publish() {
@@ -213,7 +219,7 @@ class Work {
     constexpr std::chrono::milliseconds kLong{500};
     if (!plays_ || !watched_) return rate_ = 0.0;
     const auto now = Clock::now();
-    const std::uint64_t events = gas().simulation().counts().collisions();
+    const std::uint64_t events = watched_->counts().collisions();
     if (rate_since_ == Clock::time_point{}) {
       rate_since_ = now;
       events_then_ = events;

@@ -13,17 +13,18 @@ Light light_of(Colour colour) {
 }
 
 double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i) {
+  const auto column = static_cast<Eigen::Index>(i);
   switch (colour_by) {
     case ColourBy::None:
       return 0.0;
     case ColourBy::Speed:
-      return snapshot.velocities[i].norm();
+      return snapshot.velocities.col(column).norm();
     case ColourBy::VelocityX:
-      return snapshot.velocities[i].x();
+      return snapshot.velocities(0, column);
     case ColourBy::VelocityY:
-      return snapshot.velocities[i].y();
+      return snapshot.velocities(1, column);
     case ColourBy::Spin:
-      return snapshot.spins.empty() ? 0.0 : snapshot.spins[i];
+      return snapshot.spins.size() == 0 ? 0.0 : snapshot.spins(0, column);
   }
   return 0.0;
 }

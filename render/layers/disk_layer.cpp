@@ -43,8 +43,8 @@ void visit_disks(const Snapshot& snapshot, const Projection& projection, Visit v
     if (place > snapshot.box[axis] - radius) shifted(-snapshot.box[axis]);
   };
 
-  for (std::size_t i = 0; i < snapshot.positions.size(); ++i) {
-    const Vec2& place = snapshot.positions[i];
+  for (std::size_t i = 0; i < snapshot.count(); ++i) {
+    const Vec2 place = snapshot.positions.col(static_cast<Eigen::Index>(i));
     shifts(0, place.x(), [&](double dx) {
       shifts(1, place.y(), [&](double dy) {
         const Vec2 centre = projection.pixels(place + Vec2(dx, dy));

@@ -49,7 +49,7 @@ ColourScale scale_to(double extent, Sign sign, ColourMap map) {
 }
 
 double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
-  std::vector<double> values(snapshot.positions.size());
+  std::vector<double> values(snapshot.count());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = disk_value(snapshot, colour_by, i);
   return robust_extent(std::move(values));
 }

@@ -23,9 +23,9 @@ void check_finite(const LivePlot& plot) {
 }
 
 // As far as it gets: a wall of temperature 0 lets no disk go.
-void go_on(ScheduledRun& run, double time) {
+void go_on(WatchedRun& run, double time) {
   try {
-    run.run_until(time);
+    run.run_until(time, kNoLimit, kNoLimit);
   } catch (const PhysicalStop&) {
   }
 }
@@ -43,14 +43,14 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
                                    Settings{{"particles.count", "0"}}}) {
     CAPTURE(settings.front().key);
     for (const Profiled profiled : {Profiled::Fields, Profiled::Balances}) {
-      WatchedRun run(load_scene("vibrated", settings), 1);
-      run.show_profile(profiled);
+      const auto run = watched_run(load_scene("vibrated", settings), 1);
+      run->show_profile(profiled);
       History history;
       Frame frame;
       frame.run = 1;
       for (double time : {0.0, 1.0, 2.0, 20.0}) {
-        go_on(run.run(), time);
-        run.tell(frame, false);
+        go_on(*run, time);
+        run->tell(frame, false);
         history.add(frame);
         for (std::size_t name = 0; name < profile_names().size(); ++name) {
           for (const LivePlot& plot : plots_of(history, frame, name, kDarkTheme)) {

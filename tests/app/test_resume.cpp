@@ -218,7 +218,7 @@ TEST_CASE("Resume: a picture of disks that overlapped is written, and the run fa
   Checkpoint checkpoint = read_checkpoint(shell.path("c"));
   for (const auto& [overlap, code] : {std::pair{0.5e-9, 0}, std::pair{2e-9, 3}}) {
     CAPTURE(overlap);
-    checkpoint.saved.checks.deepest_overlap = overlap;
+    std::get<RunState<2>>(checkpoint.saved).checks.deepest_overlap = overlap;
     write_checkpoint(shell.path("c"), checkpoint);
     const Outcome outcome = shell.run(
         "rm -f x.png; clatter render vibrated --size 64x64 --quiet --to 502 --resume c --out "

@@ -38,7 +38,7 @@ double independent_collisions(int count, double area_fraction) {
   Scene scene;
   scene.particles.count = count;
   scene.box.setConstant(std::sqrt(count * 0.25 * std::numbers::pi / area_fraction));
-  const auto simulation = simulation_of(scene, 1);
+  const auto simulation = simulation_of<2>(scene, 1);
   constexpr std::uint64_t kCollisions = 200'000;
   simulation->run_until(kNever, 10 * static_cast<std::uint64_t>(count));
   Places watched;

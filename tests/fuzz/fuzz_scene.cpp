@@ -34,7 +34,7 @@ void draw(const Scene& scene, const Snapshot& snapshot) {
 void run(const std::string& text) {
   const Scene scene = parse_scene(text, "fuzz.toml", {});
   if (scene.particles.count > kMaxParticles<2>) return;
-  ScheduledRun run(scene, 1);
+  ScheduledRun<2> run(scene, 1);
   run.show(scene.view);
   const double end = scene.measure.burn_in + scene.measure.duration;
   run.run_until(std::min(end, kWindows * scene.view.window), kCollisions, kSteps);

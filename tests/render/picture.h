@@ -53,14 +53,17 @@ inline constexpr Colour kClear{0, 0, 0, 0};
 /// density field.
 inline Snapshot driven_box() {
   Snapshot snapshot;
-  snapshot.box = {20.0, 25.0};
+  snapshot.box = Vec2(20.0, 25.0);
   snapshot.time = 12.34;
   snapshot.temperature = 0.98;
   snapshot.collisions = 1234567;
   snapshot.walls[kLeft] = snapshot.walls[kRight] = Wall{WallKind::Driven, 1.0, 1.0, 1.0};
-  for (int i = 0; i < 14 * 16; ++i) {
-    snapshot.positions.push_back({1.0 + 1.35 * (i % 14), 0.3 + 1.55 * (i / 14)});
-    snapshot.velocities.push_back({0.01 * (i % 97), 0.02 * (i % 31)});
+  constexpr int kDisks = 14 * 16;
+  snapshot.positions.resize(2, kDisks);
+  snapshot.velocities.resize(2, kDisks);
+  for (int i = 0; i < kDisks; ++i) {
+    snapshot.positions.col(i) = Vec2(1.0 + 1.35 * (i % 14), 0.3 + 1.55 * (i / 14));
+    snapshot.velocities.col(i) = Vec2(0.01 * (i % 97), 0.02 * (i % 31));
   }
   FieldMap density{Quantity::Density, {4, 5}, {}};
   for (int i = 0; i < 20; ++i) density.values.push_back(0.05 * i);
@@ -75,11 +78,11 @@ inline const Projection kUnitProjection{{{100.0, 60.0}, 200.0}, kUnitSize};
 /// One disk at rest in a walled box that fills that picture.
 inline Snapshot one_disk(Vec2 centre, double diameter) {
   Snapshot snapshot;
-  snapshot.box = {kUnitSize.width, kUnitSize.height};
+  snapshot.box = Vec2(kUnitSize.width, kUnitSize.height);
   snapshot.diameter = diameter;
   snapshot.walls.fill(Wall{});
-  snapshot.positions = {centre};
-  snapshot.velocities = {{0.0, 0.0}};
+  snapshot.positions = centre;
+  snapshot.velocities = Vec2(0.0, 0.0);
   return snapshot;
 }
 

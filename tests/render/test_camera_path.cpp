@@ -11,7 +11,7 @@ const Camera kWhole{{10.0, 12.5}, 40.0};
 Snapshot at(double time) {
   Snapshot snapshot;
   snapshot.time = time;
-  snapshot.positions = {{1.0, 2.0}, {3.0 + time, 4.0}};
+  snapshot.positions = as_columns<2>({{1.0, 2.0}, {3.0 + time, 4.0}});
   return snapshot;
 }
 

@@ -34,7 +34,7 @@ Snapshot gas() {
       walls.bottom = { kind = "static" }
       walls.top = { kind = "static" })",
                                   "gas");
-  ScheduledRun run(scene, 1);
+  ScheduledRun<2> run(scene, 1);
   run.run_until(5.0);
   Snapshot snapshot = run.snapshot();
   snapshot.diameter = 0.8;
@@ -114,12 +114,12 @@ std::string disagreement(const Image& image, const Snapshot& snapshot, const Cam
   const Vec2 line(3.0, 3.0);  // the faces of the walls
   std::vector<Spot> spots =
       spots_in(image, projection.pixels({0.0, 0.0}) + line, projection.pixels(snapshot.box) - line);
-  if (spots.size() != snapshot.positions.size()) {
+  if (spots.size() != snapshot.count()) {
     return "there are " + std::to_string(spots.size()) + " spots";
   }
   const ColourScale scale{colour_map(Palette::Viridis).subspan(2), 0.0, kFastest};
-  for (std::size_t i = 0; i < snapshot.positions.size(); ++i) {
-    const Vec2 centre = projection.pixels(snapshot.positions[i]);
+  for (std::size_t i = 0; i < snapshot.count(); ++i) {
+    const Vec2 centre = projection.pixels(snapshot.positions.col(i));
     const auto spot = std::ranges::find_if(
         spots, [&](const Spot& spot) { return (spot.centre - centre).norm() < kOff; });
     const std::string disk = "disk " + std::to_string(i);
@@ -127,7 +127,7 @@ std::string disagreement(const Image& image, const Snapshot& snapshot, const Cam
     if (std::abs(spot->radius - 0.5 * snapshot.diameter * projection.scale()) > kOff) {
       return disk + " has the radius " + std::to_string(spot->radius);
     }
-    if (difference(spot->colour, scale(snapshot.velocities[i].norm())) > 1) {
+    if (difference(spot->colour, scale(snapshot.velocities.col(i).norm())) > 1) {
       return disk + " has another colour";
     }
   }
@@ -149,10 +149,10 @@ void check_geometry(Backend backend) {
     };
     CHECK(disagreement_with(snapshot) == "");
     const double pixel = camera.width / kSize.width;
-    for (const std::size_t i : {0, 17, 79}) {
+    for (const int i : {0, 17, 79}) {
       for (const Vec2& shift : {Vec2(pixel, 0.0), Vec2(0.0, -pixel)}) {
         Snapshot moved = snapshot;
-        moved.positions[i] += shift;
+        moved.positions.col(i) += shift;
         CHECK(disagreement_with(moved) ==
               "disk " + std::to_string(i) + " is not where it should be");
       }
@@ -161,10 +161,10 @@ void check_geometry(Backend backend) {
     wider.diameter += 2.0 * pixel;
     CHECK(says(disagreement_with(wider), "has the radius"));
     Snapshot faster = snapshot;
-    faster.velocities[5] *= 1.2;
+    faster.velocities.col(5) *= 1.2;
     CHECK(disagreement_with(faster) == "disk 5 has another colour");
     Snapshot fewer = snapshot;
-    fewer.positions.pop_back();
+    fewer.positions.conservativeResize(2, 79);
     CHECK(disagreement_with(fewer) == "there are 79 spots");
   }
 }

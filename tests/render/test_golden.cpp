@@ -77,7 +77,7 @@ constexpr Size kSize{320, 240};
 
 Image drawn(const Golden& golden, const Gl& gl) {
   const Scene scene = parse_scene(golden.scene, golden.name);
-  ScheduledRun run(scene, 1);
+  ScheduledRun<2> run(scene, 1);
   run.show(scene.view);
   run.run_until(golden.time);
   const Snapshot snapshot = run.snapshot();
@@ -168,13 +168,13 @@ TEST_CASE("Golden pictures: a disk a quarter of a pixel off is detected") {
   const auto context = open_context(Backend::Osmesa);
   const Golden& golden = kGolden.front();
   const Scene scene = parse_scene(golden.scene, golden.name);
-  ScheduledRun run(scene, 1);
+  ScheduledRun<2> run(scene, 1);
   run.show(scene.view);
   run.run_until(golden.time);
   Snapshot snapshot = run.snapshot();
   Renderer renderer(context->gl());
   const Camera camera = renderer.fit(snapshot, kSize, scene.view, {});
-  snapshot.positions[7].x() += 0.25 * camera.width / kSize.width;
+  snapshot.positions(0, 7) += 0.25 * camera.width / kSize.width;
   const Canvas canvas(context->gl(), kSize);
   canvas.bind();
   renderer.draw(snapshot, camera, kSize, scene.view, {});

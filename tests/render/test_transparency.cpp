@@ -24,10 +24,10 @@ TEST_CASE(
     "is") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(Wall{});
-  snapshot.positions = {{5.0, 5.0}};
-  snapshot.velocities = {{0.0, 0.0}};
+  snapshot.positions = Vec2(5.0, 5.0);
+  snapshot.velocities = Vec2(0.0, 0.0);
   View view;
   view.colour_by = ColourBy::None;
   view.overlay = false;
@@ -66,11 +66,11 @@ TEST_CASE(
     "Transparency: small disks, and trails, have their own colours without a background, too") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(Wall{});
-  snapshot.positions = {{5.3, 5.0}};
-  snapshot.velocities = {{4.0, 0.0}};
-  snapshot.flights = {{0, -1.0, 0.0, {1.3, 5.0}, {4.0, 0.0}, {0.0, 0.0}}};
+  snapshot.positions = Vec2(5.3, 5.0);
+  snapshot.velocities = Vec2(4.0, 0.0);
+  snapshot.flights = {{0, -1.0, 0.0, Vec2(1.3, 5.0), Vec2(4.0, 0.0), Vec2(0.0, 0.0)}};
   View view;
   view.colour_by = ColourBy::None;
   view.overlay = false;

@@ -13,9 +13,27 @@ inline Scene gas(double lx, double ly, int count, double restitution) {
   return scene;
 }
 
-/// The same wall at both ends of an axis (0: x, 1: y).
+/// The same wall at both ends of an axis (0: x, 1: y, 2: z).
 inline void wall_in(Scene& scene, int axis, const Wall& wall) {
   scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;
+}
+
+/// Rough spheres under gravity between six walls, each of another kind or temperature.
+inline Scene rough_spheres(int count) {
+  Scene scene = default_scene(3);
+  scene.box = Vec<3>(6.0, 5.0, 7.0);
+  scene.particles.count = count;
+  scene.particles.restitution = 0.9;
+  scene.particles.roughness = {.friction = 0.4, .tangential_restitution = 0.6};
+  scene.particles.start.spin_temperature = 0.8;
+  scene.gravity = Vec<3>(0.1, -0.4, 0.2);
+  scene.walls = {Wall{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.5},
+                 Wall{.kind = WallKind::Static, .restitution = 0.7},
+                 Wall{.kind = WallKind::Thermal, .temperature = 0.5},
+                 Wall{.kind = WallKind::Thermal, .temperature = 2.0},
+                 Wall{.kind = WallKind::Sawtooth, .stroke = 0.3, .frequency = 1.1},
+                 Wall{.kind = WallKind::Sinusoidal, .stroke = 0.4, .frequency = 0.8}};
+  return scene;
 }
 
 }  // namespace clatter::testing

@@ -40,6 +40,10 @@ Checkpoint example() {
           "film"};
 }
 
+RunState<2>& disks(Checkpoint& checkpoint) {
+  return std::get<RunState<2>>(checkpoint.saved);
+}
+
 // What reading the file says; empty where it is read.
 std::string refusal(const std::filesystem::path& file) {
   return refusal_of([&] { read_checkpoint(file); });
@@ -65,13 +69,28 @@ TEST_CASE("Checkpoint: all that is written is read back, bit for bit") {
   CHECK(read.command == "measure");
   CHECK(read.scene == "title = \"ρ\"\n");
   CHECK(read.seed == 42);
-  CHECK(read.saved.flights.size() == 2);
-  CHECK(std::signbit(read.saved.flights[0].v.x()));
-  CHECK(read.saved.spins[1][0] == -8.0);
-  CHECK(read.saved.last_collisions[0] == -HUGE_VAL);
-  CHECK(read.saved.counts.stale == 20);
-  CHECK(read.saved.checks.clock_steps_back == 1e-15);
+  CHECK(disks(read).flights.size() == 2);
+  CHECK(std::signbit(disks(read).flights[0].v.x()));
+  CHECK(disks(read).spins[1][0] == -8.0);
+  CHECK(disks(read).last_collisions[0] == -HUGE_VAL);
+  CHECK(disks(read).counts.stale == 20);
+  CHECK(disks(read).checks.clock_steps_back == 1e-15);
   CHECK(read.measurement == written.measurement);
+  CHECK(archived(read) == archived(written));
+}
+
+TEST_CASE("Checkpoint: a run of spheres is read back as one of spheres") {
+  const TemporaryFolder folder;
+  RunState<3> saved;
+  saved.gravity = {0.5, -1.5, 2.5};
+  saved.flights = {{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, 0.25, 7}};
+  saved.spins = {Spin<3>(7.0, 8.0, 9.0)};
+  Checkpoint written = example();
+  written.saved = saved;
+  write_checkpoint(folder / "a", written);
+  Checkpoint read = read_checkpoint(folder / "a");
+  REQUIRE(std::holds_alternative<RunState<3>>(read.saved));
+  CHECK(std::get<RunState<3>>(read.saved).spins[0] == saved.spins[0]);
   CHECK(archived(read) == archived(written));
 }
 
@@ -84,30 +103,30 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { c.start_temperature += 1.0; },
       [](Checkpoint& c) { ++c.seed; },
       [](Checkpoint& c) { c.measurement += '!'; },
-      [](Checkpoint& c) { c.saved.gravity.x() += 1.0; },
-      [](Checkpoint& c) { c.saved.base.high += 1.0; },
-      [](Checkpoint& c) { c.saved.base.low += 1.0; },
-      [](Checkpoint& c) { c.saved.now += 1.0; },
-      [](Checkpoint& c) { c.saved.flights[1].r.y() += 1.0; },
-      [](Checkpoint& c) { c.saved.flights[1].v.y() += 1.0; },
-      [](Checkpoint& c) { c.saved.flights[1].time += 1.0; },
-      [](Checkpoint& c) { ++c.saved.flights[1].number; },
-      [](Checkpoint& c) { c.saved.spins[1][0] += 1.0; },
-      [](Checkpoint& c) { c.saved.last_collisions[1] += 1.0; },
-      [](Checkpoint& c) { ++c.saved.until_base_moves; },
-      [](Checkpoint& c) { c.saved.mean_collision_time += 1.0; },
-      [](Checkpoint& c) { c.saved.kick_interval += 1.0; },
-      [](Checkpoint& c) { c.saved.kick_origin += 1.0; },
-      [](Checkpoint& c) { ++c.saved.kicks_since_origin; },
-      [](Checkpoint& c) { ++c.saved.counts.pair_collisions; },
-      [](Checkpoint& c) { ++c.saved.counts.wall_collisions; },
-      [](Checkpoint& c) { ++c.saved.counts.kicks; },
-      [](Checkpoint& c) { ++c.saved.counts.elasticised; },
-      [](Checkpoint& c) { ++c.saved.counts.elasticised_wall; },
-      [](Checkpoint& c) { ++c.saved.counts.cell_crossings; },
-      [](Checkpoint& c) { ++c.saved.counts.stale; },
-      [](Checkpoint& c) { c.saved.checks.deepest_overlap += 1.0; },
-      [](Checkpoint& c) { c.saved.checks.clock_steps_back += 1.0; },
+      [](Checkpoint& c) { disks(c).gravity.x() += 1.0; },
+      [](Checkpoint& c) { disks(c).base.high += 1.0; },
+      [](Checkpoint& c) { disks(c).base.low += 1.0; },
+      [](Checkpoint& c) { disks(c).now += 1.0; },
+      [](Checkpoint& c) { disks(c).flights[1].r.y() += 1.0; },
+      [](Checkpoint& c) { disks(c).flights[1].v.y() += 1.0; },
+      [](Checkpoint& c) { disks(c).flights[1].time += 1.0; },
+      [](Checkpoint& c) { ++disks(c).flights[1].number; },
+      [](Checkpoint& c) { disks(c).spins[1][0] += 1.0; },
+      [](Checkpoint& c) { disks(c).last_collisions[1] += 1.0; },
+      [](Checkpoint& c) { ++disks(c).until_base_moves; },
+      [](Checkpoint& c) { disks(c).mean_collision_time += 1.0; },
+      [](Checkpoint& c) { disks(c).kick_interval += 1.0; },
+      [](Checkpoint& c) { disks(c).kick_origin += 1.0; },
+      [](Checkpoint& c) { ++disks(c).kicks_since_origin; },
+      [](Checkpoint& c) { ++disks(c).counts.pair_collisions; },
+      [](Checkpoint& c) { ++disks(c).counts.wall_collisions; },
+      [](Checkpoint& c) { ++disks(c).counts.kicks; },
+      [](Checkpoint& c) { ++disks(c).counts.elasticised; },
+      [](Checkpoint& c) { ++disks(c).counts.elasticised_wall; },
+      [](Checkpoint& c) { ++disks(c).counts.cell_crossings; },
+      [](Checkpoint& c) { ++disks(c).counts.stale; },
+      [](Checkpoint& c) { disks(c).checks.deepest_overlap += 1.0; },
+      [](Checkpoint& c) { disks(c).checks.clock_steps_back += 1.0; },
   };
   Checkpoint plain = example();
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -217,6 +236,8 @@ TEST_CASE("Checkpoint: lengths beyond the end of the file are refused, not alloc
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(numbers), UserError);
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(rows), UserError);
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(text), UserError);
+  AnyRunState saved;
+  CHECK_THROWS_AS(ArchiveReader("\2", "a")(saved), UserError);
   ArchiveReader reader(writer.written(), "a");
   reader(length);
   CHECK_THROWS_AS(reader.finish(), UserError);

@@ -23,7 +23,7 @@ RunState<2> through_file(const Simulation<2>& simulation) {
   Checkpoint checkpoint;
   checkpoint.saved = simulation.save();
   write_checkpoint(folder / "a", checkpoint);
-  return read_checkpoint(folder / "a").saved;
+  return std::get<RunState<2>>(read_checkpoint(folder / "a").saved);
 }
 
 // Which laws, and a model of them.

@@ -97,11 +97,11 @@ TEST_CASE("Standstill: a limit on steps halts a gas that never collides") {
   Model<2> kicked = periodic_box(9.0, 8.0);
   kicked.bulk_drive = BulkDrive{1e-9, 0.1, 0.0};
   Simulation<2> tight(kicked, random_gas(kicked, 2, 953));
-  CHECK_FALSE(tight.run_until(1.0, Simulation<2>::kNoLimit, 1000));
+  CHECK_FALSE(tight.run_until(1.0, kNoLimit, 1000));
   CHECK(tight.counts().steps() == 1000);
   const Model<2> free = periodic_box(9.0, 8.0);
   Simulation<2> lone(free, random_gas(free, 1, 954));
-  CHECK_FALSE(lone.run_until(kNever, Simulation<2>::kNoLimit, 1000));
+  CHECK_FALSE(lone.run_until(kNever, kNoLimit, 1000));
   CHECK(lone.counts().cell_crossings == 1000);
 }
 

@@ -41,7 +41,7 @@ std::vector<std::pair<std::string, Scene>> scenes() {
 // A gas after some collisions, and all its particles' plans.
 struct Planned {
   explicit Planned(const Scene& scene) : model(model_of<2>(scene, 1)) {
-    const auto simulation = simulation_of(scene, 1);
+    const auto simulation = simulation_of<2>(scene, 1);
     simulation->run_until(1e9, 20 * static_cast<std::uint64_t>(scene.particles.count));
     now = simulation->base_time();
     clock.emplace(simulation->time() - now);

@@ -68,7 +68,7 @@ TEST_CASE("Simulation: particles may turn round just beyond a border of narrow c
   }
   saved.until_base_moves = 1000;
   Simulation<2> simulation(model, saved);
-  CHECK(simulation.run_until(1e4 + 1e-9, Simulation<2>::kNoLimit, 1000));
+  CHECK(simulation.run_until(1e4 + 1e-9, kNoLimit, 1000));
   CHECK(simulation.counts().cell_crossings >= 90);
   CHECK(simulation.deepest_overlap() == 0.0);
 }

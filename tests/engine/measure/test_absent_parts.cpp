@@ -61,7 +61,7 @@ TEST_CASE("Absent parts: without fields there is no grid") {
   scene.measure.cells = {1000, 1000};
   const auto measured_bytes = [&] {
     return bytes_of([&] {
-      const auto simulation = simulation_of(scene, 122);
+      const auto simulation = simulation_of<2>(scene, 122);
       Measurement measurement(*simulation, scene.measure, 2.0);
       simulation->run_until(2.0);
       measurement.result();
@@ -75,7 +75,7 @@ TEST_CASE("Absent parts: without fields there is no grid") {
 TEST_CASE("Absent parts: only observers of an event are called, and they change nothing") {
   Scene scene = rough_mixture(30);
   scene.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.1};
-  const auto watched = simulation_of(scene, 123), unwatched = simulation_of(scene, 123);
+  const auto watched = simulation_of<2>(scene, 123), unwatched = simulation_of<2>(scene, 123);
   EventCounter counter;
   watched->add_observer(counter);
   watched->run_until(20.0);
@@ -92,7 +92,7 @@ TEST_CASE("Absent parts: a part that is there but switched off changes no bit") 
       "box.size = [20, 25]\nparticles = { count = 100, restitution = 0.9 }\n"
       "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n";
   const auto hash_of = [&](const std::vector<Override>& changes) {
-    const auto simulation = simulation_of(parse_scene(scene, "s.toml", changes), 124);
+    const auto simulation = simulation_of<2>(parse_scene(scene, "s.toml", changes), 124);
     simulation->run_until(50.0);
     return simulation->state_hash();
   };
@@ -124,8 +124,8 @@ TEST_CASE("Absent parts: what is there but switched off costs no time" *
                                      {"walls.right.tangential_restitution", "-1"},
                                      {"view.field", "'density'"},
                                      {"measure.fields", "['stress']"}};
-  const auto plain = simulation_of(parse_scene(text, "s.toml", {}), 125);
-  const auto other = simulation_of(parse_scene(text, "s.toml", off), 125);
+  const auto plain = simulation_of<2>(parse_scene(text, "s.toml", {}), 125);
+  const auto other = simulation_of<2>(parse_scene(text, "s.toml", off), 125);
   const auto slice = [](Simulation<2>& simulation) {
     const std::clock_t began = std::clock();
     const EventCounts& counts = simulation.counts();

@@ -156,13 +156,13 @@ TEST_CASE("CellIntegrals: a gas agrees with sampling its states") {
   const IntVec<2> cells = {3, 4};
   Scene scene = gas(6.0, 5.0, 12, 0.8);
   wall_in(scene, 0, {.kind = WallKind::Driven, .drive_speed = 1.0});
-  const auto watched = simulation_of(scene, 21);
+  const auto watched = simulation_of<2>(scene, 21);
   CellIntegrals<2> integrals(*watched, cells, full_layout());
   watched->add_observer(integrals);
   watched->run_until(kDuration);
   const Grid exact = close(integrals);
 
-  const auto sampled = simulation_of(scene, 21);
+  const auto sampled = simulation_of<2>(scene, 21);
   const Grid sampling = by_sampling(*sampled, cells, kDuration, 40000);
   REQUIRE(sampled->counts().wall_collisions >= 10);
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -174,7 +174,7 @@ TEST_CASE("CellIntegrals: a gas agrees with sampling its states") {
 }
 
 TEST_CASE("CellIntegrals: cells add up to N Dt, and to the integral of sum v_k^2") {
-  const auto simulation = simulation_of(rough_mixture(20), 22);
+  const auto simulation = simulation_of<2>(rough_mixture(20), 22);
   CellIntegrals<2> integrals(*simulation, {5, 3}, full_layout());
   Totals<2> totals(*simulation);
   EventTimes events;
@@ -207,7 +207,7 @@ TEST_CASE("CellIntegrals: cells add up to the momentum, which a periodic box con
 }
 
 TEST_CASE("CellIntegrals: windows add up whenever they are closed") {
-  const auto simulation = simulation_of(rough_mixture(20), 24);
+  const auto simulation = simulation_of<2>(rough_mixture(20), 24);
   CellIntegrals<2> whole(*simulation, {6, 5}, full_layout());
   CellIntegrals<2> often(*simulation, {6, 5}, full_layout());
   EventTimes events;
@@ -225,7 +225,7 @@ TEST_CASE("CellIntegrals: windows add up whenever they are closed") {
 }
 
 TEST_CASE("CellIntegrals: watching from the middle of a run is as from a start there") {
-  const auto simulation = simulation_of(rough_mixture(20), 25);
+  const auto simulation = simulation_of<2>(rough_mixture(20), 25);
   CellIntegrals<2> early(*simulation, {6, 5}, full_layout());
   simulation->add_observer(early);
   simulation->run_until(5.123);
@@ -328,7 +328,7 @@ class PointByPoint : public Observer<2> {
 
 /// Checks what collisions leave in every cell against the points.
 void check_collisions(const Scene& scene, const IntVec<2>& cells, std::uint64_t seed) {
-  const auto simulation = simulation_of(scene, seed);
+  const auto simulation = simulation_of<2>(scene, seed);
   CellIntegrals<2> integrals(*simulation, cells, full_layout());
   PointByPoint points(*simulation, cells);
   simulation->add_observer(integrals);
@@ -382,12 +382,12 @@ TEST_CASE("CellIntegrals: falls of spinning particles are as dense sampling find
   Scene scene = spinning(gas(6.0, 5.0, 8, 0.9));
   wall_in(scene, 1, {.kind = WallKind::Sinusoidal, .stroke = 0.4, .frequency = 1.1});
   scene.gravity = Vec2(0.4, -1.5);
-  const auto watched = simulation_of(scene, 57);
+  const auto watched = simulation_of<2>(scene, 57);
   CellIntegrals<2> integrals(*watched, cells, full_layout());
   watched->add_observer(integrals);
   watched->run_until(kDuration);
   const Grid exact = close(integrals);
-  const auto sampled = simulation_of(scene, 57);
+  const auto sampled = simulation_of<2>(scene, 57);
   const Grid sampling = by_sampling(*sampled, cells, kDuration, 80000);
   REQUIRE(sampled->counts().wall_collisions >= 10);
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -424,7 +424,7 @@ TEST_CASE("CellIntegrals: snapshots count the particles where they are") {
   const IntVec<2> cells(5, 4);
   Scene scene = spinning(rough_mixture(20));
   scene.gravity = Vec2(0.0, -0.5);
-  const auto simulation = simulation_of(scene, 58);
+  const auto simulation = simulation_of<2>(scene, 58);
   CellIntegrals<2> integrals(*simulation, cells, full_layout(), {Estimator::Snapshot, {}});
   simulation->add_observer(integrals);
   simulation->every(0.5, 1.0, [&](double) { integrals.sample(); });
@@ -433,7 +433,7 @@ TEST_CASE("CellIntegrals: snapshots count the particles where they are") {
   CHECK(sums.time == doctest::Approx(10.0));
   CHECK(sums.kinetic_weight == 10.0);
   Grid grid = grid_of(sums, integrals.layout());
-  const auto again = simulation_of(scene, 58);
+  const auto again = simulation_of<2>(scene, 58);
   const Grid expected = by_sampling(*again, cells, 10.0, 10);
   CHECK(total(grid).transfer.cwiseAbs().maxCoeff() > 1.0);
   CHECK(total(grid).dissipation < 0.0);
@@ -447,7 +447,7 @@ TEST_CASE("CellIntegrals: snapshots count the particles where they are") {
 
 TEST_CASE("CellIntegrals: a Gaussian spreads what box cells hold, and keeps its amount") {
   const IntVec<2> cells(12, 10);
-  const auto simulation = simulation_of(gas(6.0, 5.0, 12, 0.8), 59);
+  const auto simulation = simulation_of<2>(gas(6.0, 5.0, 12, 0.8), 59);
   CellIntegrals<2> box(*simulation, cells, full_layout(), {Estimator::Snapshot, {}});
   CellIntegrals<2> smooth(*simulation, cells, full_layout(), {Estimator::Snapshot, 0.7});
   simulation->add_observer(box);

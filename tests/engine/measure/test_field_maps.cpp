@@ -21,7 +21,7 @@ CellSums numbered(int window, std::size_t numbers = 1) {
 
 /// What the fields asked for give in 50 time units of a gas between walls on 6 x 4 cells.
 Measured measured(const std::vector<Field>& fields, Axis axis = Axis::X) {
-  const auto simulation = simulation_of(rough_mixture(20), 5);
+  const auto simulation = simulation_of<2>(rough_mixture(20), 5);
   Measure measure;
   measure.burn_in = 3.3;
   measure.fields = fields;

@@ -167,7 +167,7 @@ TEST_CASE("Moment layout: every field has what it needs, and no field keeps all"
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   scene.particles.start.spin_temperature = 1.0;
-  const auto simulation = simulation_of(scene, 61);
+  const auto simulation = simulation_of<2>(scene, 61);
   CellIntegrals<2> all(*simulation, {6, 5}, full_layout());
   std::deque<CellIntegrals<2>> singles;
   for (const Field field : average_fields()) {

@@ -61,13 +61,13 @@ bool finite(const Measured& result) {
 
 TEST_CASE("Measurement: averages over the time after the burn-in, all of it and nothing else") {
   const Scene scene = rough_mixture(20);
-  const auto simulation = simulation_of(scene, 41);
+  const auto simulation = simulation_of<2>(scene, 41);
   const Measured result = measured(*simulation, measure_for(7.3, 31.9));
   CHECK(result.duration == doctest::Approx(31.9).epsilon(1e-12));
   CHECK(result.ledger_residual < 1e-13);
 
   // The same with one window of a Totals of its own.
-  const auto again = simulation_of(scene, 41);
+  const auto again = simulation_of<2>(scene, 41);
   again->run_until(7.3);
   const EventCounts at_start = again->counts();
   Totals<2> totals(*again);
@@ -97,7 +97,7 @@ TEST_CASE("Measurement: averages over the time after the burn-in, all of it and 
 TEST_CASE("Measurement: at least 512 windows, more where the series is finer") {
   // With windows of 1/512 of the span and of the series' interval; a run cut at 1/4 has a quarter.
   for (const double interval : {1.0, 0.01}) {
-    const auto simulation = simulation_of(gas(10.0, 10.0, 5, 1.0), 42);
+    const auto simulation = simulation_of<2>(gas(10.0, 10.0, 5, 1.0), 42);
     Measure measure = measure_for(1.0, 64.0);
     measure.series_interval = interval;
     Measurement measurement(*simulation, measure, 65.0);
@@ -111,7 +111,7 @@ TEST_CASE("Measurement: at least 512 windows, more where the series is finer") {
 
 TEST_CASE("Measurement: the last window counts, also where rounding puts its end after the run's") {
   for (int k = 1; k <= 200; ++k) {
-    const auto simulation = simulation_of(gas(10.0, 10.0, 1, 1.0), 42);
+    const auto simulation = simulation_of<2>(gas(10.0, 10.0, 1, 1.0), 42);
     Measure measure = measure_for(0.1 * k, 0.7 * k);
     measure.series_interval = measure.duration / 700.0;  // no power of two
     CAPTURE(k);
@@ -120,13 +120,13 @@ TEST_CASE("Measurement: the last window counts, also where rounding puts its end
 }
 
 TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
-  const auto simulation = simulation_of(gas(10.0, 10.0, 10, 0.8), 43);
+  const auto simulation = simulation_of<2>(gas(10.0, 10.0, 10, 0.8), 43);
   Measure measure = measure_for(2.0, 4.0);
   measure.series_interval = 0.75;
   const Measured result = measured(*simulation, measure);
   REQUIRE(result.series_time.size() == 9);  // 0 to 6
   REQUIRE(result.series_temperature.size() == 9);
-  const auto again = simulation_of(gas(10.0, 10.0, 10, 0.8), 43);
+  const auto again = simulation_of<2>(gas(10.0, 10.0, 10, 0.8), 43);
   for (std::size_t k = 0; k < 9; ++k) {
     CHECK(result.series_time[k] == 0.75 * static_cast<double>(k));
     again->run_until(result.series_time[k]);
@@ -139,7 +139,7 @@ TEST_CASE("Measurement: an interrupted run has what it had come to") {
   Measure measure = measure_for(10.0, 100.0);
   measure.fields = {Quantity::Density};
   const Scene scene = rough_mixture(15);
-  const auto simulation = simulation_of(scene, 44);
+  const auto simulation = simulation_of<2>(scene, 44);
   Measurement measurement(*simulation, measure, 110.0);
   CHECK(finite(measurement.result()));  // nothing has happened
 
@@ -161,7 +161,7 @@ TEST_CASE("Measurement: an interrupted run has what it had come to") {
   CHECK(halted.profile);
 
   simulation->run_until(110.0);  // and going on is as if it had not been asked
-  const auto again = simulation_of(scene, 44);
+  const auto again = simulation_of<2>(scene, 44);
   const Measured whole = measured(*again, measure);
   const Measured resumed = measurement.result();
   CHECK(resumed.duration == doctest::Approx(100.0).epsilon(1e-12));
@@ -176,7 +176,7 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
                     Field(Quantity::Temperature, 1)};
   measure.cells = {6, 4};
   const Scene scene = rough_mixture(20);
-  const auto simulation = simulation_of(scene, 45);
+  const auto simulation = simulation_of<2>(scene, 45);
   const Measured result = measured(*simulation, measure);
   REQUIRE(result.profile);
   REQUIRE(result.profile->edges.size() == 7);
@@ -186,7 +186,7 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
   REQUIRE(result.profile->at(Quantity::Density).size() == 6);
 
   // The same from one window of six columns.
-  const auto again = simulation_of(scene, 45);
+  const auto again = simulation_of<2>(scene, 45);
   again->run_until(3.0);
   CellIntegrals<2> columns(*again, {6, 1}, full_layout());
   again->add_observer(columns);
@@ -219,17 +219,17 @@ TEST_CASE("Measurement: snapshots at the interval, collisions all the time") {
   measure.cells = {4, 6};
   measure.profile_axis = Axis::Y;
   const Scene scene = rough_mixture(20);
-  const auto simulation = simulation_of(scene, 50);
+  const auto simulation = simulation_of<2>(scene, 50);
   const Measured exact = measured(*simulation, measure);
   for (const double interval : {0.7, 0.0125}) {
     CAPTURE(interval);
     measure.estimator = Estimator::Snapshot;
     measure.interval = interval;
-    const auto again = simulation_of(scene, 50);
+    const auto again = simulation_of<2>(scene, 50);
     const Measured snapshots = measured(*again, measure);
     CHECK(again->state_hash() == simulation->state_hash());
 
-    const auto sampled = simulation_of(scene, 50);
+    const auto sampled = simulation_of<2>(scene, 50);
     std::vector<double> density(6);
     const int samples = static_cast<int>(std::round(40.0 / interval - 0.5));
     for (int k = 1; k <= samples; ++k) {
@@ -269,7 +269,7 @@ TEST_CASE("Measurement: a density that cannot vary has no error, however snapsho
   for (const double interval : {0.03, 0.17, 0.9}) {  // windows are 50/512
     CAPTURE(interval);
     measure.interval = interval;
-    const auto simulation = simulation_of(gas(5.0, 4.0, 8, 1.0), 52);
+    const auto simulation = simulation_of<2>(gas(5.0, 4.0, 8, 1.0), 52);
     const Estimate density = measured(*simulation, measure).profile->at(Quantity::Density)[0];
     CHECK(density.mean == doctest::Approx(0.4));
     CHECK(density.standard_error < 1e-12);
@@ -292,7 +292,7 @@ TEST_CASE("Measurement: errors are the scatter of runs") {
   constexpr int kRuns = 40;
   std::vector<double> sum(measure.fields.size()), squares(sum.size()), errors(sum.size());
   for (int run = 0; run < kRuns; ++run) {
-    const auto simulation = simulation_of(scene, 500 + static_cast<std::uint64_t>(run));
+    const auto simulation = simulation_of<2>(scene, 500 + static_cast<std::uint64_t>(run));
     const Measured result = measured(*simulation, measure);
     for (std::size_t f = 0; f < sum.size(); ++f) {
       const Estimate& middle = result.profile->at(measure.fields[f])[1];
@@ -336,7 +336,7 @@ TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") 
 }
 
 TEST_CASE("Measurement: no profile where no field was asked for") {
-  const auto simulation = simulation_of(gas(8.0, 8.0, 10, 1.0), 46);
+  const auto simulation = simulation_of<2>(gas(8.0, 8.0, 10, 1.0), 46);
   CHECK_FALSE(measured(*simulation, measure_for(0.0, 5.0)).profile);
 }
 
@@ -366,7 +366,7 @@ TEST_CASE("Measurement: a gas of none, and of one") {
       Measure measure = measure_for(2.0, 20.0);
       measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
                         Field(Quantity::Temperature, 1)};
-      const auto simulation = simulation_of(scene, 47);
+      const auto simulation = simulation_of<2>(scene, 47);
       const Measured result = measured(*simulation, measure);
       CHECK(finite(result));
       CHECK(result.pair_collisions == 0);
@@ -384,7 +384,7 @@ TEST_CASE("Measurement: a gas at rest") {
   Measure measure = measure_for(2.0, 20.0);
   measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
                     Field(Quantity::Temperature, 1)};
-  const auto simulation = simulation_of(scene, 48);
+  const auto simulation = simulation_of<2>(scene, 48);
   const Measured result = measured(*simulation, measure);
   CHECK(finite(result));
   CHECK(result.temperature.mean == 0.0);

@@ -49,7 +49,7 @@ struct Run {
 };
 
 Run started(const Scene& scene, const Measure& measure) {
-  Run run{simulation_of(scene, 5), nullptr};
+  Run run{simulation_of<2>(scene, 5), nullptr};
   run.measurement = std::make_unique<Measurement<2>>(*run.simulation, measure, kEnd);
   return run;
 }
@@ -151,7 +151,7 @@ TEST_CASE("Measurement: taken up for longer it goes on with windows of the same 
 }
 
 TEST_CASE("Measurement: one that starts in the midst of a run averages from then on") {
-  const auto simulation = simulation_of(rough_mixture(20), 5);
+  const auto simulation = simulation_of<2>(rough_mixture(20), 5);
   simulation->run_until(10.0);
   Measurement measurement(*simulation, measure_of({Quantity::Density}), kEnd);
   simulation->run_until(kEnd);

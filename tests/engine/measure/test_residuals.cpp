@@ -37,7 +37,7 @@ Measure measure_of(std::vector<Field> fields) {
 }
 
 Measured measured(const Scene& scene, const Measure& measure) {
-  const auto simulation = simulation_of(scene, 61);
+  const auto simulation = simulation_of<2>(scene, 61);
   const double end = measure.burn_in + measure.duration;
   Measurement measurement(*simulation, measure, end);
   simulation->run_until(end);
@@ -139,7 +139,7 @@ TEST_CASE("Measurement: residuals have maps over the whole time, after those of 
 // 32 averaging windows make one of the balance; of 520, 8 are left over for the last.
 TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
   const Measure measure = measure_of(kBalance);
-  const auto simulation = simulation_of(everything(), 61);
+  const auto simulation = simulation_of<2>(everything(), 61);
   const double window = measure.duration / 520.0;
   std::optional<Balance<2>> balance;
   Residuals residuals;

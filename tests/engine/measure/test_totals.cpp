@@ -19,7 +19,7 @@ struct TimedRun {
 /// Runs to each of the ends in turn and closes a window there.
 TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vector<double>& ends) {
   TimedRun run;
-  const auto simulation = simulation_of(scene, seed);
+  const auto simulation = simulation_of<2>(scene, seed);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   simulation->add_observer(run.events);
@@ -56,7 +56,7 @@ TEST_CASE("Totals: the temperature is the exact time average, across base moves"
   const TimedRun run = run_in_windows(scene, 7, ends);
   REQUIRE(run.events.base_moves >= 2);  // the first comes after 1024 events
 
-  const auto again = simulation_of(scene, 7);
+  const auto again = simulation_of<2>(scene, 7);
   double begin = 0.0;
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const Vec2 integral = brute_force_integral(*again, run.events.times, begin, ends[k]);
@@ -72,7 +72,7 @@ TEST_CASE("Totals: the temperature is the exact time average, across base moves"
 
 TEST_CASE("Totals: what every window booked is the change of the energy") {
   const Scene scene = rough_mixture(30);
-  const auto simulation = simulation_of(scene, 8);
+  const auto simulation = simulation_of<2>(scene, 8);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   double energy = simulation->kinetic_energy();
@@ -93,7 +93,7 @@ TEST_CASE("Totals: what every window booked is the change of the energy") {
 }
 
 TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {
-  const auto simulation = simulation_of(gas(10.0, 10.0, 20, 0.7), 9);
+  const auto simulation = simulation_of<2>(gas(10.0, 10.0, 20, 0.7), 9);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   simulation->run_until(1e4, 3000);
@@ -103,7 +103,7 @@ TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {
 
 TEST_CASE("Totals: the ledger notices what was not booked") {
   // An observer that comes too late for some events cannot close the balance.
-  const auto simulation = simulation_of(gas(10.0, 10.0, 20, 0.7), 9);
+  const auto simulation = simulation_of<2>(gas(10.0, 10.0, 20, 0.7), 9);
   Totals<2> totals(*simulation);
   simulation->run_until(1e4, 10);
   CHECK(totals.ledger_residual() > 1e-3);
@@ -114,7 +114,7 @@ TEST_CASE("Totals: what the walls took up is what the gas lost") {
   Scene scene = rough_mixture(25);
   scene.walls[kBottom] = Wall{.kind = WallKind::Static, .restitution = 0.95};
   scene.walls[kTop] = Wall{.kind = WallKind::Driven, .restitution = 0.8, .drive_speed = 0.7};
-  const auto simulation = simulation_of(scene, 10);
+  const auto simulation = simulation_of<2>(scene, 10);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   Vec2 before = momentum(*simulation);
@@ -150,7 +150,7 @@ TEST_CASE("Totals: a head-on collision by hand") {
 }
 
 TEST_CASE("Totals: an empty gas has nothing, and no NaN") {
-  const auto simulation = simulation_of(gas(10.0, 10.0, 0, 0.9), 1);
+  const auto simulation = simulation_of<2>(gas(10.0, 10.0, 0, 0.9), 1);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   simulation->run_until(5.0);

@@ -15,18 +15,21 @@ using namespace clatter::testing;
 namespace {
 
 // Walls along x, gravity, kicks.
-Scene falling_gas() {
-  Scene scene = gas(10.0, 8.0, 40, 0.9);
+Scene falling_gas(int dimension) {
+  Scene scene = default_scene(dimension);
+  scene.box = Vec<3>(dimension == 2 ? 10.0 : 5.0, dimension == 2 ? 8.0 : 4.0, 6.0).head(dimension);
+  scene.particles.count = 40;
+  scene.particles.restitution = 0.9;
   wall_in(scene, 0, {.kind = WallKind::Thermal, .temperature = 1.0});
-  scene.gravity = Vec2(0.0, -0.7);
+  scene.gravity = Vec<3>(0.0, -0.7, 0.4).head(dimension);
   scene.bulk_drive = BulkDrive{.interval = 0.4, .kick_speed = 0.3};
   return scene;
 }
 
 // How far two places lie from each other across periodic borders.
-double distance(const Vec2& a, const Vec2& b, const Snapshot& snapshot) {
-  Vec2 off = a - b;
-  for (const int axis : {0, 1}) {
+double distance(const VecX& a, const VecX& b, const Snapshot& snapshot) {
+  VecX off = a - b;
+  for (int axis = 0; axis < off.size(); ++axis) {
     if (!snapshot.walls[2 * axis]) off[axis] = std::remainder(off[axis], snapshot.box[axis]);
   }
   return off.norm();
@@ -34,14 +37,15 @@ double distance(const Vec2& a, const Vec2& b, const Snapshot& snapshot) {
 
 // That each particle has one path, without gaps, from `reach` ago to where it is; returns the
 // pieces.
-std::size_t check_paths(const FlightRecorder& recorder, const Simulation<2>& simulation,
+template <int D>
+std::size_t check_paths(const FlightRecorder<D>& recorder, const Simulation<D>& simulation,
                         double reach) {
   CHECK(recorder.reach() == doctest::Approx(reach).epsilon(1e-12));
   const Snapshot snapshot = snapshot_of(simulation);
   const std::vector<FlightPiece> pieces = recorder.pieces();
-  for (std::uint32_t i = 0; i < snapshot.positions.size(); ++i) {
+  for (std::uint32_t i = 0; i < snapshot.count(); ++i) {
     double time = -recorder.reach();
-    std::optional<Vec2> place;
+    std::optional<VecX> place;
     for (const FlightPiece& piece : pieces) {
       if (piece.particle != i) continue;
       REQUIRE(piece.from < piece.to);
@@ -51,16 +55,15 @@ std::size_t check_paths(const FlightRecorder& recorder, const Simulation<2>& sim
       place = piece.at(piece.to);
     }
     REQUIRE(time == 0.0);
-    REQUIRE(distance(*place, snapshot.positions[i], snapshot) < 1e-10);
+    REQUIRE(distance(*place, snapshot.positions.col(i), snapshot) < 1e-10);
   }
   return pieces.size();
 }
 
-}  // namespace
-
-TEST_CASE("FlightRecorder: the pieces of a particle are its path, without gaps") {
-  const auto simulation = simulation_of(falling_gas(), 5);
-  FlightRecorder recorder(*simulation, 1.5);
+template <int D>
+void check_whole_paths() {
+  const auto simulation = simulation_of<D>(falling_gas(D), 5);
+  FlightRecorder<D> recorder(*simulation, 1.5);
   CHECK(recorder.pieces().empty());
   simulation->run_until(0.25);
   check_paths(recorder, *simulation, 0.25);
@@ -70,9 +73,11 @@ TEST_CASE("FlightRecorder: the pieces of a particle are its path, without gaps")
   }
 }
 
-TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
-  const auto plain = simulation_of(falling_gas(), 6), recorded = simulation_of(falling_gas(), 6);
-  FlightRecorder recorder(*recorded, 0.5);
+template <int D>
+void check_same_hash() {
+  const auto plain = simulation_of<D>(falling_gas(D), 6);
+  const auto recorded = simulation_of<D>(falling_gas(D), 6);
+  FlightRecorder<D> recorder(*recorded, 0.5);
   for (const double time : {1.0, 2.5, 20.0}) {
     plain->run_until(time);
     recorded->run_until(time);
@@ -81,14 +86,15 @@ TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
   }
 }
 
-TEST_CASE("FlightRecorder: paths continue across changes of laws and of their span") {
-  Scene scene = falling_gas();
-  const auto before = simulation_of(scene, 7);
-  FlightRecorder first(*before, 1.0);
+template <int D>
+void check_across_changes() {
+  Scene scene = falling_gas(D);
+  const auto before = simulation_of<D>(scene, 7);
+  FlightRecorder<D> first(*before, 1.0);
   before->run_until(4.0);
-  scene.gravity = Vec2(0.5, 0.9);
-  Simulation<2> after(model_of<2>(scene, 7), before->save());
-  FlightRecorder second(after, 2.0, std::move(first));
+  scene.gravity = Vec<3>(0.5, 0.9, -0.3).head<D>();
+  Simulation<D> after(model_of<D>(scene, 7), before->save());
+  FlightRecorder<D> second(after, 2.0, std::move(first));
   check_paths(second, after, 1.0);
   after.run_until(4.3);
   check_paths(second, after, 1.3);
@@ -96,16 +102,17 @@ TEST_CASE("FlightRecorder: paths continue across changes of laws and of their sp
   check_paths(second, after, 2.0);
 }
 
-TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {
-  const Scene scene = falling_gas();
-  const auto simulation = simulation_of(scene, 8);
-  FlightRecorder recorder(*simulation, 1.0);
+template <int D>
+void check_checkpoint() {
+  const Scene scene = falling_gas(D);
+  const auto simulation = simulation_of<D>(scene, 8);
+  FlightRecorder<D> recorder(*simulation, 1.0);
   simulation->run_until(4.0);
   ArchiveWriter writer;
   writer(recorder);
 
-  Simulation<2> resumed(model_of<2>(scene, 8), simulation->save());
-  FlightRecorder again(resumed, 1.0);
+  Simulation<D> resumed(model_of<D>(scene, 8), simulation->save());
+  FlightRecorder<D> again(resumed, 1.0);
   ArchiveReader reader(writer.written(), "");
   reader(again);
   reader.finish();
@@ -113,4 +120,26 @@ TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {
   resumed.run_until(4.5);
   simulation->run_until(4.5);
   CHECK(check_paths(again, resumed, 1.0) == recorder.pieces().size());
+}
+
+}  // namespace
+
+TEST_CASE("FlightRecorder: the pieces of a particle are its path, without gaps") {
+  check_whole_paths<2>();
+  check_whole_paths<3>();
+}
+
+TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
+  check_same_hash<2>();
+  check_same_hash<3>();
+}
+
+TEST_CASE("FlightRecorder: paths continue across changes of laws and of their span") {
+  check_across_changes<2>();
+  check_across_changes<3>();
+}
+
+TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {
+  check_checkpoint<2>();
+  check_checkpoint<3>();
 }

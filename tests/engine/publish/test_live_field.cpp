@@ -24,7 +24,7 @@ View view_of(Field field, double window) {
   return view;
 }
 
-FieldMap map_of(LiveField& live) {
+FieldMap map_of(LiveField<2>& live) {
   Snapshot snapshot;
   live.publish(snapshot);
   return *snapshot.field;
@@ -34,8 +34,8 @@ FieldMap map_of(LiveField& live) {
 
 TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere") {
   const Scene scene = gas(12.0, 8.0, 30, 1.0);
-  const auto simulation = simulation_of(scene, 31);
-  LiveField live(*simulation, view_of(Quantity::Density, 2000.0));
+  const auto simulation = simulation_of<2>(scene, 31);
+  LiveField<2> live(*simulation, view_of(Quantity::Density, 2000.0));
   simulation->run_until(2000.0);
   const FieldMap map = map_of(live);
   REQUIRE(map.cells == std::vector{12, 8});
@@ -54,8 +54,8 @@ TEST_CASE("LiveField: every field is that of its cells over the window") {
   scene.particles.roughness.friction = 0.4;
   for (const Field field : average_fields()) {
     CAPTURE(name_of(field));
-    const auto simulation = simulation_of(scene, 34);
-    LiveField live(*simulation, view_of(field, 2.0));
+    const auto simulation = simulation_of<2>(scene, 34);
+    LiveField<2> live(*simulation, view_of(field, 2.0));
     CellIntegrals<2> integrals(*simulation, {9, 8}, full_layout());
     simulation->add_observer(integrals);
     simulation->run_until(0.3);
@@ -78,8 +78,8 @@ TEST_CASE("LiveField: of snapshots it is the average of samples, also across cha
   View view = view_of(Quantity::Temperature, 2.0);
   view.estimator = Estimator::Snapshot;
   view.interval = 0.25;
-  const auto simulation = simulation_of(scene, 41);
-  LiveField live(*simulation, view);
+  const auto simulation = simulation_of<2>(scene, 41);
+  LiveField<2> live(*simulation, view);
   CellIntegrals<2> integrals(*simulation, {12, 8}, full_layout(), {Estimator::Snapshot, {}});
   // Samples of the times 0, 0.25, ..., 1.75.
   for (int i = 0; i < 8; ++i) {
@@ -99,9 +99,9 @@ TEST_CASE("LiveField: of snapshots it is the average of samples, also across cha
   // It continues with the next sample, handed over or saved.
   const std::string saved = live.save();
   Simulation<2> next(simulation->model(), simulation->save());
-  LiveField handed(next, view, std::move(live));
+  LiveField<2> handed(next, view, std::move(live));
   Simulation<2> again(simulation->model(), simulation->save());
-  LiveField read(again, view, ArchiveReader(saved, "averages"));
+  LiveField<2> read(again, view, ArchiveReader(saved, "averages"));
   next.run_until(3.1);
   again.run_until(3.1);
   const FieldMap a = map_of(handed), b = map_of(read);
@@ -117,8 +117,8 @@ TEST_CASE("LiveField: every residual is that of its cells over the window") {
   // 20 particles in 72 cells: some see none.
   for (const Field field : residual_fields(2)) {
     CAPTURE(name_of(field));
-    const auto simulation = simulation_of(scene, 35);
-    LiveField live(*simulation, view_of(field, 8.0));
+    const auto simulation = simulation_of<2>(scene, 35);
+    LiveField<2> live(*simulation, view_of(field, 8.0));
     Balance<2> balance(*simulation, {9, 8});
     simulation->add_observer(balance);
     simulation->run_until(0.4);
@@ -159,7 +159,7 @@ TEST_CASE("MovingSum: it is the sum of the last eight parts and the current one"
 
 TEST_CASE("LiveField: cells that no particle visited are gaps") {
   const auto simulation = lone_particle(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
-  LiveField live(*simulation, view_of(Field(Quantity::Velocity, 0), 100.0));
+  LiveField<2> live(*simulation, view_of(Field(Quantity::Velocity, 0), 100.0));
   CHECK(std::isnan(map_of(live).values[12]));  // no time has passed
   simulation->run_until(3.0);                  // visits the columns 0 to 3 of row 2
   const FieldMap map = map_of(live);
@@ -177,7 +177,7 @@ TEST_CASE("LiveField: the window reaches back by its length and by one part more
   // One particle at speed 1 in a row of 16 cells leaves its density in the columns of the last 4
   // time units; parts are 0.5 long.
   const auto simulation = lone_particle(gas(16.0, 1.0, 1, 1.0), {0.0, 0.5}, {1.0, 0.0});
-  LiveField live(*simulation, view_of(Quantity::Density, 4.0));
+  LiveField<2> live(*simulation, view_of(Quantity::Density, 4.0));
   const auto check = [&](double now, double reaches_back) {
     simulation->run_until(now);
     const FieldMap map = map_of(live);
@@ -200,11 +200,11 @@ TEST_CASE("LiveField: the window reaches back by its length and by one part more
 
 TEST_CASE("LiveField: watching and asking change nothing") {
   const Scene scene = rough_mixture(20);
-  const auto alone = simulation_of(scene, 32);
+  const auto alone = simulation_of<2>(scene, 32);
   alone->run_until(60.0);
 
-  const auto watched = simulation_of(scene, 32);
-  LiveField live(*watched, view_of(Quantity::Temperature, 1.7));
+  const auto watched = simulation_of<2>(scene, 32);
+  LiveField<2> live(*watched, view_of(Quantity::Temperature, 1.7));
   for (int frame = 1; frame <= 600; ++frame) {
     watched->run_until(0.1 * frame);
     map_of(live);
@@ -215,10 +215,10 @@ TEST_CASE("LiveField: watching and asking change nothing") {
 }
 
 TEST_CASE("LiveField: it does not depend on how often it is asked") {
-  const auto often = simulation_of(rough_mixture(20), 33);
-  const auto once = simulation_of(rough_mixture(20), 33);
-  LiveField asked_often(*often, view_of(Quantity::Density, 3.0));
-  LiveField asked_once(*once, view_of(Quantity::Density, 3.0));
+  const auto often = simulation_of<2>(rough_mixture(20), 33);
+  const auto once = simulation_of<2>(rough_mixture(20), 33);
+  LiveField<2> asked_often(*often, view_of(Quantity::Density, 3.0));
+  LiveField<2> asked_once(*once, view_of(Quantity::Density, 3.0));
   for (int frame = 1; frame <= 400; ++frame) {
     often->run_until(0.05 * frame);
     map_of(asked_often);
@@ -232,9 +232,9 @@ TEST_CASE("LiveField: it does not depend on how often it is asked") {
 }
 
 TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
-  const auto simulation = simulation_of(gas(5.0, 5.0, 0, 1.0), 1);
-  LiveField density(*simulation, view_of(Quantity::Density, 1.0));
-  LiveField temperature(*simulation, view_of(Quantity::Temperature, 1.0));
+  const auto simulation = simulation_of<2>(gas(5.0, 5.0, 0, 1.0), 1);
+  LiveField<2> density(*simulation, view_of(Quantity::Density, 1.0));
+  LiveField<2> temperature(*simulation, view_of(Quantity::Temperature, 1.0));
   simulation->run_until(3.0);
   for (const double value : map_of(density).values) CHECK(value == 0.0);
   for (const double value : map_of(temperature).values) CHECK(std::isnan(value));
@@ -242,7 +242,7 @@ TEST_CASE("LiveField: an empty gas has density 0 and gaps") {
 
 TEST_CASE("LiveField: it has at most 512 cells along an axis, and at least one") {
   const auto simulation = lone_particle(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
-  LiveField live(*simulation, view_of(Quantity::Density, 1.0));
+  LiveField<2> live(*simulation, view_of(Quantity::Density, 1.0));
   CHECK(map_of(live).cells == std::vector{512, 1});
 }
 
@@ -251,11 +251,11 @@ TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {
   const Scene scene = gas(21.0, 8.0, 60, 1.0);
   for (const Quantity quantity : {Quantity::Velocity, Quantity::HeatFlux}) {
     CAPTURE(static_cast<int>(quantity));
-    const auto simulation = simulation_of(scene, 35);
+    const auto simulation = simulation_of<2>(scene, 35);
     View view;
     view.arrows = quantity;
     view.window = 50.0;
-    LiveField live(*simulation, view);
+    LiveField<2> live(*simulation, view);
     CellIntegrals<2> integrals(*simulation, {21, 8}, full_layout());
     simulation->add_observer(integrals);
     simulation->run_until(5.0);
@@ -294,14 +294,54 @@ TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {
   }
 }
 
+TEST_CASE("LiveField: of spheres, cells and arrows fill the box") {
+  const Scene scene = rough_spheres(30);
+  const auto simulation = simulation_of<3>(scene, 37);
+  View view;
+  view.field = Field(Quantity::Stress, 1, 2);
+  view.arrows = Quantity::Velocity;
+  view.window = 50.0;
+  LiveField<3> live(*simulation, view);
+  const std::vector<Field> all = all_fields(3);
+  CellIntegrals<3> integrals(*simulation, {6, 5, 7}, moment_layout<3>(all, true));
+  simulation->add_observer(integrals);
+  simulation->run_until(5.0);
+  Snapshot snapshot;
+  live.publish(snapshot);
+  const CellSums sums = integrals.close_window();
+  REQUIRE(snapshot.field);
+  CHECK(snapshot.field->cells == std::vector<int>{6, 5, 7});
+  REQUIRE(snapshot.arrows);
+  CHECK(snapshot.arrows->cell == Vec<3>(1.0, 1.0, 1.0));
+  std::size_t arrow = 0, known = 0;
+  for (std::size_t cell = 0; cell < 6 * 5 * 7; ++cell) {
+    const auto averages = averages_of(integrals.layout(), sums, cell, 1.0);
+    const double stress = field_value(*view.field, averages), shown = snapshot.field->values[cell];
+    CHECK(std::isnan(shown) == std::isnan(stress));
+    if (!std::isnan(stress)) CHECK(shown == doctest::Approx(stress).epsilon(1e-9));
+    Vec<3> velocity;
+    for (int axis = 0; axis < 3; ++axis) {
+      velocity[axis] = field_value(Field(Quantity::Velocity, axis), averages);
+    }
+    if (velocity.hasNaN()) continue;
+    ++known;
+    REQUIRE(arrow < snapshot.arrows->arrows.size());
+    const auto& [place, value] = snapshot.arrows->arrows[arrow++];
+    CHECK((value - velocity).norm() < 1e-9);
+    CHECK(place == integrals.grid().centre_of(integrals.grid().cell_of(cell)));
+  }
+  CHECK(arrow == snapshot.arrows->arrows.size());
+  CHECK(known > 50);
+}
+
 TEST_CASE("LiveField: a residual and arrows together are those of each alone") {
   const auto shown = [](std::optional<Field> field, std::optional<Quantity> arrows) {
-    const auto simulation = simulation_of(rough_mixture(20), 36);
+    const auto simulation = simulation_of<2>(rough_mixture(20), 36);
     View view;
     view.field = field;
     view.arrows = arrows;
     view.window = 2.0;
-    LiveField live(*simulation, view);
+    LiveField<2> live(*simulation, view);
     simulation->run_until(2.1);
     Snapshot snapshot;
     live.publish(snapshot);
@@ -329,7 +369,7 @@ TEST_CASE("LiveField: cells that no particle visited have no arrow") {
   const auto simulation = lone_particle(gas(6.0, 4.0, 1, 1.0), {0.5, 2.5}, {1.0, 0.0});
   View view;
   view.arrows = Quantity::Velocity;
-  LiveField live(*simulation, view);
+  LiveField<2> live(*simulation, view);
   Snapshot snapshot;
   live.publish(snapshot);
   CHECK(snapshot.arrows->arrows.empty());  // no time has passed

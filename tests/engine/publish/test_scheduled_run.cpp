@@ -9,8 +9,10 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
+#include "tests/support/scenes.h"
 
 using namespace clatter;
+using namespace clatter::testing;
 
 namespace {
 
@@ -22,22 +24,22 @@ Scene vibrated() {
 
 TEST_CASE("ScheduledRun: laws that change to themselves change no bit of the run") {
   Scene scene = vibrated();
-  ScheduledRun plain(scene, 11);
+  ScheduledRun<2> plain(scene, 11);
   for (double time : {1.0, 1.7, 8.25}) {
     scene.changes.push_back({.time = time, .set = {{"particles.restitution", "0.9"}}});
   }
-  ScheduledRun changing(scene, 11);
+  ScheduledRun<2> changing(scene, 11);
   plain.run_until(12.0);
   changing.run_until(12.0);
   CHECK(changing.simulation().state_hash() == plain.simulation().state_hash());
 }
 
 TEST_CASE("ScheduledRun: changes by hand are played back to the same bits") {
-  ScheduledRun live(vibrated(), 12);
+  ScheduledRun<2> live(vibrated(), 12);
   live.show(vibrated().view);
   // Halted wherever the steps end, as a window does it.
   for (int part = 1; part <= 40; ++part) {
-    live.run_until(0.5 * part, Simulation<2>::kNoLimit, live.simulation().counts().steps() + 1000);
+    live.run_until(0.5 * part, kNoLimit, live.simulation().counts().steps() + 1000);
     if (part % 5 != 0) continue;
     live.change({{"particles.restitution", std::to_string(1.0 - 0.01 * part)},
                  {"walls.left.drive_speed", std::to_string(0.1 * part)}});
@@ -49,12 +51,12 @@ TEST_CASE("ScheduledRun: changes by hand are played back to the same bits") {
   Scene scene = vibrated();
   scene.changes = live.scene().changes;
   REQUIRE(scene.changes.size() == 9);
-  ScheduledRun played(parse_scene(scene_to_toml(scene), ""), 12);
+  ScheduledRun<2> played(parse_scene(scene_to_toml(scene), ""), 12);
   played.run_until(time);
   CHECK(played.simulation().state_hash() == live.simulation().state_hash());
   CHECK(played.scene().particles.restitution == live.scene().particles.restitution);
 
-  ScheduledRun other(vibrated(), 12);
+  ScheduledRun<2> other(vibrated(), 12);
   other.run_until(time);
   CHECK(other.simulation().state_hash() != live.simulation().state_hash());
 }
@@ -63,18 +65,34 @@ TEST_CASE("ScheduledRun: a resumed run has the changes up to then") {
   Scene scene = vibrated();
   scene.changes = {{.time = 2.0, .set = {{"particles.restitution", "0.7"}}},
                    {.time = 6.0, .set = {{"particles.restitution", "0.99"}}}};
-  ScheduledRun whole(scene, 13);
+  ScheduledRun<2> whole(scene, 13);
   whole.run_until(4.0);
-  ScheduledRun rest(scene, 13, whole.simulation().save());
+  ScheduledRun<2> rest(scene, 13, whole.simulation().save());
   CHECK(rest.scene().particles.restitution == 0.7);
   whole.run_until(9.0);
   rest.run_until(9.0);
   CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
 }
 
+TEST_CASE("ScheduledRun: spheres change their laws, and resume, to the bit") {
+  Scene scene = rough_spheres(30);
+  ScheduledRun<3> plain(scene, 17);
+  plain.run_until(6.0);
+  scene.changes = {{.time = 2.0, .set = {{"particles.restitution", "0.8"}}},
+                   {.time = 3.0, .set = {{"gravity.acceleration", "[0.1, 0.2, 0.3]"}}}};
+  ScheduledRun<3> whole(scene, 17), first(scene, 17);
+  whole.run_until(6.0);
+  CHECK(whole.simulation().state_hash() != plain.simulation().state_hash());
+  CHECK(whole.simulation().model().gravity == Vec<3>(0.1, 0.2, 0.3));
+  first.run_until(2.5);
+  ScheduledRun<3> rest(scene, 17, first.simulation().save());
+  rest.run_until(6.0);
+  CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
+}
+
 TEST_CASE("ScheduledRun: the live field continues across changes") {
   const Scene scene = vibrated();
-  ScheduledRun plain(scene, 14), changing(scene, 14);
+  ScheduledRun<2> plain(scene, 14), changing(scene, 14);
   plain.show(scene.view);
   changing.show(scene.view);
   for (int part = 1; part <= 50; ++part) {
@@ -91,7 +109,7 @@ TEST_CASE("ScheduledRun: the live field continues across changes") {
 
 TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and particles turn on") {
   const Scene scene = load_scene("rough_driven");
-  ScheduledRun plain(scene, 16), shown(scene, 16);
+  ScheduledRun<2> plain(scene, 16), shown(scene, 16);
   plain.run_until(1.0);
   shown.show(scene.view);
   shown.run_until(0.5);
@@ -108,7 +126,7 @@ TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and parti
   CHECK(shown.snapshot().exposure == doctest::Approx(0.01));
   CHECK(shown.snapshot().flights.size() >= shown.simulation().particles().size());
   CHECK(shown.simulation().state_hash() == plain.simulation().state_hash());
-  ScheduledRun steady(scene, 16);
+  ScheduledRun<2> steady(scene, 16);
   steady.show(scene.view);
   steady.run_until(1.0);
   const std::vector<double> a = shown.snapshot().angles, b = steady.snapshot().angles;
@@ -117,7 +135,7 @@ TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and parti
 
 TEST_CASE("ScheduledRun: the shown field may change while it runs, and does not change the run") {
   Scene scene = vibrated();
-  ScheduledRun plain(scene, 16), watched(scene, 16);
+  ScheduledRun<2> plain(scene, 16), watched(scene, 16);
   View view = scene.view;
   int handed_over = 0;
   watched.on_change = [&](Simulation<2>&) { ++handed_over; };
@@ -145,7 +163,7 @@ TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
       for (const double time : times) {
         scene.changes.push_back({.time = time, .set = {{"particles.restitution", "0.9"}}});
       }
-      ScheduledRun run(scene, 15);
+      ScheduledRun<2> run(scene, 15);
       run.show(view);
       run.run_until(10.0);
       return run.snapshot();
@@ -171,7 +189,7 @@ TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
 }
 
 TEST_CASE("ScheduledRun: impossible changes are refused, and change nothing") {
-  ScheduledRun run(vibrated(), 15);
+  ScheduledRun<2> run(vibrated(), 15);
   run.run_until(3.0);
   CHECK_THROWS_AS(run.change({{"particles.restitution", "1.5"}}), UserError);
   CHECK_THROWS_AS(run.change({{"particles.count", "5"}}), UserError);
@@ -191,13 +209,13 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run
     Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
     scene.view.arrows = Quantity::Velocity;
     scene.changes = {{.time = 4.0, .set = {{"particles.restitution", "0.8"}}}};
-    ScheduledRun whole(scene, 14);
+    ScheduledRun<2> whole(scene, 14);
     whole.show(scene.view);
     whole.run_until(3.1);  // within a part of a window
     whole.snapshot();
     whole.run_until(3.2);
     const std::string averages = whole.save_shown();
-    ScheduledRun resumed(scene, 14, whole.simulation().save());
+    ScheduledRun<2> resumed(scene, 14, whole.simulation().save());
     resumed.show(scene.view, averages);
     for (const double time : {3.3, 4.7, 9.0}) {
       whole.run_until(time);
@@ -219,11 +237,11 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run
 TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint are those of one run") {
   Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
   scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
-  ScheduledRun whole(scene, 15);
+  ScheduledRun<2> whole(scene, 15);
   whole.show(scene.view, 0.1);
   whole.run_until(2.0);
   const std::string shown = whole.save_shown();
-  ScheduledRun resumed(scene, 15, whole.simulation().save());
+  ScheduledRun<2> resumed(scene, 15, whole.simulation().save());
   resumed.show(scene.view, shown, 0.1);
   for (const double time : {2.0, 2.4, 5.0}) {
     whole.run_until(time);
@@ -240,6 +258,6 @@ TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint are those 
   }
   View other = scene.view;
   other.trails.reset();
-  ScheduledRun unlike(scene, 15, whole.simulation().save());
+  ScheduledRun<2> unlike(scene, 15, whole.simulation().save());
   CHECK_THROWS_AS(unlike.show(other, shown), UserError);
 }

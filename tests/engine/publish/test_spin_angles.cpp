@@ -31,7 +31,7 @@ double between(double a, double b) {
 }  // namespace
 
 TEST_CASE("SpinAngles: a particle turns by its spin, summed over time") {
-  const auto simulation = simulation_of(rough_gas(), 3);
+  const auto simulation = simulation_of<2>(rough_gas(), 3);
   SpinAngles angles(*simulation);
   std::vector<double> summed(30, 0.0);
   // A step in which a spin changes is summed wrongly by the change times a step at most. A particle
@@ -50,8 +50,8 @@ TEST_CASE("SpinAngles: a particle turns by its spin, summed over time") {
 }
 
 TEST_CASE("SpinAngles: the hash is the same, and angles do not depend on when they are asked for") {
-  const auto plain = simulation_of(rough_gas(), 4), watched = simulation_of(rough_gas(), 4);
-  const auto asked = simulation_of(rough_gas(), 4);
+  const auto plain = simulation_of<2>(rough_gas(), 4), watched = simulation_of<2>(rough_gas(), 4);
+  const auto asked = simulation_of<2>(rough_gas(), 4);
   SpinAngles angles(*watched), often(*asked);
   plain->run_until(9.0);
   watched->run_until(9.0);
@@ -65,7 +65,7 @@ TEST_CASE("SpinAngles: the hash is the same, and angles do not depend on when th
 
 TEST_CASE("SpinAngles: a resumed run has its angles, also under other laws") {
   const Scene scene = rough_gas();
-  const auto simulation = simulation_of(scene, 5);
+  const auto simulation = simulation_of<2>(scene, 5);
   SpinAngles angles(*simulation);
   simulation->run_until(6.0);
   ArchiveWriter writer;

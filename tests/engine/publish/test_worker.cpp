@@ -7,6 +7,7 @@
 #include "engine/publish/worker.h"
 #include "engine/scene/scene_file.h"
 #include "tests/support/messages.h"
+#include "tests/support/scenes.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -89,9 +90,55 @@ TEST_CASE("Worker: runs played, stepped and made without it have the same hash a
   const Frame halted =
       wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && frame.state_hash; });
   CHECK_FALSE(halted.plays);
-  const auto simulation = simulation_of(scene, 21);
+  const auto simulation = simulation_of<2>(scene, 21);
   simulation->run_until(halted.snapshot.time);
   CHECK(simulation->state_hash() == *halted.state_hash);
+}
+
+TEST_CASE("Worker: spheres play, change their laws, and stay in a box of another size") {
+  Scene scene = rough_spheres(40);
+  wall_in(scene, 2, Wall{});  // a wall that swings would push out those it is over
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 26, false});
+  worker.send(command::ShowProfile{Profiled::Fields});
+  worker.send(command::Pick{7});
+  worker.send(command::Play{true, 1.25});
+  const Frame there =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && !frame.plays; });
+  REQUIRE(there.state_hash);
+  const auto simulation = simulation_of<3>(scene, 26);
+  simulation->run_until(1.25);
+  CHECK(simulation->state_hash() == *there.state_hash);
+  CHECK(there.tally.temperature_integral.size() == 3);
+  CHECK(there.profile.has_value());
+  worker.send(command::SetLaws{{{"particles.restitution", "0.7"}}});
+  worker.send(command::StepCollision{});
+  const Frame hit =
+      wait_for(worker, [](const Frame& frame) { return frame.handled == 6 && frame.state_hash; });
+  CHECK(hit.scene->particles.restitution == 0.7);
+  REQUIRE(hit.partners);
+  const Vectors& places = hit.snapshot.positions;
+  const auto [a, b] = *hit.partners;
+  CHECK((places.col(a) - places.col(b)).norm() == doctest::Approx(1.0).epsilon(1e-12));
+
+  Scene wider = *hit.scene;
+  wider.box[2] += 2.0;
+  worker.send(command::Open{wider, 26, false, true, Vec<3>(0.0, 0.0, 2.0)});
+  const Frame moved = wait_for_handled(worker, 7);
+  CHECK(moved.message == "");
+  REQUIRE(moved.snapshot.count() == 40);
+  const Vectors shifts = moved.snapshot.positions - places;
+  CHECK((shifts.colwise() - Vec<3>(0.0, 0.0, 2.0)).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(moved.snapshot.velocities == hit.snapshot.velocities);
+}
+
+TEST_CASE("Worker: a gas of another dimension starts from its beginning") {
+  Worker worker(60.0);
+  worker.send(command::Open{load_scene("vibrated"), 1, false});
+  worker.send(command::Open{rough_spheres(40), 27, false, true});
+  const Frame frame = wait_for_handled(worker, 2);
+  CHECK(frame.message == "");
+  CHECK(frame.state_hash == simulation_of<3>(rough_spheres(40), 27)->state_hash());
 }
 
 TEST_CASE("Worker: it plays up to a time, halts there, and plays on when asked") {
@@ -103,7 +150,7 @@ TEST_CASE("Worker: it plays up to a time, halts there, and plays on when asked")
       wait_for(worker, [](const Frame& frame) { return frame.handled == 2 && !frame.plays; });
   REQUIRE(there.state_hash);
   CHECK(there.snapshot.time == 1.25);
-  const auto simulation = simulation_of(scene, 24);
+  const auto simulation = simulation_of<2>(scene, 24);
   simulation->run_until(1.25);
   CHECK(simulation->state_hash() == *there.state_hash);
   worker.send(command::Play{true});
@@ -125,7 +172,7 @@ TEST_CASE("Worker: it steps to a frame, and to a collision, whose pair it names"
   CHECK(hit.snapshot.collisions == frame.snapshot.collisions + 1);
   REQUIRE(hit.partners);
   const auto [a, b] = *hit.partners;
-  Vec2 apart = hit.snapshot.positions[a] - hit.snapshot.positions[b];
+  Vec2 apart = hit.snapshot.positions.col(a) - hit.snapshot.positions.col(b);
   apart.y() -= hit.snapshot.box.y() * std::round(apart.y() / hit.snapshot.box.y());
   CHECK(apart.norm() == doctest::Approx(1.0).epsilon(1e-12));
 }
@@ -148,7 +195,7 @@ TEST_CASE("Worker: laws that are set hold from then on, and its scene plays them
 
   Scene scene = load_scene("vibrated");
   scene.changes = frame.scene->changes;
-  ScheduledRun played(parse_scene(scene_to_toml(scene), ""), 22);
+  ScheduledRun<2> played(parse_scene(scene_to_toml(scene), ""), 22);
   played.run_until(frame.snapshot.time);
   CHECK(played.simulation().state_hash() == *frame.state_hash);
 }
@@ -184,7 +231,7 @@ TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
   worker.send(command::Play{false});
   const Frame halted = wait_for_handled(worker, 4);
   CHECK_FALSE(halted.profile);
-  const auto simulation = simulation_of(scene, 25);
+  const auto simulation = simulation_of<2>(scene, 25);
   simulation->run_until(halted.snapshot.time);
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
@@ -207,7 +254,7 @@ TEST_CASE("Worker: balance residuals come when asked for, and are roundings") {
   CHECK(largest[3] > 0.0);
   worker.send(command::Play{false});
   const Frame halted = wait_for_handled(worker, 3);
-  const auto simulation = simulation_of(scene, 29);
+  const auto simulation = simulation_of<2>(scene, 29);
   simulation->run_until(halted.snapshot.time);
   CHECK(simulation->state_hash() == *halted.state_hash);
 }
@@ -263,7 +310,7 @@ TEST_CASE("Worker: the predicted collision of a picked particle comes true while
   const Frame halted = wait_for_handled(worker, 8);
   Scene scene = *halted.started;
   scene.changes = halted.scene->changes;
-  ScheduledRun alone(scene, 30);
+  ScheduledRun<2> alone(scene, 30);
   alone.run_until(halted.snapshot.time);
   CHECK(alone.simulation().state_hash() == *halted.state_hash);
 }
@@ -395,7 +442,7 @@ TEST_CASE("Worker: where it halts, a run without it has the same hash") {
     const Frame halted = wait_for(worker, [&](const Frame& frame) {
       return frame.handled == command + 1 && frame.state_hash;
     });
-    const auto simulation = simulation_of(scene, 23);
+    const auto simulation = simulation_of<2>(scene, 23);
     simulation->run_until(halted.snapshot.time);
     CHECK(simulation->state_hash() == *halted.state_hash);
   }

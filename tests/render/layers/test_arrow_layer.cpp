@@ -15,9 +15,9 @@ constexpr Size kSize{200, 200};
 
 Image draw(const Gl& gl, const std::vector<ArrowMap::Arrow>& arrows, double pixels) {
   const Canvas canvas = blank_canvas(gl, kSize);
-  const ArrowMap map{Quantity::Velocity, {4.0, 4.0}, arrows};
+  const ArrowMap map{Quantity::Velocity, Vec2(4.0, 4.0), arrows};
   // 10 pixels a unit.
-  ArrowLayer(gl).draw(map, {{{10.0, 10.0}, 20.0}, kSize}, pixels, kInk, kDarkTheme.background);
+  ArrowLayer(gl).draw(map, {{Vec2(10.0, 10.0), 20.0}, kSize}, pixels, kInk, kDarkTheme.background);
   return canvas.read();
 }
 
@@ -54,7 +54,7 @@ TEST_CASE(
     CAPTURE(k);
     const double angle = k * std::numbers::pi / 6.0;
     const Vec2 along(std::cos(angle), std::sin(angle));
-    const Image image = draw(context->gl(), {{{8.0, 11.0}, 3.0 * along}}, 20.0);
+    const Image image = draw(context->gl(), {{Vec2(8.0, 11.0), 3.0 * along}}, 20.0);
     const Extent extent = extent_of(image);
     const Vec2 middle(80.0, 110.0);
     REQUIRE(extent.count > 80);
@@ -71,14 +71,14 @@ TEST_CASE(
 
 TEST_CASE("Arrow layer: arrows are two cells long at most, and vanishing values have none") {
   const auto context = open_context(Backend::Osmesa);
-  const Extent extent = extent_of(draw(context->gl(), {{{10.0, 10.0}, {1e6, 0.0}}}, 20.0));
+  const Extent extent = extent_of(draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(1e6, 0.0)}}, 20.0));
   CHECK(std::abs(extent.high.x() - extent.low.x() - 80.0) < 4.0);
-  CHECK(extent_of(draw(context->gl(), {{{10.0, 10.0}, {0.0, 0.0}}}, 20.0)).count == 0);
+  CHECK(extent_of(draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(0.0, 0.0)}}, 20.0)).count == 0);
 }
 
 TEST_CASE("Arrow layer: a short arrow keeps its form") {
   const auto context = open_context(Backend::Osmesa);
-  const Extent small = extent_of(draw(context->gl(), {{{10.05, 10.05}, {0.2, 0.0}}}, 20.0));
+  const Extent small = extent_of(draw(context->gl(), {{Vec2(10.05, 10.05), Vec2(0.2, 0.0)}}, 20.0));
   REQUIRE(small.count > 0);
   CHECK(small.high.x() - small.low.x() <= 4.0);
   CHECK(small.high.y() - small.low.y() <= 3.0);
@@ -90,15 +90,16 @@ TEST_CASE("Arrow layer: arrows shorter than half a pixel are not drawn") {
   const auto context = open_context(Backend::Osmesa);
   for (const double length : {0.024, 1e-7, 1e-20, 5e-324}) {  // .024: .48 pixels
     CAPTURE(length);
-    const Image image =
-        draw(context->gl(), {{{10.0, 10.0}, {length, 0.0}}, {{4.0, 5.0}, {0.0, -length}}}, 20.0);
+    const std::vector<ArrowMap::Arrow> arrows = {{Vec2(10.0, 10.0), Vec2(length, 0.0)},
+                                                 {Vec2(4.0, 5.0), Vec2(0.0, -length)}};
+    const Image image = draw(context->gl(), arrows, 20.0);
     CHECK(difference(image, draw(context->gl(), {}, 20.0)) == 0);
   }
-  const Image shown = draw(context->gl(), {{{10.0, 10.0}, {0.026, 0.0}}}, 20.0);
+  const Image shown = draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(0.026, 0.0)}}, 20.0);
   CHECK(difference(shown, draw(context->gl(), {}, 20.0)) > 0);
   // What is no number has none either.
   const double nan = std::nan("");
-  const Image none = draw(context->gl(), {{{10.0, 10.0}, {nan, 1.0}}}, 20.0);
+  const Image none = draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(nan, 1.0)}}, 20.0);
   CHECK(difference(none, draw(context->gl(), {}, 20.0)) == 0);
 }
 

@@ -47,7 +47,7 @@ Circle measure(const Image& image) {
 TEST_CASE("Disk layer: a disk that follows a wall out of the box is drawn there only") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-4.0 + 100.0, 60.0}, 40.0);
-  snapshot.box = {100.0, kUnitSize.height};
+  snapshot.box = Vec2(100.0, kUnitSize.height);
   const Image still = draw(context->gl(), snapshot, kAlwaysPoints);
   snapshot.wall_displacement[kRight] = -16.0;
   const Image swung = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -73,10 +73,13 @@ TEST_CASE("Disk layer: a disk is drawn where it is and as large as it is") {
 TEST_CASE("Disk layer: points and squares give the same picture") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({60.2, 50.7}, 31.0);
+  std::vector<Vec2> places = {{60.2, 50.7}}, velocities = {{0.0, 0.0}};
   for (double x : {0.0, 15.6, 120.0, 190.1}) {
-    snapshot.positions.push_back({x, 0.4 * x + 3.3});
-    snapshot.velocities.push_back({0.005 * x, 0.0});
+    places.emplace_back(x, 0.4 * x + 3.3);
+    velocities.emplace_back(0.005 * x, 0.0);
   }
+  snapshot.positions = as_columns(places);
+  snapshot.velocities = as_columns(velocities);
   for (double diameter : {3.1, 7.7, 40.0}) {
     snapshot.diameter = diameter;
     const Image points = draw(context->gl(), snapshot, kAlwaysPoints, ColourBy::Speed);
@@ -109,7 +112,7 @@ TEST_CASE("Disk layer: particles beyond the largest point of the driver are draw
   const auto context = open_context(Backend::Osmesa);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
   Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   const Projection close{{{0.6, 0.6}, 1.2}, {1200, 1200}};  // centre (500, 700), radius 500 pixels
   DiskLayer(context->gl())
       .draw(snapshot, close, {ColourBy::None, {colour_map(Palette::Viridis)}, kDarkTheme.disk});
@@ -137,7 +140,7 @@ TEST_CASE("Disk layer: a disk on a periodic border is drawn on both sides of the
   CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == kDarkTheme.disk);
 
   snapshot.walls.fill({});
-  snapshot.positions = {{199.0, 119.0}};
+  snapshot.positions = Vec2(199.0, 119.0);
   const Image corners = draw(context->gl(), snapshot, kAlwaysPoints);
   for (int x : {2, 197}) {
     for (int y : {2, 117}) CHECK(pixel(corners, x, y) == kDarkTheme.disk);
@@ -148,7 +151,7 @@ TEST_CASE("Disk layer: a disk's colour shows its velocity") {
   const auto context = open_context(Backend::Osmesa);
   const ColourScale scale{colour_map(Palette::Viridis)};
   Snapshot snapshot = one_disk({60.0, 60.0}, 40.0);
-  snapshot.velocities = {{0.3, 0.4}};
+  snapshot.velocities = Vec2(0.3, 0.4);
   auto centre = [&](ColourBy by) {
     return pixel(draw(context->gl(), snapshot, kAlwaysPoints, by), 60, 60);
   };
@@ -174,15 +177,16 @@ namespace {
 // Particles as dense as half the area, in order, of all colours.
 Snapshot many_disks(double diameter) {
   Snapshot snapshot = one_disk({0.0, 0.0}, diameter);
-  snapshot.positions.clear();
-  snapshot.velocities.clear();
+  std::vector<Vec2> places, velocities;
   const double apart = 1.26 * diameter;
   for (double y = diameter; y < kUnitSize.height - diameter; y += apart) {
     for (double x = diameter; x < kUnitSize.width - diameter; x += apart) {
-      snapshot.positions.push_back({x + 0.1 * std::sin(7.0 * y), y + 0.1 * std::cos(5.0 * x)});
-      snapshot.velocities.push_back({0.5 + 0.5 * std::sin(0.2 * x) * std::cos(0.3 * y), 0.0});
+      places.emplace_back(x + 0.1 * std::sin(7.0 * y), y + 0.1 * std::cos(5.0 * x));
+      velocities.emplace_back(0.5 + 0.5 * std::sin(0.2 * x) * std::cos(0.3 * y), 0.0);
     }
   }
+  snapshot.positions = as_columns(places);
+  snapshot.velocities = as_columns(velocities);
   return snapshot;
 }
 

@@ -13,7 +13,7 @@ TEST_CASE(
   const Projection projection{{{10.0, 10.0}, 24.0}, size};  // 10 pixels a unit
   const Canvas canvas = blank_canvas(context->gl(), size);
   Snapshot snapshot;
-  snapshot.box = {20.0, 15.0};
+  snapshot.box = Vec2(20.0, 15.0);
   // A fifth of 200 pixels leaves room for 2 units, not 5.
   REQUIRE(scale_length(snapshot, projection) == doctest::Approx(2.0));
   constexpr Colour kLine = {0xff, 0xff, 0xff};

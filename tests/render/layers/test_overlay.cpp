@@ -17,7 +17,7 @@ TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at 
       CAPTURE(box.x());
       Snapshot snapshot = driven_box();
       snapshot.box = box;
-      snapshot.arrows = ArrowMap{Quantity::HeatFlux, box / 20.0, {{0.5 * box, {1.0, 0.0}}}};
+      snapshot.arrows = ArrowMap{Quantity::HeatFlux, box / 20.0, {{0.5 * box, Vec2(1.0, 0.0)}}};
       View view = view_with_field();
       view.arrows = Quantity::HeatFlux;
       const Camera camera = renderer.fit(snapshot, size, view, kText);

@@ -9,9 +9,9 @@ TEST_CASE("Renderer: a fixed range decides the colour, and the picture is opaque
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
-  snapshot.positions = {{5.0, 5.0}};
-  snapshot.velocities = {{2.0, 0.0}};
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.positions = Vec2(5.0, 5.0);
+  snapshot.velocities = Vec2(2.0, 0.0);
   View view;
   view.overlay = false;
   view.range = {ColourRange::Given, {0.0, 2000.0}};
@@ -57,10 +57,10 @@ TEST_CASE("Renderer: spins are coloured by their sense") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
-  snapshot.positions = {{3.0, 5.0}, {5.0, 5.0}, {7.0, 5.0}};
-  snapshot.velocities = {{9.0, 0.0}, {9.0, 0.0}, {9.0, 0.0}};
-  snapshot.spins = {2.0, 0.0, -2.0};
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.positions = as_columns<2>({{3.0, 5.0}, {5.0, 5.0}, {7.0, 5.0}});
+  snapshot.velocities = as_columns<2>({{9.0, 0.0}, {9.0, 0.0}, {9.0, 0.0}});
+  snapshot.spins = Eigen::RowVector3d(2.0, 0.0, -2.0);
   View view;
   view.overlay = false;
   view.colour_by = ColourBy::Spin;
@@ -87,7 +87,7 @@ namespace {
 Colour field_colour(Renderer& renderer, const Gl& gl, const View& view, double value,
                     bool whole_window) {
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.field = FieldMap{*view.field, {1, 1}, {value}, whole_window};
   return pixel(draw(renderer, gl, snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view), 50, 50);
 }
@@ -127,7 +127,7 @@ TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
   const auto context = open_context(Backend::Osmesa);
   View view = view_of(Quantity::Temperature);
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
   const RangeEnds ends = range_ends(snapshot, view);
   CHECK(ends.field == 1.0);
@@ -179,8 +179,8 @@ TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
-  snapshot.arrows = ArrowMap{Quantity::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 0.0}}}};
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.arrows = ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 0.0)}}};
   View view;
   view.overlay = false;
   const auto width_of_arrow = [&] {
@@ -200,9 +200,9 @@ TEST_CASE("Renderer: a theme sets the colours, and a background of the view prec
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
-  snapshot.positions = {{5.0, 5.0}};
-  snapshot.velocities = {{0.0, 0.0}};
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.positions = Vec2(5.0, 5.0);
+  snapshot.velocities = Vec2(0.0, 0.0);
   View view;
   view.colour_by = ColourBy::None;
   const auto drawn = [&] {
@@ -230,7 +230,7 @@ TEST_CASE("Renderer: a grid is drawn where it is asked for") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   View view;
   view.overlay = false;
   const Camera camera{{5.0, 5.0}, 20.0};
@@ -247,7 +247,7 @@ TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of 
   view.arrows = Quantity::Velocity;
   Snapshot snapshot = driven_box();
   snapshot.walls[kLeft] = Wall{.kind = WallKind::Sinusoidal, .stroke = 1.0, .frequency = 1.0};
-  snapshot.arrows = ArrowMap{Quantity::Velocity, {4.0, 4.0}, {{{5.0, 5.0}, {1.5, 1.0}}}};
+  snapshot.arrows = ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 1.0)}}};
   for (const Size size : {Size{1280, 720}, {500, 300}, {1080, 1920}}) {
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);
@@ -269,10 +269,10 @@ TEST_CASE("Renderer: blur, trails and marks look the same with several samples a
   const Size size{1280, 720};
   View view;
   Snapshot snapshot = driven_box();
-  for (std::uint32_t i = 0; i < snapshot.positions.size(); ++i) {
-    const Vec2 &r = snapshot.positions[i], &v = snapshot.velocities[i];
+  for (std::uint32_t i = 0; i < snapshot.count(); ++i) {
+    const Vec2 r = snapshot.positions.col(i), v = snapshot.velocities.col(i);
     snapshot.angles.push_back(0.1 * i);
-    snapshot.flights.push_back({i, -1.0, 0.0, r - v, v, {0.0, 0.0}});
+    snapshot.flights.push_back({i, -1.0, 0.0, r - v, v, Vec2(0.0, 0.0)});
   }
   for (const bool blurred : {false, true}) {
     CAPTURE(blurred);
@@ -291,7 +291,7 @@ TEST_CASE("Renderer: an empty box is drawn too") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   const Size size{320, 200};
   CHECK_NOTHROW(draw(renderer, context->gl(), snapshot, renderer.fit(snapshot, size, View{}, kText),
                      size, View{}));

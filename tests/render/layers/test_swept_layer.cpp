@@ -48,10 +48,10 @@ double off_instants(const Gl& gl, const Snapshot& blurred) {
     Snapshot instant = blurred;
     instant.exposure = 0.0;
     for (const FlightPiece& piece : blurred.flights) {
-      if (piece.from <= time && time < piece.to) instant.positions[0] = piece.at(time);
+      if (piece.from <= time && time < piece.to) instant.positions.col(0) = piece.at(time);
     }
     for (const int axis : {0, 1}) {
-      double& place = instant.positions[0][axis];
+      double& place = instant.positions(axis, 0);
       if (!instant.walls[2 * axis])
         place -= std::floor(place / instant.box[axis]) * instant.box[axis];
     }
@@ -77,8 +77,8 @@ TEST_CASE("Swept layer: a disk at rest looks like a disk at an instant") {
   for (const double diameter : {2.0, 3.5, 8.0, 40.0}) {
     CAPTURE(diameter);
     const Vec2 place(71.3, 58.2);
-    const Snapshot resting = on_path(diameter, {{0, -0.4, -0.1, place, {0.0, 0.0}, {0.0, 0.0}},
-                                                {0, -0.1, 0.0, place, {0.0, 0.0}, {0.0, 0.0}}});
+    const Snapshot resting = on_path(diameter, {{0, -0.4, -0.1, place, Vec2(0.0, 0.0), Vec2(0.0, 0.0)},
+                                                {0, -0.1, 0.0, place, Vec2(0.0, 0.0), Vec2(0.0, 0.0)}});
     const Snapshot instant = one_disk(place, diameter);
     CHECK(difference(drawn(context->gl(), layer, resting), drawn(context->gl(), layer, instant)) <=
           (diameter < 3.0 ? 8 : 2));
@@ -98,7 +98,7 @@ TEST_CASE("Swept layer: a moving disk keeps its area and its light") {
         CAPTURE(angle);
         const Vec2 way = 0.5 * length * Vec2(std::cos(angle), std::sin(angle));
         const Snapshot snapshot =
-            on_path(diameter, {{0, -0.5, 0.0, Vec2(100.2, 60.4) - way, 4.0 * way, {0.0, 0.0}}});
+            on_path(diameter, {{0, -0.5, 0.0, Vec2(100.2, 60.4) - way, 4.0 * way, Vec2(0.0, 0.0)}});
         const double expected = 0.25 * std::numbers::pi * diameter * diameter;
         CHECK(area(drawn(context->gl(), layer, snapshot)) ==
               doctest::Approx(expected).epsilon(0.01));
@@ -115,7 +115,7 @@ TEST_CASE(
   const Vec2 start(60.0, 60.0);
   const Image image =
       drawn(context->gl(), layer,
-            on_path(2.0 * kRadius, {{0, -2.0, 0.0, start, {40.0, 0.0}, {0.0, 0.0}}}));
+            on_path(2.0 * kRadius, {{0, -2.0, 0.0, start, Vec2(40.0, 0.0), Vec2(0.0, 0.0)}}));
   for (int y = 48; y <= 72; y += 3) {
     for (int x = 44; x < 156; ++x) {
       const Vec2 place = Vec2(x + 0.5, kUnitSize.height - y - 0.5) - start;
@@ -132,17 +132,17 @@ TEST_CASE("Swept layer: paths with collisions and borders look like the average 
     CAPTURE(diameter);
     // Off a wall, faster than before, then on a parabola.
     const Snapshot bounce =
-        on_path(diameter, {{0, -1.0, -0.6, {150.0, 50.0}, {80.0, 20.0}, {0.0, 0.0}},
-                           {0, -0.6, 0.0, {182.0, 58.0}, {-120.0, 90.0}, {0.0, -300.0}}});
+        on_path(diameter, {{0, -1.0, -0.6, Vec2(150.0, 50.0), Vec2(80.0, 20.0), Vec2(0.0, 0.0)},
+                           {0, -0.6, 0.0, Vec2(182.0, 58.0), Vec2(-120.0, 90.0), Vec2(0.0, -300.0)}});
     CHECK(off_instants(context->gl(), bounce) < 0.012);
     // Through a periodic box again and again.
-    Snapshot fast = on_path(diameter, {{0, -1.0, 0.0, {20.0, 30.0}, {530.0, -410.0}, {0.0, 0.0}}});
+    Snapshot fast = on_path(diameter, {{0, -1.0, 0.0, Vec2(20.0, 30.0), Vec2(530.0, -410.0), Vec2(0.0, 0.0)}});
     fast.walls = {};
     CHECK(off_instants(context->gl(), fast) < 0.03);  // instants lie some pixels apart
     // Across a periodic border, in steps of less than a pixel too.
     for (const double speed : {30.0, 1.0}) {
       Snapshot crossing =
-          on_path(diameter, {{0, -1.0, 0.0, {199.0, 119.2}, {speed, 0.5 * speed}, {0.0, 0.0}}});
+          on_path(diameter, {{0, -1.0, 0.0, Vec2(199.0, 119.2), Vec2(speed, 0.5 * speed), Vec2(0.0, 0.0)}});
       crossing.walls = {};
       CHECK(off_instants(context->gl(), crossing) < 0.012);
     }

@@ -20,10 +20,10 @@ Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
 TEST_CASE("Trail layer: trails lie on the paths and fade out as far back as they reach") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({120.0, 100.0}, 20.0);
-  snapshot.velocities = {{0.0, 40.0}};
+  snapshot.velocities = Vec2(0.0, 40.0);
   // Along x, then up.
-  snapshot.flights = {{0, -3.0, -1.0, {40.0, 60.0}, {40.0, 0.0}, {0.0, 0.0}},
-                      {0, -1.0, 0.0, {120.0, 60.0}, {0.0, 40.0}, {0.0, 0.0}}};
+  snapshot.flights = {{0, -3.0, -1.0, Vec2(40.0, 60.0), Vec2(40.0, 0.0), Vec2(0.0, 0.0)},
+                      {0, -1.0, 0.0, Vec2(120.0, 60.0), Vec2(0.0, 40.0), Vec2(0.0, 0.0)}};
   const Image image = drawn(context->gl(), snapshot, 2.0);
   const auto opacity = [&](int x, int up) {
     return pixel(image, x, kUnitSize.height - 1 - up).alpha / 255.0;

@@ -12,7 +12,7 @@ constexpr Size kSize{200, 200};
 // A box of 10 x 10 in the middle of the picture, 100 pixels wide.
 Image draw(const Gl& gl, const Wall& wall, double time = 0.0) {
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.time = time;
   snapshot.temperature = 1.0;
   snapshot.walls[kLeft] = snapshot.walls[kRight] = wall;
@@ -61,7 +61,7 @@ TEST_CASE("Wall layer: a moving wall is drawn where it is, and covers what is be
     for (double displacement : {-1.0, 0.0, 2.0, 3.0}) {  // 10 pixels each
       CAPTURE(displacement);
       Snapshot snapshot;
-      snapshot.box = {10.0, 10.0};
+      snapshot.box = Vec2(10.0, 10.0);
       snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(kind);
       snapshot.wall_displacement[kLeft] = displacement;
       const Canvas canvas = blank_canvas(context->gl(), kSize);
@@ -88,7 +88,7 @@ TEST_CASE("Wall layer: a moving wall looks the same wherever it is") {
   const auto context = open_context(Backend::Osmesa);
   const auto at = [&](double displacement) {
     Snapshot snapshot;
-    snapshot.box = {10.0, 10.0};
+    snapshot.box = Vec2(10.0, 10.0);
     snapshot.time = displacement;
     snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(WallKind::Sawtooth);
     snapshot.wall_displacement[kLeft] = displacement;
@@ -109,7 +109,7 @@ TEST_CASE(
     "Wall layer: a line marks the place of a wall that has moved, as long as the box is wide") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(wall_of(WallKind::Static));
   snapshot.walls[kLeft] = wall_of(WallKind::Sinusoidal);
   for (double displacement : {-2.0, 2.0}) {
@@ -128,7 +128,7 @@ TEST_CASE(
 TEST_CASE("Wall layer: the walls beside one that moves end at its face") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot;
-  snapshot.box = {10.0, 10.0};
+  snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(wall_of(WallKind::Thermal));
   snapshot.walls[kLeft] = wall_of(WallKind::Sinusoidal);
   for (double displacement : {-1.0, 2.0}) {
