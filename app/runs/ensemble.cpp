@@ -87,8 +87,7 @@ class Replicas {
     const std::uint64_t seed = ensemble_.first_seed + index;
     const auto simulation = simulation_of<2>(scene_, seed);
     Measurement measurement(*simulation, scene_.measure, ensemble_.end);
-    while (!simulation->run_until(ensemble_.end, kNoLimit,
-                                  simulation->counts().steps() + kSlice)) {
+    while (!simulation->run_until(ensemble_.end, kNoLimit, simulation->counts().steps() + kSlice)) {
       if (interrupted() || !tell(index, simulation->time())) return;
     }
     require_no_overlap(simulation->checks());

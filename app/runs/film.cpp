@@ -113,8 +113,7 @@ RangeEnds Film::look_ahead() const {
   try {
     for (int part = 1; part <= kWindowParts; ++part) {
       const double time = start + window * part / kWindowParts;
-      while (!ahead.run_until(time, kNoLimit,
-                              ahead.simulation().counts().steps() + kSteps)) {
+      while (!ahead.run_until(time, kNoLimit, ahead.simulation().counts().steps() + kSteps)) {
         if (interrupted()) return ends;
       }
       const double disks = ends.disks;

@@ -116,8 +116,7 @@ bool Run::until(double time, Progress& progress) {
     for (bool arrived = false; !arrived; progress.update(simulation().time())) {
       if (interrupted()) return false;
       const auto began = Clock::now();
-      arrived =
-          run_->run_until(time, kNoLimit, simulation().counts().steps() + slice);
+      arrived = run_->run_until(time, kNoLimit, simulation().counts().steps() + slice);
       slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();

@@ -161,8 +161,7 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   const std::vector<Sample>& samples = history.samples();
   std::vector<LivePlot> plots;
   if (frame.profile && profiled < frame.profile->fields.size()) {
-    plots.push_back(
-        profile_plot(*frame.profile, profiled, frame.scene->dimension()));
+    plots.push_back(profile_plot(*frame.profile, profiled, frame.scene->dimension()));
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));

@@ -107,7 +107,8 @@ void Viewport::mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float s
                        scale;
   const auto ring = [&](std::uint32_t disk, ImU32 ink) {
     if (disk >= frame.snapshot.count()) return;
-    list.AddCircle(place(frame.snapshot.positions.col(disk), corner, scale), radius + 2.0f, ink, 0, 2.5f);
+    list.AddCircle(place(frame.snapshot.positions.col(disk), corner, scale), radius + 2.0f, ink, 0,
+                   2.5f);
   };
   if (picked_) ring(*picked_, packed(accent_colour()));
   if (!frame.partners) return;

@@ -25,8 +25,8 @@ CollisionLookahead<D>::CollisionLookahead(const Simulation<D>& simulation, std::
 }
 
 template <int D>
-const std::optional<ParticleCollision>& CollisionLookahead<D>::next_after(double time,
-                                                                       std::uint64_t most_steps) {
+const std::optional<ParticleCollision>& CollisionLookahead<D>::next_after(
+    double time, std::uint64_t most_steps) {
   const EventCounts& counts = ahead_.counts();
   const std::uint64_t last_step = counts.steps() + most_steps;
   const auto passed = [&] { return watch_.last() && watch_.last()->time <= time; };

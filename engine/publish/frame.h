@@ -16,15 +16,15 @@ namespace clatter {
 /// Sums since a run's start: the difference between two frames tells what happened between them,
 /// however many frames were left out.
 struct Tally {
-  double time = 0.0;                         ///< that the sums stand for
-  VecX temperature_integral;    ///< of T_x, T_y and, of spheres, T_z over time
-  double walls_in = 0.0;                     ///< energy that the walls gave
-  double bulk_in = 0.0;                      ///< energy that kicks gave
-  double gravity_in = 0.0;                   ///< work of gravity
-  double dissipated = 0.0;                   ///< energy lost between particles, > 0
-  double undissipated = 0.0;                 ///< what they would have lost more without t_c
-  std::uint64_t collisions = 0;              ///< of particles with particles
-  std::uint64_t elasticised = 0;             ///< of these, by t_c
+  double time = 0.0;              ///< that the sums stand for
+  VecX temperature_integral;      ///< of T_x, T_y and, of spheres, T_z over time
+  double walls_in = 0.0;          ///< energy that the walls gave
+  double bulk_in = 0.0;           ///< energy that kicks gave
+  double gravity_in = 0.0;        ///< work of gravity
+  double dissipated = 0.0;        ///< energy lost between particles, > 0
+  double undissipated = 0.0;      ///< what they would have lost more without t_c
+  std::uint64_t collisions = 0;   ///< of particles with particles
+  std::uint64_t elasticised = 0;  ///< of these, by t_c
 };
 
 /// The error that t_c makes: what it took away, over what happened.

@@ -32,8 +32,8 @@ static std::vector<Field> averages_in(const View& view, int dimension) {
 }
 
 template <int D>
-std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(const Simulation<D>& simulation,
-                                                           const View& view) {
+std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(
+    const Simulation<D>& simulation, const View& view) {
   const std::vector<Field> fields = averages_in(view, D);
   if (fields.empty()) return std::nullopt;
   const Model<D>& model = simulation.model();
@@ -43,8 +43,8 @@ std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(const 
 }
 
 template <int D>
-std::optional<typename LiveField<D>::Closure> LiveField<D>::closure_for(const Simulation<D>& simulation,
-                                                         const View& view) {
+std::optional<typename LiveField<D>::Closure> LiveField<D>::closure_for(
+    const Simulation<D>& simulation, const View& view) {
   if (!view.field || !is_residual(*view.field)) return std::nullopt;
   return Closure{Balance<D>(simulation, cells_of_one_diameter(simulation.model())), {}};
 }

@@ -96,7 +96,7 @@ void ScheduledRun<D>::show(const View& view, const std::string& saved, double ex
   view_ = view;
   exposure_ = exposure;
   shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view, exposure,
-                                           ArchiveReader(saved, "what is shown"));
+                                              ArchiveReader(saved, "what is shown"));
 }
 
 template <int D>

@@ -39,8 +39,7 @@ class ScheduledRun {
 
   /// As Simulation::run_until: changes of that time are made. Throws PhysicalStop also where no gas
   /// can go on under new laws; the old ones then hold.
-  bool run_until(double time, std::uint64_t collisions = kNoLimit,
-                 std::uint64_t steps = kNoLimit);
+  bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
   /// Goes on by a few roundings of its time: however a run was halted before, one that runs until
   /// simulation().time() now has come through the same events. Where time stands still it stays
   /// there, and tells nothing: run_until throws.

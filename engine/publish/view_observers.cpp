@@ -7,7 +7,7 @@ namespace clatter {
 
 template <int D>
 ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
-                             ViewObservers* before)
+                                ViewObservers* before)
     : view_(view), exposure_(exposure) {
   if (view.shows_averages()) watch_field(simulation, before);
   if (exposure > 0.0 || view.trails) watch_flights(simulation, before);
@@ -16,7 +16,7 @@ ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, dou
 
 template <int D>
 ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
-                             ArchiveReader saved)
+                                ArchiveReader saved)
     : view_(view), exposure_(exposure) {
   if (view.shows_averages()) {
     std::string averages;

@@ -166,8 +166,7 @@ static void refuse_unknown_keys(const toml::table& table, const std::string& pre
                                 const std::vector<std::string>& known) {
   for (auto&& [key, value] : table) {
     const std::string path = prefix + std::string(key.str());
-    const bool dotted =
-        key.str().find('.') != std::string_view::npos;  // one quoted key, no path
+    const bool dotted = key.str().find('.') != std::string_view::npos;  // one quoted key, no path
     if (dotted || std::ranges::find(known, path) == known.end()) {
       const std::string name = in_quotes(key.str());
       throw UserError(place_of(key, value), "unknown key '" + name.substr(1, name.size() - 2) + "'",

@@ -29,8 +29,8 @@ struct PngText {
 /// The bytes of a PNG file.
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts = {});
 
-/// The text that a PNG file carries under a keyword before its pixels; absent: none, or no PNG file.
-/// Throws UserError where the file is damaged up to there.
+/// The text that a PNG file carries under a keyword before its pixels; absent: none, or no PNG
+/// file. Throws UserError where the file is damaged up to there.
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);
 
 /// Writes a PNG file, whole or not at all; throws RunError.

@@ -49,6 +49,8 @@ std::size_t check_paths(const FlightRecorder<D>& recorder, const Simulation<D>& 
     for (const FlightPiece& piece : pieces) {
       if (piece.particle != i) continue;
       REQUIRE(piece.from < piece.to);
+      REQUIRE((piece.position.array() >= 0.0).all());
+      REQUIRE((piece.position.array() <= snapshot.box.array()).all());
       REQUIRE(std::fabs(piece.from - time) < 1e-12);
       if (place) REQUIRE(distance(*place, piece.position, snapshot) < 1e-10);
       time = piece.to;

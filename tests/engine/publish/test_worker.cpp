@@ -413,7 +413,8 @@ TEST_CASE("Worker: its thread sleeps while the gas halts") {
   const rusage before = usage();
   std::this_thread::sleep_for(500ms);
   const rusage after = usage();
-  // A thread that polls every 10 ms waits 50 times. The thread sanitizer's own thread waits 5 times.
+  // A thread that polls every 10 ms waits 50 times. The thread sanitizer's own thread waits 5
+  // times.
   CHECK(after.ru_nvcsw - before.ru_nvcsw < 25);
   // A thread that polls without a pause takes all of the time.
   CHECK(seconds_of(after) - seconds_of(before) < 0.25);

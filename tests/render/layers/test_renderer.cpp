@@ -180,7 +180,8 @@ TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
-  snapshot.arrows = ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 0.0)}}};
+  snapshot.arrows =
+      ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 0.0)}}};
   View view;
   view.overlay = false;
   const auto width_of_arrow = [&] {
@@ -247,7 +248,8 @@ TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of 
   view.arrows = Quantity::Velocity;
   Snapshot snapshot = driven_box();
   snapshot.walls[kLeft] = Wall{.kind = WallKind::Sinusoidal, .stroke = 1.0, .frequency = 1.0};
-  snapshot.arrows = ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 1.0)}}};
+  snapshot.arrows =
+      ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 1.0)}}};
   for (const Size size : {Size{1280, 720}, {500, 300}, {1080, 1920}}) {
     Renderer normal(context->gl());
     const Camera camera = normal.fit(snapshot, size, view, kText);

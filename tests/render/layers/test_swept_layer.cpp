@@ -77,8 +77,9 @@ TEST_CASE("Swept layer: a disk at rest looks like a disk at an instant") {
   for (const double diameter : {2.0, 3.5, 8.0, 40.0}) {
     CAPTURE(diameter);
     const Vec2 place(71.3, 58.2);
-    const Snapshot resting = on_path(diameter, {{0, -0.4, -0.1, place, Vec2(0.0, 0.0), Vec2(0.0, 0.0)},
-                                                {0, -0.1, 0.0, place, Vec2(0.0, 0.0), Vec2(0.0, 0.0)}});
+    const Snapshot resting =
+        on_path(diameter, {{0, -0.4, -0.1, place, Vec2(0.0, 0.0), Vec2(0.0, 0.0)},
+                           {0, -0.1, 0.0, place, Vec2(0.0, 0.0), Vec2(0.0, 0.0)}});
     const Snapshot instant = one_disk(place, diameter);
     CHECK(difference(drawn(context->gl(), layer, resting), drawn(context->gl(), layer, instant)) <=
           (diameter < 3.0 ? 8 : 2));
@@ -131,18 +132,19 @@ TEST_CASE("Swept layer: paths with collisions and borders look like the average 
   for (const double diameter : {2.0, 5.0, 30.0}) {
     CAPTURE(diameter);
     // Off a wall, faster than before, then on a parabola.
-    const Snapshot bounce =
-        on_path(diameter, {{0, -1.0, -0.6, Vec2(150.0, 50.0), Vec2(80.0, 20.0), Vec2(0.0, 0.0)},
-                           {0, -0.6, 0.0, Vec2(182.0, 58.0), Vec2(-120.0, 90.0), Vec2(0.0, -300.0)}});
+    const Snapshot bounce = on_path(
+        diameter, {{0, -1.0, -0.6, Vec2(150.0, 50.0), Vec2(80.0, 20.0), Vec2(0.0, 0.0)},
+                   {0, -0.6, 0.0, Vec2(182.0, 58.0), Vec2(-120.0, 90.0), Vec2(0.0, -300.0)}});
     CHECK(off_instants(context->gl(), bounce) < 0.012);
     // Through a periodic box again and again.
-    Snapshot fast = on_path(diameter, {{0, -1.0, 0.0, Vec2(20.0, 30.0), Vec2(530.0, -410.0), Vec2(0.0, 0.0)}});
+    Snapshot fast =
+        on_path(diameter, {{0, -1.0, 0.0, Vec2(20.0, 30.0), Vec2(530.0, -410.0), Vec2(0.0, 0.0)}});
     fast.walls = {};
     CHECK(off_instants(context->gl(), fast) < 0.03);  // instants lie some pixels apart
     // Across a periodic border, in steps of less than a pixel too.
     for (const double speed : {30.0, 1.0}) {
-      Snapshot crossing =
-          on_path(diameter, {{0, -1.0, 0.0, Vec2(199.0, 119.2), Vec2(speed, 0.5 * speed), Vec2(0.0, 0.0)}});
+      Snapshot crossing = on_path(
+          diameter, {{0, -1.0, 0.0, Vec2(199.0, 119.2), Vec2(speed, 0.5 * speed), Vec2(0.0, 0.0)}});
       crossing.walls = {};
       CHECK(off_instants(context->gl(), crossing) < 0.012);
     }
