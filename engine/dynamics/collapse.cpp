@@ -45,7 +45,7 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
 // Whether no collision can take energy from the gas.
 template <int D>
 static bool is_lossless(const Model<D>& model) {
-  bool lossless = model.restitution == 1.0 && !model.roughness.any();
+  bool lossless = !model.dissipates();
   for (const auto& wall : model.walls) {
     if (!wall) continue;
     lossless = lossless && wall->kind != WallKind::Thermal && wall->restitution == 1.0 &&

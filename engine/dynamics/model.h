@@ -17,7 +17,7 @@ struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
   std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
   double diameter = 1.0;
-  double restitution = 1.0;  ///< alpha of disk-disk collisions
+  double restitution = 1.0;  ///< alpha of collisions between particles
   Roughness roughness;       ///< of the particles
   double inertia = 0.5;      ///< q = 4I/(m a^2)
   bool spins = false;        ///< whether particles or walls are rough, so that spins are carried
@@ -26,6 +26,8 @@ struct Model {
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
   std::uint64_t seed = 1;               ///< of every random number of the run
 
+  /// Whether collisions of particles take energy from the gas.
+  bool dissipates() const { return restitution < 1.0 || roughness.any(); }
   /// Whether there is gravity, so that particles fly along parabolas.
   bool has_gravity() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.

@@ -31,7 +31,7 @@ static constexpr std::size_t kPrefetchNeighboursFrom = 40000;
 // rest on walls: where time may come to a standstill.
 template <int D>
 static bool may_collapse(const Model<D>& model) {
-  bool may = model.restitution < 1.0 || model.roughness.any();
+  bool may = model.dissipates();
   for (const auto& wall : model.walls) {
     if (!wall) continue;
     const bool holds = wall->kind == WallKind::Thermal && wall->temperature == 0.0;

@@ -38,7 +38,7 @@ CellIntegrals<D>::CellIntegrals(const Simulation<D>& simulation, const IntVec<D>
       grid_(simulation.model(), cells),
       layout_(layout),
       estimator_(coarsening.estimator),
-      lossless_(simulation.model().restitution == 1.0 && !simulation.model().roughness.any()),
+      dissipates_(simulation.model().dissipates()),
       window_start_(simulation.base_time()) {
   if (coarsening.gaussian_width) gaussian_.emplace(grid_, *coarsening.gaussian_width);
   sums_.rows.resize(grid_.size() * static_cast<std::size_t>(layout_.size));
@@ -173,7 +173,7 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   const Vec<D> partner = a.position - collision.separation;
   add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy - b.energy));
   // Where nothing is lost, zeta is 0 and not the rounding of energies that cancel.
-  if (layout_.dissipation >= 0 && !lossless_ && !collision.elasticised) {
+  if (layout_.dissipation >= 0 && dissipates_ && !collision.elasticised) {
     const double lost = 0.5 * (a.energy + b.energy);
     add_dissipation(a.position, lost);
     add_dissipation(partner, lost);

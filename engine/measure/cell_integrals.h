@@ -75,7 +75,7 @@ class CellIntegrals : public Observer<D> {
   /// What a checkpoint keeps, of a simulation that goes on at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [simulation, grid, layout, estimator, lossless, gaussian, window_start, sums] = *this;
+    auto& [simulation, grid, layout, estimator, dissipates, gaussian, window_start, sums] = *this;
     io(window_start, sums);
   }
 
@@ -100,7 +100,7 @@ class CellIntegrals : public Observer<D> {
   FieldGrid<D> grid_;
   MomentLayout<D> layout_;
   Estimator estimator_;
-  bool lossless_;  // whether no collision of particles dissipates
+  bool dissipates_;  // whether collisions of particles do
   std::optional<GaussianKernel<D>> gaussian_;
   double window_start_;
   CellSums sums_;
