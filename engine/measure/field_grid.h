@@ -45,7 +45,7 @@ class FieldGrid {
   bool periodic(int axis) const { return periodic_[axis]; }
 
   /// The cell in which a place lies; a cell holds its lower borders.
-  Cell cell_at(const Vec<D>& r) const {
+  [[gnu::always_inline]] Cell cell_at(const Vec<D>& r) const {
     Cell cell;
     for (int axis = 0; axis < D; ++axis) {
       cell[axis] = static_cast<long>(std::floor(r[axis] * per_width_[axis]));
@@ -102,9 +102,9 @@ class FieldGrid {
 
   /// Cuts the line from `from` to `from + along` at every border of cells and calls visit(index,
   /// share) for each piece, from first to last, with its share of the length; a point is one piece
-  /// of share 1.
+  /// of share 1. The attributes are measured: without them fields take a tenth more time.
   template <class Visit>
-  void cut(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
+  [[gnu::noinline]] void cut(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
     walk(
         from, along, cell_at(from), cell_at(from + along),
         [&](const Cell& cell, double share) { visit(index_of(cell), share); },

@@ -1,5 +1,7 @@
 #include "engine/scene/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -82,6 +84,15 @@ int dimension_of(const toml::table& root) {
   return size && size->size() == 3 ? 3 : 2;
 }
 
+void check_dimension(const toml::table& root, const std::string& file) {
+  const toml::array* size = root.at_path("box.size").as_array();
+  if (!size || size->size() == 2 || size->size() == 3) return;
+  throw UserError(
+      place_of(root, "box.size", file),
+      fmt::format("'box.size' has {} number{}", size->size(), size->size() == 1 ? "" : "s"),
+      "give two numbers for disks, or three for spheres");
+}
+
 SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {
   SceneInput input;
   input.spins = spins;
@@ -95,6 +106,7 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
 /// is read.
 Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
                  const std::function<void(Scene&)>& load_state) {
+  check_dimension(root, file);
   SceneInput any;
   any.scene = default_scene(dimension_of(root));
   KeyLister lister;

@@ -75,6 +75,9 @@ TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
       {"[box]\nsize = [1, 5]\n" + kParticles,
        "s.toml:2:1: 'box.size' cannot be [1, 5]; give two numbers greater than 1 and at most "
        "1e+06"},
+      {"[box]\nsize = [20]\n" + kParticles,
+       "s.toml:2:1: 'box.size' has 1 number; give two numbers for disks, or three for spheres"},
+      {"[box]\nsize = [2, 3, 4, 5]\n" + kParticles, "s.toml:2:1: 'box.size' has 4 numbers; give"},
       {"[box]\nsize = [20, 20, 1]\n" + kParticles,
        "s.toml:2:1: 'box.size' cannot be [20, 20, 1]; give three numbers greater than 1 and at "
        "most "
