@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/app/shell.h"
 
@@ -183,6 +184,19 @@ TEST_CASE("Bench: the table of render has the cost of each stage, for pictures o
   }
   CHECK(rows[0]["width"] == 1280);
   CHECK(rows[1]["width"] == 1920);
+}
+
+TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {
+  const Shell shell;
+  for (const std::string name : {"", " engine"}) {
+    CAPTURE(name);
+    const Outcome outcome =
+        shell.run("clatter bench" + name + " --count 100 --area-fraction 0.3 --json cell.json");
+    CHECK(outcome.code == 0);
+    const std::regex cell(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +\d+\n$)");
+    CHECK(std::regex_search(outcome.out, cell));
+    CHECK(json::parse(shell.read("cell.json"))[0]["count"] == 100);
+  }
 }
 
 }  // namespace clatter

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
@@ -183,19 +182,6 @@ TEST_CASE("Commands: a quiet check prints the scene only; a seed is reported") {
   const Outcome outcome = shell.run("clatter check vibrated --seed 7");
   CHECK(outcome.out == quiet.out);
   CHECK(outcome.err.find(", seed 7.\n") != std::string::npos);
-}
-
-TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {
-  const Shell shell;
-  for (const std::string name : {"", " engine"}) {
-    CAPTURE(name);
-    const Outcome outcome =
-        shell.run("clatter bench" + name + " --count 100 --area-fraction 0.3 --json cell.json");
-    CHECK(outcome.code == 0);
-    const std::regex cell(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +\d+\n$)");
-    CHECK(std::regex_search(outcome.out, cell));
-    CHECK(nlohmann::json::parse(shell.read("cell.json"))[0]["count"] == 100);
-  }
 }
 
 }  // namespace clatter

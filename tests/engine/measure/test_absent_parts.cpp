@@ -1,8 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -109,36 +107,4 @@ TEST_CASE("Absent parts: a part that is there but switched off changes no bit") 
     CHECK(hash_of({change}) == plain);
   }
   CHECK(hash_of({{"particles.friction", "0.1"}}) != plain);
-}
-
-TEST_CASE("Absent parts: what is there but switched off costs no time" *
-          doctest::test_suite("slow")) {
-  // The median over 51 interleaved pairs of slices; of a run and its twin it is within 1 %.
-  constexpr int kPairs = 51;
-  constexpr std::uint64_t kSlice = 40'000;
-  const std::string text =
-      "box.size = [50, 50]\nparticles = { count = 1000, restitution = 0.9 }\n"
-      "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n";
-  const std::vector<Override> off = {{"gravity.acceleration", "[0, 0]"},
-                                     {"particles.friction", "0"},
-                                     {"walls.right.tangential_restitution", "-1"},
-                                     {"view.field", "'density'"},
-                                     {"measure.fields", "['stress']"}};
-  const auto plain = simulation_of<2>(parse_scene(text, "s.toml", {}), 125);
-  const auto other = simulation_of<2>(parse_scene(text, "s.toml", off), 125);
-  const auto slice = [](Simulation<2>& simulation) {
-    const std::clock_t began = std::clock();
-    const EventCounts& counts = simulation.counts();
-    simulation.run_until(kNever, counts.pair_collisions + counts.wall_collisions + kSlice);
-    return static_cast<double>(std::clock() - began);
-  };
-  std::vector<double> ratios;
-  for (int pair = 0; pair < kPairs; ++pair) {
-    const bool first = pair % 2 == 0;
-    const double before = slice(first ? *plain : *other), after = slice(first ? *other : *plain);
-    ratios.push_back(first ? after / before : before / after);
-  }
-  std::ranges::nth_element(ratios, ratios.begin() + kPairs / 2);
-  CHECK(ratios[kPairs / 2] == doctest::Approx(1.0).epsilon(0.02));
-  CHECK(plain->state_hash() == other->state_hash());
 }
