@@ -18,7 +18,7 @@ static std::set<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-TEST_CASE("write_file: a file is there whole, and nothing beside it") {
+TEST_CASE("Written files: a file is there whole, and nothing beside it") {
   const TemporaryFolder folder;
   for (const std::string& bytes :
        {std::string(), std::string(100'000, 'a'), std::string("b\0c", 3)}) {
@@ -28,7 +28,7 @@ TEST_CASE("write_file: a file is there whole, and nothing beside it") {
   CHECK(names_in(folder / "") == std::set<std::string>{"file"});
 }
 
-TEST_CASE("write_file: the file before keeps another name where that is asked for") {
+TEST_CASE("Written files: the previous file is kept under another name if asked for") {
   const TemporaryFolder folder;
   write_file(folder / "file", "first", folder / "before");
   CHECK(names_in(folder / "") == std::set<std::string>{"file"});
@@ -37,7 +37,7 @@ TEST_CASE("write_file: the file before keeps another name where that is asked fo
   CHECK(bytes_of(folder / "before") == "first");
 }
 
-TEST_CASE("write_file: where it fails, it names the file and leaves what was there") {
+TEST_CASE("Written files: a failure names the file and leaves the previous one") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(
       write_file(folder / "missing/file", "bytes"),
@@ -49,7 +49,7 @@ TEST_CASE("write_file: where it fails, it names the file and leaves what was the
   CHECK(names_in(folder / "") == std::set<std::string>{"file"});
 }
 
-TEST_CASE("write_file: a link stays, and what it points to is replaced") {
+TEST_CASE("Written files: a link stays, and its target is replaced") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "results");
   write_file(folder / "results/file", "old");
@@ -60,7 +60,7 @@ TEST_CASE("write_file: a link stays, and what it points to is replaced") {
   CHECK(names_in(folder / "") == std::set<std::string>{"link", "results"});
 }
 
-TEST_CASE("write_file: a pipe is written into") {
+TEST_CASE("Written files: a pipe is written into") {
   const TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
