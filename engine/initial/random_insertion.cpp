@@ -24,9 +24,12 @@ class Insertion {
     for (int axis = 0; axis < D; ++axis) {
       low_[axis] = room.walled[axis] ? 0.5 * room.diameter : 0.0;
       const double extent = room.box[axis] - 2.0 * low_[axis];
-      const double count = std::ceil(extent / room.diameter * std::sqrt(static_cast<double>(D)));
-      counts_[axis] = std::max(1, static_cast<int>(count));
+      const double count =
+          std::max(1.0, std::ceil(extent / room.diameter * std::sqrt(static_cast<double>(D))));
+      counts_[axis] = static_cast<int>(count);
       widths_[axis] = extent / counts_[axis];
+      const double reach = std::ceil(room.diameter / widths_[axis]);
+      reach_[axis] = static_cast<int>(std::min(reach, count));
       cells *= static_cast<std::size_t>(counts_[axis]);
     }
     centres_.resize(cells, kEmpty);
@@ -130,8 +133,7 @@ class Insertion {
     if (centres_[cell_of(voxel)] != kEmpty) return true;
     Voxel own;
     for (int k = 0; k < D; ++k) own[k] = voxel[k] >> level_;
-    // Cells are at least a diameter over sqrt(D) wide, so two on either side reach a diameter.
-    return any_of(own - 2 * Voxel::Ones(), own + 2 * Voxel::Ones(), [&](Voxel cell) {
+    return any_of(own - reach_, own + reach_, [&](Voxel cell) {
       Vec<D> wrap = Vec<D>::Zero();
       if (!wrap_into_room(cell, wrap)) return false;
       const std::uint32_t particle = centres_[index(cell)];
@@ -170,8 +172,9 @@ class Insertion {
   Room<D> room_;
   Vec<D> low_;
   IntVec<D> counts_;
-  Vec<D> widths_;  // of a voxel
-  int level_ = 0;  // voxels are 2^-level_ of a cell
+  IntVec<D> reach_;  // cells on either side that a particle of the own one overlaps at most
+  Vec<D> widths_;    // of a voxel
+  int level_ = 0;    // voxels are 2^-level_ of a cell
   std::vector<Vec<D>> placed_;
   std::vector<std::uint32_t> centres_;  // particle in each cell, or kEmpty
   std::vector<Voxel> open_;

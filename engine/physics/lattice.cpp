@@ -139,7 +139,7 @@ class WidestGrid {
       return;
     }
     const std::int64_t last =
-        std::min(bound_along(room_, grid.centred, axis), needed_ / product + 1);
+        std::min(bound_along(room_, grid.centred, axis), needed_ / product + unit);
     for (points = unit; points <= last; points += unit) {
       // With more points, sites lie only closer along this axis.
       if (distance_in_row(room_, grid.centred, axis, points) <= distance_) return;

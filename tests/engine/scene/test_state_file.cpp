@@ -14,25 +14,34 @@ using namespace clatter::testing;
 
 namespace {
 
-Scene smooth_scene() {
-  Scene scene;
-  scene.box = Vec2(10.0, 8.0);
+Scene smooth_scene(int dimension = 2) {
+  Scene scene = default_scene(dimension);
+  scene.box = Vec<3>(10.0, 8.0, 6.0).head(dimension);
   return scene;
 }
 
-Scene rough_scene() {
-  Scene scene = smooth_scene();
+Scene rough_scene(int dimension = 2) {
+  Scene scene = smooth_scene(dimension);
   scene.particles.roughness.friction = 0.5;
   return scene;
 }
 
-/// Walls to the left and right; the left one moves in by 2, and has come by 1.5 at time 0.
-Scene walled_scene() {
-  Scene scene = smooth_scene();
-  scene.walls[kLeft] =
+/// Walls across the axis; the near one moves in by 2, and has come by 1.5 at time 0.
+Scene walled(Scene scene, int axis) {
+  scene.walls[2 * axis] =
       Wall{.kind = WallKind::Sawtooth, .stroke = 2.0, .frequency = 1.0, .phase = -0.25};
-  scene.walls[kRight] = Wall{};
+  scene.walls[2 * axis + 1] = Wall{};
   return scene;
+}
+
+/// Walls to the left and right.
+Scene walled_scene() {
+  return walled(smooth_scene(), 0);
+}
+
+/// Walls at the back and front.
+Scene deep_scene() {
+  return walled(smooth_scene(3), 2);
 }
 
 /// The message with which a text is refused; empty where it is not.
@@ -41,60 +50,132 @@ std::string state_refusal(const std::string& csv, const Scene& scene = smooth_sc
 }
 
 const std::string kHeader = "x,y,vx,vy\n";
+const std::string kSphereHeader = "x,y,z,vx,vy,vz\n";
 
-State<2> disks_of(std::string_view csv, const std::string& file, const Scene& scene) {
-  return std::get<State<2>>(parse_state(csv, file, scene));
+template <int D>
+State<D> read(std::string_view csv, const Scene& scene) {
+  return std::get<State<D>>(parse_state(csv, "a.csv", scene));
+}
+
+/// Whether two vectors have the same bits.
+template <class Vector>
+bool same(const Vector& a, const Vector& b) {
+  for (int k = 0; k < a.size(); ++k) {
+    if (std::bit_cast<std::uint64_t>(a[k]) != std::bit_cast<std::uint64_t>(b[k])) return false;
+  }
+  return true;
+}
+
+template <int D>
+void check_bits() {
+  const Vec<3> positions[] = {
+      {0.1 + 0.2, 5e-324, 2.0 / 3.0}, {10.0 - 1e-15, 8.0, 5e-310}, {3.0, 1.0 / 3.0, 12.0 - 2e-15}};
+  const Vec<3> velocities[] = {{-0.0, 1e15, -1e15},
+                               {-1e-300, 123456789.123456789, -0.0},
+                               {2.0 / 3.0, -1e-17, std::nextafter(1.0, 2.0)}};
+  const Vec<3> spins[] = {
+      {0.1, -0.0, 7.0 / 9.0}, {-1e-310, 1e15, 1e-17}, {std::nextafter(1.0, 2.0), -0.3, 5e-324}};
+  State<D> state;
+  for (int i = 0; i < 3; ++i) {
+    state.positions.emplace_back(positions[i].head<D>());
+    state.velocities.emplace_back(velocities[i].head<D>());
+  }
+  for (const bool spinning : {false, true}) {
+    Scene scene = spinning ? rough_scene(D) : smooth_scene(D);
+    scene.box = Vec<3>(20.0, 18.0, 16.0).head<D>();
+    for (int i = 0; spinning && i < 3; ++i) {
+      state.spins.emplace_back(spins[i].head<kSpinSize<D>>());
+    }
+    const State<D> again = read<D>(state_to_csv(state), scene);
+    REQUIRE(again.positions.size() == 3);
+    REQUIRE(again.spins.size() == state.spins.size());
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(same(again.positions[i], state.positions[i]));
+      CHECK(same(again.velocities[i], state.velocities[i]));
+      if (spinning) CHECK(same(again.spins[i], state.spins[i]));
+    }
+  }
+}
+
+/// One particle at a corner of the box or inside, the other a little less than a diameter off.
+template <int D>
+void check_no_overlap_hides(const std::vector<Vec<D>>& boxes) {
+  for (const Vec<D>& box : boxes) {
+    CAPTURE(box.transpose());
+    Scene scene = default_scene(D);
+    scene.box = box;
+    for (int k = 0; k < 64; ++k) {
+      const double angle = 0.1 * k, height = D == 2 ? 0.0 : std::sin(0.37 * k);
+      const double across = std::sqrt(1.0 - height * height);
+      const Vec<3> off(across * std::cos(angle), across * std::sin(angle), height);
+      const Vec<D> a = 0.25 * (k % 4) * box;
+      Vec<D> b = a + 0.999 * off.head<D>();
+      for (int axis = 0; axis < D; ++axis) b[axis] -= box[axis] * std::floor(b[axis] / box[axis]);
+      State<D> state;
+      state.positions = {a, b};
+      state.velocities.resize(2, Vec<D>::Zero());
+      CAPTURE(k);
+      CHECK(says(state_refusal(state_to_csv(state), scene),
+                 "the particles of lines 2 and 3 overlap"));
+    }
+  }
+}
+
+/// So many particles along each axis.
+template <int D>
+void check_many(int along) {
+  Scene scene = default_scene(D);
+  scene.box = Vec<D>::Constant(1.1 * along);
+  State<D> state;
+  IntVec<D> at = IntVec<D>::Zero();
+  while (at[D - 1] < along) {
+    state.positions.emplace_back((1.0999 * at.template cast<double>()).array() + 0.5);
+    state.velocities.push_back(Vec<D>::Constant(2.0 / 3.0));
+    state.velocities.back()[0] = 1.0 / static_cast<double>(state.positions.size());
+    for (int axis = 0; ++at[axis] == along && axis < D - 1; ++axis) at[axis] = 0;
+  }
+  CHECK(read<D>(state_to_csv(state), scene).positions == state.positions);
 }
 
 }  // namespace
 
 TEST_CASE("State file: a state is read whatever the order of its columns") {
-  const State<2> state = disks_of(
+  const auto disks = read<2>(
       "\xef\xbb\xbf# saved\r\n\r\nvy, x ,y,vx\r\n  # a comment\r\n4,1, 2\t,-3e-1\r\n\r\n"
       "8,5.5,6,7",
-      "a.csv", smooth_scene());
-  CHECK(state.positions == std::vector<Vec2>{{1.0, 2.0}, {5.5, 6.0}});
-  CHECK(state.velocities == std::vector<Vec2>{{-0.3, 4.0}, {7.0, 8.0}});
-  CHECK(state.spins.empty());
+      smooth_scene());
+  CHECK(disks.positions == std::vector<Vec2>{{1.0, 2.0}, {5.5, 6.0}});
+  CHECK(disks.velocities == std::vector<Vec2>{{-0.3, 4.0}, {7.0, 8.0}});
+  CHECK(disks.spins.empty());
+
+  const auto spheres = read<3>("vz,z,y,vx,x,vy\n6,3,2,4,1,5\n-6,5.5,5,-4,7,-5\n", smooth_scene(3));
+  CHECK(spheres.positions == std::vector<Vec<3>>{{1.0, 2.0, 3.0}, {7.0, 5.0, 5.5}});
+  CHECK(spheres.velocities == std::vector<Vec<3>>{{4.0, 5.0, 6.0}, {-4.0, -5.0, -6.0}});
+  CHECK(spheres.spins.empty());
 }
 
 TEST_CASE(
     "State file: spins are read where the scene has them, and are zero where the file has none") {
-  const State<2> spinning = disks_of("x,y,vx,vy,omega\n1,2,3,4,-5\n", "a.csv", rough_scene());
-  REQUIRE(spinning.spins.size() == 1);
-  CHECK(spinning.spins[0][0] == -5.0);
-  const State<2> still = disks_of(kHeader + "1,2,3,4\n", "a.csv", rough_scene());
-  REQUIRE(still.spins.size() == 1);
-  CHECK(still.spins[0][0] == 0.0);
+  const auto disks = [](const std::string& csv) { return read<2>(csv, rough_scene()).spins; };
+  CHECK(disks("x,y,vx,vy,omega\n1,2,3,4,-5\n") == std::vector{Spin<2>(-5.0)});
+  CHECK(disks(kHeader + "1,2,3,4\n") == std::vector{Spin<2>(0.0)});
+
+  const auto spheres = [](const std::string& csv) { return read<3>(csv, rough_scene(3)).spins; };
+  CHECK(spheres("omega_z,x,y,z,vx,omega_y,vy,vz,omega_x\n9,1,2,3,4,8,5,6,7\n") ==
+        std::vector{Spin<3>(7.0, 8.0, 9.0)});
+  CHECK(spheres("x,y,z,vx,vy,vz,omega_y\n1,2,3,4,5,6,-7\n") ==
+        std::vector{Spin<3>(0.0, -7.0, 0.0)});
+  CHECK(spheres(kSphereHeader + "1,2,3,4,5,6\n") == std::vector{Spin<3>(0.0, 0.0, 0.0)});
 }
 
 TEST_CASE("State file: a state may have no particles") {
-  CHECK(disks_of(kHeader, "a.csv", smooth_scene()).positions.empty());
+  CHECK(read<2>(kHeader, smooth_scene()).positions.empty());
+  CHECK(read<3>(kSphereHeader, smooth_scene(3)).positions.empty());
 }
 
 TEST_CASE("State file: a state that was written reads back to the same bits") {
-  State<2> state;
-  state.positions = {{0.1 + 0.2, 5e-324}, {10.0 - 1e-15, 8.0}, {3.0, 1.0 / 3.0}};
-  state.velocities = {{-0.0, 1e15}, {-1e-300, 123456789.123456789}, {2.0 / 3.0, -1e-17}};
-  for (const bool spins : {false, true}) {
-    if (spins) state.spins = {Spin<2>(0.1), Spin<2>(-1e-310), Spin<2>(std::nextafter(1.0, 2.0))};
-    Scene scene = spins ? rough_scene() : smooth_scene();
-    scene.walls[kLeft] = scene.walls[kRight] = std::nullopt;
-    scene.box = Vec2(20.0, 18.0);
-    const State<2> read = disks_of(state_to_csv(state), "a.csv", scene);
-    REQUIRE(read.positions.size() == 3);
-    REQUIRE(read.spins.size() == state.spins.size());
-    const auto same = [](double a, double b) {
-      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-    };
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (int k = 0; k < 2; ++k) {
-        CHECK(same(read.positions[i][k], state.positions[i][k]));
-        CHECK(same(read.velocities[i][k], state.velocities[i][k]));
-      }
-      if (spins) CHECK(same(read.spins[i][0], state.spins[i][0]));
-    }
-  }
+  check_bits<2>();
+  check_bits<3>();
 }
 
 TEST_CASE("State file: mistakes are reported with their place and what to do") {
@@ -151,6 +232,53 @@ TEST_CASE("State file: mistakes are reported with their place and what to do") {
        "a.csv:3:1: the particles of lines 2 and 3 overlap by 1 diam"},
       {kHeader + "5,2,0,0\n6,1.99999,0,0\n5,2.99999999999,0,0\n",
        "a.csv:4:1: the particles of lines 2 and 4 overlap by 1e-11 diameters"},
+      // spheres: the header
+      {"", "a.csv: the file has no header line; begin the file with the line x,y,z,vx,vy,vz",
+       smooth_scene(3)},
+      {kHeader,
+       "a.csv:1:1: the column \"z\" is missing; begin the file with the line x,y,z,vx,vy,vz",
+       smooth_scene(3)},
+      {"x,y,z,vx,vy\n", "a.csv:1:1: the column \"vz\" is missing", smooth_scene(3)},
+      {"x,y,z,vx,vy,vz,z\n", "a.csv:1:16: a second column \"z\"; remove one of them",
+       smooth_scene(3)},
+      {"x,y,z,vx,vy,vz,mass\n",
+       "a.csv:1:16: unknown column \"mass\"; the columns are x, y, z, vx, vy, vz and, for spins, "
+       "omega_x, omega_y, omega_z",
+       smooth_scene(3)},
+      {"x,y,z,vx,vy,vz,omega\n", "a.csv:1:16: unknown column \"omega\"; did you mean \"omega_",
+       rough_scene(3)},
+      {"x,y,z,vx,vy,vz,omega_z\n",
+       "a.csv:1:16: the column \"omega_z\" has no meaning where nothing spins", smooth_scene(3)},
+      {kSphereHeader, "a.csv:1:5: unknown column \"z\"", smooth_scene(2)},
+      // their numbers
+      {kSphereHeader + "1,2,3,4,5\n",
+       "a.csv:2:1: this line has 5 cells, the header has 6; give every", smooth_scene(3)},
+      {kSphereHeader + "1,2,3z,4,5,6\n", "a.csv:2:5: \"3z\" is no finite number", smooth_scene(3)},
+      {kSphereHeader + "1,2,3,4,5,nan\n", "a.csv:2:11: \"nan\" is no finite number",
+       smooth_scene(3)},
+      {kSphereHeader + "1,2,3,4,5,-1e16\n", "a.csv:2:11: vz is -1e+16; give at most 1e+15",
+       smooth_scene(3)},
+      {"x,y,z,vx,vy,vz,omega_x,omega_y,omega_z\n1,2,3,4,5,6,7,8,1e16\n",
+       "a.csv:2:17: omega_z is 1e+16; give", rough_scene(3)},
+      // their places
+      {kSphereHeader + "1,2,6.5,3,4,5\n",
+       "a.csv:2:5: z = 6.5 lies outside the box; give a number between 0 and 6", smooth_scene(3)},
+      {kSphereHeader + "1,2,5.6,3,4,5\n",
+       "a.csv:2:5: at z = 5.6 the particle overlaps the front wall; give a number between 2 and "
+       "5.5",
+       deep_scene()},
+      {kSphereHeader + "1,2,1.9,3,4,5\n",
+       "a.csv:2:5: at z = 1.9 the particle overlaps the back wall, as that is at time 0; give a "
+       "number between 2 and 5.5, or the wall the phase that it had",
+       deep_scene()},
+      // their overlaps
+      {kSphereHeader + "1,2,3,0,0,0\n\n5,5,3,0,0,0\n1,2,3.75,0,0,0\n",
+       "a.csv:5:1: the particles of lines 2 and 5 overlap by 0.25 diameters; move them apart",
+       smooth_scene(3)},
+      {kSphereHeader + "5,2,5.75,0,0,0\n5,2,0.25,0,0,0\n",
+       "a.csv:3:1: the particles of lines 2 and 3 overlap by 0.5", smooth_scene(3)},
+      {kSphereHeader + "9.75,7.75,5.75,0,0,0\n0.25,0.25,0.25,0,0,0\n",
+       "a.csv:3:1: the particles of lines 2 and 3 overlap by 0.134", smooth_scene(3)},
   };
   for (const Case& mistake : cases) {
     CAPTURE(mistake.csv);
@@ -168,6 +296,19 @@ TEST_CASE("State file: particles may touch each other or a wall, up to rounding"
   // Where walls are, nothing wraps.
   CHECK(state_refusal(kHeader + "9.5,2,3,4\n2.5,7,3,4\n2.5,0.5,3,4\n9.5,3,0,0\n", walled_scene()) ==
         "");
+
+  const auto of_spheres = [](const std::string& csv, const Scene& scene) {
+    return state_refusal(kSphereHeader + csv, scene);
+  };
+  CHECK(of_spheres("5,2,3,0,0,0\n5,2,3.9999999999995,0,0,0\n6,2,3,0,0,0\n", smooth_scene(3)) == "");
+  CHECK(of_spheres("5,2,1.9999999999995,0,0,0\n5,2,5.5,0,0,0\n", deep_scene()) == "");
+  CHECK(of_spheres("5,2,5.75,0,0,0\n5,2,0.75,0,0,0\n", smooth_scene(3)) == "");
+  // Across a periodic border these would overlap.
+  Scene flat = smooth_scene(3);
+  flat.box[2] = 2.0;
+  flat.walls[kBack] = flat.walls[kFront] =
+      Wall{.kind = WallKind::Sinusoidal, .stroke = 0.5, .frequency = 1.0, .phase = 0.75};
+  CHECK(of_spheres("5,2,1.75,0,0,0\n5,2,0.25,0,0,0\n", flat) == "");
 }
 
 TEST_CASE(
@@ -179,40 +320,27 @@ TEST_CASE(
   CHECK(state_refusal(kHeader + "10.4,2,0,0\n10.4,3,0,0\n", scene) == "");
   CHECK(says(state_refusal(kHeader + "10.6,2,0,0\n", scene), "overlaps the right wall"));
   CHECK(says(state_refusal(kHeader + "10.4,2,0,0\n10.4,2.9,0,0\n", scene), "overlap by 0.1"));
+
+  CHECK(state_refusal(kSphereHeader + "5,2,2.1,0,0,0\n", deep_scene()) == "");
+  scene = deep_scene();
+  scene.walls[kFront] =
+      Wall{.kind = WallKind::Sinusoidal, .stroke = 2.0, .frequency = 1.0, .phase = 0.75};
+  CHECK(state_refusal(kSphereHeader + "5,2,6.4,0,0,0\n5,3,6.4,0,0,0\n", scene) == "");
+  CHECK(says(state_refusal(kSphereHeader + "5,2,6.6,0,0,0\n", scene), "overlaps the front wall"));
+  CHECK(says(state_refusal(kSphereHeader + "5,2,6.4,0,0,0\n5,2.9,6.4,0,0,0\n", scene),
+             "overlap by 0.1"));
 }
 
 TEST_CASE("State file: no overlap hides, in boxes of any shape") {
-  for (const Vec2& box : {Vec2(1.2, 40.0), Vec2(2.5, 30.0), Vec2(3.1, 3.2), Vec2(1e6, 1e6)}) {
-    CAPTURE(box.x());
-    Scene scene;
-    scene.box = box;
-    for (int k = 0; k < 64; ++k) {
-      // One particle at a corner of the box or inside, the other a little less than a diameter off.
-      const double angle = 0.1 * k;
-      const Vec2 a = 0.25 * (k % 4) * box;
-      Vec2 b = a + 0.999 * Vec2(std::cos(angle), std::sin(angle));
-      for (int axis = 0; axis < 2; ++axis) b[axis] -= box[axis] * std::floor(b[axis] / box[axis]);
-      State<2> state;
-      state.positions = {a, b};
-      state.velocities.resize(2, Vec2::Zero());
-      CAPTURE(k);
-      CHECK(says(state_refusal(state_to_csv(state), scene),
-                 "the particles of lines 2 and 3 overlap"));
-    }
-  }
+  check_no_overlap_hides<2>({{1.2, 40.0}, {2.5, 30.0}, {3.1, 3.2}, {1e6, 1e6}});
+  check_no_overlap_hides<3>(
+      {{1.2, 40.0, 2.5}, {2.5, 1.1, 30.0}, {30.0, 2.3, 1.2}, {3.1, 3.2, 3.3}, {1e6, 1e6, 1e6}});
 }
 
 // Every pair looked at would take hours.
 TEST_CASE("State file: a million particles are read, each compared with its neighbours only") {
-  Scene scene;
-  scene.box = Vec2(1100.0, 1100.0);
-  State<2> state;
-  for (int i = 0; i < 1'000'000; ++i) {
-    state.positions.emplace_back(0.5 + 1.0999 * (i % 1000), 0.5 + 1.0999 * (i / 1000));
-    state.velocities.emplace_back(1.0 / (i + 1), 2.0 / 3.0);
-  }
-  const std::string csv = state_to_csv(state);
-  CHECK(disks_of(csv, "a.csv", scene).positions == state.positions);
+  check_many<2>(1000);
+  check_many<3>(40);
 }
 
 TEST_CASE("State file: a scene names its state relative to its own folder") {
@@ -230,6 +358,16 @@ TEST_CASE("State file: a scene names its state relative to its own folder") {
   CHECK(again.particles.start.file == csv_path);
   CHECK(again.particles.start.state == scene.particles.start.state);
   CHECK(says(scene_to_json(scene), "\"layout\": \"file\", \"file\": "));
+
+  // So it is with spheres.
+  folder.write("b.csv", kSphereHeader + "1,2,3,4,5,6\n5,6,4,7,8,9\n");
+  const Scene spheres = load_scene(folder.write(
+      "b.toml",
+      "[box]\nsize = [10, 8, 6]\n[particles.start]\nlayout = \"file\"\nfile = \"b.csv\"\n"));
+  CHECK(spheres.particles.count == 2);
+  CHECK(std::get<State<3>>(spheres.particles.start.state).velocities[1] == Vec<3>(7.0, 8.0, 9.0));
+  CHECK(parse_scene(scene_to_toml(spheres), "b.toml").particles.start.state ==
+        spheres.particles.start.state);
 
   // What is typed is relative to where one is.
   CHECK(load_scene("vibrated",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/physics/lattice.h"
@@ -8,10 +9,16 @@ namespace clatter::testing {
 
 /// The least distance of two of these centres through any image, and of a centre from its own
 /// images, by looking at all pairs; the search ends below `enough`.
-double least_distance(const Room<2>& room, const std::vector<Vec2>& centres, double enough = 0.0);
+template <int D>
+double least_distance(const Room<D>& room, const std::vector<Vec<D>>& centres, double enough = 0.0);
 
 /// Whether all centres lie in the box, and half a diameter or more from its walls, up to a
 /// rounding.
-bool all_inside(const Room<2>& room, const std::vector<Vec2>& centres, double rounding = 0.0);
+template <int D>
+bool all_inside(const Room<D>& room, const std::vector<Vec<D>>& centres, double rounding = 0.0);
+
+/// Every combination of walled and periodic axes.
+template <int D>
+std::vector<std::array<bool, D>> all_walls();
 
 }  // namespace clatter::testing
