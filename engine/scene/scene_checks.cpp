@@ -19,7 +19,7 @@ static std::string wall_path(int side) {
 
 /// Throws where a wall stands without the one opposite.
 static void check_pairs(const Scene& scene, const toml::table& root, const std::string& file) {
-  for (int side = 0; side < 4; ++side) {
+  for (int side = 0; side < 2 * scene.dimension(); ++side) {
     if (!scene.walls[side] || scene.walls[side ^ 1]) continue;
     const std::string path = wall_path(side);
     throw UserError(place_of(root, path, file), "[" + path + "] has no wall opposite",
@@ -34,7 +34,7 @@ static double top_speed(const Wall& wall) {
 }
 
 static void check_speeds(const Scene& scene, const toml::table& root, const std::string& file) {
-  for (int side = 0; side < 4; ++side) {
+  for (int side = 0; side < 2 * scene.dimension(); ++side) {
     const auto& wall = scene.walls[side];
     if (!wall || !wall->moves() || top_speed(*wall) <= kMaxSpeed) continue;
     throw UserError(
@@ -46,7 +46,7 @@ static void check_speeds(const Scene& scene, const toml::table& root, const std:
 
 /// Throws where moving walls leave no room for a particle between them.
 static void check_room(const Scene& scene, const toml::table& root, const std::string& file) {
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
     const double room = scene.clear_box()[axis];
     // The box itself is wider than a diameter.
     if (room > 1.0) continue;
@@ -89,7 +89,7 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
                     "a Gaussian spreads particles where they are now and then, not flights",
                     "set measure.estimator = \"snapshot\" and measure.interval, or remove it");
   }
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
     const double cell = scene.box[axis] / measure.cells[static_cast<std::size_t>(axis)];
     if (2.0 * measure.width >= cell) continue;
     throw UserError(place_of(root, "measure.width", file),

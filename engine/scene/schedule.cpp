@@ -32,7 +32,7 @@ static void require_live(const std::vector<Override>& settings) {
 }
 
 static void require_same_sides(const Scene& before, const Scene& now) {
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < before.dimension(); ++axis) {
     if (before.periodic(axis) == now.periodic(axis)) continue;
     throw UserError({}, "walls come or go", "change what the walls do, not which there are");
   }

@@ -10,6 +10,8 @@ namespace clatter::testing {
 
 /// The smallest scene.
 inline const std::string kParticles = "[particles]\ncount = 10\n";
+/// The smallest of spheres.
+inline const std::string kSpheres = "[box]\nsize = [20, 20, 20]\n" + kParticles;
 
 /// The message with which a scene's text is refused; empty where it is not.
 inline std::string refusal(const std::string& text, const std::vector<Override>& overrides = {}) {

@@ -182,6 +182,20 @@ TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
       {kParticles + "[walls.left]\nkind = \"sawtooth\"\nstroke = 19.5\nfrequency = 1\n"
                     "[walls.right]\nkind = \"static\"\n",
        "s.toml:5:1: where the walls move farthest in, 0.5 diameters are left between them"},
+      // walls along z
+      {kParticles + "[walls.front]\nkind = \"static\"\n",
+       "s.toml:3:1: unknown key 'front'; the keys here are left, right, bottom, top"},
+      {kSpheres + "[walls.back]\nkind = \"static\"\n",
+       "s.toml:5:1: [walls.back] has no wall opposite; add [walls.front], or remove this one"},
+      {kSpheres + "[walls.back]\nkind = \"static\"\n[walls.front]\nkind = \"sawtooth\"\n"
+                  "stroke = 10\nfrequency = 1e15\n",
+       "s.toml:10:1: the wall would move at a speed of 1e+16; lower its stroke or its frequency"},
+      {kSpheres + "[walls.back]\nkind = \"sawtooth\"\nstroke = 19.5\nfrequency = 1\n"
+                  "[walls.front]\nkind = \"static\"\n",
+       "s.toml:7:1: where the walls move farthest in, 0.5 diameters are left between them"},
+      {kSpheres + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n"
+                  "width = 0.9\ncells = [20, 20, 10]\n",
+       "s.toml:9:1: the Gaussian falls between the centres of cells of 2"},
       // rough particles
       {kParticles + "friction = -1\n",
        "s.toml:3:1: 'particles.friction' cannot be -1; give a number of at least 0, or inf"},

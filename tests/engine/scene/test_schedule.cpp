@@ -108,4 +108,7 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
     for (const char* part : parts) CHECK(says(message, part));
   }
   CHECK(says(refusal("change = 3\n" + kBox), "cannot be 3"));
+  const std::string walls =
+      "'walls.back' = { kind = 'static' }, 'walls.front' = { kind = 'static' }";
+  CHECK(says(refusal(kSpheres + head + "set = { " + walls + " }\n"), "walls come or go"));
 }
