@@ -54,7 +54,7 @@ struct Open {
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
-  VecX shift;  ///< of the particles that are kept; empty: none
+  VecX shift = {};  ///< of the particles that are kept; empty: none
 };
 
 }  // namespace command

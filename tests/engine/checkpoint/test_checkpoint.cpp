@@ -237,7 +237,8 @@ TEST_CASE("Checkpoint: lengths beyond the end of the file are refused, not alloc
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(rows), UserError);
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(text), UserError);
   AnyRunState saved;
-  const std::string bytes = "\2" + std::string(1000, '\0');  // neither disks nor spheres
+  std::string bytes(1000, '\0');
+  bytes[0] = 2;  // neither disks nor spheres
   CHECK_THROWS_AS(ArchiveReader(bytes, "a")(saved), UserError);
   ArchiveReader reader(writer.written(), "a");
   reader(length);
