@@ -37,7 +37,9 @@ static nlohmann::json status(const Frame& frame) {
   if (frame.state_hash) told["hash"] = fmt::format("{:016x}", *frame.state_hash);
   if (frame.partners) told["partners"] = *frame.partners;
   if (frame.contact_time_error) told["elasticised"] = frame.contact_time_error->elasticised;
-  if (frame.residuals) told["residuals"] = frame.residuals->residuals.largest();
+  if (frame.residuals && !frame.residuals->residuals.equations.empty()) {
+    told["residuals"] = frame.residuals->residuals.largest();
+  }
   return told;
 }
 

@@ -19,7 +19,7 @@ struct Residuals {
   /// Takes a further window of the same cells into account.
   template <int D>
   void include(const Imbalances<D>& window);
-  /// The largest magnitude of each equation's residuals; [D + 2].
+  /// The largest magnitude of each equation's residuals; [D + 2], empty before the first window.
   std::vector<double> largest() const;
   /// Those of one equation; [cells], empty before the first window.
   std::vector<double> map(Field residual) const;
