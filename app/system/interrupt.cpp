@@ -32,6 +32,8 @@ static void ask_to_end(int signal) {
 void catch_interrupts() {
   std::signal(SIGINT, ask_to_end);
   std::signal(SIGTERM, ask_to_end);
+  std::signal(SIGHUP, ask_to_end);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {

@@ -55,6 +55,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Interrupts
     sigemptyset(&blocked);
     sigaddset(&blocked, SIGINT);
     sigaddset(&blocked, SIGTERM);
+    sigaddset(&blocked, SIGHUP);
     posix_spawnattr_setsigmask(&setup.attributes, &blocked);
     posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   }

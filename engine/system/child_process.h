@@ -13,7 +13,7 @@ namespace clatter {
 
 /// Whether an interrupt of our program, at the terminal or by a batch system, reaches its children.
 enum class Interrupts {
-  Shielded,  ///< a child has a process group of its own and blocks SIGINT and SIGTERM
+  Shielded,  ///< a child has a process group of its own and blocks SIGINT, SIGTERM and SIGHUP
   Shared     ///< a child gets what we get
 };
 

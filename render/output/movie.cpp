@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ranges>
+#include <string_view>
 
 #include "engine/error.h"
 #include "engine/system/write_file.h"
@@ -127,6 +129,7 @@ void Movie::end_piece() {
   }
   if (!encoder_->wait()) fail(*encoder_);
   encoder_.reset();
+  require_pictures(piece_path(piece_), next_ - piece_);
   // A checkpoint may count on it from now on.
   if (!file_.sync()) fail(std::strerror(errno));
 }
@@ -159,6 +162,16 @@ void Movie::join() {
     fail(joiner);
   }
   try {
+    require_pictures(joined, next_ - options_.begin);
+  } catch (const RunError&) {
+    unlink(joined.c_str());
+    for (long piece = options_.begin, after; piece < next_; piece = after) {
+      after = std::min(start_of_piece(piece) + kPiece, next_);
+      require_pictures(piece_path(piece), after - piece);
+    }
+    throw;
+  }
+  try {
     rename_synced(joined, path_);
   } catch (const RunError& error) {
     throw RunError(error.what() + place_of_pieces());
@@ -170,17 +183,33 @@ void Movie::tidy() {
   if (encoder_) {
     encoder_->kill();
     const std::filesystem::path piece = piece_path(piece_);
-    if (!has_pictures(piece)) unlink(piece.c_str());
+    if (pictures_in(piece) == 0) unlink(piece.c_str());
   }
   rmdir(folder_.c_str());
 }
 
-bool Movie::has_pictures(const std::filesystem::path& piece) const {
+// As many as a player would find; -1 where the encoder cannot be started.
+long Movie::pictures_in(const std::filesystem::path& film) const {
+  std::string list;
   try {
-    return ChildProcess(probing_command(program_, piece)).wait();
+    ChildProcess reader(listing_command(program_, film));
+    reader.wait();
+    list = reader.new_words();
   } catch (const RunError&) {
-    return true;  // for all that is known
+    return -1;
   }
+  long pictures = 0;
+  for (const auto line : std::views::split(list, '\n')) {
+    pictures += std::string_view(line.begin(), line.end()).starts_with("0,");
+  }
+  return pictures;
+}
+
+// An encoder may lose pictures and succeed, for one where a disk is full at the end of a film.
+void Movie::require_pictures(const std::filesystem::path& film, long count) {
+  const long found = pictures_in(film);
+  if (found == count) return;
+  fail(fmt::format("{} has {} of {} pictures; is the disk full?", film.string(), found, count));
 }
 
 void Movie::fail(ChildProcess& process) {

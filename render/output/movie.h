@@ -37,7 +37,8 @@ class Movie final : public FrameSink {
   void end_piece();
   void join();
   void tidy();
-  bool has_pictures(const std::filesystem::path& piece) const;
+  long pictures_in(const std::filesystem::path& film) const;
+  void require_pictures(const std::filesystem::path& film, long count);
   std::string place_of_pieces() const;
   [[noreturn]] void fail(ChildProcess& process);
   [[noreturn]] void fail(const std::string& reason);

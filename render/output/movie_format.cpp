@@ -116,10 +116,10 @@ std::vector<std::string> joining_command(const std::string& encoder, const Movie
   return all;
 }
 
-std::vector<std::string> probing_command(const std::string& encoder,
+std::vector<std::string> listing_command(const std::string& encoder,
                                          const std::filesystem::path& file) {
-  return {encoder,     "-v",           "error", "-nostdin", "-i", name_of(file), "-c", "copy",
-          "-abort_on", "empty_output", "-f",    "null",     "-"};
+  return {encoder, "-v", "error", "-nostdin", "-i",       name_of(file), "-map",
+          "0:v:0", "-c", "copy",  "-f",       "framecrc", "pipe:2"};
 }
 
 }  // namespace clatter

@@ -31,8 +31,9 @@ std::vector<std::string> joining_command(const std::string& encoder, const Movie
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file);
 
-/// The command that succeeds where a film has at least one picture.
-std::vector<std::string> probing_command(const std::string& encoder,
+/// The command that writes a line that begins with "0," for each picture of a film on its standard
+/// error.
+std::vector<std::string> listing_command(const std::string& encoder,
                                          const std::filesystem::path& file);
 
 }  // namespace clatter

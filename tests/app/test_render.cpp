@@ -263,6 +263,26 @@ TEST_CASE("Render: an mp4 plays as far as it got when run and encoder are killed
   CHECK(probe(shell, "film.mp4.part/000060.mp4") == "160,120,60\n");
 }
 
+TEST_CASE("Render: a film is the same without standard streams") {
+  const Shell shell;
+  const std::string line = kRender + "--to 2 --out ";
+  REQUIRE(shell.run(line + "film.mp4").code == 0);
+  const std::string film = shell.read("film.mp4");
+  for (const std::string closed : {"0<&-", "2>&-", "1>&- 2>&-", "0<&- 1>&- 2>&-"}) {
+    CAPTURE(closed);
+    CHECK(shell.run(line + "closed.mp4 --overwrite " + closed).code == 0);
+    CHECK(shell.read("closed.mp4") == film);
+  }
+}
+
+TEST_CASE("Render: a film beyond the largest file that the system allows is an error") {
+  const Shell shell;
+  const Outcome outcome = shell.run("ulimit -f 40; " + kRender + "--to 40 --out film.mp4");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "film.mp4"));
+  CHECK_FALSE(std::filesystem::exists(shell.path("film.mp4")));
+}
+
 TEST_CASE("Render: an interrupted film plays up to where it got") {
   const Shell shell;
   const Outcome outcome =

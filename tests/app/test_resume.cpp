@@ -67,10 +67,10 @@ TEST_CASE("Resume: a measurement of a given accuracy ends in the same result") {
 
 TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and names it") {
   const Shell shell;
-  const std::string interrupted = "timeout --preserve-status -s INT 1 ";
-  const auto leaves = [&](const std::string& line, const std::string& file) {
+  const auto leaves = [&](const std::string& line, const std::string& file,
+                          const std::string& signal = "INT") {
     CAPTURE(line);
-    const Outcome outcome = shell.run(interrupted + line);
+    const Outcome outcome = shell.run("timeout --preserve-status -s " + signal + " 1 " + line);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 130);
     CHECK(says(outcome.err, "go on with --resume " + file + "\n"));
@@ -78,13 +78,13 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
   };
   shell.run("mkdir folder && clatter check vibrated > folder/mine.toml");
   leaves("clatter measure vibrated --until 1e6 --out folder/r.json", "folder/r.checkpoint");
-  leaves("clatter measure vibrated --until 1e6", "vibrated.checkpoint");
+  leaves("clatter measure vibrated --until 1e6", "vibrated.checkpoint", "TERM");
   shell.run("mkfifo pipe");
   leaves("clatter measure folder/mine.toml --until 1e6 --out pipe & cat pipe > piped; wait $!",
          "mine.checkpoint");
   CHECK(json::accept(shell.read("piped")));
   CHECK(shell.run("test -p pipe").code == 0);
-  leaves("clatter measure vibrated --until 1e6 --checkpoint c", "c");
+  leaves("clatter measure vibrated --until 1e6 --checkpoint c", "c", "HUP");
   leaves("clatter render vibrated --size 64x64 --to 1e5 --out film.mp4", "film.checkpoint");
   leaves("clatter render vibrated --size 64x64 --to 1e5 --out frames/", "frames.checkpoint");
 }

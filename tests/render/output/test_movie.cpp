@@ -233,6 +233,55 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Movie: an encoder that loses pictures and succeeds is an error") {
+  const TemporaryFolder folder, programs;
+  const auto encoder =
+      make_encoder(programs / "encoder",
+                   "case \"$*\" in *rawvideo*) exec cat >/dev/null ;; esac; exec ffmpeg \"$@\"");
+  {
+    Movie movie(folder / "film.mp4", options(), encoder);
+    CHECK_THROWS_WITH_AS(write_film(movie, 100), doctest::Contains("has 0 of 60 pictures"),
+                         RunError);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
+}
+
+TEST_CASE("Movie: a joined film that lacks pictures is an error, and the pieces stay") {
+  const TemporaryFolder folder, programs;
+  // As where the disk is full: ffmpeg succeeds although the end of the film could not be written.
+  const auto encoder = make_encoder(programs / "encoder",
+                                    "ffmpeg \"$@\" || exit 1\n"
+                                    "for last; do :; done\n"
+                                    "case \"$*\" in *'-f concat'*) truncate -s 3000 "
+                                    "\"${last#file:}\" ;; esac");
+  for (const std::string name : {"film.mp4", "film.webm", "film.mkv", "film.gif"}) {
+    CAPTURE(name);
+    {
+      Movie movie(folder / name, options(), encoder);
+      const std::string named =
+          " of 80 pictures; is the disk full?; what was filmed before is in " +
+          (folder / (name + ".part")).string();
+      CHECK_THROWS_WITH_AS(write_film(movie, 80), doctest::Contains(named.c_str()), RunError);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder / name));
+    const std::string extension = std::filesystem::path(name).extension();
+    CHECK(frames_of(folder / (name + ".part/000000" + extension)) == 60);
+    CHECK(frames_of(folder / (name + ".part/000060" + extension)) == 20);
+    CHECK_FALSE(std::filesystem::exists(folder / (name + ".part/joined" + extension)));
+  }
+}
+
+TEST_CASE("Movie: an earlier piece that was cut is an error that names it") {
+  const TemporaryFolder folder;
+  Movie movie(folder / "film.mp4", options());
+  for (int i = 0; i < 70; ++i) movie.add(frame(i), {});
+  const auto piece = folder / "film.mp4.part/000000.mp4";
+  std::filesystem::resize_file(piece, std::filesystem::file_size(piece) / 2);
+  const std::string named = piece.string() + " has ";
+  CHECK_THROWS_WITH_AS(movie.finish(Ending::Whole), doctest::Contains(named.c_str()), RunError);
+  CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
+}
+
 TEST_CASE("Movie: an encoder that dies later leaves the pieces before, and those are named") {
   const TemporaryFolder folder, programs;
   const auto encoder =
