@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
 namespace clatter {
@@ -25,11 +24,9 @@ using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Col
 /// The vectors of a list as columns.
 template <int D>
 Vectors as_columns(const std::vector<Vec<D>>& vectors) {
-  Vectors columns(D, static_cast<Eigen::Index>(vectors.size()));
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
-    columns.col(static_cast<Eigen::Index>(i)) = vectors[i];
-  }
-  return columns;
+  using Columns = Eigen::Matrix<double, D, Eigen::Dynamic>;
+  const double* first = vectors.empty() ? nullptr : vectors.front().data();
+  return Eigen::Map<const Columns>(first, D, static_cast<Eigen::Index>(vectors.size()));
 }
 
 }  // namespace clatter

@@ -32,7 +32,7 @@ struct RunResult {
   double elasticised_share = kNotANumber;
   std::array<double, kComparedMeans> means{};  ///< but kHeatFlux, which needs a sign; NaN: none
   ProfileValues density{};                     ///< along the axis
-  ProfileValues heat_flux{};                   ///< likewise
+  ProfileValues heat_flux{};                   ///< profile of the heat flux
 };
 
 /// How long runs are.

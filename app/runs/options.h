@@ -25,11 +25,11 @@ struct CommonOptions {
 
 /// Flags of commands that can put a run aside and take it up again.
 struct CheckpointOptions {
-  std::string resume;    ///< checkpoint from which the run goes on; empty: none, from the start
+  std::string resume;    ///< checkpoint to resume; empty: the run starts at time 0
   std::string file;      ///< checkpoint that is kept up to date; empty: none
   double every = 600.0;  ///< how often, in seconds of wall time
 
-  /// A run that goes on needs no file of a start state.
+  /// A resumed run does not read the file of its start state.
   StartFile start_file() const { return resume.empty() ? StartFile::Read : StartFile::Skip; }
 };
 

@@ -2,9 +2,9 @@
 
 namespace clatter {
 
-/// From now on SIGINT, SIGTERM and SIGHUP only ask the run to end: it saves what there is and the
-/// program exits with 130. Another signal, not right after the first, ends the program at once. A
-/// file that grows beyond the system's limit is an error of writing and not a signal (SIGXFSZ).
+/// Installs the signal handlers. SIGINT, SIGTERM and SIGHUP ask the run to end: it saves its
+/// results and exits with 130. A second signal, 0.3 s later or more, ends the program at once.
+/// SIGXFSZ is ignored: a file beyond the system's size limit is a write error.
 void catch_interrupts();
 
 /// Whether the run has been asked to end.

@@ -8,8 +8,8 @@ namespace clatter {
 void VelocityHistogram::add(const Snapshot& snapshot) {
   // What is older than about this many frames counts little.
   constexpr double kForgets = 1.0 / 600.0;
+  if (snapshot.count() == 0) return;
   for (int axis : {0, 1}) {
-    if (snapshot.count() == 0) return;
     const auto velocities = snapshot.velocities.row(axis);
     const double deviation =
         std::sqrt(velocities.squaredNorm() / static_cast<double>(snapshot.count()));

@@ -19,7 +19,7 @@ Recording record_panel(Controls& controls, std::optional<double> filmed) {
   }
   if (filmed) {
     const std::string label = fmt::format("Stop film, {:.0f} %###film", 100.0 * *filmed);
-    if (controls.button("film", label.c_str(), "What there is of the film by now is kept", width)) {
+    if (controls.button("film", label.c_str(), "Keeps the frames filmed so far", width)) {
       asked = Recording::StopFilm;
     }
   } else if (controls.button("film", "Film###film",

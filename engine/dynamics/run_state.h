@@ -21,7 +21,7 @@ struct EventCounts {
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
   std::uint64_t elasticised = 0;       ///< disk-disk collisions that the TC model made elastic
-  std::uint64_t elasticised_wall = 0;  ///< likewise with walls
+  std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
   std::uint64_t cell_crossings = 0;
   std::uint64_t stale = 0;  ///< predictions found out of date because the partner met another first
 

@@ -16,7 +16,7 @@ CellSums& CellSums::operator+=(const CellSums& other) {
 template <int D>
 CellSums block_sums(const CellSums& cells, const FieldGrid<D>& grid, const IntVec<D>& block) {
   const std::size_t size = cells.rows.size() / grid.size();
-  const IntVec<D> blocks = (grid.cells().array() + block.array() - 1) / block.array();
+  const IntVec<D> blocks = block_counts(grid, block);
   CellSums sums{cells.time, cells.kinetic_weight,
                 std::vector<double>(static_cast<std::size_t>(blocks.prod()) * size)};
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {

@@ -32,8 +32,13 @@ void visit(Archive& io, CellSums& sums) {
   io(time, kinetic_weight, rows);
 }
 
-/// Sums of a grid added up over blocks of so many cells along each axis; the last block along an
-/// axis may have fewer. The rows of the blocks, in the order of cells.
+/// Number of blocks of `block` cells along each axis; the last along an axis may have fewer cells.
+template <int D>
+IntVec<D> block_counts(const FieldGrid<D>& grid, const IntVec<D>& block) {
+  return (grid.cells().array() + block.array() - 1) / block.array();
+}
+
+/// The sums of a grid's cells, added up over these blocks; the rows of the blocks, x fastest.
 template <int D>
 CellSums block_sums(const CellSums& cells, const FieldGrid<D>& grid, const IntVec<D>& block);
 

@@ -102,7 +102,7 @@ class FieldGrid {
 
   /// Cuts the line from `from` to `from + along` at every border of cells and calls visit(index,
   /// share) for each piece, from first to last, with its share of the length; a point is one piece
-  /// of share 1. The attributes are measured: without them fields take a tenth more time.
+  /// of share 1. Without the attributes, fields take 4 % more time (`clatter bench fields`).
   template <class Visit>
   [[gnu::noinline]] void cut(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
     walk(

@@ -23,8 +23,8 @@ struct CellAverages {
   std::array<S, kSpinSize<D>> spin{};  ///< sum omega
   S spin_energy{};                     ///< sum I omega^2 / 2
   Tensor transfer{};                   ///< of momentum l along k in collisions, per time
-  Vector energy_transfer{};            ///< of energy, likewise
-  S dissipation{};                     ///< energy that collisions of particles gave, per time
+  Vector energy_transfer{};  ///< energy transfer of collisions, sum of branch vector times energy
+  S dissipation{};           ///< energy that collisions of particles gave, per time
 
   /// E = sum (v^2 + I omega^2)/2.
   S energy() const {

@@ -26,7 +26,7 @@ struct Measured {
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;                   ///< of bulk driving, each of all particles
   std::uint64_t elasticised = 0;             ///< disk-disk collisions that t_c made elastic
-  std::uint64_t elasticised_wall = 0;        ///< likewise with walls
+  std::uint64_t elasticised_wall = 0;        ///< collisions with walls that t_c made elastic
   Estimate temperature;                      ///< T
   std::vector<Estimate> axis_temperatures;   ///< [D] T_k
   std::optional<Estimate> spin_temperature;  ///< T_rot = I <omega^2>, where spins are carried

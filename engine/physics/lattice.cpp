@@ -9,7 +9,7 @@
 namespace clatter {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// A grid of points over the room. A primitive lattice takes them all. A face-centred one takes
 /// every second, those whose numbers along the axes have an even sum, like the black fields of a
@@ -31,7 +31,7 @@ double span(const Room<D>& room, int axis) {
 template <int D>
 double spacing(const Room<D>& room, int axis, std::int64_t n) {
   const std::int64_t gaps = room.walled[axis] ? n - 1 : n;
-  return gaps > 0 ? span(room, axis) / static_cast<double>(gaps) : kInfinity;
+  return gaps > 0 ? span(room, axis) / static_cast<double>(gaps) : kUnlimited;
 }
 
 /// Distance of two neighbouring sites in a row along an axis of n points. In a face-centred lattice
@@ -39,13 +39,13 @@ double spacing(const Room<D>& room, int axis, std::int64_t n) {
 template <int D>
 double distance_in_row(const Room<D>& room, bool centred, int axis, std::int64_t n) {
   if (!centred) return spacing(room, axis, n);
-  return !room.walled[axis] || n > 2 ? 2.0 * spacing(room, axis, n) : kInfinity;
+  return !room.walled[axis] || n > 2 ? 2.0 * spacing(room, axis, n) : kUnlimited;
 }
 
 /// Least distance between two sites of the grid.
 template <int D>
 double least_distance(const Room<D>& room, const Grid<D>& grid) {
-  double least = kInfinity;
+  double least = kUnlimited;
   for (int k = 0; k < D; ++k) {
     least = std::min(least, distance_in_row(room, grid.centred, k, grid.points[k]));
     for (int l = 0; grid.centred && l < k; ++l) {

@@ -158,18 +158,17 @@ static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid
   const int edge = (cells.maxCoeff() + kMaxArrows - 1) / kMaxArrows;
   ArrowMap map{arrows, edge * grid.widths(), {}};
   if (!(sums.time > 0.0)) return map;
-  const CellSums blocks = block_sums<D>(sums, grid, IntVec<D>::Constant(edge));
-  for (std::size_t block = 0; block * layout.size < blocks.rows.size(); ++block) {
+  const IntVec<D> block = IntVec<D>::Constant(edge);
+  const IntVec<D> counts = block_counts(grid, block);
+  const CellSums blocks = block_sums(sums, grid, block);
+  for (int number = 0; number < counts.prod(); ++number) {
     IntVec<D> first;
-    auto index = static_cast<int>(block);
-    for (int axis = 0; axis < D; ++axis) {
-      const int count = (cells[axis] + edge - 1) / edge;
-      first[axis] = index % count * edge;
-      index /= count;
+    for (int axis = 0, rest = number; axis < D; rest /= counts[axis++]) {
+      first[axis] = rest % counts[axis] * edge;
     }
-    const IntVec<D> end = cells.cwiseMin(first + IntVec<D>::Constant(edge));
+    const IntVec<D> end = cells.cwiseMin(first + block);
     const double measure = (end - first).prod() * grid.cell_measure();
-    const auto averages = averages_of(layout, blocks, block, measure);
+    const auto averages = averages_of(layout, blocks, static_cast<std::size_t>(number), measure);
     Vec<D> value;
     for (int axis = 0; axis < D; ++axis) value[axis] = field_value(Field(arrows, axis), averages);
     if (value.hasNaN()) continue;

@@ -15,7 +15,7 @@ inline constexpr std::array<Field, 5> kProfiledFields = {
     Quantity::Density, Quantity::Temperature, Field(Quantity::Stress, 0, 0),
     Field(Quantity::HeatFlux, 0), Quantity::Dissipation};
 
-/// Profiles of a run that goes on, along x, from when it is made.
+/// Profiles along x of a running simulation, averaged since this observer was made.
 template <int D>
 class LiveProfile {
  public:

@@ -141,15 +141,24 @@ void Movie::finish(Ending ending) {
   if (ending == Ending::Whole) std::filesystem::remove_all(folder_);
 }
 
+// Of the whole film up to now, in order.
+std::vector<Movie::Piece> Movie::pieces() const {
+  std::vector<Piece> all;
+  for (long first = options_.begin, after; first < next_; first = after) {
+    after = std::min(start_of_piece(first) + kPiece, next_);
+    all.push_back({piece_path(first), after - first});
+  }
+  return all;
+}
+
 void Movie::join() {
   const std::filesystem::path list = folder_ / "pieces.txt";
-  std::string pieces = "ffconcat version 1.0\n";
-  for (long piece = options_.begin, after; piece < next_; piece = after) {
-    after = std::min(start_of_piece(piece) + kPiece, next_);
-    pieces += fmt::format("file {}\nduration {:.9f}\n", piece_path(piece).filename().string(),
-                          static_cast<double>(after - piece) / options_.fps);
+  std::string text = "ffconcat version 1.0\n";
+  for (const Piece& piece : pieces()) {
+    text += fmt::format("file {}\nduration {:.9f}\n", piece.path.filename().string(),
+                        static_cast<double>(piece.count) / options_.fps);
   }
-  write_file(list, pieces);
+  write_file(list, text);
 
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
@@ -165,10 +174,8 @@ void Movie::join() {
     require_pictures(joined, next_ - options_.begin);
   } catch (const RunError&) {
     unlink(joined.c_str());
-    for (long piece = options_.begin, after; piece < next_; piece = after) {
-      after = std::min(start_of_piece(piece) + kPiece, next_);
-      require_pictures(piece_path(piece), after - piece);
-    }
+    // A piece that has changed since is the reason to name.
+    for (const Piece& piece : pieces()) require_pictures(piece.path, piece.count);
     throw;
   }
   try {

@@ -32,7 +32,13 @@ class Movie final : public FrameSink {
 
  private:
   std::filesystem::path piece_path(long first) const;
+  struct Piece {
+    std::filesystem::path path;
+    long count;  // of its pictures
+  };
+
   long start_of_piece(long number) const;
+  std::vector<Piece> pieces() const;
   void start_piece();
   void end_piece();
   void join();
