@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace clatter {
 
@@ -17,6 +18,7 @@ double robust_extent(std::vector<double> values) {
 }
 
 double round_up(double value) {
+  value = std::clamp(value, ColourRange::kLeastWidth, ColourRange::kLargestEnd);
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
     // The slack keeps rounding errors from lifting a value that is round already.
@@ -41,22 +43,34 @@ double SteadyExtent::follow(double extent, bool hold) {
   return current_ > 0.0 ? current_ : 1.0;
 }
 
-std::vector<double> round_ticks(double low, double high, int count) {
-  const double rough = (high - low) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10.0 * power;
-  for (double candidate : {5.0, 2.0, 1.0}) {
-    if (rough <= candidate * power * (1.0 + 1e-9)) step = candidate * power;
-  }
+// Round values in [low, high], `step` apart.
+static std::vector<double> multiples_of(double step, double low, double high, int most) {
   std::vector<double> ticks;
   const double slack = 1e-9 * (high - low);
   // Counted from the first: of a range of few roundings, tick numbers themselves have no
   // successors.
   const double first = std::ceil((low - slack) / step);
-  for (int i = 0; (first + i) * step <= high + slack && i <= 2 * count; ++i) {
+  for (int i = 0; (first + i) * step <= high + slack && i <= most; ++i) {
     ticks.push_back((first + i) * step + 0.0);  // + 0: no -0
   }
-  return ticks.size() > 1 ? ticks : round_ticks(low, high, count + 1);
+  return ticks;
+}
+
+std::vector<double> round_ticks(double low, double high, int count) {
+  // A finer step finds two ticks wherever two round numbers can be told apart.
+  constexpr int kFiner = 8;
+  for (int parts = count; parts <= count + kFiner; ++parts) {
+    const double rough = (high - low) / parts;
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    double step = 10.0 * power;
+    for (double candidate : {5.0, 2.0, 1.0}) {
+      if (rough <= candidate * power * (1.0 + 1e-9)) step = candidate * power;
+    }
+    const std::vector<double> ticks = multiples_of(step, low, high, 2 * parts);
+    const auto no_rise = std::ranges::adjacent_find(ticks, std::greater_equal());
+    if (ticks.size() > 1 && no_rise == ticks.end()) return ticks;
+  }
+  return {low, high};
 }
 
 // The power of ten of the first digit; the slack is for round numbers that are not exact.

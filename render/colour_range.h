@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/view.h"
+
 namespace clatter {
 
 /// The 98th percentile of the magnitudes of `values`, without the few that would drown the rest;
@@ -10,6 +12,7 @@ namespace clatter {
 double robust_extent(std::vector<double> values);
 
 /// The next round number at or above `value` > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten.
+/// Values beyond the limits of colour ranges count as these limits.
 double round_up(double value);
 
 /// The last round number at or below `value` > 0: 1, 2 or 5 times a power of ten.
@@ -30,7 +33,8 @@ class SteadyExtent {
   bool held_ = false;
 };
 
-/// Round values in [low, high], about `count` of them and at least two, in rising order.
+/// Round values in [low, high], about `count` of them and at least two, in rising order; the two
+/// ends where no two round values lie between them. The width of the range is an ordinary number.
 std::vector<double> round_ticks(double low, double high, int count);
 
 /// A tick's value, with as many digits as ticks `step` apart need.

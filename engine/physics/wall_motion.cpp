@@ -138,19 +138,30 @@ double contact_with_ramp(const Approach& particle, double number) {
 
 // The search begins when the particle gets near the places where the wall goes, and proceeds from
 // crest to crest. A particle that a crest finds behind the wall has been hit; one that it leaves in
-// front can be hit only after it has fallen to the crest's height, and the search goes on there. If
-// it stays below for a period it is hit, and a parabola comes down to a height twice at most, so
+// front can be hit only after it has fallen to the crest's height, and the search continues there.
+// If it stays below for a period it is hit, and a parabola comes down to a height twice at most, so
 // there are few crests to look at.
 //
 // Near means a stroke away from the wall's extreme places: the rounding of the height at the start
 // must not decide about particles that touch the wall there.
+//
+// The search ends for every input. Times after kMaxPeriods periods are too coarse to tell one
+// period from the next, and the wall passes its innermost place between any two of them: the
+// contact is the particle's arrival there. Before that, each crest is later than the last one. A
+// particle that kMaxCrests crests leave in front has come down to their height each time, and only
+// rounding keeps it there.
 double contact_with_moving(const Approach& particle) {
+  constexpr double kMaxPeriods = 0x1p51;
+  constexpr int kMaxCrests = 1000;
   const WallMotion& motion = particle.motion;
   const bool ramps = motion.path == WallPath::Sawtooth;
   // Periods from t = 0 to the first crest, in (0,1].
   const double lead = 1.0 - (ramps ? motion.phase : fraction(motion.phase - 0.25));
-  double t = particle.time_to(innermost_travel(motion) + motion.stroke);
-  for (double number = 0.0; t < kNever; ++number) {
+  const double innermost = innermost_travel(motion);
+  double t = particle.time_to(innermost + motion.stroke);
+  if (!(motion.frequency * t < kMaxPeriods)) return particle.time_to(innermost);
+  double number = 0.0;
+  for (int crests = 0; crests < kMaxCrests && motion.frequency * t < kMaxPeriods; ++crests) {
     number = std::max(number, std::ceil(motion.frequency * t - lead));
     const double crest = (number + lead) / motion.frequency;
     const double contact =
@@ -159,8 +170,9 @@ double contact_with_moving(const Approach& particle) {
     const double gap = ramps ? gap_to_ramp(particle, number, crest) : gap_to_wave(particle, crest);
     t = crest + fall_time(gap, particle.velocity(crest), particle.acceleration);
     if (t == crest) return crest;
+    ++number;
   }
-  return kNever;
+  return t;
 }
 
 }  // namespace

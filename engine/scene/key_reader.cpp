@@ -209,10 +209,12 @@ std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& 
     range = {ColourRange::Auto};
   } else if (name == "locked") {
     range = {ColourRange::Locked};
-  } else if (ends && (*ends)[0] < (*ends)[1]) {
+  } else if (ends && (*ends)[1] - (*ends)[0] >= ColourRange::kLeastWidth) {
     range = {ColourRange::Given, {(*ends)[0], (*ends)[1]}};
   } else {
-    return "\"auto\", \"locked\" or two numbers [low, high] with low < high";
+    return "\"auto\", \"locked\" or two numbers [low, high] with low < high, neither beyond " +
+           number_text(limits.highest) + " nor closer than " +
+           number_text(ColourRange::kLeastWidth);
   }
   return "";
 }

@@ -61,6 +61,16 @@ inline constexpr double kMaxLength = 1e6;
 inline constexpr double kMaxFrequency = 1e15;
 inline constexpr double kMaxPhase = 1e6;
 inline constexpr double kMinInertia = 1e-9;
+/// Limits of the times of [view] and of its speed: so many of one fit into another, and the clock
+/// can count them.
+inline constexpr double kMinViewTime = 1e-30;
+inline constexpr double kMaxViewTime = 1e30;
+/// Most samples of the snapshot estimator that an averaging window holds.
+inline constexpr double kMaxWindowSamples = 1e6;
+/// Limits of the camera: a picture as wide as a thousandth of a particle or a thousand boxes, and
+/// as far away.
+inline constexpr double kMinCameraWidth = 1e-3;
+inline constexpr double kMaxCameraWidth = 1e9;
 /// A wall that gives more than it gets, Sec. 3.1 a, has a restitution above 1.
 inline constexpr double kMaxWallRestitution = 10.0;
 
@@ -255,8 +265,9 @@ template <class Visitor>
 void visit_camera(Visitor& io, CameraKey& key) {
   io.value("time", key.time, at_least(0.0));
   io.value("follow", key.follow, at_least(0.0));
-  io.value("centre", key.centre, Limits{}, key.follow ? kNotBesideFollow : kOptional);
-  io.value("width", key.width, above(0.0));
+  io.value("centre", key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
+           key.follow ? kNotBesideFollow : kOptional);
+  io.value("width", key.width, between(kMinCameraWidth, kMaxCameraWidth));
 }
 
 /// The keys of [view] in a box of so many dimensions; the list comes last, because in a file it
@@ -265,23 +276,25 @@ template <class Visitor>
 void visit_view(Visitor& io, View& view, int dimension) {
   io.choice("colour_by", view.colour_by, kColourings);
   io.choice("field", view.field, field_names(dimension));
-  io.value("window", view.window, above(0.0));
+  const Limits times = between(kMinViewTime, kMaxViewTime);
+  io.value("window", view.window, times);
   io.choice("estimator", view.estimator, kEstimators);
   const bool exact = view.estimator == Estimator::Exact;
-  io.value("interval", view.interval, Limits{.lowest = 0.0, .highest = view.window, .above = true},
+  io.value("interval", view.interval, between(view.window / kMaxWindowSamples, view.window),
            exact ? kNotOfExact : kRequired);
-  io.value("speed", view.speed, above(0.0));
+  io.value("speed", view.speed, times);
   io.choice("palette", view.palette, kPalettes);
-  io.value("range", view.range);
+  const Limits colours = between(-ColourRange::kLargestEnd, ColourRange::kLargestEnd);
+  io.value("range", view.range, colours);
   io.choice("field_palette", view.field_palette, kPalettes);
-  io.value("field_range", view.field_range);
+  io.value("field_range", view.field_range, colours);
   io.choice("arrows", view.arrows, kArrows);
   io.choice("theme", view.theme, kThemes);
   io.value("background", view.background, Limits{});
   io.value("grid", view.grid);
   io.value("overlay", view.overlay);
-  io.value("trails", view.trails, above(0.0));
-  io.value("card", view.card, above(0.0));
+  io.value("trails", view.trails, times);
+  io.value("card", view.card, times);
   io.list("camera", view.camera, [](auto& io, CameraKey& key) { visit_camera(io, key); });
 }
 

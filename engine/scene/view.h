@@ -35,6 +35,9 @@ struct ColourRange {
     Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
     Given    ///< the ends
   };
+  /// Largest magnitude of an end, and least distance between both ends.
+  static constexpr double kLargestEnd = 1e300, kLeastWidth = 1e-300;
+
   Kind kind = Auto;
   std::array<double, 2> ends = {0.0, 1.0};  ///< low < high, of Given
 

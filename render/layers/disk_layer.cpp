@@ -150,12 +150,14 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
 
   const GLsizei count = static_cast<GLsizei>(disks_.size());
   if (2.0 * reach_pixels(snapshot, projection) <= largest_point_) {
-    set_uniforms(point_, snapshot, projection, colours.blending);
+    // Points whose centre lies outside of the viewport are not drawn.
+    set_uniforms(point_, snapshot, projection, colours.blending,
+                 static_cast<int>(reach_pixels(snapshot, projection)) + 1);
     gl_->Enable(GL_PROGRAM_POINT_SIZE);
     gl_->BindVertexArray(points_.id());
     gl_->DrawArrays(GL_POINTS, 0, count);
   } else {
-    set_uniforms(square_, snapshot, projection, colours.blending);
+    set_uniforms(square_, snapshot, projection, colours.blending, 0);
     gl_->BindVertexArray(squares_.id());
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
   }
@@ -164,8 +166,7 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
 }
 
 void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
-                             const Projection& projection, Blending blending) const {
-  const int margin = static_cast<int>(reach_pixels(snapshot, projection)) + 1;
+                             const Projection& projection, Blending blending, int margin) const {
   const int width = projection.drawn().width + 2 * margin;
   const int height = projection.drawn().height + 2 * margin;
   gl_->Viewport(-margin, -margin, width, height);

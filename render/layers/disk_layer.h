@@ -39,7 +39,7 @@ class DiskLayer {
   void draw_shapes(const Snapshot& snapshot, const Projection& projection,
                    const DiskColours& colours);
   void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
-                    Blending blending) const;
+                    Blending blending, int margin) const;
 
   const Gl* gl_;
   double largest_point_;

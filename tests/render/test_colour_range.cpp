@@ -81,4 +81,32 @@ TEST_CASE("Colour range: ticks are round and say no more digits than they need")
   CHECK(tick_text(0.0, 0.2) == "0.0");
 }
 
+TEST_CASE("Colour range: every range that a scene may have has two ticks or more") {
+  const double roundings[] = {1.0, std::nextafter(1.0, 2.0)};
+  const double least = ColourRange::kLeastWidth;
+  const double ends[][2] = {
+      {-1e300, 1e300},   {0.0, least}, {-1e-300, 1e300}, {1.3, 1.4}, {roundings[0], roundings[1]},
+      {-7e299, -6.9e299}};
+  for (const auto& [low, high] : ends) {
+    for (const int count : {1, 2, 3, 5}) {
+      CAPTURE(low);
+      const std::vector<double> ticks = round_ticks(low, high, count);
+      REQUIRE(ticks.size() > 1);
+      CHECK(ticks.size() <= 2 * (5 + 8) + 1);
+      const double slack = 1e-9 * (high - low);
+      for (std::size_t i = 0; i < ticks.size(); ++i) {
+        CHECK(ticks[i] >= low - slack);
+        CHECK(ticks[i] <= high + slack);
+        if (i > 0) CHECK(ticks[i] > ticks[i - 1]);
+        CHECK_FALSE(tick_text(ticks[i], ticks[1] - ticks[0]).empty());
+      }
+    }
+  }
+}
+
+TEST_CASE("Colour range: round numbers stay within the limits of ranges") {
+  CHECK(round_up(5e-324) == doctest::Approx(ColourRange::kLeastWidth));
+  CHECK(round_up(1.7e308) == doctest::Approx(ColourRange::kLargestEnd));
+}
+
 }  // namespace clatter

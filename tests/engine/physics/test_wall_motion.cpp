@@ -236,6 +236,31 @@ TEST_CASE("Wall motion: very slow walls and very fast particles are hit in time"
   }
 }
 
+// These searches never ended: double precision gives a period and the next one the same number.
+TEST_CASE("Wall motion: a particle that returns after 2^53 periods meets the wall farthest in") {
+  struct Late {
+    double stroke, frequency, height, speed, acceleration;
+  };
+  const Late cases[] = {
+      {0.1, 100.0, 0.06, 46.7, -1e-12},           // weak gravity
+      {0.1, 23.9, 35.8, -4.5e-151, 0.0},          // a cold gas
+      {0.47, 43703.0, 0.48, 1.06e11, -1.03},      // a hot gas
+      {3.5e-7, 8.2e-6, 3.6e-7, 3.0e26, -0.0019},  // a slow wall
+      {1e-9, 1e15, 1.0, -0.01, 0.0},              // a fast one
+  };
+  for (const WallPath path : kPaths) {
+    for (const auto& [stroke, frequency, height, speed, acceleration] : cases) {
+      CAPTURE(frequency);
+      const WallCase c{{path, stroke, frequency, 0.3}, 0.0, height, speed, acceleration};
+      const double fall = height - (path == WallPath::Sawtooth ? stroke : 0.5 * stroke);
+      // The first order in the height, which is small against that of the parabola.
+      const double time =
+          acceleration == 0.0 ? -fall / speed : -2.0 * speed / acceleration + fall / speed;
+      CHECK(c.contact() == doctest::Approx(time).epsilon(1e-12));
+    }
+  }
+}
+
 TEST_CASE("Wall motion: scaling by powers of two changes no bit") {
   int different = 0;
   for (const WallPath path : kPaths) {

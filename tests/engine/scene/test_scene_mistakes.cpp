@@ -67,7 +67,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
       {kParticles + "restitution = nan\n",
        "s.toml:3:1: 'particles.restitution' cannot be nan; give"},
       {kParticles + "[view]\nspeed = inf\n",
-       "s.toml:4:1: 'view.speed' cannot be inf; give a number greater than 0"},
+       "s.toml:4:1: 'view.speed' cannot be inf; give a number between 1e-30 and 1e+30"},
       {kParticles + "[particles.start]\ntemperature = -1\n",
        "s.toml:4:1: 'particles.start.temperature' cannot be -1; give a number between 0 and"},
       {"[particles]\ncount = -1\n",
@@ -94,6 +94,15 @@ TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
       {kParticles + "[view]\nrange = [3, 3]\n",
        "s.toml:4:1: 'view.range' cannot be [3, 3]; give \"auto\", \"locked\" or two numbers "
        "[low, high] with low < high"},
+      {kParticles + "[view]\nrange = [0, 5e-324]\n",
+       "s.toml:4:1: 'view.range' cannot be [0, 5e-324]; give \"auto\", \"locked\" "
+       "or "
+       "two numbers [low, high] with low < high, neither beyond 1e+300 nor closer than 1e-300"},
+      {kParticles + "[view]\nfield_range = [-1e308, 1e308]\n", "s.toml:4:1: 'view.field_range'"},
+      {kParticles + "[view]\ncamera = [{ width = 1e-300 }]\n",
+       "s.toml:4:13: 'view.camera.width' cannot be 1e-300; give a number between 0.001 and 1e+09"},
+      {kParticles + "[view]\nestimator = \"snapshot\"\ninterval = 1e-300\n",
+       "s.toml:5:1: 'view.interval' cannot be 1e-300; give a number between 5e-06 and 5"},
       {kParticles + "[view]\nbackground = \"#12345\"\n",
        "s.toml:4:1: 'view.background' cannot be \"#12345\"; give a colour as \"#rrggbb\", for "
        "instance \"#ffffff\""},
