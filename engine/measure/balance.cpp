@@ -87,22 +87,37 @@ void Balance<D>::follow(std::uint32_t particle, const Flight<D>& flight, double 
   cell = grid_.image_at(cell, flight.at(begin, gravity));
   grid_.walk(
       flight, gravity, cell, begin, end,
-      [&](const Cell& cell, double from, double until) { fall(cell, flight, from, until); },
+      [&](const Cell& cell, double from, double until) {
+        fall(particle, cell, flight, from, until);
+      },
       [&](const Cell& cell, double time, int axis, int step) {
         pass(cell, axis, step, carried(flight.velocity_at(time, gravity), spin(particle)));
       });
 }
 
+// A share of the momentum and energy of a particle whose motion changes: beside it the rounding of
+// the change is 1e-7, however little friction or gravity gives.
+template <int D>
+Conserved<D> Balance<D>::rounding(const Vec<D>& velocity, const Spin<D>& spin) const {
+  constexpr double kShare = 1e-9;
+  Conserved<D> weight = kShare * carried(velocity, spin).cwiseAbs();
+  weight[0] = 0.0;
+  return weight;
+}
+
 // Gravity's force and its work on a particle, the integrals of g and of g.v.
 template <int D>
-void Balance<D>::fall(const Cell& cell, const Flight<D>& flight, double begin, double end) {
+void Balance<D>::fall(std::uint32_t particle, const Cell& cell, const Flight<D>& flight,
+                      double begin, double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
+  if (gravity.isZero(0.0)) return;
   const Vec<D> v = flight.velocity_at(begin, gravity);
   const Vec<D> w = flight.velocity_at(end, gravity);
   const Vec<D> gained = (end - begin) * gravity;
   arise(cell, conserved<D>(0.0, gained, 0.5 * gained.dot(v + w)));
   const double weight = 0.5 * gained.cwiseAbs().dot(v.cwiseAbs() + w.cwiseAbs());
-  booked_.weights[grid_.index_of(cell)] += conserved<D>(0.0, Vec<D>::Zero(), weight);
+  booked_.weights[grid_.index_of(cell)] +=
+      conserved<D>(0.0, Vec<D>::Zero(), weight) + rounding(v, spin(particle));
 }
 
 template <int D>
@@ -134,7 +149,8 @@ template <int D>
 void Balance<D>::weigh(const ParticleChange<D>& change) {
   const Vec<D>& p = change.gain.momentum;
   booked_.weights[grid_.index_of(particles_[change.particle].cell)] +=
-      conserved<D>(0.0, p.cwiseAbs(), 0.5 * p.squaredNorm() + std::fabs(p.dot(change.velocity)));
+      conserved<D>(0.0, p.cwiseAbs(), 0.5 * p.squaredNorm() + std::fabs(p.dot(change.velocity))) +
+      rounding(change.velocity, spin(change.particle));
 }
 
 // Each partner changes in its own cell. What one gains from the other comes along the branch, of
@@ -185,13 +201,10 @@ void Balance<D>::on_base_moved(double shift) {
   window_start_ -= shift;
 }
 
-// What the cells gained, from the particles' states, from which the next window starts. Under
-// gravity a share of what particles carry counts into the sizes: beside it rounding is 1e-7, also
-// where gravity hardly changes a velocity and nothing else is booked.
+// What the cells gained, from the particles' states, from which the next window starts.
 template <int D>
 Imbalances<D> Balance<D>::take_changes(double now) {
   const Vec<D>& gravity = simulation_.model().gravity;
-  const double share = gravity.isZero(0.0) ? 0.0 : 1e-9;
   Imbalances<D> taken;
   taken.gaps.assign(booked_.sources.size(), Conserved<D>::Zero());
   taken.sizes = taken.gaps;
@@ -205,16 +218,12 @@ Imbalances<D> Balance<D>::take_changes(double now) {
     particle.cell = grid_.image_at(particle.cell, r);
     if (!grid_.contains(particle.cell, r)) particle.cell = grid_.cell_at(r);
     const std::size_t to = grid_.index_of(particle.cell), from = particle.first_cell;
-    const Conserved<D> last = carried(v, spin(i));
-    const Conserved<D> first = carried(particle.first_velocity, particle.first_spin);
     if (to == from) {
       taken.gaps[to] += gained(particle, v, spin(i));
     } else {
-      taken.gaps[to] += last;
-      taken.gaps[from] -= first;
+      taken.gaps[to] += carried(v, spin(i));
+      taken.gaps[from] -= carried(particle.first_velocity, particle.first_spin);
     }
-    taken.sizes[to] += share * last.cwiseAbs();
-    taken.sizes[from] += share * first.cwiseAbs();
     particle = {particle.cell, to, v, spin(i)};
   }
   return taken;

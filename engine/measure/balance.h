@@ -38,7 +38,8 @@ struct Bookings {
   /// What arose in the cells: dissipation, gravity, kicks, and what came in through walls.
   std::vector<Booked<D>> sources;
   /// Sizes of what changed the motion of the particles inside, in events and by gravity: what the
-  /// faces and sources brought, before any of it cancelled.
+  /// faces and sources brought, before any of it cancelled, and 1e-9 of the momentum and energy of
+  /// each particle that changed, which are known to rounding.
   std::vector<Conserved<D>> weights;
 };
 
@@ -55,8 +56,7 @@ template <int D>
 struct Imbalances {
   std::vector<Conserved<D>> gaps;  ///< change of what the cell holds - booked
   /// Sum of the sizes of all that was booked at the cell: through its faces, as its sources, and
-  /// the weights; and, under gravity, 1e-9 of what its particles carry at both ends of the window,
-  /// to the rounding of which the change is known.
+  /// the weights.
   std::vector<Conserved<D>> sizes;
 
   /// A cell's gaps over their sizes, of either sign. Where there is no gap, 0; where nothing was
@@ -131,7 +131,9 @@ class Balance : public Observer<D> {
   Conserved<D> carried(const Vec<D>& velocity, const Spin<D>& spin) const;
   Conserved<D> gained(const Tracked& particle, const Vec<D>& velocity, const Spin<D>& spin) const;
   void follow(std::uint32_t particle, const Flight<D>& flight, double end);
-  void fall(const Cell& cell, const Flight<D>& flight, double begin, double end);
+  Conserved<D> rounding(const Vec<D>& velocity, const Spin<D>& spin) const;
+  void fall(std::uint32_t particle, const Cell& cell, const Flight<D>& flight, double begin,
+            double end);
   void weigh(const ParticleChange<D>& change);
   void transport(const Vec<D>& start, const Vec<D>& branch, const Cell& from, const Cell& to,
                  const Conserved<D>& amount);
