@@ -61,7 +61,7 @@ inline constexpr double kMaxLength = 1e6;
 inline constexpr double kMaxFrequency = 1e15;
 inline constexpr double kMaxPhase = 1e6;
 inline constexpr double kMinInertia = 1e-9;
-/// A wall that gives more than it gets, Sec. 3.1 a, has a restitution above 1.
+/// A wall that gives more than it gets (theory 4.1) has a restitution above 1.
 inline constexpr double kMaxWallRestitution = 10.0;
 
 /// Whether a table must, may or must not have a key.
