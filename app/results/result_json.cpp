@@ -64,7 +64,7 @@ static Json profile_json(const Profile& profile) {
   return json;
 }
 
-// The largest of Eqs. (4.1)-(4.3), of momentum that of its components.
+// The largest of each equation (theory 9.1-9.3), of momentum that of its components.
 static Json balance_json(const Residuals& residuals) {
   const std::vector<double> largest = residuals.largest();
   return {{"mass", largest.front()},

@@ -27,11 +27,11 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
                      left->drive_speed};
 }
 
-// Eqs. (3.6)-(3.14).
+// (theory 7.5-7.16)
 static void add_vibrated(Json& json, const VibratedGas& gas, double start_temperature) {
   json["psi"] = gas.psi();
   json["epsilon_effective"] = gas.epsilon_effective();
-  // Without a drive the gas cools by Haff's law, or diverges at a finite time, Eq. (3.10).
+  // Without a drive the gas cools by Haff's law, or diverges at a finite time (theory 7.15).
   if (gas.drive_speed == 0.0) {
     const double rate = gas.haff_rate_corrected(start_temperature);
     json["haff_rate"] = rate;

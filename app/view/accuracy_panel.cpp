@@ -65,8 +65,8 @@ static bool choose_estimator(Controls& controls, View& view, const View& usual) 
   int chosen = static_cast<int>(view.estimator);
   bool changed = controls.choice(
       "view.estimator", "Fields from",
-      "What heatmap and arrows average: whole flights of disks, or where they are now and then, "
-      "chapter 4; with CPU time over that without fields",
+      "What heatmap and arrows average: whole flights of disks, or where they are now and then; "
+      "with CPU time over that without fields",
       words, chosen, static_cast<int>(usual.estimator));
   view.estimator = static_cast<Estimator>(chosen);
   if (view.estimator == Estimator::Snapshot) {

@@ -63,7 +63,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
               .symbol = "v_dr",
               .unit = "a/t",
               .help = "Gain in normal velocity at every "
-                      "bounce: the saw-tooth limit, Eqs. (2.17), (3.1)",
+                      "bounce: the limit of a saw-tooth of vanishing stroke",
               .high = 5.0},
              wall.drive_speed, usual.drive_speed);
       break;
@@ -99,7 +99,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
          {.name = "Restitution",
           .symbol = "α_w",
           .help = "Share of the normal velocity that a "
-                  "bounce keeps, Eq. (2.15); above 1 it gives more than it gets",
+                  "bounce keeps; above 1 it gives more than it gets",
           .high = 1.1},
          wall.restitution, usual.restitution);
 }
@@ -143,19 +143,18 @@ void bulk_drive(Session& session, Controls& controls) {
   if (!drive) {
     const std::string kicks = "{ interval = " + value_text(usual.interval) + ", kick_speed = ";
     if (controls.button("bulk_drive", "Kick all disks",
-                        "Homogeneous driving: every disk is kicked again and again, Sec. 3.2")) {
+                        "Homogeneous driving: every disk is kicked again and again")) {
       controls.set({{"bulk_drive", kicks + "0.0 }"}},
                    {{"bulk_drive", kicks + value_text(usual.kick_speed) + " }"}});
     }
     return;
   }
-  controls.law(
-      {.key = "bulk_drive.kick_speed",
-       .name = "Kicks",
-       .symbol = "s",
-       .unit = "a/t",
-       .help = "Homogeneous driving: standard deviation of a kick per component, Sec. 3.2"},
-      drive->kick_speed, usual.kick_speed);
+  controls.law({.key = "bulk_drive.kick_speed",
+                .name = "Kicks",
+                .symbol = "s",
+                .unit = "a/t",
+                .help = "Homogeneous driving: standard deviation of a kick per component"},
+               drive->kick_speed, usual.kick_speed);
 }
 
 }  // namespace

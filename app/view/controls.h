@@ -10,9 +10,9 @@ namespace clatter {
 struct Slider {
   const char* key = "";     ///< of the scene file
   const char* name = "";    ///< as the panel writes it
-  const char* symbol = "";  ///< as the thesis writes it
+  const char* symbol = "";  ///< as in docs/theory.md
   const char* unit = "";    ///< behind the value; empty: a bare number
-  const char* help = "";    ///< what it means, with the number of its equation
+  const char* help = "";    ///< what it means
   double low = 0.0;
   double high = 1.0;
   bool logarithmic = false;

@@ -13,8 +13,8 @@ static void roughness(Session& session, Controls& controls) {
   const Roughness& rough = session.scene().particles.roughness;
   const Roughness& usual = session.opened().particles.roughness;
   bool any = rough.any();
-  if (controls.toggle("rough", "Rough disks",
-                      "Collisions turn slip into spin, Walton's model, Eq. (2.8)", any)) {
+  if (controls.toggle("rough", "Rough disks", "Collisions turn slip into spin, Walton's model",
+                      any)) {
     const auto keys = [](bool on) {
       return std::vector<Override>{{"particles.friction", on ? "0.5" : "0.0"},
                                    {"particles.tangential_restitution", on ? "0.5" : "-1.0"}};
@@ -27,7 +27,7 @@ static void roughness(Session& session, Controls& controls) {
   controls.law({.key = "particles.friction",
                 .name = "Friction",
                 .symbol = "μ",
-                .help = "Coulomb's: the largest tangential over normal impulse, Eq. (2.8)",
+                .help = "Coulomb's: the largest tangential over normal impulse",
                 .high = kMaxFriction},
                std::min(rough.friction_in_force(), kMaxFriction),
                std::min(usual.any() ? usual.friction_in_force() : 0.5, kMaxFriction));
@@ -35,7 +35,7 @@ static void roughness(Session& session, Controls& controls) {
                 .name = "Tangential",
                 .symbol = "β₀",
                 .help = "Tangential restitution of rolling contacts: -1 keeps the slip, 1 reverses "
-                        "it, Eq. (2.8)",
+                        "it",
                 .low = -1.0},
                rough.tangential_restitution_in_force(),
                usual.any() ? usual.tangential_restitution_in_force() : 0.5);
@@ -61,7 +61,7 @@ void gas_panel(Session& session, Controls& controls) {
                 .name = "Restitution",
                 .symbol = "α",
                 .help = "Share of the normal velocity that a collision of two disks keeps; "
-                        "1: elastic, Eq. (2.5)"},
+                        "1: elastic"},
                scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);
   ImGui::Spacing();

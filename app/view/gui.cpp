@@ -164,9 +164,8 @@ void Gui::plots_drawer(float top, float width) {
   controls_.choice(
       "plots.profile", "Profile along x",
       "Since the plots were opened, or laws, averages or trails changed: averages, with a band of "
-      "one standard error, chapter 4, or by how much the equations of balance, (4.1) to (4.3), did "
-      "not close in the worst window, over all that was booked; the engine then has about twice "
-      "the work",
+      "one standard error, or by how much the balances of mass, momentum and energy did not close "
+      "in the worst window, over all that was booked; the engine then has about twice the work",
       profile_names(), profiled_, 0);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));

@@ -76,8 +76,8 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
     return found == fields.end() ? 0 : static_cast<int>(found - fields.begin());
   };
   int chosen = place(view.field);
-  if (!controls.choice("view.field", "Heatmap", "The field below the disks, chapter 4", words,
-                       chosen, place(session.opened().view.field))) {
+  if (!controls.choice("view.field", "Heatmap", "The field below the disks", words, chosen,
+                       place(session.opened().view.field))) {
     return false;
   }
   view.field = fields[static_cast<std::size_t>(chosen)];
@@ -165,8 +165,8 @@ void view_panel(Session& session, Controls& controls) {
                      disk_colour_end(session.frame().snapshot), view.colour_by != ColourBy::Speed);
   }
   changed |= choose_heatmap(session, controls, view);
-  changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction, chapter 4",
-                    kArrows, "none", view.arrows, usual.arrows);
+  changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows, "none",
+                    view.arrows, usual.arrows);
   changed |= choose_trails(controls, view.trails, usual.trails);
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,

@@ -18,7 +18,7 @@ struct PairOutcome {
 };
 
 /// Outcome for two particles that touch: x = r_1 - r_2, v = v_1 - v_2, spin = omega_1 + omega_2.
-/// `elastic`: by the TC model, section 4, nothing dissipates.
+/// `elastic`: by the TC model (theory 5.3) nothing dissipates.
 template <int D>
 PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>& v,
                             const Spin<D>& spin, bool elastic);
@@ -40,7 +40,7 @@ struct Departure {
 };
 
 /// Departure of a particle that touches a wall, whose state is that of the same time. `elastic`: by
-/// the TC model, section 4, alpha_w becomes at least 1 and beta_w -1; the drive stays.
+/// the TC model (theory 5.4) alpha_w becomes at least 1 and beta_w -1; the drive stays.
 template <int D>
 Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
                           const Arrival<D>& arrival, bool elastic);

@@ -154,7 +154,7 @@ void Balance<D>::weigh(const ParticleChange<D>& change) {
 }
 
 // Each partner changes in its own cell. What one gains from the other comes along the branch, of
-// the energy (1/2)(dE_0 - dE_1), Eq. (4.34); the rest arises at both ends, Eq. (4.32).
+// the energy (1/2)(dE_0 - dE_1) (theory 8.7); the rest arises at both ends (theory 8.6).
 template <int D>
 void Balance<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [first, second] = collision.particles;

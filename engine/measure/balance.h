@@ -50,8 +50,8 @@ void visit(Archive& io, Bookings<D>& bookings) {
   io(faces, sources, weights);
 }
 
-/// What the balance equations (4.1)-(4.3) leave open over some time; [cells] each, cell (i, j) at
-/// i + j cells.x().
+/// What the balance equations (theory 9.1-9.3) leave open over some time; [cells] each, cell (i, j)
+/// at i + j cells.x().
 template <int D>
 struct Imbalances {
   std::vector<Conserved<D>> gaps;  ///< change of what the cell holds - booked
@@ -82,9 +82,9 @@ struct BalanceWindow {
   Bookings<D> booked;  ///< what the cells' changes were compared with
 };
 
-/// Closes the balance equations (4.1)-(4.3) on a grid of equal cells over the whole box, section 6,
-/// "Exact closure": what the cells hold, from the particles' states at a window's two ends, against
-/// what was booked at faces and as sources in between.
+/// Closes the balance equations (theory 9.4) on a grid of equal cells over the whole box: what the
+/// cells hold, from the particles' states at a window's two ends, against what was booked at faces
+/// and as sources in between.
 template <int D>
 class Balance : public Observer<D> {
  public:

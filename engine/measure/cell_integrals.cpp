@@ -137,7 +137,7 @@ void CellIntegrals<D>::end_flight(const ParticleChange<D>& particle, double time
   if (estimator_ == Estimator::Exact) add_flight(particle.before, particle.spin, time);
 }
 
-// Momentum and energy that go over a branch vector, Eqs. (4.22)-(4.24), (4.34).
+// Momentum and energy that go over a branch vector (theory 8.4, 8.7).
 template <int D>
 void CellIntegrals<D>::add_transfer(const Vec<D>& from, const Vec<D>& branch,
                                     const Vec<D>& momentum, double energy) {

@@ -12,7 +12,7 @@
 
 namespace clatter {
 
-/// What a grid has summed up over a window of time, Eqs. (4.4)-(4.34) before the division by time
+/// What a grid has summed up over a window of time (theory 8.1-8.7) before the division by time
 /// and area. With box cells a kinetic sum of particles in a cell is an integral over time, and one
 /// over events has the share of the branch vector that lies in the cell as its weight.
 struct CellSums {

@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-/// A field on a grid of equal box cells over the whole box, Sec. 4.
+/// A field on a grid of equal box cells over the whole box (theory 8).
 struct FieldMap {
   Field field;
   std::vector<int> cells;      ///< [D] along each axis

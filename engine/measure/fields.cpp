@@ -25,25 +25,25 @@ S velocity(const Cell<D, S>& cell, int k) {
   return visited(cell) ? cell.momentum[k] / cell.density : S(0.0);
 }
 
-// Eq. (4.16): rho T_k/2 = E_k - m rho V_k^2/2.
+// (theory 8.2): rho T_k/2 = E_k - m rho V_k^2/2.
 template <int D, class S>
 S temperature(const Cell<D, S>& cell, int k) {
   return cell.momentum_flux[k][k] / cell.density - velocity(cell, k) * velocity(cell, k);
 }
 
-// Eq. (4.26): -[sum m v_k v_l Phi - m rho V_k V_l].
+// (theory 8.3): -[sum m v_k v_l Phi - m rho V_k V_l].
 template <int D, class S>
 S kinetic_stress(const Cell<D, S>& cell, int k, int l) {
   return cell.density * velocity(cell, k) * velocity(cell, l) - cell.momentum_flux[k][l];
 }
 
-// Eqs. (4.22)-(4.24).
+// (theory 8.4)
 template <int D, class S>
 S collisional_stress(const Cell<D, S>& cell, int k, int l) {
   return -cell.transfer[k][l];
 }
 
-// Eq. (4.29), multiplied out: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
+// (theory 8.8), multiplied out: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
 template <int D, class S>
 S kinetic_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_flux[k] - cell.energy() * velocity(cell, k);
@@ -51,7 +51,7 @@ S kinetic_heat_flux(const Cell<D, S>& cell, int k) {
   return flux;
 }
 
-// What Eq. (4.38) adds to it: q_int_o, Eq. (4.34), about the mean velocity.
+// What (theory 8.9) adds to it: q^o (theory 8.7), about the mean velocity.
 template <int D, class S>
 S collisional_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_transfer[k];
@@ -119,7 +119,7 @@ constexpr std::array<Derivation<D, S>, kQuantities.size()> kDerivations = {{
        return part_of(field.part, cell, kinetic_stress(cell, field.i, field.j),
                       collisional_stress(cell, field.i, field.j));
      }},
-    // Eq. (4.29) multiplied out has the energy and every component of the kinetic stress.
+    // (theory 8.8), multiplied out, has the energy and every component of the kinetic stress.
     {Quantity::HeatFlux,
      sum::kVelocity | sum::kSquares | sum::kShears | sum::kEnergyFlux | sum::kSpinEnergy,
      sum::kVelocity | sum::kTransfer | sum::kEnergyTransfer,

@@ -46,9 +46,9 @@ CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSum
 /// The sums from which a field follows.
 Needs needs_of(Field field);
 
-/// Value of a field, Sec. 4; NaN where it has none: velocities, temperatures, spins and the kinetic
-/// parts of stress and heat flux where no particle ever was, and the whole stress and heat flux
-/// where no collision passed anything on either. Residuals follow from no averages.
+/// Value of a field (theory 8); NaN where it has none: velocities, temperatures, spins and the
+/// kinetic parts of stress and heat flux where no particle ever was, and the whole stress and heat
+/// flux where no collision passed anything on either. Residuals follow from no averages.
 template <int D, class S>
 S field_value(Field field, const CellAverages<D, S>& cell);
 

@@ -25,8 +25,8 @@ class GaussianKernel {
     });
   }
 
-  /// Likewise with the mean of Phi over the line from `from` to `from + along`, B of Eqs.
-  /// (4.22)-(4.24) in closed form.
+  /// Likewise with the mean of Phi over the line from `from` to `from + along`, B in closed
+  /// form (theory 8.12).
   template <class Visit>
   void along(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
     const double length = along.norm();

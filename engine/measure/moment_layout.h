@@ -16,7 +16,7 @@ inline constexpr Needs kVelocity = 1, kSquares = 2, kShears = 4, kEnergyFlux = 8
                        kSpinEnergy = 32, kTransfer = 64, kEnergyTransfer = 128, kDissipation = 256;
 }  // namespace sum
 
-/// Which sums of chapter 4 a grid keeps, and where each stands in the row of numbers that a cell
+/// Which sums (theory 8) a grid keeps, and where each stands in the row of numbers that a cell
 /// has: what the fields asked for do not need is not stored. In rising order come the kinetic sums,
 /// over particles and time; the sums over events that spread along a branch vector; and the one
 /// that stays at its ends.

@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-/// Momentum that particle 1 gains in a collision of smooth particles, Eq. (2.4) with beta = -1:
+/// Momentum that particle 1 gains in a collision of smooth particles (theory 3.2) with beta = -1:
 /// -(1 + alpha)/2 (n.g) n, for x = r_1 - r_2 at contact and g = v_1 - v_2; particle 2 gains its
 /// negative. Dividing by x.x instead of a^2 keeps elastic collisions elastic to rounding whatever
 /// the rounding of x.
@@ -14,15 +14,15 @@ Vec<D> collision_impulse(const Vec<D>& x, const Vec<D>& g, double restitution) {
   return x * (-0.5 * (1.0 + restitution) * x.dot(g) / x.squaredNorm());
 }
 
-/// Energy that a collision of smooth particles loses, (m/4) (1 - alpha^2) g_n^2, section 2; x and g
-/// as in collision_impulse.
+/// Energy that a collision of smooth particles loses, (m/4) (1 - alpha^2) g_n^2 (theory 3.6); x and
+/// g as in collision_impulse.
 template <int D>
 double dissipated_energy(const Vec<D>& x, const Vec<D>& g, double restitution) {
   const double approach = x.dot(g);
   return 0.25 * (1.0 - restitution * restitution) * approach * approach / x.squaredNorm();
 }
 
-/// What the surfaces of two partners do to each other, Walton's model, section 2.
+/// What the surfaces of two partners do to each other, Walton's model (theory 3).
 struct ContactLaw {
   double restitution = 1.0;              ///< alpha, of the normal velocity
   double friction = 0.0;                 ///< mu >= 0, Coulomb's; may be infinite
@@ -39,7 +39,7 @@ struct Impulse {
   Spin<D> spin = Spin<D>::Zero();    ///< angular velocity; a partner particle gains the same
 };
 
-/// 1 + beta with the beta in force, Eq. (2.8): min(1 + beta_0, mu ((1+q)/q) |g_n' - g_n|/|g_t|),
+/// 1 + beta with the beta in force (theory 3.5): min(1 + beta_0, mu ((1+q)/q) |g_n' - g_n|/|g_t|),
 /// where `normal_change` = |g_n' - g_n| is (1 + alpha)|g_n| of two particles and |v_n' - v_n| of a
 /// particle at a wall, and `slip` = |g_t|. The sum keeps the digits that beta near -1 has lost.
 inline double slip_reversal(const ContactLaw& law, double inertia, double normal_change,
@@ -51,15 +51,16 @@ inline double slip_reversal(const ContactLaw& law, double inertia, double normal
   return coulomb < full * inertia * slip ? coulomb / (inertia * slip) : full;
 }
 
-/// g_t, the tangential velocity of the touching surfaces, section 2; n is the unit vector from the
-/// partner, `v` the relative velocity of the centres and `spin` the sum of the angular velocities.
+/// g_t, the tangential velocity of the touching surfaces (theory 3.1); n is the unit vector from
+/// the partner, `v` the relative velocity of the centres and `spin` the sum of the angular
+/// velocities.
 template <int D>
 Vec<D> surface_slip(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spin, double diameter) {
   const Vec<D> g = v + 0.5 * diameter * cross_spin<D>(n, spin);
   return g - n.dot(g) * n;
 }
 
-/// What friction gives to particle 1 of two, Eqs. (2.5), (2.8): the momentum -eta g_t and the spin
+/// What friction gives to particle 1 of two (theory 3.2, 3.3): the momentum -eta g_t and the spin
 /// (2 eta/(q a)) n x g_t with eta = q (1 + beta)/(2 (1 + q)); a wall, of infinite mass, gives twice
 /// that. Arguments as in surface_slip and slip_reversal.
 template <int D>
@@ -72,8 +73,8 @@ Impulse<D> friction_impulse(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spi
   return {-0.5 * inertia * share * g_t, share / diameter * cross<D>(n, g_t)};
 }
 
-/// What particle 1 gains in a collision of rough particles, Eqs. (2.4), (2.5), (2.8), for x = r_1 -
-/// r_2 at contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a.
+/// What particle 1 gains in a collision of rough particles (theory 3.2, 3.3), for x = r_1 - r_2
+/// at contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a.
 /// The normal part, and all of it where the law is not rough, has the bits of collision_impulse.
 template <int D>
 Impulse<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
@@ -86,7 +87,7 @@ Impulse<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
 }
 
 /// Energy that a collision of rough particles loses, (m/4) [(1 - alpha^2) g_n^2 + (q/(1+q)) (1 -
-/// beta^2) g_t^2], section 2, with the beta in force; arguments as in rough_impulse.
+/// beta^2) g_t^2] (theory 3.6), with the beta in force; arguments as in rough_impulse.
 template <int D>
 double dissipated_energy(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
                          const ContactLaw& law, double inertia, double diameter) {

@@ -57,7 +57,7 @@ double VibratedGas::temperature_simple() const {
   return s * s * drive_speed * drive_speed;
 }
 
-// Eq. (3.14); `loss` stands for eps_eff psi.
+// (theory 7.11); `loss` stands for eps_eff psi.
 static double stationary_refined(double loss, double wall_restitution, double drive_speed) {
   if (!(loss > 0.0)) return std::numeric_limits<double>::infinity();
   const double alpha_w = wall_restitution;

@@ -2,7 +2,7 @@
 
 namespace clatter {
 
-/// The kinetic theory of a gas of smooth particles between two vibrated walls, section 5. Masses,
+/// The kinetic theory of a gas of smooth particles between two vibrated walls (theory 7). Masses,
 /// diameters and Boltzmann's constant are 1. "Simple" averages over all particles, "refined" over
 /// those that collide, "corrected" is refined and counts how much denser the gas is at the walls.
 struct VibratedGas {
@@ -16,38 +16,38 @@ struct VibratedGas {
 
   /// phi of the whole box, see packing_fraction.
   double packing_fraction() const;
-  /// psi = omega_E Lx / sqrt(2 pi T/m), Eq. (3.9): sqrt(2) chi lambda a of disks, 2 sqrt(2) chi
+  /// psi = omega_E Lx / sqrt(2 pi T/m) (theory 7.5): sqrt(2) chi lambda a of disks, 2 sqrt(2) chi
   /// lambda a^2 of spheres, where lambda is N over the size of a wall.
   double psi() const;
-  /// eps_eff = (1 - alpha^2) + (2/pi) (1 - alpha_w^2) / psi, Eq. (3.8).
+  /// eps_eff = (1 - alpha^2) + (2/pi) (1 - alpha_w^2) / psi (theory 7.6).
   double epsilon_effective() const;
-  /// Stationary temperature of the simple theory, Eq. (3.12); infinite where particles and walls
+  /// Stationary temperature of the simple theory (theory 7.10); infinite where particles and walls
   /// do not dissipate, eps_eff <= 0. So are the other two.
   double temperature_simple() const;
-  /// Stationary temperature of the refined theory, Eq. (3.14): averages over the particles
+  /// Stationary temperature of the refined theory (theory 7.11): averages over the particles
   /// that collide.
   double temperature_refined() const;
   /// Stationary temperature of the refined theory where the walls are hit wall_layer_factor() times
-  /// as often, section 5; good near the elastic limit.
+  /// as often (theory 7.14); good near the elastic limit.
   double temperature_corrected() const;
 
-  /// kappa = Z Lx/(Lx - a), section 5, with the compressibility Z of the elastic gas: how many
-  /// times more often than Eq. (3.3) says the walls are hit.
+  /// kappa = Z Lx/(Lx - a) (theory 7.13), with the compressibility Z of the elastic gas: how many
+  /// times more often than (theory 7.2) says the walls are hit.
   double wall_layer_factor() const;
-  /// f_pw, hits of one wall per time in the simple theory, Eq. (3.3).
+  /// f_pw, hits of one wall per time in the simple theory (theory 7.2).
   double wall_hit_rate(double temperature) const;
-  /// f_pp, collisions of all particles per time, Eq. (3.5).
+  /// f_pp, collisions of all particles per time (theory 7.4).
   double collision_rate(double temperature) const;
-  /// dE_pw, energy that a hit of a wall brings in the simple theory, Eq. (3.2).
+  /// dE_pw, energy that a hit of a wall brings in the simple theory (theory 7.1).
   double energy_per_wall_hit(double temperature) const;
-  /// dE_pp <= 0, energy that a collision of particles brings in the simple theory, Eq. (3.4).
+  /// dE_pp <= 0, energy that a collision of particles brings in the simple theory (theory 7.3).
   double energy_per_collision(double temperature) const;
-  /// dT/dt in the simple theory, Eq. (3.7), times 2/D.
+  /// dT/dt in the simple theory (theory 7.7).
   double temperature_change_simple(double temperature) const;
-  /// dT/dt in the refined theory, Eq. (3.7) with averages over the particles that collide.
+  /// dT/dt in the refined theory (theory 7.8), with averages over the particles that collide.
   double temperature_change_refined(double temperature) const;
 
-  /// k of haff_temperature in the simple theory, Eq. (3.10), where nothing drives; per time.
+  /// k of haff_temperature in the simple theory (theory 7.12), where nothing drives; per time.
   double haff_rate_simple(double initial_temperature) const;
   /// k in the refined theory, twice the simple one.
   double haff_rate_refined(double initial_temperature) const;
@@ -55,14 +55,15 @@ struct VibratedGas {
   double haff_rate_corrected(double initial_temperature) const;
 };
 
-/// The kinetic theory of a gas of rough particles with constant beta in a periodic box, section 5.
+/// The kinetic theory of a gas of rough particles with constant beta in a periodic box
+/// (theory 6.7).
 struct RoughGas {
   double restitution = 1.0;              ///< alpha
   double tangential_restitution = -1.0;  ///< beta in -1..1
   double inertia = 0.5;                  ///< q = 4I/(m a^2) > 0
   int dimension = 2;                     ///< D, 2: disks, 3: spheres
 
-  /// eta = q (1 + beta)/(2 (1 + q)), Eq. (2.4).
+  /// eta = q (1 + beta)/(2 (1 + q)) (theory 3.4).
   double eta() const;
   /// A = (1 - alpha^2)/(2(D-1)) + eta (1 - eta): the translational temperature loses A T_tr and
   /// gains B T_rot, times 2(D-1)/D per collision of a particle.
@@ -85,31 +86,32 @@ struct RoughGas {
 /// of disks, pi/6 times their number per volume of spheres.
 double packing_fraction(int dimension, double density);
 
-/// chi, pair correlation at contact: of hard disks (1 - 7 phi/16) / (1 - phi)^2, Eq. (3.6)
+/// chi, pair correlation at contact: of hard disks (1 - 7 phi/16) / (1 - phi)^2 (theory 6.1)
 /// (Henderson 1975), of hard spheres (1 - phi/2) / (1 - phi)^3 (Carnahan & Starling 1969).
 double contact_correlation(double packing_fraction, int dimension = 2);
 
-/// omega_E = S chi rho a^(D-1) sqrt(T/(pi m)), Enskog's collisions per particle and time, Eq.
-/// (3.5); S = 2 pi is the circumference of the unit circle, 4 pi the area of the unit sphere.
+/// omega_E = S chi rho a^(D-1) sqrt(T/(pi m)), Enskog's collisions per particle and time
+/// (theory 6.2); S = 2 pi is the circumference of the unit circle, 4 pi the area of the unit
+/// sphere.
 double enskog_rate(double packing_fraction, double temperature, int dimension = 2);
 
-/// Z = p/(rho T) = 1 + 2^(D-2) (1 + alpha) phi chi, section 5: equation of state of the periodic
-/// gas.
+/// Z = p/(rho T) = 1 + 2^(D-2) (1 + alpha) phi chi, equation of state of the periodic gas
+/// (theory 6.3).
 double compressibility(double packing_fraction, double restitution, int dimension = 2);
 
-/// T = T_0/(1 + k t)^2, Haff's law, Eq. (3.10).
+/// T = T_0/(1 + k t)^2, Haff's law (theory 6.5).
 double haff_temperature(double initial_temperature, double rate, double time);
 
-/// k of haff_temperature in a periodic box, section 5: (1 - alpha^2) omega_E(T_0)/(2D).
+/// k of haff_temperature in a periodic box (theory 6.6): (1 - alpha^2) omega_E(T_0)/(2D).
 double haff_rate_periodic(double packing_fraction, double restitution, double initial_temperature,
                           int dimension = 2);
 
-/// t* = 1/|k|, when the temperature of Haff's law with k < 0 diverges (alpha_w > 1, section 3.1);
+/// t* = 1/|k|, when the temperature of Haff's law with k < 0 diverges (alpha_w > 1, theory 7.16);
 /// infinite for k >= 0.
 double divergence_time(double rate);
 
 /// H = (D/2) m s^2 (1 - 1/N)/dt, power per particle of kicks with standard deviation s per
-/// component every dt, section 4.
+/// component every dt (theory 5.2).
 double bulk_drive_power(double count, double kick_speed, double interval, int dimension = 2);
 
 }  // namespace clatter

@@ -2,7 +2,7 @@
 
 namespace clatter {
 
-/// How a wall moves along its normal, section 3.
+/// How a wall moves along its normal (theory 4.3).
 enum class WallPath {
   Sawtooth,    ///< inwards at constant speed, jumping back at the end of each period
   Sinusoidal,  ///< harmonically about its resting place
@@ -25,7 +25,7 @@ struct WallState {
   double acceleration = 0.0;  ///< without the saw-tooth's jumps
 };
 
-/// The wall at a time on the moving base, section 3: the saw-tooth lies at stroke frac(x), the
+/// The wall at a time on the moving base (theory 4.3): the saw-tooth lies at stroke frac(x), the
 /// sinusoidal wall at (stroke/2) sin(2 pi x), x = frequency time + phase.
 WallState wall_state(const WallMotion& motion, double time);
 

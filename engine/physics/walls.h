@@ -9,15 +9,15 @@
 
 namespace clatter {
 
-/// Velocity after a static or driven wall, Eq. (3.1): v_n' = alpha_w |v_n| + v_dr along the wall's
-/// normal, which points into the box along +-`axis` (`inward` = +1 or -1); the rest stays.
+/// Velocity after a static or driven wall (theory 4.1): v_n' = alpha_w |v_n| + v_dr along the
+/// wall's normal, which points into the box along +-`axis` (`inward` = +1 or -1); the rest stays.
 template <int D>
 Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double drive_speed) {
   v[axis] = inward * (restitution * std::fabs(v[axis]) + drive_speed);
   return v;
 }
 
-/// Velocity after a wall that moves, section 3: v_n' = -alpha_w v_n + (1 + alpha_w) u, the
+/// Velocity after a wall that moves (theory 4.2): v_n' = -alpha_w v_n + (1 + alpha_w) u, the
 /// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A
 /// particle that the wall catches up with (0 < v_n < u) is hit from behind.
 template <int D>
@@ -26,10 +26,10 @@ Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, dou
   return v;
 }
 
-/// What friction at a wall adds to a particle's momentum and spin, section 3: the momentum -2 eta_w
-/// g_t and the spin (4 eta_w/(q a)) n x g_t, with g_t of the velocity and spin before. `after` is
-/// the velocity that the smooth wall leaves: Coulomb's bound holds for the true normal impulse
-/// |v_n' - v_n| of every kind of wall.
+/// What friction at a wall adds to a particle's momentum and spin (theory 4.5): the momentum -2
+/// eta_w g_t and the spin (4 eta_w/(q a)) n x g_t, with g_t of the velocity and spin before.
+/// `after` is the velocity that the smooth wall leaves: Coulomb's bound holds for the true normal
+/// impulse |v_n' - v_n| of every kind of wall.
 template <int D>
 Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin, int axis,
                          double inward, const ContactLaw& law, double inertia, double diameter) {
@@ -40,7 +40,7 @@ Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D
   return {2.0 * friction.momentum, 2.0 * friction.spin};
 }
 
-/// Velocity after a thermal wall of temperature T_w, section 3: the normal component has the
+/// Velocity after a thermal wall of temperature T_w (theory 4.7): the normal component has the
 /// flux-weighted density (v/T_w) exp(-v^2/2T_w), v = sqrt(-2 T_w ln U), the others are Gaussian of
 /// variance T_w. `uniform` lies in (0,1), `normals` holds D - 1 standard normal variates.
 template <int D>
@@ -53,7 +53,7 @@ Vec<D> emit(int axis, double inward, double temperature, double uniform, const d
   return v;
 }
 
-/// Spin after a thermal wall, section 3: Gaussian of variance T_w/I per component.
+/// Spin after a thermal wall (theory 4): Gaussian of variance T_w/I per component.
 /// `normals` holds one standard normal variate per component.
 template <int D>
 Spin<D> emit_spin(double temperature, double inertia, double diameter, const double* normals) {

@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-/// What fields give of the gas at a place, chapter 4.
+/// What fields give of the gas at a place (theory 8).
 enum class Quantity : std::uint8_t {
   Density,          ///< rho, particles per area; in space per volume, as all that is per area
   Velocity,         ///< V, their mean velocity
@@ -18,7 +18,7 @@ enum class Quantity : std::uint8_t {
   Dissipation,      ///< zeta <= 0, energy per time and area that collisions of particles give
   Spin,             ///< mean angular velocity
   SpinTemperature,  ///< T_rot = I <omega^2>, the mean over the components of omega
-  BalanceMass,      ///< what Eqs. (4.1)-(4.3) leave open, relative to what was booked
+  BalanceMass,      ///< what the balances (theory 9.1-9.3) leave open, relative to what was booked
   BalanceMomentum,
   BalanceEnergy
 };

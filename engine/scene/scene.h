@@ -36,14 +36,14 @@ struct Particles {
   Start start;
 };
 
-/// Homogeneous driving: every particle is kicked at once, again and again, Sec. 3.2.
+/// Homogeneous driving: every particle is kicked at once, again and again (theory 5.1).
 struct BulkDrive {
   double interval = 1.0;    ///< time between kicks, > 0
   double kick_speed = 0.0;  ///< standard deviation of a kick per velocity component; mean removed
   double kick_spin = 0.0;   ///< standard deviation of the change of spin
 };
 
-/// Over what a particle spreads in fields, Sec. 4: the cell that it is in, or a Gaussian.
+/// Over what a particle spreads in fields (theory 8): the cell that it is in, or a Gaussian.
 enum class Kernel { Box, Gaussian };
 
 /// An axis of the box.
@@ -92,7 +92,7 @@ struct Scene {
   std::array<std::optional<Wall>, 6> walls;  ///< indexed by Side; a pair absent: periodic
   std::optional<VecX> gravity;               ///< acceleration; absent: none
   std::optional<BulkDrive> bulk_drive;       ///< absent: none
-  std::optional<double> contact_time;        ///< t_c > 0 of the TC model, section 4; absent: off
+  std::optional<double> contact_time;        ///< t_c > 0 of the TC model (theory 5.3); absent: off
   Measure measure;
   View view;
   std::vector<Change> changes;  ///< in any order; those of one time come in the order given

@@ -71,7 +71,7 @@ inline constexpr double kMaxWindowSamples = 1e6;
 /// as far away.
 inline constexpr double kMinCameraWidth = 1e-3;
 inline constexpr double kMaxCameraWidth = 1e9;
-/// A wall that gives more than it gets, Sec. 3.1 a, has a restitution above 1.
+/// A wall that gives more than it gets (theory 4.1) has a restitution above 1.
 inline constexpr double kMaxWallRestitution = 10.0;
 
 /// Whether a table must, may or must not have a key.

@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-/// How rough a partner in a collision is, Sec. 2; smooth where both are absent.
+/// How rough a partner in a collision is (theory 3); smooth where both are absent.
 struct Roughness {
   std::optional<double> friction;  ///< mu >= 0, may be infinite; absent beside the other: infinite
   std::optional<double> tangential_restitution;  ///< beta_0, -1..1; absent beside the other: 1
@@ -19,10 +19,10 @@ struct Roughness {
   bool any() const;
 };
 
-/// What a wall does to the particles that touch it, Sec. 3.1.
+/// What a wall does to the particles that touch it (theory 4).
 enum class WallKind {
   Static,      ///< reflects with its restitution
-  Driven,      ///< adds drive_speed to the normal velocity: the saw-tooth limit, Eqs. (2.17), (3.1)
+  Driven,      ///< adds drive_speed to the normal velocity: the saw-tooth limit (theory 4.1, 4.4)
   Thermal,     ///< forgets the incoming velocity and emits at its temperature
   Sawtooth,    ///< moves inwards by its stroke at constant speed, jumps back, and again
   Sinusoidal,  ///< swings by half its stroke to either side of its place
@@ -34,7 +34,7 @@ struct Wall {
   double restitution = 1.0;  ///< alpha_w >= 0, of all but thermal walls; may exceed 1
   Roughness roughness = {};  ///< of all but thermal walls
   double drive_speed =
-      0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity, Eq. (2.17)
+      0.0;  ///< v_dr >= 0 of a driven wall, the gain in normal velocity (theory 4.1)
   double temperature = 1.0;  ///< T_w >= 0 of a thermal wall
   double stroke = 0.0;       ///< whole travel of a saw-tooth or sinusoidal wall, >= 0
   double frequency = 0.0;    ///< of its motion, in periods per time unit, >= 0

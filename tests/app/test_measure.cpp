@@ -105,7 +105,7 @@ TEST_CASE("Measure: the result has the predictions of theory for a gas in a peri
     REQUIRE(outcome.code == 0);
     return json::parse(outcome.out).at("theory");
   };
-  // Evaluated outside of this program: 1011 disks in 63 x 63 with alpha = .95, Sec. 5.
+  // Evaluated outside of this program: 1011 disks in 63 x 63 with alpha = .95 (theory 6).
   const json cooling = theory("cooling");
   CHECK(cooling.size() == 3);
   CHECK(cooling.at("compressibility").get<double>() == doctest::Approx(1.5562883561));

@@ -152,7 +152,7 @@ TEST_CASE("Few particles: kicks of one particle, and of two" *
 TEST_CASE("Few particles: rough particles touch through images that are not the nearest" *
           doctest::description("same bits as brute force; contacts within 1e-12 of a diameter")) {
   // In a box lower than two diameters: each collision is whole (the separation one diameter, the
-  // loss that of section 2), whichever image it is through.
+  // loss that of theory 3.6), whichever image it is through.
   class Images : public Observer<2> {
    public:
     explicit Images(const Model<2>& model) : model_(model) {}

@@ -15,10 +15,10 @@ using namespace clatter;
 using namespace clatter::testing;
 
 TEST_CASE("Heating: 100 particles between walls of restitution 1.05" *
-          doctest::description("a clean stop, time within 5 % of t* of Eq. (3.10)")) {
+          doctest::description("a clean stop, time within 5 % of t* (theory 7.16)")) {
   // alpha = 1, alpha_w = 1.05, no drive, N = 100, 20 x 25: T = T_0/(1 + k t)^2 with k < 0,
-  // corrected for the layer at the walls, section 5, so t* = 1/|k|. 6 seeds, mean t* to 1 %, within
-  // 5 %.
+  // corrected for the layer at the walls (theory 7.15), so t* = 1/|k|. 6 seeds, mean t* to 1 %,
+  // within 5 %.
   constexpr int kSeeds = 6;
   Scene scene = gas(20.0, 25.0, 100, 1.0);
   wall_in(scene, 0, {.kind = WallKind::Static, .restitution = 1.05});

@@ -16,7 +16,7 @@ using namespace clatter::testing;
 
 TEST_CASE(
     "Scales: a graze at b = 1 - 1e-12" *
-    doctest::description("deflected as Eq. (2.4) says within 1e-4, which is the rounding of b")) {
+    doctest::description("deflected as theory 3.2 says within 1e-4, which is the rounding of b")) {
   // The impulse (1 + alpha)/2 |g_n| along n has the part (1 + alpha)/2 sqrt((1-b)(1+b)) b across
   // the flight. b is the stored one; 1 - b is exact.
   double worst = 0.0;

@@ -11,7 +11,7 @@ namespace clatter::testing {
 /// A gas of the given area fraction in a square, periodic box.
 Scene gas_of_fraction(double area_fraction, int count, double restitution);
 
-/// The gas of the thesis' figures, N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
+/// The gas of these tests, N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
 Scene vibrated_gas(double restitution, double wall_restitution);
 
 /// Runs a scene through its [measure] block, which is `burn_in` and `duration` here.

@@ -7,7 +7,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// What the TC model changes, section 4 (Luding & McNamara 1998), in the vibrated gas of the figures
+// What the TC model changes (theory 5.3; Luding & McNamara 1998), in the vibrated gas
 // with alpha = .9, elastic walls: its shares go with t_c, and T is that of t_c = 0 where they
 // vanish.
 

@@ -13,7 +13,7 @@ using namespace clatter::testing;
 
 TEST_CASE("Cooling gas: Haff's law holds down to a hundredth of the temperature, within 4 %") {
   // phi = .1, alpha = .9, N = 100, periodic. T = T0/(1 + k t)^2 with k = eps omega_E(T0)/4,
-  // refined, section 5; 1 + k t = 10 at the end. Mean over 64 seeds.
+  // refined (theory 6.6); 1 + k t = 10 at the end. Mean over 64 seeds.
   constexpr int kSeeds = 64;
   constexpr int kTimes = 20;
   const Scene scene = gas_of_fraction(0.1, 100, 0.9);
@@ -36,7 +36,7 @@ TEST_CASE("Cooling gas: Haff's law holds down to a hundredth of the temperature,
   }
 }
 
-TEST_CASE("Cooling gas: walls that lose heat cool elastic particles by Eq. (3.10)") {
+TEST_CASE("Cooling gas: walls that lose heat cool elastic particles by theory 7.15") {
   // The refined rate with the wall layer: k = kappa (1 - alpha_w^2)/(pi Lx) sqrt(pi T0/2), where
   // kappa = (1 + 2 phi chi) Lx/(Lx - a) counts the hits of dense particles on walls.
   constexpr int kSeeds = 64;
@@ -55,7 +55,7 @@ TEST_CASE("Cooling gas: walls that lose heat cool elastic particles by Eq. (3.10
     ratios.add(simulation.kinetic_energy() / 100.0 * 4.0);
   }
   const double mean = ratios.mean(), error = ratios.standard_error();
-  MESSAGE("T over Eq. (3.10) = ", mean, " +- ", error);
+  MESSAGE("T over theory 7.15 = ", mean, " +- ", error);
   CHECK(error < 0.01);
   CHECK(std::fabs(mean - 1.0) < 0.04);
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kStroke = 0.01;
 
 // The gas of the figures between saw-tooth walls of that stroke, whose gain (1 + alpha_w) stroke
-// frequency is v_dr = 1, section 3.
+// frequency is v_dr = 1 (theory 4.4).
 Scene sawtooth_gas(double restitution, double wall_restitution) {
   Scene scene = vibrated_gas(restitution, wall_restitution);
   const Wall wall{.kind = WallKind::Sawtooth,

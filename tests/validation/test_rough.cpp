@@ -13,7 +13,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Rough particles of constant beta (infinite friction), q = 1/2, against the theory of section 5.
+// Rough particles of constant beta (infinite friction), q = 1/2, against (theory 6.9-6.11).
 // It takes both velocity distributions for Gaussian and independent; the deviations that this makes
 // are a few per cent in dilute gases that are not too inelastic (Luding, Huthmann, McNamara &
 // Zippelius 1998).

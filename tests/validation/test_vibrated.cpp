@@ -10,21 +10,21 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Stationary temperature of this gas, Eq. (3.14).
+/// Stationary temperature of this gas (theory 7.11).
 double refined(double restitution, double wall_restitution) {
   return VibratedGas{100.0, 20.0, 25.0, restitution, wall_restitution, 1.0}.temperature_refined();
 }
 
 void report(const Measured& result, double expected) {
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error,
-          ", Eq. (3.14) ", expected);
+          ", theory 7.11 ", expected);
 }
 
 }  // namespace
 
-TEST_CASE("Vibrated gas: Eq. (3.14) holds for elastic particles between lossy walls, within 1 %") {
+TEST_CASE("Vibrated gas: theory 7.11 holds for elastic particles between lossy walls, within 1 %") {
   // All the loss is at the walls, so that the density there, which theory takes for uniform,
-  // cancels from the balance of Eq. (3.2).
+  // cancels from the balance (theory 7.1).
   const double expected = refined(1.0, 0.9);
   Scene scene = vibrated_gas(1.0, 0.9);
   scene.particles.start.temperature = expected;
@@ -37,7 +37,7 @@ TEST_CASE("Vibrated gas: Eq. (3.14) holds for elastic particles between lossy wa
 }
 
 TEST_CASE(
-    "Vibrated gas: Eq. (3.14) holds for inelastic particles between elastic walls, within 4 %") {
+    "Vibrated gas: theory 7.11 holds for inelastic particles between elastic walls, within 4 %") {
   const double expected = refined(0.9, 1.0);
   const Measured result = run(vibrated_gas(0.9, 1.0), 300.0, 20000.0, 112);
   report(result, expected);
@@ -48,7 +48,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Vibrated gas: Eq. (3.14) holds for inelastic particles between lossy walls, within 5 %") {
+    "Vibrated gas: theory 7.11 holds for inelastic particles between lossy walls, within 5 %") {
   const double expected = refined(0.9, 0.9);
   const Measured result = run(vibrated_gas(0.9, 0.9), 300.0, 10000.0, 115);
   report(result, expected);

@@ -28,7 +28,7 @@ TEST_CASE("Conservation: 10^6 elastic collisions keep energy and momentum") {
   CHECK(brute_force_overlap(model, simulation.state()) < 1e-12);
 }
 
-// Eq. (2.8): an inelastic collision takes (1/4)(1 - alpha^2) g_n^2; the books must balance.
+// (theory 3.6): an inelastic collision takes (1/4)(1 - alpha^2) g_n^2; the books must balance.
 TEST_CASE("Conservation: collisions take the energy that the gas loses") {
   class Ledger : public Observer<2> {
    public:

@@ -8,7 +8,7 @@
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
 
-// The first-moment identities of chapter 4 tie the stress, heat flux and dissipation that are
+// The first-moment identities (theory 9.6, 9.7) tie the stress, heat flux and dissipation that are
 // reported to the states of the particles at a window's two ends, so that no sign, factor or wall
 // branch can be wrong in one and not show. Along each walled axis k
 //   [sum r_k v_l] = Dt int (rho V_k V_l - sigma_kl) dA + sum_walls r_w,k dp_l + sources

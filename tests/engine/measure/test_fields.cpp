@@ -60,8 +60,8 @@ TEST_CASE("Field value: every field is that of its definition, particle by parti
   const auto value = [&](Field field) { return field_value(field, cell); };
   Vec2 mean = Vec2::Zero();
   for (const Vec2& v : content.velocities) mean += v / 3.0;
-  Eigen::Matrix2d kinetic = Eigen::Matrix2d::Zero();  // Eq. (4.26)
-  Vec2 heat = Vec2::Zero();                           // Eq. (4.29), with spins
+  Eigen::Matrix2d kinetic = Eigen::Matrix2d::Zero();  // (theory 8.3)
+  Vec2 heat = Vec2::Zero();                           // (theory 8.8), with spins
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec2 own = content.velocities[i] - mean;
     kinetic -= own * own.transpose() / area;

@@ -130,8 +130,8 @@ TEST_CASE("Totals: what the walls took up is what the gas lost") {
 }
 
 TEST_CASE("Totals: a head-on collision by hand") {
-  // g_n = -2, alpha = 1/2: each changes by (1 + alpha)/2 * 2 = 1.5, Eq. (2.4); the energy lost is
-  // (1 - alpha^2) g_n^2 / 4 = 0.75, Eq. (2.8); impulse and separation are parallel, one diameter.
+  // g_n = -2, alpha = 1/2: each changes by (1 + alpha)/2 * 2 = 1.5 (theory 3.2); the energy lost is
+  // (1 - alpha^2) g_n^2 / 4 = 0.75 (theory 3.6); impulse and separation are parallel, one diameter.
   const Scene scene = gas(20.0, 20.0, 2, 0.5);
   const State<2> start{{{5.0, 5.0}, {8.0, 5.0}}, {{1.0, 0.0}, {-1.0, 0.0}}};
   Simulation<2> simulation(model_of<2>(scene, 1), start);

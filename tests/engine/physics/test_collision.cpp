@@ -32,7 +32,7 @@ struct RoughPair {
   double dissipated() const {
     return dissipated_energy<D>(x(), v_1 - v_2, spin_sum(), law, inertia, diameter);
   }
-  /// Relative velocity of the touching surfaces, section 2.
+  /// Relative velocity of the touching surfaces (theory 3.1).
   Vec<D> surface_velocity() const {
     return v_1 - v_2 + 0.5 * diameter * cross_spin<D>(n(), spin_sum());
   }
@@ -85,8 +85,9 @@ bool same_bits(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-// Eq. (2.4), (2.8) with beta = -1 and m = 1.
-TEST_CASE("Collision: smooth pairs lose the energy of Eq. (2.8) and keep the tangential velocity") {
+// (theory 3.2, 3.6) with beta = -1 and m = 1.
+TEST_CASE(
+    "Collision: smooth pairs lose the energy of theory 3.6 and keep the tangential velocity") {
   double energy_off = 0.0, tangential_off = 0.0, normal_off = 0.0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Random random(31, Stream::Velocity, i, 0);

@@ -23,7 +23,7 @@ struct Temperatures {
   double translational = 1.0, rotational = 0.0;
 };
 
-/// d/dt of both in a gas of area fraction .2: the energies of section 2 with the averages of g_n^2,
+/// d/dt of both in a gas of area fraction .2: the energies (theory 3.6) with the averages of g_n^2,
 /// g_t^2 and g_t v_t over the particles that collide, 4 T_tr, 2 T_tr + 2 T_rot/q and 2 T_tr, at
 /// half of Enskog's rate per particle. Without the names A, B and C.
 Temperatures rough_change(const RoughGas& gas, const Temperatures& T, double power) {
@@ -125,7 +125,7 @@ Temperatures evolved(const RoughGas& gas, Temperatures T, double power) {
 
 }  // namespace
 
-TEST_CASE("Theory: chi is that of Eq. (3.6)") {
+TEST_CASE("Theory: chi is that of theory 6.1") {
   CHECK(contact_correlation(0.0) == 1.0);
   CHECK(contact_correlation(0.5) == doctest::Approx(3.125).epsilon(1e-15));       // (25/32) / (1/4)
   CHECK(contact_correlation(0.2) == doctest::Approx(1.42578125).epsilon(1e-14));  // .9125/.64
@@ -156,7 +156,7 @@ TEST_CASE("Theory: the compressibility has its virial limit and the factor (1 + 
   CHECK((compressibility(1e-6, 1.0) - 1.0) / 1e-6 == doctest::Approx(2.0).epsilon(1e-5));
 }
 
-TEST_CASE("Theory: Enskog's rate is that of Eq. (3.5), and kinetic when dilute") {
+TEST_CASE("Theory: Enskog's rate is that of theory 6.2, and kinetic when dilute") {
   // chi(.1) = .95625/.81, rho = .4/pi: 2 sqrt(pi) * 1.1805556 * .1273240.
   CHECK(enskog_rate(0.1, 1.0) == doctest::Approx(0.5328457177951).epsilon(1e-12));
   CHECK(enskog_rate(0.1, 9.0) == doctest::Approx(3.0 * enskog_rate(0.1, 1.0)).epsilon(1e-14));
@@ -199,7 +199,7 @@ TEST_CASE("VibratedGas: of spheres it is the balance of their rates and energies
       doctest::Approx(haff_rate_periodic(lossless.packing_fraction(), 0.9, 1.7, 3)).epsilon(1e-13));
 }
 
-TEST_CASE("VibratedGas: its parameters are those of Eqs. (3.8) and (3.9)") {
+TEST_CASE("VibratedGas: its parameters are those of theory 7.5 and 7.6") {
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
   CHECK(gas.packing_fraction() == doctest::Approx(pi / 10.0).epsilon(1e-15));
   // sqrt(2) * 1.8337511829 * 200/25
@@ -228,7 +228,7 @@ TEST_CASE("VibratedGas: dT/dt is zero at the stationary temperatures, and drives
   }
 }
 
-TEST_CASE("VibratedGas: the temperatures are those found by bisection of Eq. (3.7)") {
+TEST_CASE("VibratedGas: the temperatures are those found by bisection of theory 7.7 and 7.8") {
   // Found outside of this program, by bisection of the two brackets.
   CHECK(vibrated(100.0, 0.9, 1.0).temperature_simple() == doctest::Approx(1.26202273350));
   CHECK(vibrated(100.0, 0.9, 1.0).temperature_refined() == doctest::Approx(0.69972238743));
@@ -263,7 +263,7 @@ TEST_CASE("VibratedGas: a vanishing loss is balanced by the linear gain alone") 
   CHECK(gas.temperature_refined() == doctest::Approx(s * s).epsilon(1e-7));
 }
 
-TEST_CASE("VibratedGas: rates and energies are those of Eqs. (3.2)-(3.5)") {
+TEST_CASE("VibratedGas: rates and energies are those of theory 7.1-7.4") {
   // At T = 1.7, evaluated outside of this program: 10 sqrt(T/2 pi); sqrt(pi) chi 200 * 199/500
   // sqrt(T); (1 + 3.8 sqrt(T/2 pi) - .0975 T)/2; -.19 T/2.
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
@@ -280,14 +280,14 @@ TEST_CASE("VibratedGas: rates and energies are those of Eqs. (3.2)-(3.5)") {
         doctest::Approx(0.5 * 199.0 * enskog_rate(gas.packing_fraction(), 1.7)).epsilon(1e-13));
 }
 
-TEST_CASE("VibratedGas: Eq. (3.7) is the balance of Eqs. (3.2)-(3.5)") {
+TEST_CASE("VibratedGas: theory 7.7 is the balance of 7.1-7.4") {
   for (const double restitution : {0.5, 0.9, 1.0}) {
     for (const double wall_restitution : {0.3, 0.9, 1.0, 1.1}) {
       for (const double temperature : {0.01, 1.0, 30.0}) {
         const VibratedGas gas = vibrated(100.0, restitution, wall_restitution);
         const double at_walls =
             2.0 * gas.wall_hit_rate(temperature) * gas.energy_per_wall_hit(temperature);
-        // (3.7) takes N for N - 1.
+        // (theory 7.7) takes N for N - 1.
         const double at_particles =
             100.0 / 99.0 * gas.collision_rate(temperature) * gas.energy_per_collision(temperature);
         const double scale = std::fabs(at_walls) + std::fabs(at_particles);
@@ -317,7 +317,7 @@ TEST_CASE("VibratedGas: the wall layer makes hits more frequent, and the gas hot
         doctest::Approx(vibrated(100.0, 1.0, 0.9).temperature_refined()).epsilon(1e-14));
 }
 
-TEST_CASE("VibratedGas: Haff's rates are those of Eq. (3.10)") {
+TEST_CASE("VibratedGas: Haff's rates are those of theory 7.12") {
   // -dT/dt/(2 T) at T = 1.7 from rates times energies, evaluated outside of this program: simple
   // averages; refined ones, which lose (1 - alpha_w^2) T at a wall and (1 - alpha^2) T at a
   // particle; and those with the wall's share times kappa.
@@ -337,7 +337,7 @@ TEST_CASE("VibratedGas: Haff's rates are those of Eq. (3.10)") {
   CHECK(haff_rate_periodic(0.1, 0.9, 4.0) == doctest::Approx(0.050620343190535).epsilon(1e-12));
 }
 
-TEST_CASE("Theory: Haff's law solves Eq. (3.7) without drive") {
+TEST_CASE("Theory: Haff's law solves theory 7.7 without drive") {
   for (const double wall_restitution : {0.9, 1.1}) {
     VibratedGas gas = vibrated(100.0, 1.0, wall_restitution);
     gas.drive_speed = 0.0;
@@ -361,7 +361,7 @@ TEST_CASE("Theory: Haff's law diverges at its divergence time") {
   CHECK(std::isfinite(haff_temperature(1.0, -0.25, 3.999)));
   CHECK(divergence_time(0.0) == std::numeric_limits<double>::infinity());
   CHECK(divergence_time(0.25) == std::numeric_limits<double>::infinity());
-  // Section 5: without kappa the divergence comes 45 % late at N = 100 in 20 x 25.
+  // (theory 7.16): without kappa the divergence comes 45 % late at N = 100 in 20 x 25.
   const VibratedGas gas = vibrated(100.0, 1.0, 1.1);
   const double late =
       divergence_time(gas.haff_rate_refined(1.0)) / divergence_time(gas.haff_rate_corrected(1.0));
@@ -418,7 +418,7 @@ TEST_CASE("RoughGas: energy is shared evenly without loss, and smooth particles 
     CHECK(RoughGas{1.0, 1.0, q}.cooling_ratio() == doctest::Approx(1.0).epsilon(1e-14));
     CHECK(RoughGas{0.7, 1.0, q}.driven_ratio() == doctest::Approx(1.0).epsilon(1e-14));
   }
-  // Smooth particles: no spins, and Eq. (3.4) refined in a periodic box, H = 2 k T.
+  // Smooth particles: no spins, and the loss (theory 6.4) in a periodic box, H = 2 k T.
   const RoughGas smooth = {0.8, -1.0, 0.5};
   CHECK(smooth.driven_ratio() == 0.0);
   const double T = smooth.driven_temperature(0.2, 0.03);

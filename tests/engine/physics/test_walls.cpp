@@ -63,8 +63,8 @@ constexpr std::uint32_t kHits = 100000;
 
 }  // namespace
 
-// Eq. (3.1): v_n' = alpha_w |v_n| + v_dr, along the normal into the box.
-TEST_CASE("Walls: reflection off each of the four walls is that of Eq. (3.1)") {
+// (theory 4.1): v_n' = alpha_w |v_n| + v_dr, along the normal into the box.
+TEST_CASE("Walls: reflection off each of the four walls is that of theory 4.1") {
   CHECK(reflect<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
   CHECK(reflect<2>({2.0, 3.0}, 0, -1.0, 0.5, 0.0) == Vec2(-1.0, 3.0));
   CHECK(reflect<2>({-2.0, -3.0}, 1, 1.0, 0.5, 0.25) == Vec2(-2.0, 1.75));
@@ -72,8 +72,9 @@ TEST_CASE("Walls: reflection off each of the four walls is that of Eq. (3.1)") {
   CHECK(reflect<2>({-2.0, 3.0}, 0, 1.0, 1.5, 0.0) == Vec2(3.0, 3.0));
 }
 
-// Section 3: v_n has the flux-weighted density (v/T) exp(-v^2/2T): mean sqrt(pi T/2), mean square
-// 2 T, variance of the square 4 T^2, share below v 1 - exp(-v^2/2T); v_t is Gaussian of variance T.
+// (theory 4.7): v_n has the flux-weighted density (v/T) exp(-v^2/2T): mean sqrt(pi T/2), mean
+// square 2 T, variance of the square 4 T^2, share below v 1 - exp(-v^2/2T); v_t is Gaussian of
+// variance T.
 TEST_CASE("Walls: a thermal wall emits flux-weighted velocities") {
   constexpr int kSamples = 400000, kBins = 50;
   constexpr double kT = 2.25;
@@ -110,7 +111,7 @@ TEST_CASE("Walls: a thermal wall at T_w = 0 stops the particle") {
   CHECK(emit<2>(0, 1.0, 0.0, 0.3, &normal) == Vec2(0.0, 0.0));
 }
 
-// Section 3: in the wall's frame v_n' = -alpha_w v_n.
+// (theory 4.2): in the wall's frame v_n' = -alpha_w v_n.
 TEST_CASE("Walls: a moving wall reflects in its own frame, also from behind") {
   CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
   CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 0.5, 1.0) == Vec2(2.5, 3.0));

@@ -76,7 +76,7 @@ double log_uniform(Random& random, double from, double to);
 /// A particle before a wall, over wide ranges of what the wall's stroke and frequency leave free.
 WallCase random_case(WallPath path, Random& random);
 
-/// Makes it the particle after the wall has hit it, section 3.
+/// Makes it the particle after the wall has hit it (theory 4.2).
 void reflect_at(WallCase& c, double time, double restitution);
 
 }  // namespace clatter::testing
