@@ -14,7 +14,7 @@ namespace clatter {
 // A file is: the magic, the head, the body, and the CRC-32 of all before.
 static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
 // To be raised when a struct that it keeps changes.
-static constexpr std::uint32_t kVersion = 8;
+static constexpr std::uint32_t kVersion = 9;
 
 // Program and command come first in every version, so that a file of another one can be told.
 template <class Archive>

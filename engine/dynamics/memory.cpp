@@ -28,7 +28,8 @@ static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>
 template <int D>
 static GasMemory memory_of(const Scene& scene) {
   const double count = scene.particles.count;
-  return {count * kBytesPerParticle<D>, scene.spins() ? count * sizeof(Spin<D>) : 0.0,
+  const double remainder = scene.box.maxCoeff() > kLongBox ? sizeof(Vec<D>) : 0.0;
+  return {count * (kBytesPerParticle<D> + remainder), scene.spins() ? count * sizeof(Spin<D>) : 0.0,
           scene.contact_time ? count * sizeof(double) : 0.0};
 }
 

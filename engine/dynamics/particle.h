@@ -4,6 +4,10 @@
 
 namespace clatter {
 
+/// Box side in diameters beyond which a run keeps what its positions lose in rounding: there they
+/// are coarser than 2e-12, and grains that rattle would lose the way of each short flight.
+inline constexpr double kLongBox = 16384.0;
+
 /// A particle's stored state: it changes only in the particle's own physical events, and in 2D it
 /// fills one cache line. Contact kernels read it as a row of doubles, see Candidates.
 template <int D>

@@ -53,6 +53,7 @@ struct RunState {
   std::vector<Flight<D>> flights;       ///< [N] in original order
   std::vector<Spin<D>> spins;           ///< [N], or empty: all 0
   std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
+  std::vector<Vec<D>> remainders;       ///< [N] exact positions - flights.r, or empty: all 0
   std::uint64_t until_base_moves = 0;   ///< physical events left
   double mean_collision_time = 0.0;     ///< of a particle, see Watchdog; 0: not known
   double start_speed = 0.0;             ///< of the fastest particle at the run's start
@@ -109,12 +110,12 @@ void visit(Archive& io, Flight<D>& flight) {
 /// Likewise.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
-  auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
-         mean_collision_time, start_speed, kick_interval, kick_origin, kicks_since_origin, counts,
-         checks] = state;
-  io(gravity, wall_motions, base, now, flights, spins, last_collisions, until_base_moves,
-     mean_collision_time, start_speed, kick_interval, kick_origin, kicks_since_origin, counts,
-     checks);
+  auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, remainders,
+         until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
+         kicks_since_origin, counts, checks] = state;
+  io(gravity, wall_motions, base, now, flights, spins, last_collisions, remainders,
+     until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
+     kicks_since_origin, counts, checks);
 }
 
 }  // namespace clatter

@@ -79,6 +79,7 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
       particles_(saved.flights.size()),
       spins_(saved.spins.begin(), saved.spins.end()),
       last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
+      remainders_(saved.remainders.begin(), saved.remainders.end()),
       plans_(particles_.size()),
       cells_per_particle_(kCellsPerParticle),
       grid_(model_, cells_per_particle_ * static_cast<double>(particles_.size())),
@@ -92,6 +93,8 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
       checks_(saved.checks) {
   spins_.resize(model_.spins ? particles_.size() : 0, Spin<D>::Zero());
   last_collisions_.resize(model_.contact_time ? particles_.size() : 0, -kNever);
+  remainders_.resize(model_.box.maxCoeff() > kLongBox * model_.diameter ? particles_.size() : 0,
+                     Vec<D>::Zero());
   if (may_collapse(model_)) {
     watchdog_.emplace(particles_.size(), now_, saved.mean_collision_time);
   }
@@ -324,6 +327,7 @@ RunState<D> Simulation<D>::save() const {
   for (const Particle<D>& particle : particles_) saved.flights.push_back(particle.flight);
   saved.spins.assign(spins_.begin(), spins_.end());
   saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
+  saved.remainders.assign(remainders_.begin(), remainders_.end());
   saved.until_base_moves = until_base_moves_;
   if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
   saved.start_speed = start_speed_;

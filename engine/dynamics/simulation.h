@@ -83,8 +83,6 @@ class Simulation {
   /// What the run has checked of itself since the start.
   const RunChecks& checks() const { return checks_; }
 
-  /// For run_until: however many collisions, or steps, there are.
-
  private:
   struct Timer {
     double start;
@@ -114,7 +112,8 @@ class Simulation {
   [[noreturn]] void stop_at_collapse() const;
   [[noreturn]] void stop_at_divergence() const;
   void enter_next_cell(std::uint32_t number);
-  [[gnu::always_inline]] inline Motion motion_now(const Flight<D>& flight) const;
+  [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
+  void carry_remainder(std::uint32_t number, Vec<D>& position);
   [[gnu::always_inline]] inline void renew_flight(Particle<D>& particle, const Vec<D>& position,
                                                   const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
@@ -138,6 +137,7 @@ class Simulation {
   LargeArray<Particle<D>> particles_;
   LargeArray<Spin<D>> spins_;           // [N], or empty
   LargeArray<double> last_collisions_;  // [N] times on the base, where there is a t_c; else empty
+  LargeArray<Vec<D>> remainders_;       // [N] of rounded positions, in long boxes; else empty
   LargeArray<Plan<D>> plans_;
   double cells_per_particle_;  // asked of the grid
   CellGrid<D> grid_;

@@ -24,11 +24,29 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   schedule(number);
 }
 
-// Most gases do not fall, and then less must be waited for.
+// At an event of the particle. Most gases do not fall, and then less must be waited for.
 template <int D>
-typename Simulation<D>::Motion Simulation<D>::motion_now(const Flight<D>& flight) const {
-  if (!model_.has_gravity()) return {flight.r + flight.v * (now_ - flight.time), flight.v};
-  return {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
+typename Simulation<D>::Motion Simulation<D>::motion_now(std::uint32_t number) {
+  const Flight<D>& flight = particles_[number].flight;
+  Motion motion{flight.r + flight.v * (now_ - flight.time), flight.v};
+  if (model_.has_gravity()) {
+    motion = {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
+  }
+  if (!remainders_.empty()) carry_remainder(number, motion.r);
+  return motion;
+}
+
+// Compensated summation of flights: adds what the roundings of the positions have left out by now,
+// this one included.
+template <int D>
+void Simulation<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
+  const Flight<D>& flight = particles_[number].flight;
+  const double dt = now_ - flight.time;
+  const Vec<D> way = (flight.v + model_.gravity * (0.5 * dt)) * dt;
+  const Vec<D> left_out = remainders_[number] + ((flight.r - position) + way);
+  const Vec<D> rounded = position + left_out;
+  remainders_[number] = left_out - (rounded - position);
+  position = rounded;
 }
 
 // Where a particle becomes fast late after the base, say one of a cold gas at a driven wall, it
@@ -80,8 +98,8 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   Particle<D>& a = particles_[first];
   Particle<D>& b = particles_[second];
   const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
-  const auto [r_a, v_a] = motion_now(a.flight);
-  const auto [r_b, v_b] = motion_now(b.flight);
+  const auto [r_a, v_a] = motion_now(first);
+  const auto [r_b, v_b] = motion_now(second);
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = v_a - v_b;
   const double least = (1.0 - checks_.deepest_overlap) * model_.diameter;
@@ -127,13 +145,16 @@ template <int D>
 void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   Particle<D>& particle = particles_[number];
   const int axis = side / 2;
-  auto [r, v] = motion_now(particle.flight);
+  auto [r, v] = motion_now(number);
   const double place = boundary_.touching_place(side, now_);
   const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
   // A particle at a wall that stays where it is lies there to the last bit, so that a grain which
   // comes to rest does not sink by rounding.
-  if (!model_.walls[side]->moves()) r[axis] = place;
+  if (!model_.walls[side]->moves()) {
+    r[axis] = place;
+    if (!remainders_.empty()) remainders_[number][axis] = 0.0;
+  }
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
@@ -170,7 +191,7 @@ void Simulation<D>::kick() {
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     gains[i].momentum -= mean;
-    const auto [r, v] = motion_now(particles_[i].flight);
+    const auto [r, v] = motion_now(i);
     const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(particles_[i], r, v + gains[i].momentum);
@@ -187,6 +208,8 @@ template Spin<2> Simulation<2>::spin(std::uint32_t) const;
 template Spin<3> Simulation<3>::spin(std::uint32_t) const;
 template void Simulation<2>::add_spin(std::uint32_t, const Spin<2>&);
 template void Simulation<3>::add_spin(std::uint32_t, const Spin<3>&);
+template void Simulation<2>::carry_remainder(std::uint32_t, Vec2&);
+template void Simulation<3>::carry_remainder(std::uint32_t, Vec<3>&);
 template bool Simulation<2>::within_contact_time(std::uint32_t) const;
 template bool Simulation<3>::within_contact_time(std::uint32_t) const;
 template ParticleChange<2> Simulation<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,

@@ -24,7 +24,7 @@ template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved)
     : schedule_(scene), seed_(seed) {
   schedule_.skip_to(Clock(saved.base).absolute(saved.now));
-  simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.scene(), seed), saved);
+  simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved);
 }
 
 template <int D>
@@ -60,7 +60,7 @@ void ScheduledRun<D>::change(const std::vector<Override>& laws) {
 template <int D>
 void ScheduledRun<D>::change_laws(Schedule changed) {
   go_on_as(
-      std::make_unique<Simulation<D>>(model_of<D>(changed.scene(), seed_), simulation_->save()));
+      std::make_unique<Simulation<D>>(model_of<D>(changed.laws(), seed_), simulation_->save()));
   schedule_ = std::move(changed);
 }
 

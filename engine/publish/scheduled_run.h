@@ -32,8 +32,10 @@ class ScheduledRun {
   /// The simulation, until laws change.
   Simulation<D>& simulation() { return *simulation_; }
   const Simulation<D>& simulation() const { return *simulation_; }  ///< likewise
+  /// The scene with the laws in force, without its changes.
+  const Scene& laws() const { return schedule_.laws(); }
   /// The scene with the laws in force, and all its changes.
-  const Scene& scene() const { return schedule_.scene(); }
+  Scene scene() const { return schedule_.scene(); }
   /// Of every random number of the run.
   std::uint64_t seed() const { return seed_; }
 

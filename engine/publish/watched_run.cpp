@@ -91,7 +91,7 @@ void RunOf<D>::observe(Simulation<D>& simulation) {
   lookahead_.reset();
   profile_.reset();
   residuals_.reset();
-  const double window = run_.scene().view.window / kWindowParts;
+  const double window = run_.laws().view.window / kWindowParts;
   if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window);
   if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window);
 }
@@ -130,7 +130,7 @@ template <int D>
 std::optional<ContactTimeError> RunOf<D>::contact_time_error() const {
   const double dissipated = tally_.dissipated - tally_at_laws_.dissipated;
   const auto collisions = static_cast<double>(tally_.collisions - tally_at_laws_.collisions);
-  if (!run_.scene().contact_time || !(dissipated > 0.0)) return std::nullopt;
+  if (!run_.laws().contact_time || !(dissipated > 0.0)) return std::nullopt;
   const double undissipated = tally_.undissipated - tally_at_laws_.undissipated;
   const auto elastic = static_cast<double>(tally_.elasticised - tally_at_laws_.elasticised);
   return ContactTimeError{undissipated / dissipated, elastic / collisions};

@@ -172,9 +172,8 @@ Scene parse_scene(std::string_view text, const std::string& file,
 }
 
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
-  Scene without_changes = scene;
-  without_changes.changes.clear();
-  toml::table root = parse_document(scene_to_toml(without_changes), "");
+  toml::table root = parse_document(scene_to_toml(scene), "");
+  root.erase("change");
   for (const Override& setting : settings) apply_override(root, setting);
   const Start& start = scene.particles.start;
   const bool skipped = start.layout == Layout::File && particle_count(start.state) == 0;

@@ -39,10 +39,8 @@ static void require_same_sides(const Scene& before, const Scene& now) {
 }
 
 // The numbers of a ramp, a share of the way from those in force to those given.
-static std::vector<Override> on_the_way(const Scene& scene, const std::vector<Override>& targets,
+static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Override>& targets,
                                         double share) {
-  Scene laws = scene;
-  laws.changes.clear();
   const toml::table now = parse_document(scene_to_toml(laws), "");
   std::vector<Override> settings;
   for (const auto& [key, value] : targets) {
@@ -59,41 +57,52 @@ static std::vector<Override> on_the_way(const Scene& scene, const std::vector<Ov
   return settings;
 }
 
-Schedule::Schedule(const Scene& scene) : scene_(scene) {
-  const std::vector<Change> changes = std::move(scene_.changes);
-  scene_.changes.clear();
-  for (const Change& change : changes) add(change);
+Schedule::Schedule(const Scene& scene) : laws_(scene) {
+  changes_ = std::make_shared<const std::vector<Change>>(std::move(laws_.changes));
+  laws_.changes.clear();
+  for (std::size_t number = 0; number < changes_->size(); ++number) plan(number);
+}
+
+Scene Schedule::scene() const {
+  Scene scene = laws_;
+  scene.changes = *changes_;
+  return scene;
 }
 
 double Schedule::next() const {
-  return steps_.empty() ? std::numeric_limits<double>::infinity() : steps_.back().time;
+  return steps_.empty() ? std::numeric_limits<double>::infinity() : steps_.front().time;
 }
 
 void Schedule::add(const Change& change) {
-  scene_.changes.push_back(change);
-  const double first =
-      change.ramp ? change.time + (change.until - change.time) / kRampSteps : change.time;
-  put({first, scene_.changes.size() - 1, 1});
+  std::vector<Change> all = *changes_;
+  all.push_back(change);
+  changes_ = std::make_shared<const std::vector<Change>>(std::move(all));
+  plan(changes_->size() - 1);
 }
 
-// Changes of one time come in their order.
+void Schedule::plan(std::size_t number) {
+  const Change& change = (*changes_)[number];
+  const double first =
+      change.ramp ? change.time + (change.until - change.time) / kRampSteps : change.time;
+  put({first, number, 1});
+}
+
 void Schedule::put(const Step& step) {
-  const auto later = [](const Step& a, const Step& b) {
-    return a.time != b.time ? a.time > b.time : a.change > b.change;
-  };
-  steps_.insert(std::ranges::upper_bound(steps_, step, later), step);
+  steps_.push_back(step);
+  std::push_heap(steps_.begin(), steps_.end());
 }
 
 void Schedule::change_to(const std::vector<Override>& settings) {
   require_live(settings);
-  Scene changed = with_settings(scene_, settings);
-  require_same_sides(scene_, changed);
-  scene_ = std::move(changed);
+  Scene changed = with_settings(laws_, settings);
+  require_same_sides(laws_, changed);
+  laws_ = std::move(changed);
 }
 
 void Schedule::advance() {
-  const Step step = steps_.back();
-  const Change& change = scene_.changes[step.change];
+  const Step step = steps_.front();
+  const Change& change = (*changes_)[step.change];
+  std::pop_heap(steps_.begin(), steps_.end());
   steps_.pop_back();
   if (!change.ramp || step.part == kRampSteps) {
     change_to(change.set);
@@ -103,7 +112,7 @@ void Schedule::advance() {
   const double share = static_cast<double>(part) / kRampSteps;
   put({change.time + share * (change.until - change.time), step.change, part});
   // Of what is left to go, so that the last step arrives.
-  change_to(on_the_way(scene_, change.set, 1.0 / (kRampSteps - step.part + 1)));
+  change_to(on_the_way(laws_, change.set, 1.0 / (kRampSteps - step.part + 1)));
 }
 
 void Schedule::skip_to(double time) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -18,8 +20,10 @@ class Schedule {
   /// At the scene's start: no change has come into force.
   explicit Schedule(const Scene& scene);
 
-  /// The scene with the laws now in force.
-  const Scene& scene() const { return scene_; }
+  /// The scene with the laws now in force, without its changes.
+  const Scene& laws() const { return laws_; }
+  /// The scene with the laws now in force, and with all its changes.
+  Scene scene() const;
   /// Simulation time at which other laws come into force; infinite: never.
   double next() const;
   /// Brings the laws of that time into force. Throws UserError where they make no scene, or need
@@ -31,7 +35,7 @@ class Schedule {
   void add(const Change& change);
 
   /// Which of the scene's changes the next laws are of.
-  std::size_t next_change() const { return steps_.back().change; }
+  std::size_t next_change() const { return steps_.front().change; }
 
   /// In how many steps a ramp goes.
   static constexpr int kRampSteps = 64;
@@ -41,13 +45,20 @@ class Schedule {
     double time;
     std::size_t change;
     int part;  // of kRampSteps
+
+    // Changes of one time come in their order.
+    bool operator<(const Step& other) const {
+      return time != other.time ? time > other.time : change > other.change;
+    }
   };
 
+  void plan(std::size_t number);
   void put(const Step& step);
   void change_to(const std::vector<Override>& settings);
 
-  Scene scene_;
-  std::vector<Step> steps_;  // to come, the soonest at the end
+  Scene laws_;
+  std::shared_ptr<const std::vector<Change>> changes_;  // shared by copies, which are made per law
+  std::vector<Step> steps_;                             // to come, a heap with the soonest in front
 };
 
 }  // namespace clatter

@@ -29,6 +29,7 @@ Checkpoint example() {
   saved.flights = {{{1.0, 2.0}, {-0.0, 1e-300}, 0.25, 7}, {{3.0, 4.0}, {5.0, 6.0}, 0.75, 8}};
   saved.spins = {Spin<2>(0.125), Spin<2>(-8.0)};
   saved.last_collisions = {-HUGE_VAL, 2.5};
+  saved.remainders = {{1e-11, 2e-11}, {3e-11, 4e-11}};
   saved.until_base_moves = 11;
   saved.mean_collision_time = 11.5;
   saved.kick_interval = 0.0625;
@@ -113,6 +114,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { ++disks(c).flights[1].number; },
       [](Checkpoint& c) { disks(c).spins[1][0] += 1.0; },
       [](Checkpoint& c) { disks(c).last_collisions[1] += 1.0; },
+      [](Checkpoint& c) { disks(c).remainders[1].x() += 1.0; },
       [](Checkpoint& c) { ++disks(c).until_base_moves; },
       [](Checkpoint& c) { disks(c).mean_collision_time += 1.0; },
       [](Checkpoint& c) { disks(c).kick_interval += 1.0; },

@@ -65,6 +65,26 @@ TEST_CASE("Simulation: contacts after long flights are as exact as these are lon
   check_long_flights(periodic_box(2.6, 2.3, 2.1));
 }
 
+// A disk rattles between two walls 1e-11 diameters farther apart than it is wide, where positions
+// along x are rounded to 1e-10: each of its flights is a tenth of that long.
+TEST_CASE("Simulation: short flights add up where positions are coarse") {
+  const double x = 999900.0, speed = 0.003;
+  const Model<2> model = with_walls(periodic_box(1e6, 1.0 + 0x1p-36), 1, Wall{});
+  Simulation<2> simulation(model, {{{x, 0.5}}, {{speed, 0.0024}}});
+  simulation.run_until(1.0, 100'000);
+  CHECK(simulation.counts().wall_collisions == 100'000);
+  const double time = simulation.time();
+  CHECK(time == doctest::Approx(100'000 * 0x1p-36 / 0.0024).epsilon(1e-4));
+  const double coarse = std::nextafter(x, 2.0 * x) - x;
+  CHECK(std::fabs(simulation.state().positions[0].x() - (x + speed * time)) <= coarse);
+
+  // A run that is put aside goes on with the same remainders.
+  Simulation<2> resumed(model, simulation.save());
+  simulation.run_until(1.0, 200'000);
+  resumed.run_until(1.0, 200'000);
+  CHECK(resumed.save().remainders == simulation.save().remainders);
+}
+
 TEST_CASE("Simulation: a start with overlap is refused, one that touches is not") {
   const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, Wall{});
   const auto start = [](Vec2 a, Vec2 b) { return State<2>{{a, b}, {Vec2::Zero(), Vec2::Zero()}}; };

@@ -83,6 +83,26 @@ TEST_CASE("Schedule: changes are written as a scene file that reads back") {
   CHECK(says(scene_to_json(scene), "\"change\": [{\"time\": 1.5, \"set\": {"));
 }
 
+// Laws do not carry the changes with them: 20,000 changes took as many copies of 20,000.
+TEST_CASE("Schedule: laws are without the changes, and any number of these comes in order") {
+  Scene scene = scene_with("");
+  constexpr int kChanges = 20'000;
+  for (int i = 0; i < kChanges; ++i) {
+    const int number = (i * 7919) % kChanges;  // in no order
+    scene.changes.push_back({.time = 0.5 * number, .set = {{"particles.restitution", "0.5"}}});
+  }
+  Schedule schedule(scene);
+  double last = -1.0;
+  for (int i = 0; i < 100; ++i) {
+    CHECK(schedule.next() == 0.5 * i);
+    CHECK(schedule.next() > last);
+    last = schedule.next();
+    schedule.advance();
+    CHECK(schedule.laws().changes.empty());
+  }
+  CHECK(schedule.scene().changes.size() == kChanges);
+}
+
 TEST_CASE("Schedule: impossible changes are refused with their place") {
   const std::string head = "[[change]]\ntime = 1\n";
   const std::vector<std::pair<std::string, std::vector<const char*>>> wrong = {
