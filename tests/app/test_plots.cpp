@@ -1,9 +1,12 @@
-// What the window plots where there is nothing to plot.
+// What the window plots: curves with their names and units, also where there is nothing to plot.
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "app/results/theory_json.h"
 #include "app/view/plots.h"
 #include "engine/error.h"
 #include "engine/publish/watched_run.h"
@@ -30,7 +33,244 @@ void go_on(WatchedRun& run, double time) {
   }
 }
 
+// A gas that its walls drive, and two frames of it: what the sums gained between them is each
+// another number.
+struct TwoFrames {
+  TwoFrames() {
+    scene->box = Vec2(13.0, 11.0);
+    scene->particles.count = 60;
+    scene->particles.restitution = 0.85;
+    scene->walls[kLeft] = scene->walls[kRight] = Wall{.kind = WallKind::Driven, .drive_speed = 1.7};
+    begin.run = end.run = 1;
+    begin.scene = end.scene = scene;
+    begin.tally = {.time = 2.0,
+                   .temperature_integral = Vec2(1.0, 2.0),
+                   .walls_in = 3.0,
+                   .bulk_in = 4.0,
+                   .gravity_in = 5.0,
+                   .dissipated = 6.0};
+    end.tally = {.time = 4.0,
+                 .temperature_integral = Vec2(7.0, 12.0),
+                 .walls_in = 17.0,
+                 .bulk_in = 22.0,
+                 .gravity_in = 25.0,
+                 .dissipated = 30.0};
+    begin.snapshot.time = 10.0;
+    end.snapshot.time = 12.0;
+    end.ledger_residual = -3e-15;
+    end.deepest_overlap = 4e-13;
+    // Each component's standard deviation is 2, of the one with two signs, of the other with one.
+    end.snapshot.positions = Vectors::Zero(2, 4);
+    end.snapshot.velocities.resize(2, 4);
+    end.snapshot.velocities << 2.0, 2.0, 2.0, -2.0, 0.0, 0.0, 0.0, 4.0;
+    for (const Frame& frame : {begin, end}) history.add(frame);
+  }
+
+  std::vector<LivePlot> plots(std::size_t profiled = 0) const {
+    return plots_of(history, end, profiled, kDarkTheme);
+  }
+  LivePlot plot(const std::string& title, std::size_t profiled = 0) const {
+    for (const LivePlot& plot : plots(profiled)) {
+      if (plot.title == title) return plot;
+    }
+    FAIL("no plot " << title);
+    return {};
+  }
+
+  std::shared_ptr<Scene> scene = std::make_shared<Scene>();
+  Frame begin, end;
+  History history;
+};
+
+void check_axes(const LivePlot& plot, const char* x, const char* y, bool log_x, bool log_y) {
+  CHECK(plot.x_label == x);
+  CHECK(plot.y_label == y);
+  CHECK(plot.log_x == log_x);
+  CHECK(plot.log_y == log_y);
+}
+
+const Curve& curve_of(const LivePlot& plot, const std::string& name) {
+  for (const Curve& curve : plot.curves) {
+    if (curve.name == name) return curve;
+  }
+  FAIL("no curve " << name);
+  return plot.curves.front();
+}
+
+// Where a plot's curve is at the end.
+void check_last(const LivePlot& plot, const std::string& name, double x, double y) {
+  CAPTURE(name);
+  const Vec2 last = curve_of(plot, name).points.back();
+  CHECK(last.x() == doctest::Approx(x));
+  CHECK(last.y() == doctest::Approx(y));
+}
+
 }  // namespace
+
+TEST_CASE("Plots: curves over time are what was gained since the frame before, under its name") {
+  const TwoFrames frames;
+  const LivePlot temperature = frames.plot("Temperature");
+  check_axes(temperature, "time t", "m a²/t²", false, false);
+  check_last(temperature, "T_x", 11.0, 3.0);
+  check_last(temperature, "T_y", 11.0, 5.0);
+  check_last(temperature, "T", 11.0, 4.0);
+  // Theory's levels reach over the whole time.
+  const nlohmann::json theory = theory_json(*frames.scene);
+  for (const std::string name : {"simple", "refined", "corrected"}) {
+    const Curve& curve = curve_of(temperature, name);
+    CHECK(curve.dashed);
+    REQUIRE(curve.points.size() == 2);
+    CHECK(curve.points[0].x() == 9.0);
+    for (const Vec2& point : curve.points) CHECK(point.y() == theory.at("temperature_" + name));
+    CHECK(curve.points[1].x() == 11.0);
+  }
+  CHECK(temperature.curves.size() == 6);
+
+  const LivePlot energy = frames.plot("Energy per time");
+  check_axes(energy, "time t", "m a²/t³", false, false);
+  check_last(energy, "in", 11.0, 7.0 + 9.0 + 10.0);
+  check_last(energy, "dissipated", 11.0, 12.0);
+  check_last(energy, "difference", 11.0, 14.0);
+  CHECK(energy.curves.size() == 3);
+
+  const LivePlot residuals = frames.plot("Residuals");
+  check_axes(residuals, "time t", "relative", false, true);
+  check_last(residuals, "energy", 11.0, 3e-15);
+  check_last(residuals, "overlap", 11.0, 4e-13);
+  CHECK(residuals.curves.size() == 2);
+}
+
+TEST_CASE("Plots: velocities stand over their standard deviation beside the Gaussian") {
+  const TwoFrames frames;
+  const LivePlot plot = frames.plot("Velocities");
+  check_axes(plot, "v / standard deviation", "density", false, true);
+  const auto density_at = [&](const char* name, double v) {
+    double density = -1.0;
+    for (const Vec2& point : curve_of(plot, name).points) {
+      if (std::fabs(point.x() - v) <= 5.0 / 61.0) density = point.y();
+    }
+    return density;
+  };
+  const double width = 10.0 / 61.0;
+  CHECK(density_at("v_x", 1.0) == doctest::Approx(0.75 / width));
+  CHECK(density_at("v_x", -1.0) == doctest::Approx(0.25 / width));
+  CHECK(density_at("v_x", 2.0) == 0.0);
+  CHECK(density_at("v_y", 0.0) == doctest::Approx(0.75 / width));
+  CHECK(density_at("v_y", 2.0) == doctest::Approx(0.25 / width));
+  const Curve& gaussian = curve_of(plot, "Gaussian");
+  CHECK(gaussian.dashed);
+  CHECK(gaussian.points.front().x() == -4.0);
+  for (const Vec2& point : gaussian.points) {
+    CHECK(point.y() == doctest::Approx(std::exp(-0.5 * point.x() * point.x()) /
+                                       std::sqrt(2.0 * std::numbers::pi)));
+  }
+}
+
+TEST_CASE("Plots: Fig. 3.1 has the gas among the curves of theory, over 1/(eps psi)") {
+  const TwoFrames frames;
+  const LivePlot plot = frames.plot("Fig. 3.1");
+  check_axes(plot, "1/(ε ψ)", "T/(m v_dr²)", true, true);
+  const double psi = theory_json(*frames.scene).at("psi"), epsilon = 1.0 - 0.85 * 0.85;
+  // The later half of two samples is the second.
+  check_last(plot, "this gas", 1.0 / (epsilon * psi), 4.0 / (1.7 * 1.7));
+  CHECK(curve_of(plot, "this gas").as_point);
+  // At the curves' left end disks keep no normal velocity: eps = 1.
+  Scene sticky = *frames.scene;
+  sticky.particles.restitution = 0.0;
+  const nlohmann::json theory = theory_json(sticky);
+  for (const std::string name : {"simple", "refined"}) {
+    CAPTURE(name);
+    const Curve& curve = curve_of(plot, name);
+    CHECK(curve.dashed);
+    CHECK(curve.points.front().x() == doctest::Approx(1.0 / psi));
+    CHECK(curve.points.front().y() ==
+          doctest::Approx(theory.at("temperature_" + name).get<double>() / (1.7 * 1.7)));
+  }
+}
+
+TEST_CASE("Plots: a profile has its field's name, unit, values and errors over the columns") {
+  TwoFrames frames;
+  Profile profile;
+  profile.edges = {0.0, 2.0, 6.0};
+  for (const Field field : kProfiledFields) {
+    const double number = static_cast<double>(profile.fields.size());
+    profile.fields.push_back(field);
+    profile.values.push_back({{10.0 + number, 0.1 + number}, {20.0 + number, 0.2 + number}});
+  }
+  frames.end.profile = profile;
+  const std::array<std::array<const char*, 3>, 5> told = {
+      {{"density", "density ρ", "1/a²"},
+       {"temperature", "temperature T", "m a²/t²"},
+       {"stress xx", "stress σ", "m/t²"},
+       {"heat flux x", "heat flux q", "m a/t³"},
+       {"dissipation", "dissipation ζ", "m/t³"}}};
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    CAPTURE(told[k][0]);
+    const double number = static_cast<double>(k);
+    CHECK(profile_names()[k] == told[k][0]);
+    CHECK(profiled_by(k) == Profiled::Fields);
+    const LivePlot plot = frames.plot("Profile", k);
+    check_axes(plot, "x in a", told[k][2], false, false);
+    REQUIRE(plot.curves.size() == 1);
+    CHECK(plot.curves[0].name == told[k][1]);
+    CHECK(plot.curves[0].points == std::vector<Vec2>{{1.0, 10.0 + number}, {4.0, 20.0 + number}});
+    CHECK(plot.curves[0].errors == std::vector<double>{0.1 + number, 0.2 + number});
+  }
+  CHECK(profile_names()[told.size()] == "balance residuals");
+  CHECK(profiled_by(told.size()) == Profiled::Balances);
+}
+
+TEST_CASE("Plots: balance residuals stand under their equation's name, in magnitude") {
+  TwoFrames frames;
+  frames.end.residuals = ResidualProfile{
+      2.0, Residuals{{{1e-16, -2e-16}, {3e-16, -4e-16}, {5e-16, -6e-16}, {7e-16, -8e-16}}}};
+  const LivePlot plot = frames.plot("Balance");
+  check_axes(plot, "x in a", "residual, relative", false, true);
+  double size = 0.0;
+  for (const char* name : {"mass", "momentum x", "momentum y", "energy"}) {
+    CAPTURE(name);
+    const std::vector<Vec2>& points = curve_of(plot, name).points;
+    CHECK(points == std::vector<Vec2>{{1.0, points[0].y()}, {3.0, points[1].y()}});
+    CHECK(points[0].y() == doctest::Approx(size += 1e-16).epsilon(1e-12));
+    CHECK(points[1].y() == doctest::Approx(size += 1e-16).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Plots: curves of a plot have colours of their own") {
+  const TwoFrames frames;
+  for (const LivePlot& plot : frames.plots()) {
+    for (std::size_t k = 0; k < plot.curves.size(); ++k) {
+      for (std::size_t l = 0; l < k; ++l) CHECK(plot.curves[k].colour != plot.curves[l].colour);
+    }
+  }
+}
+
+TEST_CASE("Plots: the copied numbers of a plot are its curves, a table each") {
+  const Colour colour{};
+  LivePlot plot{"Title", "x in a", false, false, {}, "unit"};
+  plot.curves = {{"one", colour, {{1.0, 2.0}, {3.0, 4.0}}, false, false, {0.5, 0.25}},
+                 {"", colour, {{5.0, 6.0}}}};
+  CHECK(csv_of(plot) == "x in a,one,standard error\n1,2,0.5\n3,4,0.25\n\nx in a,Title\n5,6\n\n");
+}
+
+TEST_CASE("Plots: axes hold what they show, with room above, or from decade to decade") {
+  LivePlot plot{"", "", false, false, {{"", {}, {{-1.0, 2.0}, {3.0, 20.0}}}}, ""};
+  auto [x, y] = scales_of(plot);
+  CHECK(x.low == -1.0);
+  CHECK(x.high == 3.0);
+  CHECK(y.low == 0.0);
+  CHECK(y.high == doctest::Approx(21.0));
+  CHECK(x.share(0.0) == doctest::Approx(0.25));
+  plot.log_y = true;
+  plot.floor = 1e-3;
+  plot.curves[0].points.emplace_back(9.0, 0.0);
+  const auto [wide, logarithmic] = scales_of(plot);
+  CHECK(wide.high == 9.0);
+  CHECK(logarithmic.logarithmic);
+  CHECK(logarithmic.low == doctest::Approx(-3.0));
+  CHECK(logarithmic.place(0.0) == doctest::Approx(-3.0));
+  CHECK(logarithmic.place(100.0) == doctest::Approx(2.0));
+}
 
 TEST_CASE("Plots: all axes are finite for a gas without motion, or one that comes to rest") {
   using Settings = std::vector<Override>;
