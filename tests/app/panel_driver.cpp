@@ -15,8 +15,8 @@ namespace clatter {
 
 using namespace testing;
 
-// High enough for all panels, so that nothing is cut off.
-static constexpr float kWidth = 420.0f, kHeight = 4000.0f, kTextSize = 14.0f;
+// Enough for all panels, so that nothing is cut off.
+static constexpr float kWidth = 900.0f, kHeight = 4000.0f, kTextSize = 14.0f;
 
 PanelDriver::PanelDriver(const Scene& scene, Panel panel)
     : log_(folder_ / "log"), panel_(std::move(panel)) {
@@ -113,6 +113,9 @@ void PanelDriver::wait_for(const std::function<bool(const Frame&)>& holds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     session_.update();
   }
+  CAPTURE(session_.frame().run);
+  CAPTURE(session_.frame().speed);
+  CAPTURE(session_.message());
   REQUIRE(holds(session_.frame()));
 }
 

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/view/messages.h"
 #include "app/view/panels.h"
+#include "app/view/top_bar.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/panel_driver.h"
 #include "tests/support/messages.h"
@@ -409,6 +411,71 @@ TEST_CASE("Panels: a number of disks is set once its slider is let go") {
   // Over the most that there is room for, logarithmically.
   CHECK(settings(driver).at("/particles/count") > 80);
   CHECK(settings(driver).at("/particles/count") < 110);
+}
+
+TEST_CASE("Panels: a picked disk tells its own state, and what it has hit and will hit") {
+  Frame frame;
+  frame.snapshot.positions.resize(2, 3);
+  frame.snapshot.positions << 1.25, 2.5, 3.75, 4.125, 5.25, 6.5;
+  frame.snapshot.velocities.resize(2, 3);
+  frame.snapshot.velocities << 0.5, -3.0, 7.0, 0.25, 4.0, 9.0;
+  frame.snapshot.spins.resize(1, 3);
+  frame.snapshot.spins << 0.125, -0.625, 0.75;
+  frame.last_collision = ParticleCollision{.time = 11.5, .partner = {}, .side = kTop};
+  frame.next_collision = ParticleCollision{.time = 12.25, .partner = 2};
+  bool follows = false;
+  PanelDriver driver(Scene{}, [&](Session&, Controls&) {
+    disk_label(frame, 1, follows, {100.0f, 100.0f}, {{0.0f, 0.0f}, {400.0f, 400.0f}});
+  });
+  check_lines(driver.lines(), {"Disk 1", "place 2.50, 5.25", "velocity -3.000, 4.000",
+                               "speed 5.000", "spin -0.625", "last hit t = 11.5000, top wall",
+                               "next hit t = 12.2500, disk 2", "double-click to follow"});
+  follows = true;
+  CHECK(driver.lines().back() == "followed; Esc lets go");
+}
+
+TEST_CASE("Panels: the bar above tells the time and sets the speed by steps of the root of 2") {
+  Scene scene = uneven_scene();
+  scene.title = "Uneven";
+  scene.view.speed = 2.0;
+  PanelVisibility shown;
+  PanelDriver driver(
+      scene, [&](Session& session, Controls& controls) { top_bar(session, controls, shown); });
+  const auto click = [&](const char* widget) {
+    const auto [x, y, width, height] = driver.place(widget);
+    driver.click(x + 0.5f * width, y + 0.5f * height);
+  };
+  const auto speed_is = [](double speed) {
+    return [speed](const Frame& frame) {
+      return frame.run > 0 && std::fabs(frame.speed - speed) < 1e-9;
+    };
+  };
+  driver.wait_for(speed_is(2.0));
+  CHECK(says(text_of(driver), "Uneven"));
+  CHECK(says(text_of(driver), "2 /s"));
+  CHECK(says(text_of(driver), "t = 0.00"));
+  click("faster");
+  driver.wait_for(speed_is(2.0 * std::sqrt(2.0)));
+  CHECK(says(text_of(driver), "2.83 /s"));
+  click("slower");
+  driver.wait_for(speed_is(2.0));
+  // A frame is a sixtieth of a second.
+  for (int k = 1; k <= 3; ++k) {
+    click("frame");
+    driver.wait_for(
+        [&](const Frame& frame) { return std::fabs(frame.snapshot.time - k * 2.0 / 60.0) < 1e-9; });
+  }
+  driver.point_at(0.0f, 3000.0f);  // away from buttons, whose help would end the text
+  CHECK(says(text_of(driver), "t = 0.10"));
+  click("plots");
+  CHECK(shown.plots);
+  click("help");
+  CHECK(shown.help);
+  click("gallery");
+  CHECK(shown.gallery);
+  CHECK(shown.lesson);
+  click("lesson");
+  CHECK_FALSE(shown.lesson);
 }
 
 }  // namespace clatter
