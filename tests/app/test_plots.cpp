@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -240,11 +241,37 @@ TEST_CASE("Plots: balance residuals stand under their equation's name, in magnit
   }
 }
 
-TEST_CASE("Plots: curves of a plot have colours of their own") {
-  const TwoFrames frames;
-  for (const LivePlot& plot : frames.plots()) {
-    for (std::size_t k = 0; k < plot.curves.size(); ++k) {
-      for (std::size_t l = 0; l < k; ++l) CHECK(plot.curves[k].colour != plot.curves[l].colour);
+TEST_CASE("Plots: a quantity has the same colour in all plots, one that all can tell apart") {
+  TwoFrames frames;
+  frames.end.residuals = ResidualProfile{2.0, Residuals{{{0.0}, {0.0}, {0.0}, {0.0}}}};
+  // Okabe and Ito 2008.
+  const Colour orange{230, 159, 0}, blue{86, 180, 233}, green{0, 158, 115}, red{213, 94, 0},
+      purple{204, 121, 167}, plain = kDarkTheme.text;
+  const std::map<std::string, std::map<std::string, Colour>> expected = {
+      {"Balance", {{"mass", green}, {"momentum x", orange}, {"momentum y", blue}, {"energy", red}}},
+      {"Temperature",
+       {{"T_x", orange},
+        {"T_y", blue},
+        {"T", plain},
+        {"simple", red},
+        {"refined", green},
+        {"corrected", purple}}},
+      {"Energy per time", {{"in", orange}, {"dissipated", blue}, {"difference", plain}}},
+      {"Velocities", {{"v_x", orange}, {"v_y", blue}, {"Gaussian", plain}}},
+      {"Fig. 3.1", {{"simple", red}, {"refined", green}, {"this gas", purple}}},
+      {"Residuals", {{"energy", orange}, {"overlap", blue}}}};
+  const std::vector<LivePlot> plots = frames.plots();
+  std::vector<std::string> titles;
+  for (const LivePlot& plot : plots) titles.push_back(plot.title);
+  CHECK(titles == std::vector<std::string>{"Balance", "Temperature", "Energy per time",
+                                           "Velocities", "Fig. 3.1", "Residuals"});
+  for (const LivePlot& plot : plots) {
+    CAPTURE(plot.title);
+    REQUIRE(expected.contains(plot.title));
+    CHECK(plot.curves.size() == expected.at(plot.title).size());
+    for (const Curve& curve : plot.curves) {
+      CAPTURE(curve.name);
+      CHECK(curve.colour == expected.at(plot.title).at(curve.name));
     }
   }
 }
