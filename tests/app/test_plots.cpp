@@ -145,6 +145,17 @@ TEST_CASE("Plots: curves over time are what was gained since the frame before, u
   CHECK(residuals.curves.size() == 2);
 }
 
+TEST_CASE("Plots: another run begins with its own sums") {
+  TwoFrames frames;
+  Frame again = frames.begin;
+  again.run = 2;
+  frames.history.add(again);
+  REQUIRE(frames.history.samples().size() == 1);
+  // From time 0 to 2.
+  CHECK(frames.history.samples()[0].temperature == Vec2(0.5, 1.0));
+  CHECK(frames.history.samples()[0].walls_in == 1.5);
+}
+
 TEST_CASE("Plots: velocities stand over their standard deviation beside the Gaussian") {
   const TwoFrames frames;
   const LivePlot plot = frames.plot("Velocities");
