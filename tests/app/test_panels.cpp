@@ -385,6 +385,7 @@ TEST_CASE("Panels: what is switched on starts with the usual numbers") {
   scene.contact_time.reset();
   scene.bulk_drive.reset();
   PanelDriver driver(scene, all_panels);
+  CHECK(says(text_of(driver), "[ Kick all disks ]"));
   tick(driver, "rough");
   tick(driver, "contact_time");
   tick(driver, "bulk_drive");
