@@ -15,6 +15,7 @@
 
 #include "app/system/exit_code.h"
 #include "app/view/gui.h"
+#include "engine/scene/scene_file.h"
 #include "engine/system/write_file.h"
 #include "render/context/glfw_context.h"
 

@@ -40,6 +40,7 @@ void History::add(const Frame& frame) {
   if (frame.run != run_ || frame.tally.time < last_.time) {
     run_ = frame.run;
     last_ = {};
+    last_.temperature_integral.setZero(frame.tally.temperature_integral.size());
     spacing_ = 0.0;
     samples_.clear();
     velocities_.clear();

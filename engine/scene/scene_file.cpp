@@ -171,16 +171,39 @@ Scene parse_scene(std::string_view text, const std::string& file,
   return parse(text, file, overrides, Origin::Folder, start_file);
 }
 
+// A scene as a file has it, with the keys of spins or without them.
+template <class Writer>
+static std::string written(const Scene& scene, bool spins) {
+  SceneInput input{
+      .count = scene.particles.count, .packing_fraction = {}, .spins = spins, .scene = scene};
+  Writer writer;
+  visit_scene(writer, input);
+  return writer.text();
+}
+
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
-  toml::table root = parse_document(scene_to_toml(scene), "");
-  root.erase("change");
-  for (const Override& setting : settings) apply_override(root, setting);
+  const auto document = [&](bool spins) {
+    toml::table root = parse_document(written<TomlWriter>(scene, spins), "");
+    root.erase("change");
+    for (const Override& setting : settings) apply_override(root, setting);
+    return root;
+  };
+  // Where nothing spins, the keys of spins cannot stand, but their numbers stay for when it does.
+  toml::table root = document(scene.spins());
+  const bool spins = read_keys(root, "", true).scene.spins();
+  if (spins != scene.spins()) root = document(spins);
   const Start& start = scene.particles.start;
   const bool skipped = start.layout == Layout::File && particle_count(start.state) == 0;
   const auto keep_state = [&](Scene& read) { read.particles.start.state = start.state; };
   Scene made = read_scene(root, "", skipped ? StartFile::Skip : StartFile::Read, keep_state);
   if (made.particles.start.layout == Layout::File)
     made.particles.start.temperature = start.temperature;
+  if (!spins) {
+    made.particles.inertia = scene.particles.inertia;
+    made.particles.start.spin_temperature = start.spin_temperature;
+    if (made.bulk_drive && scene.bulk_drive)
+      made.bulk_drive->kick_spin = scene.bulk_drive->kick_spin;
+  }
   made.changes = scene.changes;
   return made;
 }
@@ -206,23 +229,12 @@ Scene load_scene(const std::string& path_or_name, const std::vector<Override>& o
   refuse_missing(path_or_name);
 }
 
-template <class Writer>
-static std::string written(const Scene& scene) {
-  SceneInput input{.count = scene.particles.count,
-                   .packing_fraction = {},
-                   .spins = scene.spins(),
-                   .scene = scene};
-  Writer writer;
-  visit_scene(writer, input);
-  return writer.text();
-}
-
 std::string scene_to_toml(const Scene& scene) {
-  return written<TomlWriter>(scene);
+  return written<TomlWriter>(scene, scene.spins());
 }
 
 std::string scene_to_json(const Scene& scene) {
-  return written<JsonWriter>(scene);
+  return written<JsonWriter>(scene, scene.spins());
 }
 
 }  // namespace clatter

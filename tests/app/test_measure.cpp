@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -320,7 +321,20 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   const json late = json::parse(more.out);
   CHECK(late.at("time").at("measured").get<double>() == doctest::Approx(300.0));
   CHECK(late.at("accuracy").at("reached") > 0.01);
-  CHECK(says(more.err, "give that to --until"));
+  const double known = late.at("accuracy").at("reached");
+  CHECK(late.at("accuracy").at("asked") == 0.01);
+  CHECK(late.at("accuracy").at("of") == "pressure.left");
+  double told_mean = 0.0, told_error = 0.0, time = 0.0, aim = 0.0, end = 0.0;
+  REQUIRE(std::sscanf(more.err.substr(more.err.find("note: pressure")).c_str(),
+                      "note: pressure.left = %lf, known within %lf %% after %lf time units; for "
+                      "%lf %% the run would end about t = %lf: give that to --until",
+                      &told_mean, &told_error, &time, &aim, &end) == 5);
+  CHECK(told_mean == doctest::Approx(mean(late.at("pressure").at("left"))).epsilon(1e-5));
+  CHECK(told_error == doctest::Approx(100.0 * known).epsilon(0.01));
+  CHECK(time == doctest::Approx(300.0));
+  CHECK(aim == 1.0);
+  // The error falls with the root of the time after the burn-in.
+  CHECK(end == doctest::Approx(500.0 + 300.0 * std::pow(known / 0.01, 2.0)).epsilon(0.05));
 
   check_refused(shell, line + "--accuracy 1% --accuracy-of pressure.top",
                 {"no mean 'pressure.top'", "pressure.left"});
@@ -336,14 +350,30 @@ TEST_CASE("Measure: replicas measured at once have the numbers of those measured
   const json all = json::parse(shell.read("all.json"));
   CHECK(all.at("seeds") == json{5, 6, 7});
   REQUIRE(all.at("results").size() == 3);
-  double sum = 0.0;
   for (int k = 0; k < 3; ++k) {
     json one = json::parse(shell.run(line + "--seed " + std::to_string(5 + k)).out);
     one.erase("performance");
     CHECK(all.at("results")[k] == one);
-    sum += one.at("pressure").at("left").at("mean").get<double>();
   }
-  CHECK(mean(all.at("pressure").at("left")) == doctest::Approx(sum / 3.0));
+  // Every mean is one over the replicas, whose scatter is its error.
+  const json flat = all.at("results")[0].flatten();
+  std::size_t means = 0;
+  for (const auto& [place, value] : flat.items()) {
+    if (!place.ends_with("/standard_error")) continue;
+    CAPTURE(place);
+    const json::json_pointer estimate = json::json_pointer(place).parent_pointer();
+    ++means;
+    double sum = 0.0, squares = 0.0;
+    for (const json& one : all.at("results")) sum += one.at(estimate).at("mean").get<double>();
+    for (const json& one : all.at("results")) {
+      squares += std::pow(one.at(estimate).at("mean").get<double>() - sum / 3.0, 2.0);
+    }
+    CHECK(all.at(estimate).at("mean").get<double>() == doctest::Approx(sum / 3.0).epsilon(1e-12));
+    CHECK(all.at(estimate).at("standard_error").get<double>() ==
+          doctest::Approx(std::sqrt(squares / 6.0)).epsilon(1e-9));
+  }
+  CHECK(means == 10);
+  CHECK(all.size() == 3 + 8);  // energy and pressure have two each
   const Outcome one = shell.run(line + "--replicas 3 --seed 5 --threads 1 --out one.json");
   CHECK(one.code == 0);
   CHECK(shell.read("one.json") == shell.read("all.json"));
@@ -391,7 +421,10 @@ TEST_CASE("Measure: a gas that cools is reported as not stationary") {
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
   CHECK(says(cooling.err, "temperature is not stationary: in the second half"));
   CHECK(says(cooling.err, "lower by"));
-  CHECK(json::parse(cooling.out).at("checks").at("temperature_drift") < -3.0);
+  const double drift = json::parse(cooling.out).at("checks").at("temperature_drift");
+  CHECK(drift < -3.0);
+  const std::size_t at = cooling.err.find("lower by ");
+  CHECK(std::stod(cooling.err.substr(at + 9)) == doctest::Approx(-drift).epsilon(0.06));
   const Outcome equilibrium = shell.run("clatter measure equilibrium --until 20");
   CHECK_FALSE(says(equilibrium.err, "stationary"));
 }

@@ -1,13 +1,21 @@
-// What the window plots where there is nothing to plot.
+// What the window plots: curves with their names and units, also where there is nothing to plot.
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
 
+#include "app/results/theory_json.h"
 #include "app/view/plots.h"
 #include "engine/error.h"
 #include "engine/publish/watched_run.h"
 #include "engine/scene/scene_file.h"
+#include "render/layers/fonts.h"
+#include "render/layers/gui_context.h"
+#include "tests/support/drawn_text.h"
 
 namespace clatter {
 
@@ -30,7 +38,409 @@ void go_on(WatchedRun& run, double time) {
   }
 }
 
+// A gas that its walls drive, and two frames of it: what the sums gained between them is each
+// another number.
+struct TwoFrames {
+  TwoFrames() {
+    scene->box = Vec2(13.0, 11.0);
+    scene->particles.count = 60;
+    scene->particles.restitution = 0.85;
+    scene->walls[kLeft] = scene->walls[kRight] = Wall{.kind = WallKind::Driven, .drive_speed = 1.7};
+    begin.run = end.run = 1;
+    begin.scene = end.scene = scene;
+    begin.tally = {.time = 2.0,
+                   .temperature_integral = Vec2(1.0, 2.0),
+                   .walls_in = 3.0,
+                   .bulk_in = 4.0,
+                   .gravity_in = 5.0,
+                   .dissipated = 6.0};
+    end.tally = {.time = 4.0,
+                 .temperature_integral = Vec2(7.0, 12.0),
+                 .walls_in = 17.0,
+                 .bulk_in = 22.0,
+                 .gravity_in = 25.0,
+                 .dissipated = 30.0};
+    begin.snapshot.time = 10.0;
+    end.snapshot.time = 12.0;
+    end.ledger_residual = -3e-15;
+    end.deepest_overlap = 4e-13;
+    // Each component's standard deviation is 2, of the one with two signs, of the other with one.
+    end.snapshot.positions = Vectors::Zero(2, 4);
+    end.snapshot.velocities.resize(2, 4);
+    end.snapshot.velocities << 2.0, 2.0, 2.0, -2.0, 0.0, 0.0, 0.0, 4.0;
+    for (const Frame& frame : {begin, end}) history.add(frame);
+  }
+
+  std::vector<LivePlot> plots(std::size_t profiled = 0) const {
+    return plots_of(history, end, profiled, kDarkTheme);
+  }
+  LivePlot plot(const std::string& title, std::size_t profiled = 0) const {
+    for (const LivePlot& plot : plots(profiled)) {
+      if (plot.title == title) return plot;
+    }
+    FAIL("no plot " << title);
+    return {};
+  }
+
+  std::shared_ptr<Scene> scene = std::make_shared<Scene>();
+  Frame begin, end;
+  History history;
+};
+
+void check_axes(const LivePlot& plot, const char* x, const char* y, bool log_x, bool log_y) {
+  CHECK(plot.x_label == x);
+  CHECK(plot.y_label == y);
+  CHECK(plot.log_x == log_x);
+  CHECK(plot.log_y == log_y);
+}
+
+const Curve& curve_of(const LivePlot& plot, const std::string& name) {
+  for (const Curve& curve : plot.curves) {
+    if (curve.name == name) return curve;
+  }
+  FAIL("no curve " << name);
+  return plot.curves.front();
+}
+
+// Where a plot's curve is at the end.
+void check_last(const LivePlot& plot, const std::string& name, double x, double y) {
+  CAPTURE(name);
+  const Vec2 last = curve_of(plot, name).points.back();
+  CHECK(last.x() == doctest::Approx(x));
+  CHECK(std::fabs(last.y() - y) <= 1e-12 * y);
+}
+
 }  // namespace
+
+TEST_CASE("Plots: curves over time are what was gained since the frame before, under its name") {
+  const TwoFrames frames;
+  const LivePlot temperature = frames.plot("Temperature");
+  check_axes(temperature, "time t", "m a²/t²", false, false);
+  check_last(temperature, "T_x", 11.0, 3.0);
+  check_last(temperature, "T_y", 11.0, 5.0);
+  check_last(temperature, "T", 11.0, 4.0);
+  // Theory's levels reach over the whole time.
+  const nlohmann::json theory = theory_json(*frames.scene);
+  for (const std::string name : {"simple", "refined", "corrected"}) {
+    const Curve& curve = curve_of(temperature, name);
+    CHECK(curve.dashed);
+    REQUIRE(curve.points.size() == 2);
+    CHECK(curve.points[0].x() == 9.0);
+    for (const Vec2& point : curve.points) CHECK(point.y() == theory.at("temperature_" + name));
+    CHECK(curve.points[1].x() == 11.0);
+  }
+  CHECK(temperature.curves.size() == 6);
+
+  const LivePlot energy = frames.plot("Energy per time");
+  check_axes(energy, "time t", "m a²/t³", false, false);
+  check_last(energy, "in", 11.0, 7.0 + 9.0 + 10.0);
+  check_last(energy, "dissipated", 11.0, 12.0);
+  check_last(energy, "difference", 11.0, 14.0);
+  CHECK(energy.curves.size() == 3);
+
+  const LivePlot residuals = frames.plot("Residuals");
+  check_axes(residuals, "time t", "relative", false, true);
+  check_last(residuals, "energy", 11.0, 3e-15);
+  check_last(residuals, "overlap", 11.0, 4e-13);
+  CHECK(residuals.curves.size() == 2);
+}
+
+TEST_CASE("Plots: a sample has what was gained under its own name, and the size of residuals") {
+  const TwoFrames frames;
+  REQUIRE(frames.history.samples().size() == 2);
+  const Sample& sample = frames.history.samples()[1];
+  CHECK(sample.time == 11.0);
+  CHECK(sample.temperature == Vec2(3.0, 5.0));
+  CHECK(sample.walls_in == 7.0);
+  CHECK(sample.bulk_in == 9.0);
+  CHECK(sample.gravity_in == 10.0);
+  CHECK(sample.dissipated == 12.0);
+  CHECK(sample.ledger_residual == 3e-15);
+  CHECK(sample.deepest_overlap == 4e-13);
+}
+
+TEST_CASE("Plots: where samples become too many, two are joined to their mean or largest") {
+  TwoFrames frames;
+  History history;
+  Frame frame = frames.begin;
+  frame.speed = 0.0;
+  // Sums of sums, so that sample k has k times as much as the first.
+  for (int k = 1; k <= 1201; ++k) {
+    frame.tally.time = frame.snapshot.time = k;
+    const double sum = 0.5 * k * (k + 1);
+    frame.tally.temperature_integral = sum * Vec2(1.0, 2.0);
+    frame.tally.walls_in = 3.0 * sum;
+    frame.tally.bulk_in = 4.0 * sum;
+    frame.tally.gravity_in = 5.0 * sum;
+    frame.tally.dissipated = 6.0 * sum;
+    // The larger is the first of a pair's, or the second.
+    frame.ledger_residual = k % 2 ? 7.0 + k : k;
+    frame.deepest_overlap = k % 2 ? k : 8.0 + k;
+    history.add(frame);
+  }
+  REQUIRE(history.samples().size() == 600);
+  const Sample& first = history.samples()[0];
+  CHECK(first.time == 1.0);
+  CHECK(first.temperature == Vec2(1.5, 3.0));
+  CHECK(first.walls_in == 4.5);
+  CHECK(first.bulk_in == 6.0);
+  CHECK(first.gravity_in == 7.5);
+  CHECK(first.dissipated == 9.0);
+  CHECK(first.ledger_residual == 8.0);
+  CHECK(first.deepest_overlap == 10.0);
+}
+
+TEST_CASE("Plots: another run begins with its own sums") {
+  TwoFrames frames;
+  Frame again = frames.begin;
+  again.run = 2;
+  frames.history.add(again);
+  REQUIRE(frames.history.samples().size() == 1);
+  // From time 0 to 2.
+  CHECK(frames.history.samples()[0].temperature == Vec2(0.5, 1.0));
+  CHECK(frames.history.samples()[0].walls_in == 1.5);
+}
+
+TEST_CASE("Plots: velocities stand over their standard deviation beside the Gaussian") {
+  const TwoFrames frames;
+  const LivePlot plot = frames.plot("Velocities");
+  check_axes(plot, "v / standard deviation", "density", false, true);
+  const auto density_at = [&](const char* name, double v) {
+    double density = -1.0;
+    for (const Vec2& point : curve_of(plot, name).points) {
+      if (std::fabs(point.x() - v) <= 5.0 / 61.0) density = point.y();
+    }
+    return density;
+  };
+  const double width = 10.0 / 61.0;
+  CHECK(density_at("v_x", 1.0) == doctest::Approx(0.75 / width));
+  CHECK(density_at("v_x", -1.0) == doctest::Approx(0.25 / width));
+  CHECK(density_at("v_x", 2.0) == 0.0);
+  CHECK(density_at("v_y", 0.0) == doctest::Approx(0.75 / width));
+  CHECK(density_at("v_y", 2.0) == doctest::Approx(0.25 / width));
+  const Curve& gaussian = curve_of(plot, "Gaussian");
+  CHECK(gaussian.dashed);
+  CHECK(gaussian.points.front().x() == -4.0);
+  for (const Vec2& point : gaussian.points) {
+    CHECK(point.y() == doctest::Approx(std::exp(-0.5 * point.x() * point.x()) /
+                                       std::sqrt(2.0 * std::numbers::pi)));
+  }
+}
+
+TEST_CASE("Plots: Fig. 3.1 has the gas among the curves of theory, over 1/(eps psi)") {
+  const TwoFrames frames;
+  const LivePlot plot = frames.plot("Fig. 3.1");
+  check_axes(plot, "1/(ε ψ)", "T/(m v_dr²)", true, true);
+  const double psi = theory_json(*frames.scene).at("psi"), epsilon = 1.0 - 0.85 * 0.85;
+  // The later half of two samples is the second.
+  check_last(plot, "this gas", 1.0 / (epsilon * psi), 4.0 / (1.7 * 1.7));
+  CHECK(curve_of(plot, "this gas").as_point);
+  // At the curves' left end disks keep no normal velocity: eps = 1.
+  Scene sticky = *frames.scene;
+  sticky.particles.restitution = 0.0;
+  const nlohmann::json theory = theory_json(sticky);
+  for (const std::string name : {"simple", "refined"}) {
+    CAPTURE(name);
+    const Curve& curve = curve_of(plot, name);
+    CHECK(curve.dashed);
+    CHECK(curve.points.front().x() == doctest::Approx(1.0 / psi));
+    CHECK(curve.points.front().y() ==
+          doctest::Approx(theory.at("temperature_" + name).get<double>() / (1.7 * 1.7)));
+  }
+}
+
+TEST_CASE("Plots: a profile has its field's name, unit, values and errors over the columns") {
+  TwoFrames frames;
+  Profile profile;
+  profile.edges = {0.0, 2.0, 6.0};
+  for (const Field field : kProfiledFields) {
+    const double number = static_cast<double>(profile.fields.size());
+    profile.fields.push_back(field);
+    profile.values.push_back({{10.0 + number, 0.1 + number}, {20.0 + number, 0.2 + number}});
+  }
+  frames.end.profile = profile;
+  const std::array<std::array<const char*, 3>, 5> told = {
+      {{"density", "density ρ", "1/a²"},
+       {"temperature", "temperature T", "m a²/t²"},
+       {"stress xx", "stress σ", "m/t²"},
+       {"heat flux x", "heat flux q", "m a/t³"},
+       {"dissipation", "dissipation ζ", "m/t³"}}};
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    CAPTURE(told[k][0]);
+    const double number = static_cast<double>(k);
+    CHECK(profile_names()[k] == told[k][0]);
+    CHECK(profiled_by(k) == Profiled::Fields);
+    const LivePlot plot = frames.plot("Profile", k);
+    check_axes(plot, "x in a", told[k][2], false, false);
+    REQUIRE(plot.curves.size() == 1);
+    CHECK(plot.curves[0].name == told[k][1]);
+    CHECK(plot.curves[0].points == std::vector<Vec2>{{1.0, 10.0 + number}, {4.0, 20.0 + number}});
+    CHECK(plot.curves[0].errors == std::vector<double>{0.1 + number, 0.2 + number});
+  }
+  CHECK(profile_names()[told.size()] == "balance residuals");
+  CHECK(profiled_by(told.size()) == Profiled::Balances);
+}
+
+TEST_CASE("Plots: balance residuals stand under their equation's name, in magnitude") {
+  TwoFrames frames;
+  frames.end.residuals = ResidualProfile{
+      2.0, Residuals{{{1e-16, -2e-16}, {3e-16, -4e-16}, {5e-16, -6e-16}, {7e-16, -8e-16}}}};
+  const LivePlot plot = frames.plot("Balance");
+  check_axes(plot, "x in a", "residual, relative", false, true);
+  double size = 0.0;
+  for (const char* name : {"mass", "momentum x", "momentum y", "energy"}) {
+    CAPTURE(name);
+    const std::vector<Vec2>& points = curve_of(plot, name).points;
+    CHECK(points == std::vector<Vec2>{{1.0, points[0].y()}, {3.0, points[1].y()}});
+    for (const Vec2& point : points) {
+      size += 1e-16;
+      CHECK(std::fabs(point.y() - size) < 1e-20);
+    }
+  }
+}
+
+TEST_CASE("Plots: a quantity has the same colour in all plots, one that all can tell apart") {
+  TwoFrames frames;
+  frames.end.residuals = ResidualProfile{2.0, Residuals{{{0.0}, {0.0}, {0.0}, {0.0}}}};
+  // Okabe and Ito 2008.
+  const Colour orange{230, 159, 0}, blue{86, 180, 233}, green{0, 158, 115}, red{213, 94, 0},
+      purple{204, 121, 167}, plain = kDarkTheme.text;
+  using Colours = std::vector<std::pair<std::string, Colour>>;
+  const std::vector<std::pair<std::string, Colours>> expected = {
+      {"Balance", {{"mass", green}, {"momentum x", orange}, {"momentum y", blue}, {"energy", red}}},
+      {"Temperature",
+       {{"T_x", orange},
+        {"T_y", blue},
+        {"T", plain},
+        {"simple", red},
+        {"refined", green},
+        {"corrected", purple}}},
+      {"Energy per time", {{"in", orange}, {"dissipated", blue}, {"difference", plain}}},
+      {"Velocities", {{"v_x", orange}, {"v_y", blue}, {"Gaussian", plain}}},
+      {"Fig. 3.1", {{"simple", red}, {"refined", green}, {"this gas", purple}}},
+      {"Residuals", {{"energy", orange}, {"overlap", blue}}}};
+  const std::vector<LivePlot> plots = frames.plots();
+  REQUIRE(plots.size() == expected.size());
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    const auto& [title, colours] = expected[k];
+    CHECK(plots[k].title == title);
+    REQUIRE(plots[k].curves.size() == colours.size());
+    for (std::size_t c = 0; c < colours.size(); ++c) {
+      CHECK(plots[k].curves[c].name == colours[c].first);
+      CHECK(plots[k].curves[c].colour == colours[c].second);
+    }
+  }
+}
+
+TEST_CASE("Plots: the copied numbers of a plot are its curves, a table each") {
+  const Colour colour{};
+  LivePlot plot{"Title", "x in a", false, false, {}, "unit"};
+  plot.curves = {{"one", colour, {{1.0, 2.0}, {3.0, 4.0}}, false, false, {0.5, 0.25}},
+                 {"", colour, {{5.0, 6.0}}}};
+  CHECK(csv_of(plot) == "x in a,one,standard error\n1,2,0.5\n3,4,0.25\n\nx in a,Title\n5,6\n\n");
+}
+
+TEST_CASE("Plots: axes hold what they show, with room above, or from decade to decade") {
+  LivePlot plot{"", "", false, false, {{"", {}, {{-1.0, 2.0}, {3.0, 20.0}}}}, ""};
+  auto [x, y] = scales_of(plot);
+  CHECK(x.low == -1.0);
+  CHECK(x.high == 3.0);
+  CHECK(y.low == 0.0);
+  CHECK(y.high == doctest::Approx(21.0));
+  CHECK(x.share(0.0) == doctest::Approx(0.25));
+  plot.log_y = true;
+  plot.floor = 1e-3;
+  plot.curves[0].points.emplace_back(9.0, 0.0);
+  const auto [wide, logarithmic] = scales_of(plot);
+  CHECK(wide.high == 9.0);
+  CHECK(logarithmic.logarithmic);
+  CHECK(logarithmic.low == doctest::Approx(-3.0));
+  CHECK(logarithmic.place(0.0) == doctest::Approx(-3.0));
+  CHECK(logarithmic.place(100.0) == doctest::Approx(2.0));
+}
+
+// Draws a plot without a window, and reads what stands in it.
+class DrawnPlot {
+ public:
+  explicit DrawnPlot(const LivePlot& plot) {
+    const CurrentContext current(context_.get());
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = ImVec2(400.0f, 400.0f);
+    io.FontDefault = const_cast<ImFont*>(add_fonts(*io.Fonts, 14.0f).text);
+    for (int picture = 0; picture < 2; ++picture) {
+      ImGui::NewFrame();
+      ImGui::SetNextWindowSize(io.DisplaySize);
+      ImGui::Begin("plot", nullptr, ImGuiWindowFlags_NoTitleBar);
+      draw_plot(plot, 250.0f);
+      texts = testing::texts_in(*ImGui::GetWindowDrawList());
+      for (const ImDrawVert& vertex : ImGui::GetWindowDrawList()->VtxBuffer) {
+        if (vertex.col == packed(kMarked)) marks_.push_back(vertex.pos);
+      }
+      if (picture == 0) marks_.clear();
+      ImGui::End();
+      ImGui::EndFrame();
+    }
+  }
+
+  // The middle of what has that colour, but for the legend above.
+  Vec2 mark() const {
+    ImVec2 low(1e9f, 1e9f), high(0.0f, 0.0f);
+    for (const ImVec2& place : marks_) {
+      if (place.y < legend()) continue;
+      low = ImVec2(std::min(low.x, place.x), std::min(low.y, place.y));
+      high = ImVec2(std::max(high.x, place.x), std::max(high.y, place.y));
+    }
+    return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
+  }
+  bool has(const std::string& text) const {
+    return std::ranges::any_of(texts, [&](const auto& drawn) { return drawn.text == text; });
+  }
+  const testing::DrawnText& text(const std::string& text) const {
+    for (const auto& drawn : texts) {
+      if (drawn.text == text) return drawn;
+    }
+    FAIL("no text " << text);
+    return texts.front();
+  }
+
+  static constexpr Colour kMarked = {0x12, 0x34, 0x56};
+  std::vector<testing::DrawnText> texts;
+
+ private:
+  float legend() const { return text("mark").bottom + 4.0f; }
+
+  GuiContext context_ = make_gui_context();
+  std::vector<ImVec2> marks_;
+};
+
+TEST_CASE("Plots: numbers at the axes are those of the places where they stand") {
+  LivePlot plot{"Title", "the x axis", false, false, {}, "unit of y"};
+  plot.curves = {{"mark", DrawnPlot::kMarked, {{3.0, 50.0}}, false, true},
+                 {"line", {1, 2, 3}, {{0.0, 0.0}, {4.0, 100.0}}}};
+  const DrawnPlot drawn(plot);
+  for (const char* text : {"Title", "unit of y", "mark", "line", "the x axis"}) {
+    CAPTURE(text);
+    CHECK(drawn.has(text));
+  }
+  // A mark at x = 3 and y = 50, three quarters of the way along x.
+  CHECK(drawn.mark().x() == doctest::Approx(drawn.text("3").middle_x()).epsilon(0.01));
+  CHECK(drawn.mark().y() == doctest::Approx(drawn.text("50").middle_y()).epsilon(0.01));
+  CHECK(drawn.text("1").middle_x() < drawn.text("3").middle_x());
+  CHECK(drawn.text("100").middle_y() < drawn.text("50").middle_y());
+  // The name of x stands below its numbers, those of y left of the marks.
+  CHECK(drawn.text("the x axis").top > drawn.text("3").bottom - 1.0f);
+  CHECK(drawn.text("50").right < drawn.text("1").left);
+  CHECK(drawn.text("Title").right < drawn.text("unit of y").left);
+}
+
+TEST_CASE("Plots: logarithmic axes have powers of ten where these are") {
+  LivePlot plot{"Title", "x", true, true, {}, "y"};
+  plot.curves = {{"mark", DrawnPlot::kMarked, {{100.0, 1e-2}}, false, true},
+                 {"line", {1, 2, 3}, {{1.0, 1e-4}, {1e4, 1.0}}}};
+  const DrawnPlot drawn(plot);
+  CHECK(drawn.mark().x() == doctest::Approx(drawn.text("1e+02").middle_x()).epsilon(0.01));
+  CHECK(drawn.mark().y() == doctest::Approx(drawn.text("1e-02").middle_y()).epsilon(0.01));
+}
 
 TEST_CASE("Plots: all axes are finite for a gas without motion, or one that comes to rest") {
   using Settings = std::vector<Override>;

@@ -249,6 +249,143 @@ TEST_CASE("Scene file: every key arrives at its place") {
   CHECK(scene.view.field_range.kind == ColourRange::Locked);
 }
 
+TEST_CASE("Scene file: no key takes the value of another") {
+  const Scene scene = parse_scene(R"(
+    caption = "C"
+    goal = "G"
+    try_this = "Y"
+    box.size = [12, 8.5]
+    [particles]
+    count = 3
+    restitution = 0.91
+    friction = 0.42
+    tangential_restitution = 0.53
+    inertia = 0.44
+    start = { temperature = 2.5, spin_temperature = 3.5 }
+    [walls]
+    left = { kind = "driven", drive_speed = 1.25, restitution = 0.55, friction = 0.66 }
+    right = { kind = "static", restitution = 0.77, tangential_restitution = 0.33 }
+    bottom = { kind = "sawtooth", stroke = 0.15, frequency = 4.5, phase = 0.6 }
+    top = { kind = "thermal", temperature = 3.25 }
+    [measure]
+    burn_in = 11
+    duration = 12
+    series_interval = 13
+    [view]
+    colour_by = "velocity_x"
+    field = "stress_xy_kinetic"
+    window = 14
+    estimator = "snapshot"
+    interval = 0.16
+    speed = 17
+    palette = "inferno"
+    range = [-18, 19]
+    field_palette = "cividis"
+    field_range = [20, 21]
+    arrows = "heat_flux"
+    theme = "light"
+    background = "#16171a"
+    grid = true
+    overlay = false
+    trails = 27
+    card = 28
+    [[change]]
+    time = 29
+    set = { "particles.restitution" = 0.3 }
+    ramp = "linear"
+    until = 31
+  )",
+                                  "s.toml");
+  CHECK(scene.caption == "C");
+  CHECK(scene.goal == "G");
+  CHECK(scene.try_this == "Y");
+  CHECK(scene.particles.count == 3);
+  CHECK(scene.particles.restitution == 0.91);
+  CHECK(scene.particles.roughness.friction == 0.42);
+  CHECK(scene.particles.roughness.tangential_restitution == 0.53);
+  CHECK(scene.particles.inertia == 0.44);
+  CHECK(scene.particles.start.temperature == 2.5);
+  CHECK(scene.particles.start.spin_temperature == 3.5);
+  CHECK(scene.walls[kLeft]->drive_speed == 1.25);
+  CHECK(scene.walls[kLeft]->restitution == 0.55);
+  CHECK(scene.walls[kLeft]->roughness.friction == 0.66);
+  CHECK(scene.walls[kRight]->restitution == 0.77);
+  CHECK(scene.walls[kRight]->roughness.tangential_restitution == 0.33);
+  CHECK(scene.walls[kBottom]->stroke == 0.15);
+  CHECK(scene.walls[kBottom]->frequency == 4.5);
+  CHECK(scene.walls[kBottom]->phase == 0.6);
+  CHECK(scene.walls[kTop]->temperature == 3.25);
+  CHECK(scene.measure.burn_in == 11.0);
+  CHECK(scene.measure.duration == 12.0);
+  CHECK(scene.measure.series_interval == 13.0);
+  CHECK(scene.measure.estimator == Estimator::Exact);
+  const View& view = scene.view;
+  CHECK(view.colour_by == ColourBy::VelocityX);
+  CHECK(view.field == Field(Quantity::Stress, 0, 1, Part::Kinetic));
+  CHECK(view.window == 14.0);
+  CHECK(view.estimator == Estimator::Snapshot);
+  CHECK(view.interval == 0.16);
+  CHECK(view.speed == 17.0);
+  CHECK(view.palette == Palette::Inferno);
+  CHECK(view.range == ColourRange{ColourRange::Given, {-18.0, 19.0}});
+  CHECK(view.field_palette == Palette::Cividis);
+  CHECK(view.field_range == ColourRange{ColourRange::Given, {20.0, 21.0}});
+  CHECK(view.arrows == Quantity::HeatFlux);
+  CHECK(view.theme == Theme::Light);
+  CHECK(view.background == Rgb{0x16, 0x17, 0x1a});
+  CHECK(view.grid);
+  CHECK_FALSE(view.overlay);
+  CHECK(view.trails == 27.0);
+  CHECK(view.card == 28.0);
+  REQUIRE(scene.changes.size() == 1);
+  CHECK(scene.changes[0].time == 29.0);
+  CHECK(scene.changes[0].ramp == Ramp::Linear);
+  CHECK(scene.changes[0].until == 31.0);
+}
+
+TEST_CASE("Scene file: every word is the choice of its name") {
+  const auto scene_with = [](const std::string& line) {
+    return parse_scene("particles = { count = 3, friction = 0.5 }\n" + line, "s.toml");
+  };
+  const auto view_with = [&](const std::string& line) { return scene_with("view." + line).view; };
+  CHECK(view_with("colour_by = 'none'").colour_by == ColourBy::None);
+  CHECK(view_with("colour_by = 'speed'").colour_by == ColourBy::Speed);
+  CHECK(view_with("colour_by = 'velocity_x'").colour_by == ColourBy::VelocityX);
+  CHECK(view_with("colour_by = 'velocity_y'").colour_by == ColourBy::VelocityY);
+  CHECK(view_with("colour_by = 'spin'").colour_by == ColourBy::Spin);
+  CHECK(view_with("palette = 'viridis'").palette == Palette::Viridis);
+  CHECK(view_with("palette = 'inferno'").palette == Palette::Inferno);
+  CHECK(view_with("palette = 'cividis'").palette == Palette::Cividis);
+  CHECK(view_with("arrows = 'velocity'").arrows == Quantity::Velocity);
+  CHECK(view_with("arrows = 'heat_flux'").arrows == Quantity::HeatFlux);
+  CHECK(view_with("theme = 'dark'").theme == Theme::Dark);
+  CHECK(view_with("theme = 'light'").theme == Theme::Light);
+  CHECK(view_with("theme = 'projector'").theme == Theme::Projector);
+  CHECK(view_with("range = 'auto'").range.kind == ColourRange::Auto);
+  CHECK(view_with("range = 'locked'").range.kind == ColourRange::Locked);
+  CHECK(view_with("estimator = 'exact'").estimator == Estimator::Exact);
+  CHECK(scene_with("measure.profile_axis = 'x'").measure.profile_axis == Axis::X);
+  CHECK(scene_with("measure.profile_axis = 'y'").measure.profile_axis == Axis::Y);
+  CHECK(scene_with("measure.kernel = 'box'").measure.kernel == Kernel::Box);
+  CHECK(scene_with("measure.estimator = 'exact'").measure.estimator == Estimator::Exact);
+  const auto layout = [](const std::string& word) {
+    return parse_scene("particles = { count = 3, start.layout = '" + word + "' }", "s.toml")
+        .particles.start.layout;
+  };
+  CHECK(layout("random") == Layout::Random);
+  CHECK(layout("lattice") == Layout::Lattice);
+  const auto kind = [&](const std::string& left) {
+    return scene_with("walls = { left = { kind = " + left + " }, right = { kind = 'static' } }")
+        .walls[kLeft]
+        ->kind;
+  };
+  CHECK(kind("'static'") == WallKind::Static);
+  CHECK(kind("'driven', drive_speed = 1") == WallKind::Driven);
+  CHECK(kind("'thermal', temperature = 1") == WallKind::Thermal);
+  CHECK(kind("'sawtooth', stroke = 0.1, frequency = 1") == WallKind::Sawtooth);
+  CHECK(kind("'sinusoidal', stroke = 0.1, frequency = 1") == WallKind::Sinusoidal);
+}
+
 TEST_CASE("Scene file: area_fraction becomes the nearest count") {
   const Scene scene = parse_scene("box.size = [10, 10]\nparticles.area_fraction = 0.3\n", "s.toml");
   CHECK(scene.particles.count == 38);  // 0.3 * 400 / pi = 38.197

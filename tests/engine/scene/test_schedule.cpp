@@ -43,6 +43,20 @@ TEST_CASE("Schedule: changes apply in the order of their times, all keys of one 
   CHECK(schedule.scene().changes.size() == 3);
 }
 
+TEST_CASE("Schedule: spins go with the friction, and come back with the numbers that they had") {
+  const Scene scene = parse_scene(
+      "[particles]\ncount = 10\nfriction = 0.4\ninertia = 0.45\n"
+      "[[change]]\ntime = 3\nset = { 'particles.friction' = 0.0 }\n"
+      "[[change]]\ntime = 4\nset = { 'particles.friction' = 0.3 }\n",
+      "s.toml");
+  Schedule schedule(scene);
+  schedule.skip_to(3.0);
+  CHECK_FALSE(schedule.scene().spins());
+  schedule.skip_to(4.0);
+  CHECK(schedule.scene().spins());
+  CHECK(schedule.scene().particles.inertia == 0.45);
+}
+
 TEST_CASE("Schedule: a ramp goes from the value in force to its own in equal steps, and arrives") {
   Schedule schedule(
       scene_with("[[change]]\ntime = 10\nset = { 'particles.restitution' = 0.3 }\n"

@@ -1,0 +1,122 @@
+#include "tests/app/panel_driver.h"
+
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "app/view/style.h"
+#include "render/layers/fonts.h"
+
+namespace clatter {
+
+using namespace testing;
+
+// Enough for all panels, so that nothing is cut off.
+static constexpr float kWidth = 900.0f, kHeight = 4000.0f, kTextSize = 14.0f;
+
+PanelDriver::PanelDriver(const Scene& scene, Panel panel)
+    : log_(folder_ / "log"), panel_(std::move(panel)) {
+  const CurrentContext current(context_.get());
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = ImVec2(kWidth, kHeight);
+  io.FontDefault = const_cast<ImFont*>(add_fonts(*io.Fonts, kTextSize).text);
+  io.Fonts->Build();
+  io.ClipboardUserData = &text_;
+  io.SetClipboardTextFn = [](void* text, const char* written) {
+    *static_cast<std::string*>(text) = written;
+  };
+  apply_style(kTextSize, kDarkTheme);
+  session_.open(scene, 1, false);
+  for (int picture = 0; picture < 3; ++picture) draw();
+}
+
+void PanelDriver::draw() {
+  const CurrentContext current(context_.get());
+  ImGui::NewFrame();
+  ImGui::SetNextWindowPos(ImVec2(0.0f, 0.0f));
+  ImGui::SetNextWindowSize(ImVec2(kWidth, kHeight));
+  ImGui::Begin("panel", nullptr, kFixedPanel);
+  ImGui::LogToClipboard();
+  panel_(session_, controls_);
+  ImGui::LogFinish();
+  ImGui::End();
+  ImGui::EndFrame();
+}
+
+std::vector<std::string> PanelDriver::lines() {
+  draw();
+  std::vector<std::string> lines;
+  std::istringstream text(text_);
+  for (std::string line, words; std::getline(text, line);) {
+    std::istringstream stream(line);
+    words.clear();
+    for (std::string word; stream >> word;) words += (words.empty() ? "" : " ") + word;
+    if (!words.empty()) lines.push_back(words);
+  }
+  return lines;
+}
+
+std::array<float, 4> PanelDriver::place(const std::string& widget, std::size_t number) {
+  const auto places = [&] {
+    std::vector<std::array<float, 4>> told;
+    std::istringstream log(bytes_of(folder_ / "log"));
+    for (std::string line; std::getline(log, line);) {
+      const auto event = nlohmann::json::parse(line);
+      if (event.at("event") == "widget" && event.at("name") == widget) {
+        told.push_back(event.at("place"));
+      }
+    }
+    return told;
+  };
+  const std::size_t before = places().size();
+  draw();
+  std::vector<std::array<float, 4>> all = places();
+  CAPTURE(widget);
+  REQUIRE_FALSE(all.empty());
+  // Only widgets that share a key are told anew in a picture that is like the last.
+  if (all.size() == before) return all.back();
+  all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before));
+  std::ranges::sort(all, {}, [](const auto& place) { return place[1]; });
+  REQUIRE(number < all.size());
+  return all[number];
+}
+
+void PanelDriver::point_at(float x, float y) {
+  {
+    const CurrentContext current(context_.get());
+    ImGui::GetIO().MousePos = ImVec2(x, y);
+  }
+  for (int picture = 0; picture < 2; ++picture) draw();
+}
+
+void PanelDriver::drag(float x, float y, float to_x) {
+  const auto press = [&](bool down) {
+    const CurrentContext current(context_.get());
+    ImGui::GetIO().MouseDown[0] = down;
+    // A second click soon after would be a double one, which types.
+    ImGui::GetIO().DeltaTime = 1.0f;
+  };
+  point_at(x, y);
+  press(true);
+  draw();
+  point_at(to_x, y);
+  press(false);
+  for (int picture = 0; picture < 2; ++picture) draw();
+}
+
+void PanelDriver::wait_for(const std::function<bool(const Frame&)>& holds) {
+  for (int look = 0; look < 1000 && !holds(session_.frame()); ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    session_.update();
+  }
+  CAPTURE(session_.frame().run);
+  CAPTURE(session_.frame().speed);
+  CAPTURE(session_.message());
+  REQUIRE(holds(session_.frame()));
+}
+
+}  // namespace clatter

@@ -1,0 +1,264 @@
+// What `clatter bench accuracy` found, in all the forms that it is written in.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/bench/accuracy_output.h"
+#include "app/bench/run_result.h"
+#include "engine/measure/measurement.h"
+#include "engine/publish/scheduled_run.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
+
+namespace clatter {
+
+using nlohmann::json;
+using namespace testing;
+
+namespace {
+
+// No number is like another.
+AccuracyTable gas_table() {
+  AccuracyRow row{.setting = "1e-3",
+                  .value = 1e-3,
+                  .cpu_per_time = 0.0125,
+                  .events_per_second = 2.25e6,
+                  .bytes = 34e3,
+                  .deepest_overlap = 5e-4,
+                  .elasticised_share = 0.063,
+                  .dominated = true};
+  for (int k = 0; k < kCompared; ++k) {
+    const double number = k + 1.0;
+    row.comparison.bias[k] = {.mean = 0.01 * number, .standard_error = 0.001 * number};
+  }
+  row.comparison.error = 0.079;
+  return {"contact_time", "Contact time t_c", {row}};
+}
+
+PictureTable picture_table() {
+  return {"frame_rate", "Frame rate", {{"30", 30.0, 0.045, 0.9876, 0.067, false}}};
+}
+
+std::vector<std::string> words_of(const std::string& text, char gap) {
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, gap);) {
+    if (gap != ' ' || !word.empty()) words.push_back(word);
+  }
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("Accuracy tables: each number of a setting stands under its own heading") {
+  const std::vector<std::string> lines = words_of(accuracy_text(gas_table()), '\n');
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[1] == "Contact time t_c");
+  CHECK(words_of(lines[2], ' ') ==
+        std::vector<std::string>{"setting", "ms/t", "Mev/s",   "kB",  "T", "%",     "p",
+                                 "%",       "σ",    "%",       "q",   "%", "ζ",     "%",
+                                 "ρ(x)",    "%",    "overlap", "el.", "%", "error", "%"});
+  CHECK(words_of(lines[3], ' ') ==
+        std::vector<std::string>{"1e-3",  "*",     "12.5",  "2.25",   "34",    "+1.00", "±0.10",
+                                 "+2.00", "±0.20", "+3.00", "±0.30",  "+4.00", "±0.40", "+5.00",
+                                 "±0.50", "+6.00", "±0.60", "0.0005", "6.3",   "7.9"});
+  const std::vector<std::string> pictures = words_of(accuracy_text(picture_table()), '\n');
+  CHECK(pictures[1] == "Frame rate");
+  CHECK(words_of(pictures[2], ' ') ==
+        std::vector<std::string>{"setting", "ms", "SSIM", "centre", "px"});
+  CHECK(words_of(pictures[3], ' ') == std::vector<std::string>{"30", "45", "0.9876", "0.067"});
+}
+
+TEST_CASE("Accuracy tables: a CSV has each number in its own column") {
+  const std::vector<std::string> lines =
+      words_of(accuracy_csv({gas_table()}, {picture_table()}), '\n');
+  REQUIRE(lines.size() == 3);
+  const std::vector<std::string> names = words_of(lines[0], ','), gas = words_of(lines[1], ','),
+                                 picture = words_of(lines[2], ',');
+  REQUIRE(gas.size() == names.size());
+  REQUIRE(picture.size() == names.size());
+  std::map<std::string, std::array<std::string, 2>> columns;
+  for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]] = {gas[k], picture[k]};
+  const std::map<std::string, std::array<std::string, 2>> expected = {
+      {"dial", {"contact_time", "frame_rate"}},
+      {"setting", {"1e-3", "30"}},
+      {"value", {"0.001", "30"}},
+      {"cpu_seconds_per_time", {"0.0125", "nan"}},
+      {"events_per_cpu_second", {"2.25e+06", "nan"}},
+      {"bytes", {"34000", "nan"}},
+      {"temperature_bias", {"0.01", "nan"}},
+      {"temperature_bias_error", {"0.001", "nan"}},
+      {"pressure_bias", {"0.02", "nan"}},
+      {"pressure_bias_error", {"0.002", "nan"}},
+      {"stress_bias", {"0.03", "nan"}},
+      {"stress_bias_error", {"0.003", "nan"}},
+      {"heat_flux_bias", {"0.04", "nan"}},
+      {"heat_flux_bias_error", {"0.004", "nan"}},
+      {"dissipation_bias", {"0.05", "nan"}},
+      {"dissipation_bias_error", {"0.005", "nan"}},
+      {"density_bias", {"0.06", "nan"}},
+      {"density_bias_error", {"0.006", "nan"}},
+      {"deepest_overlap", {"0.0005", "nan"}},
+      {"elasticised_share", {"0.063", "nan"}},
+      {"error", {"0.079", "nan"}},
+      {"cpu_seconds_per_picture", {"nan", "0.045"}},
+      {"ssim", {"nan", "0.9876"}},
+      {"centre_error_pixels", {"nan", "0.067"}},
+      {"dominated", {"1", "0"}}};
+  CHECK(columns.size() == expected.size());
+  for (const auto& [name, values] : expected) {
+    CAPTURE(name);
+    CHECK(columns[name][0] == values[0]);
+    CHECK(columns[name][1] == values[1]);
+  }
+}
+
+TEST_CASE("Accuracy tables: JSON has each number under its own key") {
+  AccuracyBench bench;
+  bench.scene = "barometer";
+  bench.duration = 321.0;
+  const json found = json::parse(accuracy_json(bench, {gas_table()}, {picture_table()}));
+  const auto estimate = [](double number) {
+    return json{{"mean", 0.01 * number}, {"standard_error", 0.001 * number}};
+  };
+  const json expected = {{"scene", "barometer"},
+                         {"replicas", 8},
+                         {"duration", 321.0},
+                         {"dials",
+                          {{{"dial", "contact_time"},
+                            {"title", "Contact time t_c"},
+                            {"settings",
+                             {{{"setting", "1e-3"},
+                               {"value", 1e-3},
+                               {"cpu_seconds_per_time", 0.0125},
+                               {"events_per_cpu_second", 2.25e6},
+                               {"bytes", 34e3},
+                               {"bias",
+                                {{"temperature", estimate(1.0)},
+                                 {"pressure", estimate(2.0)},
+                                 {"stress", estimate(3.0)},
+                                 {"heat_flux", estimate(4.0)},
+                                 {"dissipation", estimate(5.0)},
+                                 {"density", estimate(6.0)}}},
+                               {"deepest_overlap", 5e-4},
+                               {"elasticised_share", 0.063},
+                               {"error", 0.079},
+                               {"dominated", true}}}}},
+                           {{"dial", "frame_rate"},
+                            {"title", "Frame rate"},
+                            {"settings",
+                             {{{"setting", "30"},
+                               {"value", 30.0},
+                               {"cpu_seconds_per_picture", 0.045},
+                               {"ssim", 0.9876},
+                               {"centre_error_pixels", 0.067},
+                               {"dominated", false}}}}}}}};
+  CHECK(found == expected);
+}
+
+TEST_CASE("Accuracy tables: a page gets them between its two lines, the starred ones escaped") {
+  const TemporaryFolder folder;
+  AccuracyBench bench;
+  bench.scene = "barometer";
+  bench.duration = 321.0;
+  bench.markdown = folder.write("page.md", "a\n<!-- tables -->\nold\n<!-- end of tables -->\nb\n");
+  const std::string page = with_accuracy_tables(bench, {gas_table()}, {picture_table()});
+  CHECK(
+      page.starts_with("a\n<!-- tables -->\nbarometer: 8 runs of each setting, seeds 1 to 8, of "
+                       "321 time units after 64.2; "));
+  CHECK(says(page, "\n**Contact time t_c**\n\n| setting | ms/t | Mev/s | kB | T % | p % | "));
+  CHECK(says(page, "\n| 1e-3 \\* | 12.5 | 2.25 | 34 | +1.00 ±0.10 | "));
+  CHECK(says(page,
+             "\n**Frame rate**\n\n| setting | ms | SSIM | centre px |\n|---|---:|---:|---:|\n"
+             "| 30 | 45 | 0.9876 | 0.067 |\n"));
+  CHECK(page.ends_with("\n<!-- end of tables -->\nb\n"));
+}
+
+// Along y, between walls that are not alike.
+TEST_CASE("Accuracy tables: a run's means are those that a measurement has") {
+  Scene scene;
+  scene.box = Vec2(9.0, 8.0);
+  scene.particles.count = 14;
+  scene.particles.restitution = 0.8;
+  scene.walls[kBottom] = Wall{.kind = WallKind::Thermal, .temperature = 2.0};
+  scene.walls[kTop] = Wall{.kind = WallKind::Static, .restitution = 0.7};
+  scene.contact_time = 0.1;
+  scene.measure.cells = {2, 30};
+  const Effort effort{.burn_in = 3.0, .duration = 20.0};
+  const RunResult found = observe(scene, effort, 5);
+
+  Measure measure = scene.measure;
+  measure.burn_in = effort.burn_in;
+  measure.fields = {Quantity::Density, Field(Quantity::Stress, 1, 1), Field(Quantity::HeatFlux, 1),
+                    Quantity::Dissipation};
+  measure.profile_axis = Axis::Y;
+  const auto simulation = simulation_of<2>(scene, 5);
+  Measurement<2> measurement(*simulation, measure, 23.0);
+  simulation->run_until(23.0);
+  const Measured measured = measurement.result();
+  const auto column = [&](Field field, std::size_t k) {
+    const double value = measured.profile->at(field)[k].mean;
+    return std::isnan(value) ? 0.0 : value;
+  };
+  const auto mean = [&](Field field) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 30; ++k) sum += column(field, k) / 30.0;
+    return sum;
+  };
+  CHECK(found.time == 20.0);
+  CHECK(found.events == static_cast<double>(measured.pair_collisions + measured.wall_collisions));
+  CHECK(found.collision_rate == measured.collision_rate.mean);
+  CHECK(found.elasticised_share ==
+        static_cast<double>(measured.elasticised) / static_cast<double>(measured.pair_collisions));
+  CHECK(found.means[kTemperature] == measured.temperature.mean);
+  CHECK(found.means[kPressure] ==
+        doctest::Approx(0.5 * (measured.pressure[kBottom]->mean + measured.pressure[kTop]->mean)));
+  CHECK(found.means[kStress] == doctest::Approx(mean(Field(Quantity::Stress, 1, 1))));
+  CHECK(found.means[kDissipation] == doctest::Approx(mean(Quantity::Dissipation)));
+  // Sixty columns are compared, two to each.
+  for (std::size_t k = 0; k < 60; ++k) {
+    CHECK(found.density[k] == column(Quantity::Density, k / 2));
+    CHECK(found.heat_flux[k] == column(Field(Quantity::HeatFlux, 1), k / 2));
+  }
+}
+
+TEST_CASE("Accuracy tables: biases are differences of runs of one seed, over the finest") {
+  // Two replicas each, whose numbers are a straight line.
+  std::vector<RunResult> reference(2), replicas(2);
+  for (int r : {0, 1}) {
+    for (int k = 0; k < kComparedMeans; ++k) {
+      reference[r].means[k] = 10.0 * (k + 1);
+      replicas[r].means[k] = 10.0 * (k + 1) + (k + 1) * (r == 0 ? 1.0 : 3.0);
+    }
+    reference[r].density.fill(2.0);
+    replicas[r].density.fill(2.0);
+    reference[r].heat_flux.fill(-5.0);
+    replicas[r].heat_flux.fill(-6.0);
+    replicas[r].cpu_seconds = 1.0;
+  }
+  const Comparison comparison = compare(replicas, reference);
+  for (const ComparedMean k : {kTemperature, kPressure, kStress, kDissipation}) {
+    CAPTURE(k);
+    CHECK(comparison.bias[k].mean == doctest::Approx(0.2));
+    CHECK(comparison.bias[k].standard_error == doctest::Approx(0.1));
+  }
+  CHECK(comparison.bias[kHeatFlux].mean == doctest::Approx(0.2));
+  CHECK(comparison.bias[kHeatFlux].standard_error == doctest::Approx(0.0));
+  CHECK(comparison.bias[kDensityProfile].mean == 0.0);
+  // Four of 0.2^2 - 0.1^2 + 0.1^2 * 2 s, one of 0.2^2, one of 0.
+  CHECK(comparison.error == doctest::Approx(std::sqrt((4.0 * 0.05 + 0.04) / 6.0)));
+}
+
+TEST_CASE("Accuracy tables: a straight line is extrapolated to 0 by its errors") {
+  // Through (1, 5) and (3, 9): 3 at 0, with errors 1.5 * 0.1 and 0.5 * 0.2.
+  const Estimate found = extrapolate(
+      {1.0, 3.0}, {{.mean = 5.0, .standard_error = 0.1}, {.mean = 9.0, .standard_error = 0.2}});
+  CHECK(found.mean == doctest::Approx(3.0));
+  CHECK(found.standard_error == doctest::Approx(std::hypot(0.15, 0.1)));
+}
+
+}  // namespace clatter

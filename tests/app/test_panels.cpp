@@ -1,0 +1,482 @@
+// What the panels of the window write and set: each name with the value of its own key.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/view/messages.h"
+#include "app/view/panels.h"
+#include "app/view/top_bar.h"
+#include "engine/scene/scene_file.h"
+#include "tests/app/panel_driver.h"
+#include "tests/support/messages.h"
+
+namespace clatter {
+
+using nlohmann::json;
+using testing::says;
+
+namespace {
+
+// Every slider has another number.
+Scene uneven_scene() {
+  Scene scene;
+  scene.box = Vec2(19.0, 23.0);
+  scene.particles.count = 14;
+  scene.particles.restitution = 0.81;
+  scene.particles.roughness = {.friction = 0.42, .tangential_restitution = 0.53};
+  scene.walls = {
+      Wall{.kind = WallKind::Driven, .restitution = 0.94, .drive_speed = 1.5},
+      Wall{.kind = WallKind::Static, .restitution = 0.73},
+      Wall{.kind = WallKind::Thermal, .temperature = 2.5},
+      Wall{.kind = WallKind::Sinusoidal, .restitution = 0.86, .stroke = 0.31, .frequency = 1.12}};
+  scene.gravity = Vec2(0.15, -0.47);
+  scene.bulk_drive = BulkDrive{.interval = 0.7, .kick_speed = 0.22};
+  scene.contact_time = 2e-4;
+  View& view = scene.view;
+  view.colour_by = ColourBy::VelocityY;
+  view.field = Field(Quantity::Stress, 0, 1);
+  view.window = 4.0;
+  view.estimator = Estimator::Snapshot;
+  view.interval = 0.3;
+  view.palette = Palette::Cividis;
+  view.range = {.kind = ColourRange::Given, .ends = {-1.25, 3.5}};
+  view.field_palette = Palette::Inferno;
+  view.field_range = {.kind = ColourRange::Given, .ends = {-4.5, 6.75}};
+  view.arrows = Quantity::HeatFlux;
+  view.theme = Theme::Light;
+  view.grid = true;
+  view.overlay = false;
+  view.trails = 0.25;
+  return scene;
+}
+
+void all_panels(Session& session, Controls& controls) {
+  gas_panel(session, controls);
+  box_panel(session, controls);
+  view_panel(session, controls);
+  accuracy_panel(session, controls);
+}
+
+// What the panels have made of the scene: values by their places in a scene file.
+json settings(const PanelDriver& driver) {
+  Scene scene = driver.session().scene();
+  scene.view = driver.session().view();
+  return json::parse(scene_to_json(scene)).flatten();
+}
+
+std::vector<std::string> changes(const json& before, const json& after) {
+  std::vector<std::string> places;
+  for (const auto& [place, value] : after.items()) {
+    if (!before.contains(place) || before.at(place) != value) places.push_back(place);
+  }
+  for (const auto& [place, value] : before.items()) {
+    if (!after.contains(place)) places.push_back(place);
+  }
+  return places;
+}
+
+using Places = std::vector<std::string>;
+
+struct SliderMeaning {
+  const char* key;
+  const char* place;  // in the scene
+  double low, high;
+  const char* line;  // with its value, as the scene is opened
+  const char* help;  // a part of it
+  bool logarithmic = false;
+  std::size_t number = 0;  // of those under one key
+};
+
+const std::vector<SliderMeaning> kSliders = {
+    {"particles.restitution", "/particles/restitution", 0.0, 1.0, "Restitution α 0.810",
+     "that a collision of two disks keeps"},
+    {"particles.friction", "/particles/friction", 0.0, 2.0, "Friction μ 0.420", "Coulomb"},
+    {"particles.tangential_restitution", "/particles/tangential_restitution", -1.0, 1.0,
+     "Tangential β₀ 0.530", "rolling"},
+    {"box.size", "/box/size/0", 4.0, 100.0, "Width Lx 19.0 a", "Of the box"},
+    {"box.size", "/box/size/1", 4.0, 100.0, "Height Ly 23.0 a", "Of the box", false, 1},
+    {"walls.left.drive_speed", "/walls/left/drive_speed", 0.0, 5.0, "Drive speed v_dr 1.500 a/t",
+     "Gain in normal velocity"},
+    {"walls.left.restitution", "/walls/left/restitution", 0.0, 1.1, "Restitution α_w 0.940",
+     "bounce keeps"},
+    {"walls.right.restitution", "/walls/right/restitution", 0.0, 1.1, "Restitution α_w 0.730",
+     "bounce keeps"},
+    {"walls.bottom.temperature", "/walls/bottom/temperature", 0.0, 10.0,
+     "Temperature T_w 2.500 m a²/t²", "it emits"},
+    {"walls.top.stroke", "/walls/top/stroke", 0.0, 4.0, "Stroke 0.310 a", "whole travel"},
+    {"walls.top.frequency", "/walls/top/frequency", 0.0, 10.0, "Frequency f 1.120 1/t",
+     "Periods per time"},
+    {"walls.top.restitution", "/walls/top/restitution", 0.0, 1.1, "Restitution α_w 0.860",
+     "bounce keeps"},
+    {"gravity.acceleration", "/gravity/acceleration/0", -2.0, 2.0, "Gravity along x g_x 0.150 a/t²",
+     "Acceleration"},
+    {"gravity.acceleration", "/gravity/acceleration/1", -2.0, 2.0,
+     "Gravity along y g_y -0.470 a/t²", "Acceleration", false, 1},
+    {"bulk_drive.kick_speed", "/bulk_drive/kick_speed", 0.0, 1.0, "Kicks s 0.220 a/t",
+     "Homogeneous"},
+    {"view.trails", "/view/trails", 0.0, 5.0, "Trails 0.25 t", "paths are drawn"},
+    {"collapse.contact_time", "/collapse/contact_time", 1e-9, 0.1, "Its length t_c 2.0e-04 t",
+     "TC model", true},
+    {"view.interval", "/view/interval", 0.01, 4.0, "Snapshots every 0.300 t",
+     "Time between two of them", true},
+    {"view.window", "/view/window", 0.1, 100.0, "Averaged over 4.00 t", "How far back", true}};
+
+std::string text_of(PanelDriver& driver) {
+  std::string text;
+  for (const std::string& line : driver.lines()) text += line + ' ';
+  return text;
+}
+
+// The word of a line that is a number.
+std::string number_in(const std::string& line) {
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    if (!*end) return word;
+  }
+  return "none";
+}
+
+// Opens a list and chooses a word of it.
+void choose(PanelDriver& driver, const std::string& key, const std::string& word) {
+  for (const std::string& widget : {key, key + '.' + word}) {
+    const auto [x, y, width, height] = driver.place(widget);
+    driver.click(x + 0.5f * width, y + 0.5f * height);
+  }
+}
+
+void tick(PanelDriver& driver, const std::string& key) {
+  const auto [x, y, width, height] = driver.place(key);
+  driver.click(x + 0.5f * height, y + 0.5f * height);
+}
+
+void check_lines(const std::vector<std::string>& lines, const std::vector<std::string>& expected) {
+  for (std::size_t k = 0; k < std::min(lines.size(), expected.size()); ++k) {
+    CHECK(lines[k] == expected[k]);
+  }
+  CHECK(lines.size() == expected.size());
+}
+
+}  // namespace
+
+TEST_CASE("Panels: every name stands beside the value of its own key, in its unit") {
+  PanelDriver driver(uneven_scene(), all_panels);
+  check_lines(driver.lines(), {"### Gas ###",
+                               "Disks N 14",
+                               "{ 14 }",
+                               "Area fraction φ = 0.025",
+                               "Restitution α 0.810",
+                               "{ 0.810 }",
+                               "[x] Rough disks",
+                               "Friction μ 0.420",
+                               "{ 0.420 }",
+                               "Tangential β₀ 0.530",
+                               "{ 0.530 }",
+                               "### Box and walls ###",
+                               "Width Lx 19.0 a",
+                               "{ 19.0 }",
+                               "Height Ly 23.0 a",
+                               "{ 23.0 }",
+                               "Left",
+                               "{ driven }",
+                               "Drive speed v_dr 1.500 a/t",
+                               "{ 1.500 }",
+                               "Restitution α_w 0.940",
+                               "{ 0.940 }",
+                               "Right",
+                               "{ static }",
+                               "Restitution α_w 0.730",
+                               "{ 0.730 }",
+                               "Bottom",
+                               "{ thermal }",
+                               "Temperature T_w 2.500 m a²/t²",
+                               "{ 2.500 }",
+                               "Top",
+                               "{ sinusoidal }",
+                               "Stroke 0.310 a",
+                               "{ 0.310 }",
+                               "Frequency f 1.120 1/t",
+                               "{ 1.120 }",
+                               "Restitution α_w 0.860",
+                               "{ 0.860 }",
+                               "Gravity along x g_x 0.150 a/t²",
+                               "{ 0.150 }",
+                               "Gravity along y g_y -0.470 a/t²",
+                               "{ -0.470 }",
+                               "Kicks s 0.220 a/t",
+                               "{ 0.220 }",
+                               "### View ###",
+                               "Particles coloured by",
+                               "{ velocity y }",
+                               "Palette",
+                               "{ cividis }",
+                               "Range of the disks",
+                               "{ given }",
+                               "{ -1.25 } { 3.5 }",
+                               "Heatmap",
+                               "{ stress xy }",
+                               "Palette of the heatmap",
+                               "{ inferno }",
+                               "Range of the heatmap",
+                               "{ given }",
+                               "{ -4.5 } { 6.75 }",
+                               "Arrows",
+                               "{ heat flux }",
+                               "Trails 0.25 t",
+                               "{ 0.25 }",
+                               "Theme",
+                               "{ light }",
+                               "[x] Grid",
+                               "[ ] Title, figures and scales",
+                               "### Accuracy ###",
+                               "[x] Contact time",
+                               "Its length t_c 2.0e-04 t",
+                               "{ 0.0002 }",
+                               "CPU time x1",
+                               "Not dissipated: -",
+                               "Elastic collisions: -",
+                               "Fields from",
+                               "{ snapshot x1.1 }",
+                               "Snapshots every 0.300 t",
+                               "{ 0.3 }",
+                               "Averaged over 4.00 t",
+                               "{ 4 }"});
+}
+
+TEST_CASE("Panels: every slider sets the value of its own key, within its range, and back") {
+  for (const SliderMeaning& slider : kSliders) {
+    CAPTURE(slider.place);
+    PanelDriver driver(uneven_scene(), all_panels);
+    const json before = settings(driver);
+    auto [x, y, width, height] = driver.place(slider.key, slider.number);
+    const float middle = y + 0.5f * height;
+    driver.drag(x + 0.5f * width, middle, x + 0.75f * width);
+    const json after = settings(driver);
+    CHECK(changes(before, after) == Places{slider.place});
+    const double value = after.at(slider.place);
+    if (slider.logarithmic) {
+      const double decades = std::log10(slider.high / slider.low);
+      CHECK(std::log10(value / slider.low) == doctest::Approx(0.75 * decades).epsilon(0.05));
+    } else {
+      CHECK(std::fabs(value - slider.low - 0.75 * (slider.high - slider.low)) <
+            0.02 * (slider.high - slider.low));
+    }
+    // While the mouse is on it, its help and the value that the scene was opened with.
+    const std::string told = text_of(driver);
+    CHECK(says(told, slider.help));
+    CHECK(says(told, "Here: " + number_in(slider.line)));
+    CHECK_FALSE(says(told, slider.line));
+
+    // The round arrow above its right end.
+    driver.click(x + width - 7.0f, y - 10.0f);
+    CHECK(changes(before, settings(driver)).empty());
+  }
+}
+
+TEST_CASE("Panels: every word of a list sets its own key to itself") {
+  struct List {
+    const char* key;
+    std::vector<const char*> words;
+  };
+  for (const auto& [key, words] :
+       {List{"view.colour_by", {"none", "speed", "velocity x", "spin"}},
+        List{"view.palette", {"viridis", "inferno"}},
+        List{"view.field", {"density", "velocity y", "temperature x"}},
+        List{"view.field_palette", {"viridis", "cividis"}}, List{"view.arrows", {"velocity"}},
+        List{"view.theme", {"dark", "projector"}},
+        List{"walls.left", {"static", "thermal", "sawtooth", "sinusoidal"}},
+        List{"walls.right", {"driven", "thermal"}}, List{"walls.bottom", {"sawtooth"}},
+        List{"walls.top", {"static"}}}) {
+    for (const std::string word : words) {
+      CAPTURE(key);
+      CAPTURE(word);
+      PanelDriver driver(uneven_scene(), all_panels);
+      const json before = settings(driver);
+      choose(driver, key, word);
+      const json after = settings(driver);
+      std::string place = '/' + std::string(key), value = word;
+      std::ranges::replace(place, '.', '/');
+      std::ranges::replace(value, ' ', '_');
+      const bool wall = place.starts_with("/walls");
+      CHECK(after.at(wall ? place + "/kind" : place) == value);
+      for (const std::string& changed : changes(before, after)) {
+        CHECK(changed.starts_with(place));
+      }
+    }
+  }
+}
+
+TEST_CASE("Panels: lists take away what their first word says") {
+  PanelDriver driver(uneven_scene(), all_panels);
+  const json before = settings(driver);
+  choose(driver, "view.arrows", "none");
+  CHECK(changes(before, settings(driver)) == Places{"/view/arrows"});
+  choose(driver, "view.field_palette", "as the disks");
+  CHECK_FALSE(settings(driver).contains("/view/field_palette"));
+  choose(driver, "view.field", "none");
+  CHECK_FALSE(settings(driver).contains("/view/field"));
+  // Periodic goes with the side opposite.
+  choose(driver, "walls.bottom", "periodic");
+  CHECK_FALSE(settings(driver).contains("/walls/bottom/kind"));
+  CHECK_FALSE(settings(driver).contains("/walls/top/kind"));
+  CHECK(settings(driver).at("/walls/left/kind") == "driven");
+  CHECK(settings(driver).at("/walls/right/kind") == "static");
+}
+
+TEST_CASE("Panels: ranges are automatic, locked or given from the one number to the other") {
+  struct Range {
+    const char* key;
+    const char* place;
+  };
+  for (const auto& [key, place] :
+       {Range{"view.range", "/view/range"}, Range{"view.field_range", "/view/field_range"}}) {
+    CAPTURE(key);
+    PanelDriver driver(uneven_scene(), all_panels);
+    const json before = settings(driver);
+    choose(driver, key, "locked");
+    CHECK(settings(driver).at(place) == "locked");
+    choose(driver, key, "auto");
+    for (const std::string& changed : changes(before, settings(driver))) {
+      CHECK(changed.starts_with(place));
+    }
+    choose(driver, key, "given");
+    CHECK(changes(before, settings(driver)).empty());
+  }
+}
+
+TEST_CASE("Panels: every box to tick switches its own key") {
+  const auto changed_by = [](const char* key) {
+    PanelDriver driver(uneven_scene(), all_panels);
+    const json before = settings(driver);
+    tick(driver, key);
+    return changes(before, settings(driver));
+  };
+  CHECK(changed_by("view.grid") == Places{"/view/grid"});
+  CHECK(changed_by("view.overlay") == Places{"/view/overlay"});
+  CHECK(changed_by("contact_time") == Places{"/collapse/contact_time"});
+}
+
+TEST_CASE("Panels: spins go with their keys, and come back with the numbers that they had") {
+  Scene scene = uneven_scene();
+  scene.particles.inertia = 0.45;
+  scene.particles.start.spin_temperature = 0.7;
+  scene.bulk_drive->kick_spin = 0.9;
+  PanelDriver driver(scene, all_panels);
+  const json before = settings(driver);
+  tick(driver, "rough");
+  CHECK(driver.session().message().empty());
+  CHECK(changes(before, settings(driver)) ==
+        Places{"/particles/friction", "/particles/tangential_restitution", "/bulk_drive/kick_spin",
+               "/particles/inertia", "/particles/start/spin_temperature"});
+  tick(driver, "rough");
+  CHECK(changes(before, settings(driver)) ==
+        Places{"/particles/friction", "/particles/tangential_restitution"});
+}
+
+TEST_CASE("Panels: what is switched on starts with the usual numbers") {
+  Scene scene = uneven_scene();
+  scene.particles.roughness = {};
+  scene.contact_time.reset();
+  scene.bulk_drive.reset();
+  PanelDriver driver(scene, all_panels);
+  CHECK(says(text_of(driver), "[ Kick all disks ]"));
+  tick(driver, "rough");
+  tick(driver, "contact_time");
+  tick(driver, "bulk_drive");
+  const json after = settings(driver);
+  CHECK(after.at("/particles/friction") == 0.5);
+  CHECK(after.at("/particles/tangential_restitution") == 0.5);
+  CHECK(after.at("/collapse/contact_time") == 1e-5);
+  CHECK(after.at("/bulk_drive/interval") == 0.05);
+  CHECK(after.at("/bulk_drive/kick_speed") == 0.1);
+  choose(driver, "walls.bottom", "sawtooth");
+  CHECK(settings(driver).at("/walls/bottom/stroke") == 0.2);
+  CHECK(settings(driver).at("/walls/bottom/frequency") == 2.0);
+  choose(driver, "walls.right", "driven");
+  CHECK(settings(driver).at("/walls/right/drive_speed") == 1.0);
+  CHECK(settings(driver).at("/walls/right/restitution") == 0.73);
+}
+
+TEST_CASE("Panels: a number of disks is set once its slider is let go") {
+  PanelDriver driver(uneven_scene(), all_panels);
+  const json before = settings(driver);
+  const auto [x, y, width, height] = driver.place("particles.count");
+  driver.drag(x + 0.5f * width, y + 0.5f * height, x + 0.75f * width);
+  CHECK(changes(before, settings(driver)) == Places{"/particles/count"});
+  // Over the most that there is room for, logarithmically.
+  CHECK(settings(driver).at("/particles/count") > 80);
+  CHECK(settings(driver).at("/particles/count") < 110);
+}
+
+TEST_CASE("Panels: a picked disk tells its own state, and what it has hit and will hit") {
+  Frame frame;
+  frame.snapshot.positions.resize(2, 3);
+  frame.snapshot.positions << 1.25, 2.5, 3.75, 4.125, 5.25, 6.5;
+  frame.snapshot.velocities.resize(2, 3);
+  frame.snapshot.velocities << 0.5, -3.0, 7.0, 0.25, 4.0, 9.0;
+  frame.snapshot.spins.resize(1, 3);
+  frame.snapshot.spins << 0.125, -0.625, 0.75;
+  frame.last_collision = ParticleCollision{.time = 11.5, .partner = {}, .side = kTop};
+  frame.next_collision = ParticleCollision{.time = 12.25, .partner = 2};
+  bool follows = false;
+  PanelDriver driver(Scene{}, [&](Session&, Controls&) {
+    disk_label(frame, 1, follows, {100.0f, 100.0f}, {{0.0f, 0.0f}, {400.0f, 400.0f}});
+  });
+  check_lines(driver.lines(), {"Disk 1", "place 2.50, 5.25", "velocity -3.000, 4.000",
+                               "speed 5.000", "spin -0.625", "last hit t = 11.5000, top wall",
+                               "next hit t = 12.2500, disk 2", "double-click to follow"});
+  follows = true;
+  CHECK(driver.lines().back() == "followed; Esc lets go");
+}
+
+TEST_CASE("Panels: the bar above tells the time and sets the speed by steps of the root of 2") {
+  Scene scene = uneven_scene();
+  scene.title = "Uneven";
+  scene.view.speed = 2.0;
+  PanelVisibility shown;
+  PanelDriver driver(
+      scene, [&](Session& session, Controls& controls) { top_bar(session, controls, shown); });
+  const auto click = [&](const char* widget) {
+    const auto [x, y, width, height] = driver.place(widget);
+    driver.click(x + 0.5f * width, y + 0.5f * height);
+  };
+  const auto speed_is = [](double speed) {
+    return [speed](const Frame& frame) {
+      return frame.run > 0 && std::fabs(frame.speed - speed) < 1e-9;
+    };
+  };
+  driver.wait_for(speed_is(2.0));
+  CHECK(says(text_of(driver), "Uneven"));
+  CHECK(says(text_of(driver), "2 /s"));
+  CHECK(says(text_of(driver), "t = 0.00"));
+  click("faster");
+  driver.wait_for(speed_is(2.0 * std::sqrt(2.0)));
+  CHECK(says(text_of(driver), "2.83 /s"));
+  click("slower");
+  driver.wait_for(speed_is(2.0));
+  // A frame is a sixtieth of a second.
+  for (int k = 1; k <= 3; ++k) {
+    click("frame");
+    driver.wait_for(
+        [&](const Frame& frame) { return std::fabs(frame.snapshot.time - k * 2.0 / 60.0) < 1e-9; });
+  }
+  driver.point_at(0.0f, 3000.0f);  // away from buttons, whose help would end the text
+  CHECK(says(text_of(driver), "t = 0.10"));
+  click("plots");
+  CHECK(shown.plots);
+  click("help");
+  CHECK(shown.help);
+  click("gallery");
+  CHECK(shown.gallery);
+  CHECK(shown.lesson);
+  click("lesson");
+  CHECK_FALSE(shown.lesson);
+}
+
+}  // namespace clatter
