@@ -19,10 +19,16 @@ static void visit(Archive& io, FrameTimes& times) {
 }
 
 template <class Archive>
+static void visit(Archive& io, PngText& text) {
+  io(text.keyword, text.text);
+}
+
+template <class Archive>
 static void visit(Archive& io, FilmState& state) {
-  auto& [times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown] =
-      state;
-  io(times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown);
+  auto& [times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown,
+         checksums, notes] = state;
+  io(times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown,
+     checksums, notes);
 }
 
 std::string to_bytes(FilmState state) {
@@ -70,6 +76,7 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
     if (!run_.until(state_.times.of(frame), progress) || !choose_ranges(progress)) return frame;
     if (frame == first || (frame > first && frame % FrameSink::kPiece == 0)) {
       sink.flush();
+      state_.checksums = sink.checksums();
       run_.mark();
     }
     // Also of frames that are not drawn: averages are the same to the last bit only where they are
@@ -84,10 +91,12 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
     canvas_.bind();
     renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
     const Image picture = canvas_.read();
-    sink.add(state_.transparent ? with_own_colours(picture) : picture, notes());
+    state_.notes = notes();
+    sink.add(state_.transparent ? with_own_colours(picture) : picture, state_.notes);
     progress.update(snapshot.time);
   }
   state_.begin.reset();
+  state_.checksums = sink.checksums();
   run_.mark();
   return state_.next;
 }
@@ -103,7 +112,7 @@ bool Film::choose_ranges(Progress& progress) {
 
 // The largest of what disks show at the ends of the window's parts, and what its average shows.
 RangeEnds Film::look_ahead() const {
-  constexpr std::uint64_t kSteps = 1'000'000;  // between looks for an interrupt
+  constexpr std::uint64_t kSteps = 50'000;  // between looks for an interrupt
   const ScheduledRun<2>& run = run_.scheduled();
   ScheduledRun<2> ahead(scene_, run.seed(), run.simulation().save());
   ahead.show(view_, run.save_shown(), state_.exposure());

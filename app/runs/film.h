@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/runs/run.h"
 #include "render/gl/canvas.h"
@@ -41,6 +43,8 @@ struct FilmState {
   std::optional<RangeEnds> ranges;  ///< absent: not chosen yet
   std::optional<Camera> camera;     ///< that shows the whole box; absent: not chosen yet
   std::string shown;                ///< of the time before, see ScheduledRun::save_shown()
+  std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`, see FrameSink
+  std::vector<PngText> notes = {};            ///< of the picture before `next`
 
   /// The time up to a frame that it shows.
   double exposure() const { return shutter * times.speed / times.fps; }

@@ -1,11 +1,10 @@
 #include "engine/checkpoint/checkpoint.h"
 
-#include <libdeflate.h>
-
 #include <fstream>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
+#include "engine/system/checksum.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
 
@@ -54,10 +53,6 @@ void read(T& value, std::string_view bytes, const std::filesystem::path& file) {
   reader.finish();
 }
 
-std::uint32_t checksum(std::string_view bytes) {
-  return libdeflate_crc32(0, bytes.data(), bytes.size());
-}
-
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
   const std::filesystem::path previous = previous_checkpoint(file);
   std::error_code ignored;
@@ -71,6 +66,7 @@ std::string read_whole(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) refuse(file, "there is no such file");
   if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
+  if (!std::ifstream(file)) refuse(file, "the file cannot be read");
   if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
   return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a particle");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -30,6 +31,8 @@ class FrameSink {
   virtual void flush() = 0;
   /// Waits until everything is written; throws what went wrong.
   virtual void finish(Ending ending) = 0;
+  /// CRC-32 of each piece that is whole, in order; empty where pieces carry their own.
+  virtual std::vector<std::uint32_t> checksums() const { return {}; }
 
   /// How many pictures a piece has: where the number of one is a multiple of this, a film can be
   /// taken up again.
@@ -48,6 +51,8 @@ struct SinkOptions {
   long end = std::numeric_limits<long>::max();  ///< one more than the number of the last
   long next = 0;  ///< number of the first picture that is added; those from `begin` on are there
   bool goes_on = false;  ///< what is there from `next` on is of this film, before it was cut
+  std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`; empty: not known
+  std::vector<PngText> notes = {};            ///< of the picture before `next`
 };
 
 /// The sink that a path asks for: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or else a

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 
 #include "engine/error.h"
@@ -111,19 +112,22 @@ static std::vector<PngText> texts_of(std::FILE* file, const std::filesystem::pat
   return texts;
 }
 
-std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {
-  // What is read from a pipe would be lost to whoever reads it for something else.
+// What is read from a pipe would be lost to whoever reads it for something else.
+bool is_png(const std::filesystem::path& path) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, kSignature.size()> start{};
+  file.read(start.data(), start.size());
+  return file && std::string_view(start.data(), start.size()) == kSignature;
+}
+
+std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {
+  if (!is_png(path)) return std::nullopt;
   const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"),
                                                                 std::fclose);
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  std::array<char, kSignature.size()> start{};
-  if (!file || std::fread(start.data(), 1, start.size(), file.get()) != start.size() ||
-      std::string_view(start.data(), start.size()) != kSignature) {
-    return std::nullopt;
-  }
-  std::rewind(file.get());
+  if (!file) return std::nullopt;
   for (PngText& text : texts_of(file.get(), path)) {
     if (text.keyword == keyword) return std::move(text.text);
   }

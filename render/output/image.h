@@ -29,6 +29,9 @@ struct PngText {
 /// The bytes of a PNG file.
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts = {});
 
+/// Whether a path is a regular file that begins as PNG pictures do.
+bool is_png(const std::filesystem::path& path);
+
 /// The text that a PNG file carries under a keyword before its pixels; absent: none, or no PNG
 /// file. Throws UserError where the file is damaged up to there.
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);

@@ -2,19 +2,27 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ranges>
+#include <span>
 #include <string_view>
 
 #include "engine/error.h"
+#include "engine/system/checksum.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
 
 namespace {
+
+// File in the folder of the pieces, which ffmpeg reads.
+constexpr const char* kList = "pieces.txt";
 
 // Thrown on the writing thread; the caller's thread asks the encoder for the reason.
 struct EncoderStopped {};
@@ -42,10 +50,20 @@ FileDescriptor open_new(const std::filesystem::path& path) {
   return FileDescriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
 }
 
-void make_folder(const std::filesystem::path& folder, const std::filesystem::path& film) {
-  std::error_code error;
-  std::filesystem::create_directory(folder, error);
-  if (error) throw RunError("cannot write " + film.string() + ": " + error.message());
+// A file in memory, which takes no place on a full disk. Throws RunError.
+FileDescriptor in_memory(const std::string& text) {
+  FileDescriptor file(memfd_create("texts", MFD_CLOEXEC));
+  if (!file || !file.write_all(std::as_bytes(std::span(text)))) {
+    throw RunError(std::string("cannot keep the texts of a film: ") + std::strerror(errno));
+  }
+  return file;
+}
+
+// Whether the folder of that name is still the one that is open.
+bool is_at(const FileDescriptor& folder, const std::filesystem::path& path) {
+  struct stat opened, named;
+  return fstat(folder.get(), &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 }  // namespace
@@ -56,23 +74,61 @@ Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::
       format_(find_movie_format(path_.extension())),
       options_(options),
       program_(encoder),
+      checksums_(options.checksums),
+      notes_(options.notes),
       next_(options.next),
       queue_(1, 4) {
-  if (options.next == options.begin && !options.goes_on) {
-    if (options.overwrite) std::filesystem::remove_all(folder_);
-    require_no_pieces(folder_);
+  const bool begins = options.next == options.begin && !options.goes_on;
+  if (begins && !options.overwrite) require_no_pieces(folder_);
+  require_earlier_pieces();
+  open_folder();
+  if (begins) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      std::filesystem::remove_all(entry.path());
+    }
   }
-  for (long piece = options.begin; piece < options.next; piece = start_of_piece(piece) + kPiece) {
+  start_piece();
+}
+
+// Two films of one name would write into each other's pieces. The folder that was opened may have
+// been removed by the film that held it until then.
+void Movie::open_folder() {
+  do {
+    std::error_code error;
+    std::filesystem::create_directory(folder_, error);
+    held_ = FileDescriptor(open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (error || !held_) {
+      throw RunError("cannot write " + path_.string() + ": " +
+                     (error ? error.message() : std::strerror(errno)));
+    }
+    if (flock(held_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      throw UserError({path_.string()}, "another program is filming to this name",
+                      "wait for its end, or give another name");
+    }
+  } while (!is_at(held_, folder_));
+}
+
+void Movie::require_earlier_pieces() {
+  for (long piece = options_.begin; piece < next_; piece = start_of_piece(piece) + kPiece) {
     if (std::filesystem::exists(piece_path(piece))) continue;
     throw UserError(
         {path_.string()},
         "the film goes on, but its piece " + piece_path(piece).string() + " is not there",
         (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
-            ("name the film that was cut, or begin one by --frames " +
-             std::to_string(options.next) + ":"));
+            ("name the film that was cut, or begin one by --frames " + std::to_string(next_) +
+             ":"));
   }
-  make_folder(folder_, path_);
-  start_piece();
+  const std::vector<Piece> earlier = pieces();
+  for (std::size_t i = checksums_.size(); i < earlier.size(); ++i) {
+    checksums_.push_back(checksum_of_file(earlier[i].path).value_or(0));
+  }
+  checksums_.resize(earlier.size());
+  try {
+    require_unchanged(earlier);
+  } catch (const RunError& error) {
+    throw UserError({path_.string()}, error.what(),
+                    "draw the film again: leave --resume out, and give --overwrite");
+  }
 }
 
 Movie::~Movie() {
@@ -87,6 +143,12 @@ std::filesystem::path Movie::piece_path(long first) const {
   return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }
 
+// As name_while_open(): a path that also has no characters which a list of ffmpeg's takes for
+// something else, whatever the film is called.
+std::filesystem::path Movie::name_in_folder(const std::string& file) const {
+  return name_while_open(held_) / file;
+}
+
 // The number of the first picture in the piece that has this one.
 long Movie::start_of_piece(long number) const {
   return std::max(options_.begin, number / kPiece * kPiece);
@@ -98,9 +160,10 @@ void Movie::start_piece() {
   // Found out now rather than after the first hour of a run.
   file_ = open_new(piece);
   if (!file_) fail(std::strerror(errno));
+  texts_ = in_memory(metadata_file(options_.texts));
   try {
-    encoder_ = std::make_unique<ChildProcess>(
-        encoding_command(program_, *format_, options_, name_while_open(file_)));
+    encoder_ = std::make_unique<ChildProcess>(encoding_command(
+        program_, *format_, options_, name_while_open(texts_), name_while_open(file_)));
   } catch (const RunError& error) {
     unlink(piece.c_str());
     fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
@@ -132,6 +195,9 @@ void Movie::end_piece() {
   require_pictures(piece_path(piece_), next_ - piece_);
   // A checkpoint may count on it from now on.
   if (!file_.sync()) fail(std::strerror(errno));
+  const auto sum = checksum_of_file(piece_path(piece_));
+  if (!sum) fail("cannot read " + piece_path(piece_).string());
+  checksums_.push_back(*sum);
 }
 
 void Movie::finish(Ending ending) {
@@ -152,20 +218,23 @@ std::vector<Movie::Piece> Movie::pieces() const {
 }
 
 void Movie::join() {
-  const std::filesystem::path list = folder_ / "pieces.txt";
-  std::string text = "ffconcat version 1.0\n";
-  for (const Piece& piece : pieces()) {
-    text += fmt::format("file {}\nduration {:.9f}\n", piece.path.filename().string(),
+  const std::vector<Piece> pieces = this->pieces();
+  std::string list = "ffconcat version 1.0\n";
+  for (const Piece& piece : pieces) {
+    list += fmt::format("file {}\nduration {:.9f}\n", piece.path.filename().string(),
                         static_cast<double>(piece.count) / options_.fps);
   }
-  write_file(list, text);
-
+  write_file(folder_ / kList, list);
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
+  const FileDescriptor metadata = in_memory(metadata_file(texts));
+  require_unchanged(pieces);
+
   const std::filesystem::path joined = folder_ / ("joined" + format_->extension);
   const FileDescriptor file = open_new(joined);
   if (!file) fail(std::strerror(errno));
-  ChildProcess joiner(joining_command(program_, *format_, texts, list, name_while_open(file)));
+  ChildProcess joiner(joining_command(program_, *format_, name_while_open(metadata),
+                                      name_in_folder(kList), name_while_open(file)));
   if (!joiner.wait()) {
     unlink(joined.c_str());
     fail(joiner);
@@ -174,14 +243,20 @@ void Movie::join() {
     require_pictures(joined, next_ - options_.begin);
   } catch (const RunError&) {
     unlink(joined.c_str());
-    // A piece that has changed since is the reason to name.
-    for (const Piece& piece : pieces()) require_pictures(piece.path, piece.count);
     throw;
   }
   try {
     rename_synced(joined, path_);
   } catch (const RunError& error) {
     throw RunError(error.what() + place_of_pieces());
+  }
+}
+
+// A piece may have been cut or replaced since it was drawn, which no encoder would notice.
+void Movie::require_unchanged(const std::vector<Piece>& pieces) {
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (checksum_of_file(pieces[i].path) == checksums_[i]) continue;
+    throw RunError(pieces[i].path.string() + " is not the piece that was drawn");
   }
 }
 

@@ -29,14 +29,18 @@ class Movie final : public FrameSink {
   void flush() override {}
   /// The film gets its name once it is whole; one that is cut keeps its pieces, too.
   void finish(Ending ending) override;
+  std::vector<std::uint32_t> checksums() const override { return checksums_; }
 
  private:
-  std::filesystem::path piece_path(long first) const;
   struct Piece {
     std::filesystem::path path;
     long count;  // of its pictures
   };
 
+  std::filesystem::path piece_path(long first) const;
+  std::filesystem::path name_in_folder(const std::string& file) const;
+  void open_folder();
+  void require_earlier_pieces();
   long start_of_piece(long number) const;
   std::vector<Piece> pieces() const;
   void start_piece();
@@ -45,15 +49,19 @@ class Movie final : public FrameSink {
   void tidy();
   long pictures_in(const std::filesystem::path& film) const;
   void require_pictures(const std::filesystem::path& film, long count);
+  void require_unchanged(const std::vector<Piece>& pieces);
   std::string place_of_pieces() const;
   [[noreturn]] void fail(ChildProcess& process);
   [[noreturn]] void fail(const std::string& reason);
 
   std::filesystem::path path_;
   std::filesystem::path folder_;  ///< of the pieces
+  FileDescriptor held_;           ///< that folder, locked against other films of this name
   const MovieFormat* format_;
   SinkOptions options_;
   std::string program_;                    ///< that encodes
+  FileDescriptor texts_;                   ///< of the film, as the encoder reads them
+  std::vector<std::uint32_t> checksums_;   ///< of the pieces that are whole, in order
   std::vector<PngText> notes_;             ///< of the last picture
   long next_;                              ///< number of the next picture
   long piece_ = 0;                         ///< number of the first picture of the piece under way

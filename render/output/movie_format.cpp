@@ -54,18 +54,14 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
-std::vector<std::string> metadata(const std::vector<PngText>& texts) {
-  std::vector<std::string> all;
-  std::string comment;
-  for (const PngText& text : texts) {
-    if (text.keyword == "Title") {
-      append(all, {"-metadata", "title=" + text.text});
-    } else {
-      comment += text.keyword + ": " + text.text + "\n";
-    }
+// A value in ffmpeg's metadata files.
+std::string escaped(std::string_view value) {
+  std::string text;
+  for (const char c : value) {
+    if (std::string_view("=;#\\\n").find(c) != std::string_view::npos) text += '\\';
+    text += c;
   }
-  if (!comment.empty()) append(all, {"-metadata", "comment=" + comment});
-  return all;
+  return text;
 }
 
 }  // namespace
@@ -77,8 +73,22 @@ const MovieFormat* find_movie_format(const std::string& extension) {
   return nullptr;
 }
 
+std::string metadata_file(const std::vector<PngText>& texts) {
+  std::string title;
+  std::string comment;
+  for (const PngText& text : texts) {
+    if (text.keyword == "Title") {
+      title = text.text;
+    } else {
+      comment += text.keyword + ": " + text.text + "\n";
+    }
+  }
+  return ";FFMETADATA1\ntitle=" + escaped(title) + "\ncomment=" + escaped(comment) + "\n";
+}
+
 std::vector<std::string> encoding_command(const std::string& encoder, const MovieFormat& format,
                                           const SinkOptions& options,
+                                          const std::filesystem::path& metadata,
                                           const std::filesystem::path& file) {
   const std::string fps = fmt::format("{:.10g}", options.fps);
   std::vector<std::string> all = {encoder,
@@ -95,20 +105,39 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
                                   "-framerate",
                                   fps,
                                   "-i",
-                                  "pipe:0"};
+                                  "pipe:0",
+                                  "-f",
+                                  "ffmetadata",
+                                  "-i",
+                                  name_of(metadata),
+                                  "-map_metadata",
+                                  "1"};
   append(all, format.encoding);
-  append(all, metadata(options.texts));
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
 }
 
 std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
-                                         const std::vector<PngText>& texts,
+                                         const std::filesystem::path& metadata,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file) {
-  std::vector<std::string> all = {encoder,  "-v", "error",       "-nostdin", "-y",  "-f",
-                                  "concat", "-i", name_of(list), "-c",       "copy"};
-  append(all, metadata(texts));
+  std::vector<std::string> all = {encoder,
+                                  "-v",
+                                  "error",
+                                  "-nostdin",
+                                  "-y",
+                                  "-f",
+                                  "concat",
+                                  "-i",
+                                  name_of(list),
+                                  "-f",
+                                  "ffmetadata",
+                                  "-i",
+                                  name_of(metadata),
+                                  "-map_metadata",
+                                  "1",
+                                  "-c",
+                                  "copy"};
   // Without names that the muxer makes up, so that the same film is the same file.
   append(all, {"-fflags", "+bitexact"});
   if (format.muxer == "mp4") append(all, {"-movflags", "+faststart"});

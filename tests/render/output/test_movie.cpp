@@ -277,9 +277,56 @@ TEST_CASE("Movie: an earlier piece that was cut is an error that names it") {
   for (int i = 0; i < 70; ++i) movie.add(frame(i), {});
   const auto piece = folder / "film.mp4.part/000000.mp4";
   std::filesystem::resize_file(piece, std::filesystem::file_size(piece) / 2);
-  const std::string named = piece.string() + " has ";
+  const std::string named = piece.string() + " is not the piece that was drawn";
   CHECK_THROWS_WITH_AS(movie.finish(Ending::Whole), doctest::Contains(named.c_str()), RunError);
   CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
+}
+
+TEST_CASE("Movie: a film does not go on from a piece that has changed") {
+  const TemporaryFolder folder;
+  SinkOptions resumed = options();
+  {
+    Movie movie(folder / "film.mp4", options());
+    for (int i = 0; i < 70; ++i) movie.add(frame(i), {});
+    resumed.checksums = movie.checksums();
+    movie.finish(Ending::Cut);
+  }
+  CHECK(resumed.checksums.size() == 1);
+  resumed.next = 60;
+  resumed.goes_on = true;
+  CHECK_NOTHROW(Movie(folder / "film.mp4", resumed));
+  const auto piece = folder / "film.mp4.part/000000.mp4";
+  std::filesystem::resize_file(piece, 0);
+  const std::string named =
+      piece.string() + " is not the piece that was drawn; draw the film again";
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", resumed), doctest::Contains(named.c_str()),
+                       UserError);
+}
+
+TEST_CASE("Movie: two films of one name at once are refused") {
+  const TemporaryFolder folder;
+  SinkOptions again = options();
+  again.overwrite = true;
+  Movie first(folder / "film.mp4", options());
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", again),
+                       doctest::Contains("another program is filming to this name"), UserError);
+  write_film(first, 3);
+  CHECK(frames_of(folder / "film.mp4") == 3);
+  CHECK_NOTHROW(Movie(folder / "film.mp4", again));
+}
+
+TEST_CASE("Movie: names may have any character, and texts any length") {
+  const TemporaryFolder folder;
+  SinkOptions with_texts = options();
+  const std::string scene(300'000, '#');
+  with_texts.texts = {{"Title", "a=b;c#d\\e"}, {"Scene", scene + "\nend = 1\n"}};
+  const auto film = folder / "a?b#c%d e:f.mp4";
+  Movie movie(film, with_texts);
+  write_film(movie, 70);
+  CHECK(frames_of(film) == 70);
+  const std::string facts = probe(film);
+  CHECK(facts.find("TAG:title=a=b;c#d\\e\n") != std::string::npos);
+  CHECK(facts.find("Scene: " + scene + "\nend = 1\n") != std::string::npos);
 }
 
 TEST_CASE("Movie: an encoder that dies later leaves the pieces before, and those are named") {

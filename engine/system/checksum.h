@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace clatter {
+
+/// CRC-32 of bytes, as in PNG files.
+std::uint32_t checksum(std::string_view bytes);
+
+/// CRC-32 of a file's content; absent where it cannot be read.
+std::optional<std::uint32_t> checksum_of_file(const std::filesystem::path& file);
+
+}  // namespace clatter
