@@ -28,6 +28,12 @@ static CLI::Validator number_check(Allows allows, const std::string& wanted) {
       "");
 }
 
+CLI::Validator named_file() {
+  return CLI::Validator(
+      [](const std::string& name) { return name.empty() ? "the name is empty; name a file" : ""; },
+      "");
+}
+
 CLI::Validator positive_number() {
   return number_check([](double x) { return x > 0.0; }, "a number greater than 0");
 }

@@ -55,12 +55,14 @@ void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
   command
       .add_option("--resume", options.resume,
                   "Go on from a checkpoint, under the laws of the scene given here")
+      ->check(named_file())
       ->type_name("FILE");
   CLI::Option* file = command
                           .add_option("--checkpoint", options.file,
                                       "Keep a checkpoint up to date; the one before is "
                                       "FILE.previous (default: one beside the result where the run "
                                       "is interrupted or stops)")
+                          ->check(named_file())
                           ->type_name("FILE");
   command.add_option("--checkpoint-every", options.every, "How often, in seconds of wall time")
       ->check(positive_number())

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -70,7 +71,8 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
 }
 
 // Sees to it, before a long run, that its results can be written.
-void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
+void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
+  const Measure& spec = scene.measure;
   const std::string& checkpoint = options.checkpoints.file;
   std::vector<Output> outputs = {
       {"--out", options.out},
@@ -87,7 +89,7 @@ void prepare_outputs(const MeasureOptions& options, const Measure& spec) {
   };
   add_files("--csv", options.csv, kTableNames);
   add_files("--vtk", options.vtk, vtk_names());
-  require_distinct(outputs);
+  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   if (!options.vtk.empty() && spec.fields.empty()) {
     throw UserError({"--vtk", 0, 0}, "the scene asks for no fields",
                     "--set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
@@ -163,22 +165,38 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
 
 // A run that was killed between its last checkpoint and its results is at its end, and has only
 // these to give.
-bool goes_on_to(double end, const Resumed& resumed, const CommonOptions& options) {
+bool goes_on_to(double end, const Resumed& resumed) {
   if (end != resumed.time()) return end > resumed.time();
-  return !resumed.checkpoint.measurement.empty() &&
-         changed_laws(resumed, options.seed.value_or(resumed.checkpoint.seed)).empty();
+  return !resumed.checkpoint.measurement.empty() && changed_laws(resumed).empty();
+}
+
+// The time at which the run ends. One that ends within the burn-in gets a shorter one, as large a
+// share of it as that of the scene, unless that was asked for beside it.
+double end_of(const MeasureOptions& options, Measure& spec) {
+  const double whole = spec.burn_in + spec.duration;
+  const double end = options.common.until.value_or(whole);
+  if (end > spec.burn_in) return end;
+  if (options.common.sets("measure.burn_in")) {
+    throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
+                    "go beyond measure.burn_in = " + number_text(spec.burn_in));
+  }
+  const double shorter = end * (spec.burn_in / whole);
+  if (!options.common.quiet) {
+    std::fprintf(
+        stderr,
+        "note: the run ends within measure.burn_in = %s; averages begin at t = %s instead\n",
+        number_text(spec.burn_in).c_str(), number_text(shorter).c_str());
+  }
+  spec.burn_in = shorter;
+  return end;
 }
 
 int measure(const MeasureOptions& options) {
   Scene scene = load_disks(options.common, options.checkpoints.start_file());
+  const double end = end_of(options, scene.measure);
   const Measure& spec = scene.measure;
-  const double end = options.common.until.value_or(spec.burn_in + spec.duration);
-  if (!(end > spec.burn_in)) {
-    throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
-                    "go beyond measure.burn_in = " + number_text(spec.burn_in));
-  }
-  std::optional<Resumed> resumed = resume(options.checkpoints, scene);
-  if (resumed && !goes_on_to(end, *resumed, options.common)) {
+  std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
+  if (resumed && !goes_on_to(end, *resumed)) {
     throw UserError({"--until", 0, 0},
                     "the checkpoint is at t = " + number_text(resumed->time()) +
                         ", and the run ends at " + number_text(end),
@@ -186,10 +204,11 @@ int measure(const MeasureOptions& options) {
   }
   require_bounded_samples(spec, end);
   if (options.replicas > 1) return measure_replicas(options, scene, end);
-  prepare_outputs(options, spec);
+  prepare_outputs(options, scene);
   catch_interrupts();
 
   const double cpu_before = cpu_seconds();
+  const auto began = std::chrono::steady_clock::now();
   Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   Measurement<2>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
@@ -204,7 +223,8 @@ int measure(const MeasureOptions& options) {
   }
   run.put_aside();
   const Measured measured = measurement.result();
-  const Performance performance{cpu_seconds() - cpu_before,
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+  const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
                                 run.simulation().counts().pair_collisions - collisions_before,
                                 peak_memory_bytes()};
   write_results(options, json_of(options, scene, run, measured, performance), measured);

@@ -205,6 +205,10 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   if (options.frames) sink.end = frames.end;
   sink.next = std::max(film.next, frames.begin);
   sink.goes_on = film.begin == frames.begin && film.next >= frames.begin;
+  if (sink.goes_on) {
+    sink.checksums = film.checksums;
+    sink.notes = film.notes;
+  }
   return sink;
 }
 
@@ -230,14 +234,14 @@ bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progr
 
 int render(const RenderOptions& options) {
   Scene scene = load_disks(options.common, options.checkpoints.start_file());
-  std::optional<Resumed> resumed = resume(options.checkpoints, scene);
+  std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);
   View view = scene.view;
   view.overlay = film.overlay;
   require_few_windows(view, film.times.last());
   const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
-  require_distinct(outputs);
+  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   require_folder_of(options.out, "--out");
   require_pictures(options);
   catch_interrupts();

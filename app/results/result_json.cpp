@@ -112,6 +112,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
   const double collisions = static_cast<double>(performance.collisions);
   json["performance"] = {
       {"cpu_seconds", performance.cpu_seconds},
+      {"wall_seconds", performance.wall_seconds},
       {"collisions_per_second",
        performance.cpu_seconds > 0.0 ? collisions / performance.cpu_seconds : 0.0},
       {"peak_memory_bytes", performance.peak_memory_bytes}};

@@ -15,6 +15,7 @@ namespace clatter {
 /// What a run cost.
 struct Performance {
   double cpu_seconds = 0.0;
+  double wall_seconds = 0.0;
   std::uint64_t collisions = 0;  ///< of disks, in that time
   std::uint64_t peak_memory_bytes = 0;
 };

@@ -1,9 +1,21 @@
 #include "app/runs/options.h"
 
+#include <algorithm>
+
 #include "app/runs/picture_scene.h"
 #include "engine/error.h"
 
 namespace clatter {
+
+bool CommonOptions::sets(std::string_view key) const {
+  return std::ranges::any_of(settings, [&](const std::string& setting) {
+    const std::string_view set = std::string_view(setting).substr(0, setting.find('='));
+    const std::string_view longer = set.size() < key.size() ? key : set;
+    const std::string_view shorter = set.size() < key.size() ? set : key;
+    return longer.starts_with(shorter) &&
+           (longer.size() == shorter.size() || longer[shorter.size()] == '.');
+  });
+}
 
 Scene load(const CommonOptions& options, StartFile start_file) {
   std::vector<Override> overrides;
@@ -24,6 +36,14 @@ Scene load_disks(const CommonOptions& options, StartFile start_file) {
   throw UserError({options.scene},
                   "the box has three dimensions, and this command takes disks only",
                   "give box.size two numbers, or read the scene with `clatter check`");
+}
+
+std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,
+                                             const CheckpointOptions& checkpoints,
+                                             const Scene& scene) {
+  std::vector<std::filesystem::path> inputs = {options.scene, scene.particles.start.file};
+  if (checkpoints.resume != checkpoints.file) inputs.emplace_back(checkpoints.resume);
+  return inputs;
 }
 
 }  // namespace clatter

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/system/progress.h"
@@ -21,6 +23,8 @@ struct CommonOptions {
 
   /// The progress to show, given --quiet.
   ProgressStyle shown_progress() const { return quiet ? ProgressStyle::None : progress; }
+  /// Whether a --set gives this key of the scene, a table around it or a part of it.
+  bool sets(std::string_view key) const;
 };
 
 /// Flags of commands that can put a run aside and take it up again.
@@ -37,5 +41,11 @@ struct CheckpointOptions {
 Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
 /// The same of a command that takes disks only. Throws UserError for spheres, too.
 Scene load_disks(const CommonOptions& options, StartFile start_file = StartFile::Read);
+
+/// The files that a command reads and must not write: its scene, start state and checkpoint; not a
+/// checkpoint that it is to keep up to date.
+std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,
+                                             const CheckpointOptions& checkpoints,
+                                             const Scene& scene);
 
 }  // namespace clatter

@@ -1,14 +1,24 @@
 #include "app/runs/picture_scene.h"
 
+#include "engine/error.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
 
 Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
                      StartFile start_file) {
+  constexpr std::size_t kLargestScene = 1'000'000;
+  if (!is_png(path_or_name)) return load_scene(path_or_name, overrides, start_file);
   const auto inside = png_text(path_or_name, "Scene");
-  return inside ? parse_scene(*inside, path_or_name, overrides, start_file)
-                : load_scene(path_or_name, overrides, start_file);
+  if (!inside) {
+    throw UserError({path_or_name}, "this picture has no scene inside",
+                    "give a picture that clatter drew, or a scene file");
+  }
+  if (inside->size() > kLargestScene) {
+    throw UserError({path_or_name}, "the scene inside is larger than 1 MB",
+                    "give a picture that clatter drew");
+  }
+  return parse_scene(*inside, path_or_name, overrides, start_file);
 }
 
 std::vector<PngText> picture_texts(const Scene& scene, std::uint64_t seed) {

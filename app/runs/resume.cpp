@@ -26,12 +26,20 @@ static bool is_fixed(const KeyDifference& difference) {
          (wall_of_one && difference.key.starts_with("walls.") && difference.key.ends_with(".kind"));
 }
 
+// Whether it is what happens to the disks, and not what is measured, shown or said of them.
+static bool is_law(const KeyDifference& difference) {
+  const std::string& key = difference.key;
+  return !key.starts_with("measure.") && !key.starts_with("view.") &&
+         !key.starts_with("particles.start.") && key.find('.') != std::string::npos;
+}
+
 double Resumed::time() const {
   return std::visit([](const auto& saved) { return Clock(saved.base).absolute(saved.now); },
                     checkpoint.saved);
 }
 
-std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
+std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptions& options,
+                              Scene& scene) {
   if (options.resume.empty()) return std::nullopt;
   const std::string& file = options.resume;
   Resumed resumed{file, read_checkpoint(file), {}};
@@ -45,6 +53,17 @@ std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene) {
   resumed.differences = differences(resumed.checkpoint.scene, scene_to_toml(scene), file);
   for (const KeyDifference& key : resumed.differences) {
     if (is_fixed(key)) refuse(resumed, key, "give the scene that the checkpoint is of");
+    if (is_law(key) && !common.sets(key.key)) {
+      refuse(resumed, key,
+             "give that scene; or change the law from here on, --set " + key.key + "=" +
+                 shown(key.now));
+    }
+  }
+  const std::uint64_t seed = resumed.checkpoint.seed;
+  if (common.seed.value_or(seed) != seed) {
+    throw UserError(
+        {file}, "this checkpoint has the seed " + std::to_string(seed),
+        "leave --seed out, or resume the checkpoint of seed " + std::to_string(*common.seed));
   }
   return resumed;
 }
@@ -64,15 +83,11 @@ void require_same_view(const Resumed& resumed) {
   }
 }
 
-std::string changed_laws(const Resumed& resumed, std::uint64_t seed) {
+std::string changed_laws(const Resumed& resumed) {
   std::string keys;
   for (const KeyDifference& difference : resumed.differences) {
-    const std::string& key = difference.key;
-    const bool law = !key.starts_with("measure.") && !key.starts_with("view.") &&
-                     !key.starts_with("particles.start.") && key.find('.') != std::string::npos;
-    if (law) keys += (keys.empty() ? "" : ", ") + key;
+    if (is_law(difference)) keys += (keys.empty() ? "" : ", ") + difference.key;
   }
-  if (seed != resumed.checkpoint.seed) keys += keys.empty() ? "the seed" : ", the seed";
   return keys;
 }
 

@@ -23,8 +23,9 @@ struct Resumed {
 
 /// Reads the checkpoint that `--resume` names, if any, and gives a scene whose start state was not
 /// read what it lacks. Throws UserError unless the checkpoint has the scene's box, disks and walled
-/// sides.
-std::optional<Resumed> resume(const CheckpointOptions& options, Scene& scene);
+/// sides, the seed if one is given, and the laws but for those that --set gives.
+std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptions& options,
+                              Scene& scene);
 
 /// Throws UserError where the scene's [measure] block asks for something else than averages that
 /// have begun.
@@ -34,8 +35,8 @@ void require_same_measure(const Resumed& resumed);
 /// but for its speed.
 void require_same_view(const Resumed& resumed);
 
-/// All laws that differ, by their keys, and the seed if it does, separated by commas; empty: none.
-std::string changed_laws(const Resumed& resumed, std::uint64_t seed);
+/// All laws that differ, by their keys, separated by commas; empty: none.
+std::string changed_laws(const Resumed& resumed);
 
 /// Whether a key of the scene differs.
 bool differs(const Resumed& resumed, const std::string& key);

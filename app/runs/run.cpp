@@ -28,13 +28,14 @@ static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Mo
 }
 
 // Where a checkpoint goes that nobody asked for: beside what the command writes, where that is a
-// file or folder.
-static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene) {
-  std::filesystem::path file = std::filesystem::path(scene).stem();
-  if (!out.empty() && !is_special(out)) {
-    file = out;
-    if (!file.has_filename()) file = file.parent_path();
+// file or folder. Else runs of other seeds in the same folder have others.
+static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene,
+                                               std::uint64_t seed) {
+  if (out.empty() || is_special(out)) {
+    return fmt::format("{}-seed{}.checkpoint", std::filesystem::path(scene).stem().string(), seed);
   }
+  std::filesystem::path file = out;
+  if (!file.has_filename()) file = file.parent_path();
   return file.replace_extension(".checkpoint");
 }
 
@@ -54,11 +55,11 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
       scene_(scene),
       quiet_(options.quiet),
       options_(checkpoints),
-      file_(options_.file.empty() ? checkpoint_beside(out, options.scene)
-                                  : std::filesystem::path(options_.file)),
       resumed_(std::move(resumed)),
       seed_(options.seed.value_or(resumed_ ? resumed_->checkpoint.seed : 1)) {
   require_checkpoint_place(options_);
+  file_ = options_.file.empty() ? checkpoint_beside(out, options.scene, seed_)
+                                : std::filesystem::path(options_.file);
   if (!resumed_) {
     run_.emplace(scene, seed_);
     return;
@@ -69,7 +70,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
   saved = {};  // some memory
-  const std::string laws = changed_laws(*resumed_, seed_);
+  const std::string laws = changed_laws(*resumed_);
   if (!laws.empty() && !quiet_) {
     std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
                  laws.c_str());

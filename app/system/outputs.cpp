@@ -39,7 +39,8 @@ void require_writable_file(const std::filesystem::path& path, const char* flag) 
     throw UserError({flag, 0, 0}, path.string() + " is a folder", "name a file in it");
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(path);
+  const std::filesystem::path& written = is_special(path) ? path : folder;
+  if (access(written.c_str(), W_OK) != 0) throw_unwritable(path);
 }
 
 void make_folder(const std::filesystem::path& folder, const char* flag) {
@@ -56,14 +57,24 @@ static std::filesystem::path whole_name(const std::filesystem::path& path) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
 }
 
-void require_distinct(std::span<const Output> outputs) {
-  std::map<std::filesystem::path, const char*> flags;
+void require_distinct(std::span<const Output> outputs,
+                      std::span<const std::filesystem::path> inputs) {
+  std::map<std::filesystem::path, std::string> names;
+  for (const auto& input : inputs) {
+    if (!input.empty() && std::filesystem::exists(input)) {
+      names.emplace(whole_name(input), "this command reads");
+    }
+  }
   for (const auto& [flag, path] : outputs) {
     if (path.empty() || is_special(path)) continue;
-    const auto [other, first] = flags.emplace(whole_name(path), flag);
-    if (first) continue;
-    throw UserError({flag, 0, 0}, path.string() + " is what " + other->second + " writes",
-                    "give each a name of its own");
+    const std::filesystem::path name = whole_name(path);
+    for (const char* suffix : {"", ".part"}) {
+      const auto [other, first] =
+          names.emplace(name.string() + suffix, std::string(flag) + " writes");
+      if (first) continue;
+      throw UserError({flag, 0, 0}, path.string() + suffix + " is the file that " + other->second,
+                      "give each a name of its own");
+    }
   }
 }
 

@@ -25,7 +25,10 @@ struct Output {
   std::filesystem::path path;  ///< empty: none
 };
 
-/// Throws UserError where two outputs have the same name, so that one would replace the other.
-void require_distinct(std::span<const Output> outputs);
+/// Throws UserError where two outputs have the same name, so that one would replace the other, or
+/// an output has that of a file which the command reads. The files that are written on the way
+/// count too: FILE.part and, of a checkpoint, FILE.previous.
+void require_distinct(std::span<const Output> outputs,
+                      std::span<const std::filesystem::path> inputs = {});
 
 }  // namespace clatter

@@ -29,7 +29,11 @@ static std::string within(const std::string& what, Limits limits) {
 
 /// The value as a person would write it; a date by its type only.
 static std::string value_text(const toml::node& node) {
-  if (const auto* number = node.as_floating_point()) return number_text(number->get());
+  if (const auto* number = node.as_floating_point()) {
+    const std::string text = number_text(number->get());
+    const bool whole = text.find_first_not_of("-0123456789") == text.npos;
+    return whole ? text + ".0" : text;
+  }
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   if (const auto* text = node.as_string()) return in_quotes(text->get());

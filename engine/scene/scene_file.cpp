@@ -222,9 +222,12 @@ Scene load_scene(const std::string& path_or_name, const std::vector<Override>& o
     const EmbeddedFile* scene = find_embedded(embedded_scenes(), name);
     if (scene) return parse(scene->bytes, name, overrides, Origin::Gallery, start_file);
   }
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path_or_name, ignored)) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path_or_name, error)) {
     throw UserError({path_or_name}, "this is a directory", "give a scene file in it");
+  }
+  if (error == std::errc::permission_denied) {
+    throw UserError({path_or_name}, "the folder cannot be read", "check its permissions");
   }
   refuse_missing(path_or_name);
 }

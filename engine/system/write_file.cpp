@@ -5,9 +5,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 
 #include "engine/error.h"
 #include "engine/system/file_descriptor.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -40,6 +42,22 @@ bool rename_file(const std::filesystem::path& from, const std::filesystem::path&
   return std::rename(from.c_str(), to.c_str()) == 0;
 }
 
+// The number of the open file that a name such as /dev/stdout or /dev/fd/3 stands for. It may be a
+// regular file, which is then written on where it is.
+std::optional<int> own_descriptor(std::filesystem::path path) {
+  std::error_code error;
+  const std::filesystem::path open_files = std::filesystem::canonical("/proc/self/fd", error);
+  constexpr int kMostLinks = 40;
+  for (int links = 0; !error && links < kMostLinks; ++links) {
+    if (std::filesystem::canonical(path.parent_path(), error) == open_files) {
+      return whole_number<int>(path.filename().string());
+    }
+    if (error || !std::filesystem::is_symlink(path, error)) break;
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  }
+  return std::nullopt;
+}
+
 // Where a link leads, so that the link stays.
 std::filesystem::path place_of(const std::filesystem::path& path) {
   std::error_code error;
@@ -52,11 +70,16 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
 
 bool is_special(const std::filesystem::path& path) {
   std::error_code ignored;
-  return std::filesystem::is_other(path, ignored);
+  return std::filesystem::is_other(path, ignored) || own_descriptor(path);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes,
                 const std::filesystem::path& previous) {
+  if (const std::optional<int> own = own_descriptor(path)) {
+    FileDescriptor file(dup(*own));
+    if (!file || !file.write_all(std::as_bytes(std::span(bytes)))) throw_unwritable(path, errno);
+    return;
+  }
   if (is_special(path)) {
     if (!write_into(path, bytes, false)) throw_unwritable(path, errno);
     return;

@@ -5,7 +5,8 @@
 
 namespace clatter {
 
-/// Whether a path is a device, a pipe or the like: written into, never replaced.
+/// Whether a path is a device, a pipe, or an open file of ours such as /dev/stdout: written into,
+/// never replaced.
 bool is_special(const std::filesystem::path& path);
 
 /// Writes a file that appears whole or not at all, even if the machine stops: it is written as

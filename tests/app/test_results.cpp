@@ -405,7 +405,7 @@ TEST_CASE("Results: what tells of the run itself stands under its own key") {
   measured.residuals->equations[1][3] = 200.0;
   measured.residuals->equations[2][4] = -400.0;
   const json result = result_json(scene, 17, simulation, measured,
-                                  {.cpu_seconds = 2.5, .collisions = 40, .peak_memory_bytes = 96});
+                                  {.cpu_seconds = 2.5, .wall_seconds = 3.25, .collisions = 40, .peak_memory_bytes = 96});
   CHECK(result.at("schema") == 1);
   CHECK(result.at("seed") == 17);
   CHECK(result.at("program") == "clatter " CLATTER_VERSION);
@@ -417,8 +417,10 @@ TEST_CASE("Results: what tells of the run itself stands under its own key") {
   CHECK(result.at("checks").at("clock_steps_back") == 5e-15);
   CHECK(result.at("energy").at("ledger_residual") == 7e-15);
   CHECK(result.at("balance") == json{{"mass", 14.25}, {"momentum", 400.0}, {"energy", 51.75}});
-  CHECK(result.at("performance") ==
-        json{{"cpu_seconds", 2.5}, {"collisions_per_second", 16.0}, {"peak_memory_bytes", 96}});
+  CHECK(result.at("performance") == json{{"cpu_seconds", 2.5},
+                                         {"wall_seconds", 3.25},
+                                         {"collisions_per_second", 16.0},
+                                         {"peak_memory_bytes", 96}});
 }
 
 TEST_CASE("Results: every column of the tables is that of its events, with its unit") {
@@ -584,7 +586,8 @@ TEST_CASE("Results: every cell of the maps is that of its events, in all files")
 
 TEST_CASE("Results: HDF5 has series and profile with their units, the rest as the result file") {
   const Witnessed run(uneven_scene());
-  const json result = run.result({.cpu_seconds = 2.5, .collisions = 40, .peak_memory_bytes = 96});
+  const json result = run.result(
+      {.cpu_seconds = 2.5, .wall_seconds = 3.25, .collisions = 40, .peak_memory_bytes = 96});
   const Shell shell;
   write_hdf5(shell.path("r.h5"), result, run.measured);
   json file = read(shell, "read_hdf5.py", "r.h5");

@@ -78,10 +78,10 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
   };
   shell.run("mkdir folder && clatter check vibrated > folder/mine.toml");
   leaves("clatter measure vibrated --until 1e6 --out folder/r.json", "folder/r.checkpoint");
-  leaves("clatter measure vibrated --until 1e6", "vibrated.checkpoint", "TERM");
+  leaves("clatter measure vibrated --until 1e6", "vibrated-seed1.checkpoint", "TERM");
   shell.run("mkfifo pipe");
   leaves("clatter measure folder/mine.toml --until 1e6 --out pipe & cat pipe > piped; wait $!",
-         "mine.checkpoint");
+         "mine-seed1.checkpoint");
   CHECK(json::accept(shell.read("piped")));
   CHECK(shell.run("test -p pipe").code == 0);
   leaves("clatter measure vibrated --until 1e6 --checkpoint c", "c", "HUP");
@@ -143,13 +143,24 @@ TEST_CASE("Resume: laws may change at a checkpoint, and are named") {
   const std::string line = "clatter measure vibrated --set measure.burn_in=1 ";
   REQUIRE(shell.run(line + "--until 5 --checkpoint c --out a.json").code == 0);
   const Outcome outcome = shell.run(line +
-                                    "--until 9 --resume c --seed 3 --set particles.restitution=0.8 "
+                                    "--until 9 --resume c --set particles.restitution=0.8 "
                                     "--set walls.left.drive_speed=2 --set view.speed=7");
   CHECK(outcome.code == 0);
-  CHECK(says(
-      outcome.err,
-      "from t = 5 on other laws hold: particles.restitution, walls.left.drive_speed, the seed\n"));
-  CHECK(json::parse(outcome.out).at("seed") == 3);
+  CHECK(says(outcome.err,
+             "from t = 5 on other laws hold: particles.restitution, walls.left.drive_speed\n"));
+
+  // Another seed or another scene is another run, whose checkpoint was meant.
+  const Outcome seed = shell.run(line + "--until 9 --resume c --seed 3");
+  CHECK(seed.code == 2);
+  CHECK(says(seed.err, "c: this checkpoint has the seed 1; leave --seed out"));
+  shell.run("clatter check vibrated --set walls.right.restitution=0.5 > other.toml");
+  const Outcome other =
+      shell.run("clatter measure other.toml --set measure.burn_in=1 --until 9 --resume c");
+  CHECK(other.code == 2);
+  CHECK(says(other.err,
+             "c: walls.right.restitution is 1.0 in the checkpoint and 0.5 in the scene; "
+             "give that scene; or change the law from here on, --set "
+             "walls.right.restitution=0.5"));
 
   // What flights contribute is booked at their end, so averages cannot span two gravities.
   const Outcome fallen =
@@ -294,10 +305,10 @@ TEST_CASE("Resume: a collapse leaves results, a checkpoint and the command that 
 TEST_CASE("Resume: a checkpoint that cannot be written costs no result") {
   const Shell shell;
   const Outcome outcome = shell.run(
-      "mkdir vibrated.checkpoint.part; timeout --preserve-status -s INT 1 clatter measure "
+      "mkdir vibrated-seed1.checkpoint.part; timeout --preserve-status -s INT 1 clatter measure "
       "vibrated --until 1e6");
   CHECK(outcome.code == 1);
-  CHECK(says(outcome.err, "no checkpoint is left: cannot write vibrated.checkpoint.part"));
+  CHECK(says(outcome.err, "no checkpoint is left: cannot write vibrated-seed1.checkpoint.part"));
   CHECK(json::accept(outcome.out));
 }
 

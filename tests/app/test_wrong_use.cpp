@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/app/shell.h"
 
 namespace clatter {
@@ -81,7 +83,8 @@ TEST_CASE("Wrong use: wrong flags are refused") {
   check_refused(shell, "clatter check vibrated --seed -1", {"--seed"});
   check_refused(shell, "clatter measure vibrated --until 0", {"--until"});
   check_refused(shell, "clatter measure vibrated --until nan", {"--until"});
-  check_refused(shell, "clatter measure vibrated --until 400", {"--until", "burn-in", "500"});
+  check_refused(shell, "clatter measure vibrated --set measure.burn_in=500 --until 400",
+                {"--until", "burn-in", "500"});
   check_refused(shell, "clatter measure vibrated --progress loud", {"--progress"});
   check_refused(shell, "clatter check", {"scene is required"});
 }
@@ -95,7 +98,7 @@ TEST_CASE("Wrong use: runs that would fill the memory or never end are refused")
                 "--set measure.interval=1e-300",
                 {"measure.interval", "snapshots", "choose at least"});
   check_refused(shell, "clatter measure vibrated --set measure.duration=1e308", {"samples"});
-  check_refused(shell, "clatter render vibrated --out x.png --set view.window=1e-300",
+  check_refused(shell, "clatter render vibrated --out x.png --set view.window=1e-20",
                 {"view.window", "choose at least"});
 }
 
@@ -133,6 +136,64 @@ TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a messa
   }
 }
 
+TEST_CASE("Wrong use: outputs that would replace what the command reads are refused") {
+  const Shell shell;
+  shell.run("clatter check vibrated > s.toml");
+  shell.run(
+      "clatter measure vibrated --until 1 --quiet --checkpoint c --out r.json --save-state e.csv");
+  const std::string start = "--set 'particles.start={layout=\"file\",file=\"e.csv\"}' ";
+  const std::vector<std::pair<std::string, std::string>> lines = {
+      {"measure s.toml --until 2 --out s.toml", "--out"},
+      {"measure s.toml --until 2 --save-state ./s.toml", "--save-state"},
+      {"render s.toml --to 1 --checkpoint s.toml --out x.mp4", "--checkpoint"},
+      {"measure s.toml --until 2 " + start + "--out e.csv", "--out"},
+      {"measure s.toml --until 2 --resume c --out c", "--out"},
+      {"measure vibrated --until 2 --csv d --out d/x --hdf5 d/x.part", "--hdf5"}};
+  for (const auto& [line, flag] : lines) {
+    check_refused(shell, "clatter " + line, {flag, "is the file that", "name of its own"});
+  }
+  check_refused(shell, "clatter measure s.toml --resume ''", {"--resume", "the name is empty"});
+  check_refused(shell, "clatter measure s.toml --checkpoint ''", {"--checkpoint", "name a file"});
+}
+
+// A device stays what it is, and so does an open file, to which others may write too.
+TEST_CASE("Outputs: devices, links and open files are written into") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --until 1 --quiet --out ";
+  CHECK(shell.run(line + "/dev/null && test -c /dev/null").code == 0);
+  CHECK(shell.run("echo before > all; " + line + "/dev/stdout >> all; echo after >> all").code ==
+        0);
+  const std::string all = shell.read("all");
+  CHECK(all.starts_with("before\n{"));
+  CHECK(all.ends_with("}\nafter\n"));
+  CHECK(shell.run(line + "/dev/fd/5 5> five && " + line + "/proc/self/fd/6 6> six").code == 0);
+  CHECK(shell.read("five").starts_with("{"));
+  CHECK(shell.read("six").starts_with("{"));
+  CHECK(shell.run("touch real; ln -s real link; " + line + "link && test -L link").code == 0);
+  CHECK(shell.read("real").starts_with("{"));
+}
+
+TEST_CASE(
+    "Measure: a run that ends within the burn-in of the scene has a shorter one, and says so") {
+  const Shell shell;
+  const Outcome outcome =
+      shell.run("clatter measure vibrated --set measure.duration=1500 --until 20 --progress none");
+  CHECK(outcome.code == 0);
+  CHECK(says(outcome.err,
+             "note: the run ends within measure.burn_in = 500; averages begin at t = 5 instead\n"));
+  const auto time = nlohmann::json::parse(outcome.out).at("time");
+  CHECK(time.at("burn_in") == 5.0);
+  CHECK(time.at("measured") == doctest::Approx(15.0).epsilon(0.02));
+}
+
+TEST_CASE("Wrong use: a picture without a scene is refused as a picture") {
+  const Shell shell;
+  REQUIRE(shell.run("ffmpeg -v error -f lavfi -i color=red:16x16 -frames:v 1 red.png").code == 0);
+  check_refused(shell, "clatter check red.png",
+                {"red.png: this picture has no scene inside", "a picture that clatter drew"});
+  check_refused(shell, "clatter check vibrated --set particles.count=1e3", {"cannot be 1000.0"});
+}
+
 TEST_CASE("Wrong use: outputs that would replace each other are refused") {
   const Shell shell;
   shell.run("mkdir folder && ln -s folder link");
@@ -143,7 +204,7 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
       check_refused(shell,
                     "clatter measure vibrated --until 1e6 " + flags[k] + " link/x " + flags[other] +
                         " ./folder/../folder/x",
-                    {flags[k], flags[other], "/x is what", "name of its own"});
+                    {flags[k], flags[other], "/x is the file that", "name of its own"});
     }
   }
   check_refused(shell, "clatter measure vibrated --until 1e6 --csv x/ --vtk x", {"--vtk", "--csv"});
@@ -155,7 +216,7 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
         "--vtk d --checkpoint d/series.pvd", "--vtk d --out d/series_63.vti"}) {
     const std::string name = file.substr(file.rfind("d/"));
     check_refused(shell, "clatter measure vibrated --until 1e6 " + file,
-                  {file.substr(0, 5), name + " is what", "name of its own"});
+                  {file.substr(0, 5), name + " is the file that", "name of its own"});
   }
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.mp4 --checkpoint x.mp4",
                 {"--checkpoint", "--out"});
