@@ -108,6 +108,8 @@ class ArchiveWriter : public Archive<ArchiveWriter> {
  public:
   /// All that has been written.
   const std::string& written() const { return bytes_; }
+  /// What is written makes sense.
+  void require(bool) const {}
 
  private:
   friend Archive<ArchiveWriter>;
@@ -138,8 +140,10 @@ class ArchiveReader : public Archive<ArchiveReader> {
   ArchiveReader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
   /// Throws UserError where bytes are left over.
-  void finish() const {
-    if (!bytes_.empty()) refuse();
+  void finish() const { require(bytes_.empty()); }
+  /// Throws UserError unless what has been read makes sense.
+  void require(bool sense) const {
+    if (!sense) refuse();
   }
 
  private:
@@ -154,12 +158,13 @@ class ArchiveReader : public Archive<ArchiveReader> {
     if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
     std::memcpy(&value, raw, sizeof value);
   }
-  // Every element takes a byte at least, so that no length makes it ask for memory without end.
+  // Every element takes a byte at least, so that no length makes it ask for memory without end. A
+  // container that has elements already has its size from the scene, and keeps it.
   template <class Container>
   void length(Container& container) {
     std::uint64_t size = 0;
     number(size);
-    if (size > bytes_.size()) refuse();
+    if (size > bytes_.size() || (!container.empty() && size != container.size())) refuse();
     container.resize(size);
   }
   // Makes the variant hold its alternative of that index.

@@ -64,6 +64,11 @@ struct RunState {
   RunChecks checks;
 };
 
+/// Whether a run could be in this state: all numbers are finite, lists have the same length, no
+/// flight begins later than now, and no kick is overdue.
+template <int D>
+bool makes_sense(const RunState<D>& state);
+
 /// A run of disks or of spheres.
 using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 
@@ -116,6 +121,7 @@ void visit(Archive& io, RunState<D>& state) {
   io(gravity, wall_motions, base, now, flights, spins, last_collisions, remainders,
      until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
      kicks_since_origin, counts, checks);
+  io.require(makes_sense(state));
 }
 
 }  // namespace clatter

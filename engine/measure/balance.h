@@ -107,6 +107,9 @@ class Balance : public Observer<D> {
   void visit(Archive& io) {
     auto& [simulation, grid, particles, window_start, booked] = *this;
     io(particles, window_start, booked);
+    for (const Tracked& particle : particles) {
+      io.require(particle.first_cell < grid.size() && grid.is_near(particle.cell));
+    }
   }
 
  private:

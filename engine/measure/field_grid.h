@@ -37,6 +37,11 @@ class FieldGrid {
   const IntVec<D>& cells() const { return cells_; }
   /// Number of cells.
   std::size_t size() const { return static_cast<std::size_t>(cells_.prod()); }
+  /// Whether a cell is of the box or of one of its images that particles come to.
+  bool is_near(const Cell& cell) const {
+    constexpr long kFarthest = 1L << 40;
+    return std::ranges::all_of(cell, [](long k) { return -kFarthest < k && k < kFarthest; });
+  }
   /// Edges of a cell.
   const Vec<D>& widths() const { return widths_; }
   /// Area of a cell; its volume in space.

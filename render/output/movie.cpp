@@ -9,9 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ranges>
 #include <span>
-#include <string_view>
+#include <sstream>
 
 #include "engine/error.h"
 #include "engine/system/checksum.h"
@@ -272,18 +271,16 @@ void Movie::tidy() {
 
 // As many as a player would find; -1 where the encoder cannot be started.
 long Movie::pictures_in(const std::filesystem::path& film) const {
-  std::string list;
+  std::istringstream list;
   try {
     ChildProcess reader(listing_command(program_, film));
     reader.wait();
-    list = reader.new_words();
+    list.str(reader.new_words());
   } catch (const RunError&) {
     return -1;
   }
   long pictures = 0;
-  for (const auto line : std::views::split(list, '\n')) {
-    pictures += std::string_view(line.begin(), line.end()).starts_with("0,");
-  }
+  for (std::string line; std::getline(list, line);) pictures += line.starts_with("0,");
   return pictures;
 }
 

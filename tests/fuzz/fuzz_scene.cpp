@@ -1,12 +1,22 @@
-// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn.
+// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn. Lines
+// "#set key=value" in it are settings, as --set gives them; a mutator of our own adds these, of
+// every key and with the ends of all ranges.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <random>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/scene/key_lister.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
@@ -16,10 +26,97 @@ using namespace clatter;
 namespace {
 
 // More are no other, only slower.
-constexpr int kMaxParticles<2> = 1000;
+constexpr int kMaxParticles = 1000;
 constexpr std::uint64_t kCollisions = 1000, kSteps = 20000;
 // Averages take time where nothing moves, too.
 constexpr double kWindows = 100.0;
+
+constexpr std::string_view kSetting = "#set ";
+
+std::vector<std::string> keys_of_scenes() {
+  KeyLister lister;
+  SceneInput any;
+  any.scene = default_scene(2);
+  visit_scene(lister, any);
+  return lister.keys();
+}
+
+// Limits, their neighbours, and numbers at the ends of double precision.
+std::string extreme_number(std::minstd_rand& random) {
+  constexpr std::array<const char*, 36> kNumbers = {"0",
+                                                    "-0.0",
+                                                    "1",
+                                                    "-1",
+                                                    "2",
+                                                    "3",
+                                                    "5e-324",
+                                                    "2.3e-308",
+                                                    "1e-300",
+                                                    "1e-30",
+                                                    "1e-15",
+                                                    "1e-9",
+                                                    "1e-6",
+                                                    "1e-3",
+                                                    "0.5",
+                                                    "0.999999999999999",
+                                                    "1.0000000001",
+                                                    "10",
+                                                    "16",
+                                                    "1000",
+                                                    "1e3",
+                                                    "2000",
+                                                    "1e6",
+                                                    "1e9",
+                                                    "1e12",
+                                                    "1e15",
+                                                    "1e30",
+                                                    "1e100",
+                                                    "1e300",
+                                                    "1.7e308",
+                                                    "-1e308",
+                                                    "inf",
+                                                    "nan",
+                                                    "2147483647",
+                                                    "2147483648",
+                                                    "9223372036854775807"};
+  if (random() % 4) return kNumbers[random() % kNumbers.size()];
+  const double magnitude = std::pow(10.0, static_cast<double>(random() % 4000) / 100.0 - 20.0);
+  return std::to_string(magnitude);
+}
+
+std::string extreme_value(std::minstd_rand& random) {
+  constexpr std::array<const char*, 20> kWords = {
+      "static",   "driven", "thermal",  "sawtooth",  "sinusoidal", "exact",  "snapshot",
+      "gaussian", "box",    "lattice",  "random",    "auto",       "locked", "speed",
+      "spin",     "none",   "velocity", "stress_xy", "light",      "x"};
+  switch (random() % 8) {
+    case 0:
+      return kWords[random() % kWords.size()];
+    case 1:
+      return "[" + extreme_number(random) + ", " + extreme_number(random) + "]";
+    case 2:
+      return "[{ time = " + extreme_number(random) + ", width = " + extreme_number(random) + " }]";
+    case 3:
+      return "[{ time = " + extreme_number(random) +
+             ", set = { 'particles.restitution' = " + extreme_number(random) +
+             " }, ramp = 'linear', until = " + extreme_number(random) + " }]";
+    default:
+      return extreme_number(random);
+  }
+}
+
+// The settings of a text, in order.
+std::vector<Override> settings_in(std::string_view text) {
+  std::vector<Override> settings;
+  for (std::size_t at = text.find(kSetting); at != text.npos; at = text.find(kSetting, at + 1)) {
+    const std::string_view line = text.substr(at + kSetting.size());
+    const std::string setting(line.substr(0, line.find('\n')));
+    const std::size_t equals = setting.find('=');
+    if (equals == setting.npos) continue;
+    settings.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  return settings;
+}
 
 void draw(const Scene& scene, const Snapshot& snapshot) {
   static const auto context = open_context(Backend::Osmesa);
@@ -32,8 +129,8 @@ void draw(const Scene& scene, const Snapshot& snapshot) {
 }
 
 void run(const std::string& text) {
-  const Scene scene = parse_scene(text, "fuzz.toml", {});
-  if (scene.particles.count > kMaxParticles<2>) return;
+  const Scene scene = parse_scene(text, "fuzz.toml", settings_in(text));
+  if (scene.particles.count > kMaxParticles) return;
   ScheduledRun<2> run(scene, 1);
   run.show(scene.view);
   const double end = scene.measure.burn_in + scene.measure.duration;
@@ -42,6 +139,21 @@ void run(const std::string& text) {
 }
 
 }  // namespace
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+  static const std::vector<std::string> keys = keys_of_scenes();
+  std::minstd_rand random(seed);
+  random.discard(2);
+  if (random() % 4 == 0) return LLVMFuzzerMutate(data, size, most);
+  const std::string line =
+      "\n" + std::string(kSetting) + keys[random() % keys.size()] + "=" + extreme_value(random);
+  if (size + line.size() > most) return LLVMFuzzerMutate(data, size, most);
+  std::memcpy(data + size, line.data(), line.size());
+  return size + line.size();
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

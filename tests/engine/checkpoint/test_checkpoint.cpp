@@ -33,7 +33,7 @@ Checkpoint example() {
   saved.until_base_moves = 11;
   saved.mean_collision_time = 11.5;
   saved.kick_interval = 0.0625;
-  saved.kick_origin = 12.0;
+  saved.kick_origin = 1e9 + 12.0;
   saved.kicks_since_origin = 13;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
@@ -84,6 +84,7 @@ TEST_CASE("Checkpoint: a run of spheres is read back as one of spheres") {
   const TemporaryFolder folder;
   RunState<3> saved;
   saved.gravity = {0.5, -1.5, 2.5};
+  saved.now = 0.5;
   saved.flights = {{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, 0.25, 7}};
   saved.spins = {Spin<3>(7.0, 8.0, 9.0)};
   Checkpoint written = example();
@@ -136,6 +137,41 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
     Checkpoint changed = example();
     changes[i](changed);
     CHECK(archived(changed) != archived(plain));
+  }
+}
+
+// The checksum is right and the content is not: nobody but a person with bad intent writes these.
+TEST_CASE("Checkpoint: a state that no run has is refused") {
+  const double nan = std::nan("");
+  const std::vector<std::function<void(RunState<2>&)>> spoilt = {
+      [&](RunState<2>& s) { s.now = nan; },
+      [](RunState<2>& s) { s.now = -1.0; },
+      [](RunState<2>& s) { s.base.high = HUGE_VAL; },
+      [](RunState<2>& s) { s.gravity.x() = HUGE_VAL; },
+      [&](RunState<2>& s) { s.flights[1].r.x() = nan; },
+      [](RunState<2>& s) { s.flights[1].r.y() = 1e300; },
+      [](RunState<2>& s) { s.flights[0].v.x() = 1e300; },
+      [](RunState<2>& s) { s.flights[0].time = 4.0; },
+      [](RunState<2>& s) { s.flights[0].time = -1e300; },
+      [](RunState<2>& s) { s.spins.pop_back(); },
+      [&](RunState<2>& s) { s.spins[0][0] = nan; },
+      [](RunState<2>& s) { s.last_collisions.push_back(0.0); },
+      [](RunState<2>& s) { s.last_collisions[0] = 4.0; },
+      [](RunState<2>& s) { s.remainders.pop_back(); },
+      [](RunState<2>& s) { s.until_base_moves = ~std::uint64_t{0}; },
+      [](RunState<2>& s) { s.kick_origin = -1e300; },
+      [](RunState<2>& s) { s.kick_interval = -1.0; },
+      [](RunState<2>& s) { s.wall_motions[2].phase = -1.0; },
+      [&](RunState<2>& s) { s.wall_motions[2].frequency = nan; },
+      [&](RunState<2>& s) { s.checks.deepest_overlap = nan; },
+  };
+  const TemporaryFolder folder;
+  for (std::size_t i = 0; i < spoilt.size(); ++i) {
+    CAPTURE(i);
+    Checkpoint checkpoint = example();
+    spoilt[i](disks(checkpoint));
+    write_checkpoint(folder / "a", checkpoint);
+    CHECK(refusal(folder / "a").find("its content does not fit this program") != std::string::npos);
   }
 }
 

@@ -1,0 +1,52 @@
+#include "engine/dynamics/run_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+
+template <int D>
+static bool is_flight(const Flight<D>& flight, double now, const Vec<D>& gravity) {
+  // Farther and faster than any box and speed of a scene.
+  constexpr double kFar = 1e15, kFast = 1e150;
+  return flight.r.cwiseAbs().maxCoeff() < kFar && flight.v.cwiseAbs().maxCoeff() < kFast &&
+         flight.time <= now && flight.at(now, gravity).cwiseAbs().maxCoeff() < kFar &&
+         flight.velocity_at(now, gravity).cwiseAbs().maxCoeff() < kFast;
+}
+
+static bool is_motion(const WallMotion& motion) {
+  return motion.stroke >= 0.0 && motion.frequency >= 0.0 && motion.phase >= 0.0 &&
+         std::isfinite(motion.stroke * motion.frequency + motion.phase);
+}
+
+template <int D>
+bool makes_sense(const RunState<D>& state) {
+  const std::size_t count = state.flights.size();
+  const auto fits = [&](const auto& list) { return list.empty() || list.size() == count; };
+  const double time = state.base.high + state.base.low + state.now;
+  const double kicked =
+      state.kick_origin + static_cast<double>(state.kicks_since_origin) * state.kick_interval;
+  const double numbers = time + state.gravity.sum() + state.mean_collision_time +
+                         state.start_speed + kicked + state.checks.deepest_overlap +
+                         state.checks.clock_steps_back;
+  constexpr std::uint64_t kLongestBase = std::uint64_t{1} << 40;
+  constexpr double kLate = 1e-6;  // of the time
+  const auto is_finite = [](const auto& vector) { return vector.allFinite(); };
+  return std::isfinite(numbers) && state.now >= 0.0 && state.mean_collision_time >= 0.0 &&
+         state.start_speed >= 0.0 && state.kick_interval >= 0.0 &&
+         state.until_base_moves <= kLongestBase &&
+         (state.kick_interval == 0.0 || kicked + state.kick_interval >= time * (1.0 - kLate)) &&
+         fits(state.spins) && fits(state.last_collisions) && fits(state.remainders) &&
+         std::ranges::all_of(state.wall_motions, is_motion) &&
+         std::ranges::all_of(
+             state.flights,
+             [&](const Flight<D>& f) { return is_flight<D>(f, state.now, state.gravity); }) &&
+         std::ranges::all_of(state.spins, is_finite) &&
+         std::ranges::all_of(state.remainders, is_finite) &&
+         std::ranges::all_of(state.last_collisions, [&](double t) { return t <= state.now; });
+}
+
+template bool makes_sense<2>(const RunState<2>&);
+template bool makes_sense<3>(const RunState<3>&);
+
+}  // namespace clatter

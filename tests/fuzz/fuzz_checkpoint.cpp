@@ -1,0 +1,117 @@
+// libFuzzer: a checkpoint of a run and of what it measures, with numbers of its body replaced and
+// the checksum made right again; it is read, and the run goes on for a while.
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/checkpoint/checkpoint.h"
+#include "engine/error.h"
+#include "engine/measure/measurement.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+#include "engine/system/checksum.h"
+#include "engine/system/read_file.h"
+
+using namespace clatter;
+
+namespace {
+
+constexpr double kEnd = 8.0;
+
+const Scene& fuzzed_scene() {
+  static const Scene scene = parse_scene(
+      "box.size = [9, 8]\n"
+      "particles = { count = 12, restitution = 0.9, friction = 0.5 }\n"
+      "walls.left = { kind = 'sinusoidal', stroke = 0.2, frequency = 2.0 }\n"
+      "walls.right = { kind = 'thermal', temperature = 1.0 }\n"
+      "gravity.acceleration = [0.1, -0.2]\n"
+      "bulk_drive = { interval = 0.3, kick_speed = 0.2 }\n"
+      "collapse.contact_time = 1e-4\n"
+      "[measure]\nburn_in = 1\nduration = 7\nseries_interval = 0.1\ncells = [3, 2]\n"
+      "fields = ['density', 'velocity', 'stress', 'heat_flux', 'balance']\n",
+      "fuzz.toml", {});
+  return scene;
+}
+
+std::string file_name() {
+  static const std::string name =
+      (std::filesystem::temp_directory_path() / ("fuzz-" + std::to_string(getpid()))).string();
+  return name;
+}
+
+// A checkpoint file of the run at its third time unit.
+const std::string& whole_checkpoint() {
+  static const std::string bytes = [] {
+    ScheduledRun<2> run(fuzzed_scene(), 1);
+    Measurement<2> measurement(run.simulation(), fuzzed_scene().measure, kEnd);
+    run.run_until(3.0);
+    Checkpoint checkpoint{.program = "clatter",
+                          .command = "measure",
+                          .scene = scene_to_toml(fuzzed_scene()),
+                          .start_temperature = 1.0,
+                          .seed = 1,
+                          .saved = run.simulation().save(),
+                          .measurement = measurement.save(),
+                          .film = ""};
+    write_checkpoint(file_name(), checkpoint);
+    return read_file(file_name(), 1'000'000, "");
+  }();
+  return bytes;
+}
+
+void put(std::string& bytes, std::size_t at, double number) {
+  if (at + sizeof number <= bytes.size()) std::memcpy(&bytes[at], &number, sizeof number);
+}
+
+// Each four bytes of the input are a place in the file and a number to stand there.
+std::string spoilt(const std::uint8_t* data, std::size_t size) {
+  constexpr std::array<double, 16> kNumbers = {0.0,  -0.0,  5e-324, -1.0,     1.0, 1e-300,
+                                               1e15, 1e300, -1e300, HUGE_VAL, NAN, 2.5,
+                                               -7.0, 1e9,   3.0,    1e-9};
+  std::string bytes = whole_checkpoint();
+  for (std::size_t i = 0; i + 4 <= size; i += 4) {
+    const std::size_t at = (data[i] * 256u + data[i + 1]) % bytes.size();
+    if (data[i + 2] < 128) {
+      put(bytes, at, kNumbers[data[i + 3] % kNumbers.size()]);
+    } else {
+      bytes[at] = static_cast<char>(data[i + 3]);
+    }
+  }
+  const std::uint32_t sum = checksum({bytes.data(), bytes.size() - sizeof(std::uint32_t)});
+  std::memcpy(&bytes[bytes.size() - sizeof sum], &sum, sizeof sum);
+  return bytes;
+}
+
+void resume(const std::string& bytes) {
+  std::ofstream(file_name(), std::ios::binary) << bytes;
+  const Checkpoint checkpoint = read_checkpoint(file_name());
+  const auto* saved = std::get_if<RunState<2>>(&checkpoint.saved);
+  if (!saved || saved->flights.size() != 12) return;
+  ScheduledRun<2> run(fuzzed_scene(), 1, *saved);
+  if (!checkpoint.measurement.empty()) {
+    Measurement<2> measurement(run.simulation(), fuzzed_scene().measure,
+                               ArchiveReader(checkpoint.measurement, "fuzz"));
+    run.run_until(kEnd, 200, 2000);
+    measurement.result();
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes = spoilt(data, size);
+  try {
+    resume(bytes);
+  } catch (const UserError&) {
+  } catch (const PhysicalStop&) {
+  }
+  return 0;
+}
