@@ -3,10 +3,10 @@
 #include <exception>
 #include <new>
 
+#include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
-#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -16,19 +16,8 @@ static int report(const char* message, int code) {
 }
 
 // CLI11 itself would only say that a command is missing.
-static void require_command(const CLI::App& program, const std::string& word, const char* what) {
-  if (word.starts_with('-')) return;
-  std::vector<std::string> names;
-  std::string all;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == word) return;
-    names.push_back(command->get_name());
-    all += (all.empty() ? "" : ", ") + names.back();
-  }
-  const std::string near(near_miss(word, names));
-  throw UserError(
-      {}, std::string("there is no ") + what + " '" + word + "'",
-      near.empty() ? std::string("the ") + what + "s are " + all : "did you mean '" + near + "'?");
+static void require_command(const CLI::App& parent, const std::string& word, const char* what) {
+  if (!word.starts_with('-')) find_command(parent, word, what);
 }
 
 // What was typed, with the command where there is none: alone the program opens a window, and
@@ -62,6 +51,7 @@ int run_program(int argc, const char* const* argv) {
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);
+    add_help_command(program, exit_code);
     const std::vector<const char*> words = with_commands(argc, argv);
     require_command(program, words[1], "command");
     if (words[1] == std::string_view("bench")) {
