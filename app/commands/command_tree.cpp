@@ -1,11 +1,86 @@
 #include "app/commands/command_tree.h"
 
-#include <vector>
+#include <sstream>
 
 #include "engine/error.h"
 #include "engine/scene/text.h"
 
 namespace clatter {
+
+namespace {
+
+std::vector<std::string> split_words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(stream, word, '|');) words.push_back(word);
+  return words;
+}
+
+Expects expected(const std::string& label) {
+  if (label.empty()) return Expects::Nothing;
+  if (label.starts_with("FILE")) return Expects::File;
+  if (label.find('|') != std::string::npos) return Expects::Word;
+  if (label == "DIR") return Expects::Folder;
+  if (label == "SCENE") return Expects::Scene;
+  if (label == "KEY=VALUE") return Expects::Setting;
+  if (label == "KEY") return Expects::Key;
+  if (label == "COMMAND") return Expects::Command;
+  return Expects::Text;
+}
+
+FlagInfo info_of(const CLI::Option& option, const std::vector<std::string>& commands) {
+  FlagInfo flag;
+  for (const std::string& name : option.get_snames()) flag.names.push_back('-' + name);
+  for (const std::string& name : option.get_lnames()) flag.names.push_back("--" + name);
+  flag.label = value_label(option);
+  flag.initial = option.get_default_str();
+  flag.help = option.get_description();
+  flag.expects = expected(flag.label);
+  if (flag.expects == Expects::Word) flag.words = split_words(flag.label);
+  if (flag.expects == Expects::Command) flag.words = commands;
+  flag.required = option.get_required();
+  return flag;
+}
+
+CommandInfo info_of(const CLI::App& app, const std::vector<std::string>& path,
+                    const std::vector<std::string>& commands) {
+  CommandInfo info{path, app.get_description(), {}, {}, {}};
+  for (const CLI::Option* option : app.get_options()) {
+    const FlagInfo flag = info_of(*option, commands);
+    (flag.names.empty() ? info.arguments : info.flags).push_back(flag);
+  }
+  for (const CLI::App* command : app.get_subcommands({})) {
+    std::vector<std::string> inner = path;
+    inner.push_back(command->get_name());
+    info.commands.push_back(info_of(*command, inner, commands));
+  }
+  return info;
+}
+
+}  // namespace
+
+std::string value_label(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0) return "";
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
+CommandInfo command_tree(const CLI::App& program) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    commands.push_back(command->get_name());
+  }
+  return info_of(program, {}, commands);
+}
+
+std::vector<const CommandInfo*> all_commands(const CommandInfo& tree) {
+  std::vector<const CommandInfo*> all = {&tree};
+  for (const CommandInfo& command : tree.commands) {
+    const std::vector<const CommandInfo*> inner = all_commands(command);
+    all.insert(all.end(), inner.begin(), inner.end());
+  }
+  return all;
+}
 
 const CLI::App& find_command(const CLI::App& parent, const std::string& name, const char* what) {
   std::vector<std::string> names;

@@ -5,6 +5,7 @@
 
 #include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
+#include "app/system/commit.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
 
@@ -32,6 +33,11 @@ static std::vector<const char*> with_commands(int argc, const char* const* argv)
   return words;
 }
 
+static std::string version_text() {
+  const std::string commit(kCommit);
+  return "clatter " CLATTER_VERSION + (commit.empty() ? "" : " (commit " + commit + ")");
+}
+
 int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
@@ -40,7 +46,7 @@ int run_program(int argc, const char* const* argv) {
         "Alone it opens a window. Without a display start with\n"
         "  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
         "clatter");
-    program.set_version_flag("--version", "clatter " CLATTER_VERSION);
+    program.set_version_flag("--version", version_text());
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
       return std::string("clatter: ") + error.what() + "; --help after a command lists its flags\n";
@@ -52,6 +58,7 @@ int run_program(int argc, const char* const* argv) {
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);
     add_help_command(program, exit_code);
+    add_completions_command(program, exit_code);
     const std::vector<const char*> words = with_commands(argc, argv);
     require_command(program, words[1], "command");
     if (words[1] == std::string_view("bench")) {

@@ -271,7 +271,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
           "--out", options->out,
           "FILE.mp4, .webm, .gif or, without loss, .mkv (film), FILE.png (one picture), or DIR "
           "(a picture a frame)")
-      ->required();
+      ->required()
+      ->type_name("FILE|DIR");
   command
       ->add_option("-q,--quality", options->quality,
                    "-ql: 854x480, 15 frames a second; -qm: 1280x720, 30; -qh: 1920x1080, 60 "
