@@ -2,12 +2,16 @@
 
 #include <sstream>
 
+#include "app/commands/help_formatter.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 
 namespace clatter {
 
 namespace {
+
+// Between the name of a type and the description of its check, which is a noun.
+constexpr const char* kCheck = ":a ";
 
 std::vector<std::string> split_words(const std::string& text) {
   std::istringstream stream(text);
@@ -33,12 +37,10 @@ FlagInfo info_of(const CLI::Option& option, const std::vector<std::string>& comm
   for (const std::string& name : option.get_snames()) flag.names.push_back('-' + name);
   for (const std::string& name : option.get_lnames()) flag.names.push_back("--" + name);
   flag.label = value_label(option);
-  flag.initial = option.get_default_str();
-  flag.help = option.get_description();
+  flag.help = option_help(option);
   flag.expects = expected(flag.label);
   if (flag.expects == Expects::Word) flag.words = split_words(flag.label);
   if (flag.expects == Expects::Command) flag.words = commands;
-  flag.required = option.get_required();
   return flag;
 }
 
@@ -62,7 +64,15 @@ CommandInfo info_of(const CLI::App& app, const std::vector<std::string>& path,
 std::string value_label(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
   const std::string type = option.get_type_name();
-  return type.substr(0, type.find(':'));
+  const std::string label = type.substr(0, type.find(kCheck));
+  if (label == "FLOAT") return "NUMBER";
+  return label == "INT" || label == "UINT" ? "N" : label;
+}
+
+std::string allowed_values(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t check = type.find(kCheck);
+  return check == std::string::npos ? "" : type.substr(check + 1);
 }
 
 CommandInfo command_tree(const CLI::App& program) {

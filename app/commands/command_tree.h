@@ -13,11 +13,9 @@ enum class Expects { Nothing, Text, Word, File, Folder, Scene, Setting, Key, Com
 struct FlagInfo {
   std::vector<std::string> names;  ///< "-q", "--quality"; empty: an argument
   std::string label;               ///< of its value: "FILE", "l|m|h"; empty: it takes none
-  std::string initial;             ///< default that the parser knows; empty: none
-  std::string help;
+  std::string help;                ///< in sentences
   Expects expects = Expects::Nothing;
   std::vector<std::string> words = {};  ///< those that a Word or a Command may be
-  bool required = false;
 };
 
 /// A command of the program with its flags and subcommands.
@@ -35,8 +33,10 @@ CommandInfo command_tree(const CLI::App& program);
 /// All commands of a tree, the program itself first.
 std::vector<const CommandInfo*> all_commands(const CommandInfo& tree);
 
-/// The label of an option's value, without the descriptions of its checks.
+/// The label of an option's value, such as FILE or NUMBER.
 std::string value_label(const CLI::Option& option);
+/// The values that the check of an option allows, in words; empty without a check.
+std::string allowed_values(const CLI::Option& option);
 
 /// The subcommand of that name. Throws UserError where there is none; `what` is the noun for it.
 const CLI::App& find_command(const CLI::App& parent, const std::string& name, const char* what);

@@ -12,8 +12,8 @@ void add_completions_command(CLI::App& program, int& exit_code) {
   enum class Shell { Bash, Zsh, Fish };
   auto shell = std::make_shared<Shell>();
   CLI::App* command = program.add_subcommand(
-      "completions", "Print the script with which a shell completes command lines");
-  command->add_option("shell", *shell, "The shell")
+      "completions", "Print a script that completes command lines in a shell.");
+  command->add_option("shell", *shell, "Name of the shell.")
       ->required()
       ->transform(
           one_of<Shell>({{"bash", Shell::Bash}, {"zsh", Shell::Zsh}, {"fish", Shell::Fish}}))

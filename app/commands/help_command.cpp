@@ -26,10 +26,13 @@ void add_keys_topic(CLI::App& help, int& exit_code) {
     std::string key, markdown;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* keys = help.add_subcommand("keys", "Print the keys of a scene file");
-  keys->add_option("key", options->key, "One key or one table, e.g. particles.restitution")
+  CLI::App* keys = help.add_subcommand(
+      "keys", "Print the keys of a scene file, with unit, default, values and meaning.");
+  keys->add_option("key", options->key,
+                   "A key or a table, for example particles.restitution. Default: all keys.")
       ->type_name("KEY");
-  keys->add_option("--markdown", options->markdown, "Write the tables of keys into a page instead")
+  keys->add_option("--markdown", options->markdown,
+                   "Page for the tables of keys. Nothing is printed.")
       ->type_name("FILE.md");
   keys->callback([options, &exit_code] {
     if (options->markdown.empty()) {
@@ -45,8 +48,9 @@ void add_keys_topic(CLI::App& help, int& exit_code) {
 
 void add_help_command(CLI::App& program, int& exit_code) {
   auto names = std::make_shared<std::vector<std::string>>();
-  CLI::App* help = program.add_subcommand("help", "Print the help of a command");
-  help->add_option("command", *names, "The command, as in: clatter help bench engine")
+  CLI::App* help =
+      program.add_subcommand("help", "Print the help of a command, or the keys of a scene.");
+  help->add_option("command", *names, "A command, for example render or bench engine.")
       ->type_name("COMMAND");
   add_keys_topic(*help, exit_code);
   help->callback([&program, help, names, &exit_code] {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "app/commands/wrapped_text.h"
 #include "app/system/page_parts.h"
 #include "engine/error.h"
 #include "engine/scene/field.h"
@@ -52,20 +53,12 @@ std::string meaning_of(const KeyDoc& doc) {
   return std::string(doc.key.meaning) + (doc.conditions.empty() ? "" : " " + doc.conditions);
 }
 
-// Breaks a text into lines of at most 96 columns, each after `indent` blanks but for the first.
-std::string wrapped(const std::string& text, std::size_t indent) {
-  constexpr std::size_t kWidth = 96;
-  std::istringstream words(text);
+// The text in lines that begin with `indent` blanks, but for the first.
+std::string indented(const std::string& text, std::size_t indent) {
   std::string lines;
-  std::size_t column = indent;
-  for (std::string word; words >> word; column += word.size() + 1) {
-    if (column > indent && column + word.size() > kWidth) {
-      lines += '\n' + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      lines += ' ';
-    }
-    lines += word;
+  for (const char letter : wrapped(text, kTextWidth - indent)) {
+    lines += letter;
+    if (letter == '\n') lines += std::string(indent, ' ');
   }
   return lines;
 }
@@ -73,11 +66,11 @@ std::string wrapped(const std::string& text, std::size_t indent) {
 std::string text_of(const KeyDoc& doc) {
   std::string text = doc.path() + '\n';
   const auto add = [&](const char* label, const std::string& value) {
-    if (!value.empty()) text += fmt::format("  {:<9}{}\n", label, wrapped(value, 11));
+    if (!value.empty()) text += fmt::format("  {:<9}{}\n", label, indented(value, 11));
   };
   std::string meaning = meaning_of(doc);
   std::erase(meaning, '`');
-  text += "  " + wrapped(meaning, 2) + '\n';
+  text += "  " + indented(meaning, 2) + '\n';
   add("unit", std::string(doc.key.unit));
   add("default", initial_of(doc, ""));
   add("values", doc.choices.empty() ? values_of(doc) : choices_of(doc, ""));

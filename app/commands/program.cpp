@@ -5,6 +5,7 @@
 
 #include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
+#include "app/commands/help_formatter.h"
 #include "app/system/commit.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
@@ -42,14 +43,18 @@ int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
     CLI::App program(
-        "Driven granular gases of hard disks: explore, film and measure them.\n"
-        "Alone it opens a window. Without a display start with\n"
-        "  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
+        "Simulate driven granular gases of hard disks. Explore, film and measure them.\n"
+        "Without a command the program opens a window.\n"
+        "Without a display, begin with these commands:\n"
+        "  clatter scenes\n"
+        "  clatter render vibrated --out vibrated.mp4",
         "clatter");
-    program.set_version_flag("--version", version_text());
+    program.formatter(std::make_shared<HelpFormatter>());
+    program.set_help_flag("-h,--help", "Print this help.");
+    program.set_version_flag("--version", version_text(), "Print the version and the commit.");
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return std::string("clatter: ") + error.what() + "; --help after a command lists its flags\n";
+      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` has the flags\n";
     });
     add_view_command(program, exit_code);
     add_render_command(program, exit_code);
@@ -59,6 +64,12 @@ int run_program(int argc, const char* const* argv) {
     add_bench_command(program, exit_code);
     add_help_command(program, exit_code);
     add_completions_command(program, exit_code);
+    for (CLI::App* command : program.get_subcommands({})) {
+      command->group("Commands");
+      for (CLI::App* inner : command->get_subcommands({})) {
+        inner->group(command->get_name() == "bench" ? "Tables" : "Topics");
+      }
+    }
     const std::vector<const char*> words = with_commands(argc, argv);
     require_command(program, words[1], "command");
     if (words[1] == std::string_view("bench")) {
