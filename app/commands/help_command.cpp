@@ -3,6 +3,7 @@
 #include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
 #include "app/commands/key_help.h"
+#include "app/commands/manual_page.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 
@@ -47,14 +48,23 @@ void add_keys_topic(CLI::App& help, int& exit_code) {
 }  // namespace
 
 void add_help_command(CLI::App& program, int& exit_code) {
-  auto names = std::make_shared<std::vector<std::string>>();
+  struct Options {
+    std::vector<std::string> names;
+    bool man = false;
+  };
+  auto options = std::make_shared<Options>();
   CLI::App* help =
       program.add_subcommand("help", "Print the help of a command, or the keys of a scene.");
-  help->add_option("command", *names, "A command, for example render or bench engine.")
+  help->add_option("command", options->names, "A command, for example render or bench engine.")
       ->type_name("COMMAND");
   add_keys_topic(*help, exit_code);
-  help->callback([&program, help, names, &exit_code] {
-    if (help->get_subcommands().empty()) print_help(program, *names);
+  help->add_flag("--man", options->man, "Print the manual page of the program, for man.");
+  help->callback([&program, help, options, &exit_code] {
+    if (options->man) {
+      print(manual_page(command_tree(program)));
+    } else if (help->get_subcommands().empty()) {
+      print_help(program, options->names);
+    }
     exit_code = kOk;
   });
 }
