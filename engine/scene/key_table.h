@@ -23,7 +23,7 @@ struct KeyTable {
   std::array<Key, N> keys;
 
   /// The row of a key. A key without a row does not compile.
-  consteval Key operator[](std::string_view name) const {
+  consteval Key at(std::string_view name) const {
     for (Key key : keys) {
       if (key.name != name) continue;
       if (key.meaning.empty()) throw "a key without a meaning";

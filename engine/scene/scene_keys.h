@@ -198,8 +198,8 @@ inline constexpr auto kRoughnessKeys = key_table(
 /// The keys of rough partners, particles or walls.
 template <class Visitor>
 void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
-  io.value(kRoughnessKeys["friction"], roughness.friction, at_least_or_infinite(0.0), presence);
-  io.value(kRoughnessKeys["tangential_restitution"], roughness.tangential_restitution,
+  io.value(kRoughnessKeys.at("friction"), roughness.friction, at_least_or_infinite(0.0), presence);
+  io.value(kRoughnessKeys.at("tangential_restitution"), roughness.tangential_restitution,
            between(-1.0, 1.0), presence);
 }
 
@@ -220,20 +220,21 @@ inline constexpr auto kWallKeys = key_table(
 /// The keys of one wall; which of them it may have depends on its kind.
 template <class Visitor>
 void visit_wall(Visitor& io, Wall& wall) {
-  io.choice(kWallKeys["kind"], wall.kind, kWallKinds, kRequired);
+  io.choice(kWallKeys.at("kind"), wall.kind, kWallKinds, kRequired);
   const bool driven = wall.kind == WallKind::Driven;
   const bool thermal = wall.kind == WallKind::Thermal;
   const Presence of_touch = thermal ? kNotOfWall : kOptional;
   const Presence of_motion = wall.moves() ? kRequired : kNotOfWall;
-  io.value(kWallKeys["restitution"], wall.restitution, between(0.0, kMaxWallRestitution), of_touch);
+  io.value(kWallKeys.at("restitution"), wall.restitution, between(0.0, kMaxWallRestitution),
+           of_touch);
   visit_roughness(io, wall.roughness, of_touch);
-  io.value(kWallKeys["drive_speed"], wall.drive_speed, between(0.0, kMaxSpeed),
+  io.value(kWallKeys.at("drive_speed"), wall.drive_speed, between(0.0, kMaxSpeed),
            driven ? kRequired : kNotOfWall);
-  io.value(kWallKeys["temperature"], wall.temperature, between(0.0, kMaxTemperature),
+  io.value(kWallKeys.at("temperature"), wall.temperature, between(0.0, kMaxTemperature),
            thermal ? kRequired : kNotOfWall);
-  io.value(kWallKeys["stroke"], wall.stroke, between(0.0, kMaxLength), of_motion);
-  io.value(kWallKeys["frequency"], wall.frequency, between(0.0, kMaxFrequency), of_motion);
-  io.value(kWallKeys["phase"], wall.phase, between(-kMaxPhase, kMaxPhase),
+  io.value(kWallKeys.at("stroke"), wall.stroke, between(0.0, kMaxLength), of_motion);
+  io.value(kWallKeys.at("frequency"), wall.frequency, between(0.0, kMaxFrequency), of_motion);
+  io.value(kWallKeys.at("phase"), wall.phase, between(-kMaxPhase, kMaxPhase),
            wall.moves() ? kOptional : kNotOfWall);
 }
 
@@ -248,12 +249,12 @@ inline constexpr auto kStartKeys = key_table(
 /// The keys of [particles.start]; which of them it may have depends on its layout.
 template <class Visitor>
 void visit_start(Visitor& io, Start& start, Presence spin_key) {
-  io.choice(kStartKeys["layout"], start.layout, kLayouts);
+  io.choice(kStartKeys.at("layout"), start.layout, kLayouts);
   const bool from_file = start.layout == Layout::File;
-  io.value(kStartKeys["file"], start.file, Limits{}, from_file ? kRequired : kNotWithoutFile);
-  io.value(kStartKeys["temperature"], start.temperature, between(0.0, kMaxTemperature),
+  io.value(kStartKeys.at("file"), start.file, Limits{}, from_file ? kRequired : kNotWithoutFile);
+  io.value(kStartKeys.at("temperature"), start.temperature, between(0.0, kMaxTemperature),
            from_file ? kNotBesideFile : kOptional);
-  io.value(kStartKeys["spin_temperature"], start.spin_temperature, between(0.0, kMaxTemperature),
+  io.value(kStartKeys.at("spin_temperature"), start.spin_temperature, between(0.0, kMaxTemperature),
            from_file ? kNotBesideFile : spin_key);
 }
 
@@ -275,13 +276,13 @@ template <class Visitor>
 void visit_particles(Visitor& io, SceneInput& input) {
   constexpr double kLargestCount = std::numeric_limits<int>::max();
   Particles& particles = input.scene.particles;
-  io.value(kParticleKeys["count"], input.count, between(0, kLargestCount));
+  io.value(kParticleKeys.at("count"), input.count, between(0, kLargestCount));
   const bool disks = input.scene.dimension() == 2;
-  io.value(disks ? kParticleKeys["area_fraction"] : kParticleKeys["volume_fraction"],
+  io.value(disks ? kParticleKeys.at("area_fraction") : kParticleKeys.at("volume_fraction"),
            input.packing_fraction, between(0.0, 1.0));
-  io.value(kParticleKeys["restitution"], particles.restitution, between(0.0, 1.0));
+  io.value(kParticleKeys.at("restitution"), particles.restitution, between(0.0, 1.0));
   visit_roughness(io, particles.roughness, kOptional);
-  io.value(kParticleKeys["inertia"], particles.inertia, between(kMinInertia, 1.0),
+  io.value(kParticleKeys.at("inertia"), particles.inertia, between(kMinInertia, 1.0),
            input.spin_key());
   io.table("start", [&](auto& io) { visit_start(io, particles.start, input.spin_key()); });
 }
@@ -296,9 +297,9 @@ inline constexpr auto kBulkDriveKeys = key_table(
 /// The keys of [bulk_drive], where there is one.
 template <class Visitor>
 void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
-  io.value(kBulkDriveKeys["interval"], drive.interval, above(0.0), kRequired);
-  io.value(kBulkDriveKeys["kick_speed"], drive.kick_speed, between(0.0, kMaxSpeed), kRequired);
-  io.value(kBulkDriveKeys["kick_spin"], drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
+  io.value(kBulkDriveKeys.at("interval"), drive.interval, above(0.0), kRequired);
+  io.value(kBulkDriveKeys.at("kick_speed"), drive.kick_speed, between(0.0, kMaxSpeed), kRequired);
+  io.value(kBulkDriveKeys.at("kick_spin"), drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
 }
 
 inline constexpr auto kMeasureKeys = key_table(
@@ -321,18 +322,19 @@ inline constexpr auto kMeasureKeys = key_table(
 /// only with these.
 template <class Visitor>
 void visit_measure(Visitor& io, Measure& measure, int dimension) {
-  io.value(kMeasureKeys["burn_in"], measure.burn_in, at_least(0.0));
-  io.value(kMeasureKeys["duration"], measure.duration, above(0.0));
-  io.value(kMeasureKeys["series_interval"], measure.series_interval, above(0.0));
-  io.choice(kMeasureKeys["fields"], measure.fields, measured_names(dimension));
-  io.value(kMeasureKeys["cells"], measure.cells, between(1, 2000));
-  io.choice(kMeasureKeys["profile_axis"], measure.profile_axis, kAxes);
-  io.choice(kMeasureKeys["estimator"], measure.estimator, kEstimators);
+  io.value(kMeasureKeys.at("burn_in"), measure.burn_in, at_least(0.0));
+  io.value(kMeasureKeys.at("duration"), measure.duration, above(0.0));
+  io.value(kMeasureKeys.at("series_interval"), measure.series_interval, above(0.0));
+  io.choice(kMeasureKeys.at("fields"), measure.fields, measured_names(dimension));
+  io.value(kMeasureKeys.at("cells"), measure.cells, between(1, 2000));
+  io.choice(kMeasureKeys.at("profile_axis"), measure.profile_axis, kAxes);
+  io.choice(kMeasureKeys.at("estimator"), measure.estimator, kEstimators);
   const bool exact = measure.estimator == Estimator::Exact;
-  io.value(kMeasureKeys["interval"], measure.interval, above(0.0), exact ? kNotOfExact : kRequired);
-  io.choice(kMeasureKeys["kernel"], measure.kernel, kKernels);
+  io.value(kMeasureKeys.at("interval"), measure.interval, above(0.0),
+           exact ? kNotOfExact : kRequired);
+  io.choice(kMeasureKeys.at("kernel"), measure.kernel, kKernels);
   const bool box = measure.kernel == Kernel::Box;
-  io.value(kMeasureKeys["width"], measure.width, above(0.0), box ? kNotOfBox : kRequired);
+  io.value(kMeasureKeys.at("width"), measure.width, above(0.0), box ? kNotOfBox : kRequired);
 }
 
 inline constexpr auto kCameraKeys = key_table(
@@ -346,11 +348,11 @@ inline constexpr auto kCameraKeys = key_table(
 /// The keys of one of [[view.camera]].
 template <class Visitor>
 void visit_camera(Visitor& io, CameraKey& key) {
-  io.value(kCameraKeys["time"], key.time, at_least(0.0));
-  io.value(kCameraKeys["follow"], key.follow, at_least(0.0));
-  io.value(kCameraKeys["centre"], key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
+  io.value(kCameraKeys.at("time"), key.time, at_least(0.0));
+  io.value(kCameraKeys.at("follow"), key.follow, at_least(0.0));
+  io.value(kCameraKeys.at("centre"), key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
            key.follow ? kNotBesideFollow : kOptional);
-  io.value(kCameraKeys["width"], key.width, between(kMinCameraWidth, kMaxCameraWidth));
+  io.value(kCameraKeys.at("width"), key.width, between(kMinCameraWidth, kMaxCameraWidth));
 }
 
 inline constexpr auto kViewKeys = key_table(
@@ -382,27 +384,27 @@ inline constexpr auto kViewKeys = key_table(
 /// stands below the other keys.
 template <class Visitor>
 void visit_view(Visitor& io, View& view, int dimension) {
-  io.choice(kViewKeys["colour_by"], view.colour_by, kColourings);
-  io.choice(kViewKeys["field"], view.field, field_names(dimension));
+  io.choice(kViewKeys.at("colour_by"), view.colour_by, kColourings);
+  io.choice(kViewKeys.at("field"), view.field, field_names(dimension));
   const Limits times = between(kMinViewTime, kMaxViewTime);
-  io.value(kViewKeys["window"], view.window, times);
-  io.choice(kViewKeys["estimator"], view.estimator, kEstimators);
+  io.value(kViewKeys.at("window"), view.window, times);
+  io.choice(kViewKeys.at("estimator"), view.estimator, kEstimators);
   const bool exact = view.estimator == Estimator::Exact;
-  io.value(kViewKeys["interval"], view.interval,
+  io.value(kViewKeys.at("interval"), view.interval,
            between(view.window / kMaxWindowSamples, view.window), exact ? kNotOfExact : kRequired);
-  io.value(kViewKeys["speed"], view.speed, times);
-  io.choice(kViewKeys["palette"], view.palette, kPalettes);
+  io.value(kViewKeys.at("speed"), view.speed, times);
+  io.choice(kViewKeys.at("palette"), view.palette, kPalettes);
   const Limits colours = between(-ColourRange::kLargestEnd, ColourRange::kLargestEnd);
-  io.value(kViewKeys["range"], view.range, colours);
-  io.choice(kViewKeys["field_palette"], view.field_palette, kPalettes);
-  io.value(kViewKeys["field_range"], view.field_range, colours);
-  io.choice(kViewKeys["arrows"], view.arrows, kArrows);
-  io.choice(kViewKeys["theme"], view.theme, kThemes);
-  io.value(kViewKeys["background"], view.background, Limits{});
-  io.value(kViewKeys["grid"], view.grid);
-  io.value(kViewKeys["overlay"], view.overlay);
-  io.value(kViewKeys["trails"], view.trails, times);
-  io.value(kViewKeys["card"], view.card, times);
+  io.value(kViewKeys.at("range"), view.range, colours);
+  io.choice(kViewKeys.at("field_palette"), view.field_palette, kPalettes);
+  io.value(kViewKeys.at("field_range"), view.field_range, colours);
+  io.choice(kViewKeys.at("arrows"), view.arrows, kArrows);
+  io.choice(kViewKeys.at("theme"), view.theme, kThemes);
+  io.value(kViewKeys.at("background"), view.background, Limits{});
+  io.value(kViewKeys.at("grid"), view.grid);
+  io.value(kViewKeys.at("overlay"), view.overlay);
+  io.value(kViewKeys.at("trails"), view.trails, times);
+  io.value(kViewKeys.at("card"), view.card, times);
   io.list("camera", view.camera, [](auto& io, CameraKey& key) { visit_camera(io, key); });
 }
 
@@ -416,10 +418,10 @@ inline constexpr auto kChangeKeys = key_table(
 /// The keys of one of [[change]].
 template <class Visitor>
 void visit_change(Visitor& io, Change& change) {
-  io.value(kChangeKeys["time"], change.time, at_least(0.0), kRequired);
-  io.settings(kChangeKeys["set"], change.set);
-  io.choice(kChangeKeys["ramp"], change.ramp, kRamps);
-  io.value(kChangeKeys["until"], change.until, above(change.time),
+  io.value(kChangeKeys.at("time"), change.time, at_least(0.0), kRequired);
+  io.settings(kChangeKeys.at("set"), change.set);
+  io.choice(kChangeKeys.at("ramp"), change.ramp, kRamps);
+  io.value(kChangeKeys.at("until"), change.until, above(change.time),
            change.ramp ? kRequired : kNotWithoutRamp);
 }
 
@@ -443,15 +445,15 @@ inline constexpr auto kCollapseKeys = key_table(
 template <class Visitor>
 void visit_scene(Visitor& io, SceneInput& input) {
   Scene& scene = input.scene;
-  io.value(kSceneKeys["schema"], input.schema, between(1, 1));
-  io.value(kSceneKeys["title"], scene.title);
-  io.value(kSceneKeys["caption"], scene.caption);
-  io.value(kSceneKeys["goal"], scene.goal);
-  io.value(kSceneKeys["try_this"], scene.try_this);
+  io.value(kSceneKeys.at("schema"), input.schema, between(1, 1));
+  io.value(kSceneKeys.at("title"), scene.title);
+  io.value(kSceneKeys.at("caption"), scene.caption);
+  io.value(kSceneKeys.at("goal"), scene.goal);
+  io.value(kSceneKeys.at("try_this"), scene.try_this);
   // A side of one diameter leaves a particle between walls no room to move, and across a periodic
   // side the particle touches its own image.
   io.table("box", [&](auto& io) {
-    io.value(kBoxKeys["size"], scene.box,
+    io.value(kBoxKeys.at("size"), scene.box,
              Limits{.lowest = 1.0, .highest = kMaxLength, .above = true});
   });
   io.table("particles", [&](auto& io) { visit_particles(io, input); });
@@ -463,13 +465,13 @@ void visit_scene(Visitor& io, SceneInput& input) {
   });
   io.table("gravity", scene.gravity, [&](auto& io, VecX& acceleration) {
     if (acceleration.size() == 0) acceleration = VecX::Zero(scene.dimension());
-    io.value(kGravityKeys["acceleration"], acceleration,
+    io.value(kGravityKeys.at("acceleration"), acceleration,
              between(-kMaxAcceleration, kMaxAcceleration), kRequired);
   });
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });
   io.table("collapse", [&](auto& io) {
-    io.value(kCollapseKeys["contact_time"], scene.contact_time, above(0.0));
+    io.value(kCollapseKeys.at("contact_time"), scene.contact_time, above(0.0));
   });
   const int dimension = scene.dimension();
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure, dimension); });
