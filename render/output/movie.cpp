@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/error.h"
+#include "engine/system/platform.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -28,13 +29,6 @@ void require_no_pieces(const std::filesystem::path& folder) {
   if (std::filesystem::is_empty(folder, ignored) || ignored) return;
   throw UserError({folder.string()}, "holds what there is of a film that was cut",
                   "go on with it by --resume, or give --overwrite to film anew");
-}
-
-// By this name a program beside ours opens this very file, while we live. An encoder that is late
-// to open its file, of a run that was killed meanwhile, thus cannot write into that of the run that
-// goes on.
-std::filesystem::path name_while_open(const FileDescriptor& file) {
-  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file.get());
 }
 
 FileDescriptor open_new(const std::filesystem::path& path) {
@@ -98,9 +92,11 @@ void Movie::start_piece() {
   // Found out now rather than after the first hour of a run.
   file_ = open_new(piece);
   if (!file_) fail(std::strerror(errno));
+  // An encoder may open its file late, after its run was killed. By this name it cannot write into
+  // the file of the run that goes on.
+  const std::string name = name_while_open(file_, piece.string());
   try {
-    encoder_ = std::make_unique<ChildProcess>(
-        encoding_command(program_, *format_, options_, name_while_open(file_)));
+    encoder_ = std::make_unique<ChildProcess>(encoding_command(program_, *format_, options_, name));
   } catch (const RunError& error) {
     unlink(piece.c_str());
     fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
@@ -165,7 +161,8 @@ void Movie::join() {
   const std::filesystem::path joined = folder_ / ("joined" + format_->extension);
   const FileDescriptor file = open_new(joined);
   if (!file) fail(std::strerror(errno));
-  ChildProcess joiner(joining_command(program_, *format_, texts, list, name_while_open(file)));
+  ChildProcess joiner(
+      joining_command(program_, *format_, texts, list, name_while_open(file, joined.string())));
   if (!joiner.wait()) {
     unlink(joined.c_str());
     fail(joiner);
