@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ranges>
-#include <string_view>
+#include <sstream>
 
 #include "engine/error.h"
 #include "engine/system/platform.h"
@@ -203,9 +202,8 @@ long Movie::pictures_in(const std::filesystem::path& film) const {
     return -1;
   }
   long pictures = 0;
-  for (const auto line : std::views::split(list, '\n')) {
-    pictures += std::string_view(line.begin(), line.end()).starts_with("0,");
-  }
+  std::istringstream lines(list);
+  for (std::string line; std::getline(lines, line);) pictures += line.starts_with("0,");
   return pictures;
 }
 
