@@ -55,7 +55,7 @@ float linear_light(std::uint8_t channel) {
 
 Colour mix(Colour a, Colour b, double t) {
   auto channel = [t](int from, int to) {
-    return static_cast<std::uint8_t>(from + t * (to - from) + 0.5);
+    return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
   };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue),
           channel(a.alpha, b.alpha)};

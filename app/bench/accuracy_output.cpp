@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/error.h"
+#include "app/system/page_parts.h"
 #include "engine/system/read_file.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
@@ -213,14 +213,7 @@ std::string accuracy_json(const AccuracyBench& bench, const std::vector<Accuracy
 std::string with_accuracy_tables(const AccuracyBench& bench,
                                  const std::vector<AccuracyTable>& tables,
                                  const std::vector<PictureTable>& pictures) {
-  const std::string begin = "<!-- tables -->\n", end = "<!-- end of tables -->";
   std::string page = read_file(bench.markdown, 1 << 20, "a page of text");
-  const std::size_t from = page.find(begin);
-  const std::size_t to = page.find(end, from == std::string::npos ? page.size() : from);
-  if (to == std::string::npos) {
-    throw UserError({"--markdown", 0, 0}, bench.markdown + " has no place for the tables",
-                    "write the lines <!-- tables --> and <!-- end of tables --> into it");
-  }
   std::string text = accuracy_statement(bench);
   for (const AccuracyTable& table : tables) {
     text += markdown_of(table.title, grid_of(table.rows, headings()));
@@ -228,8 +221,8 @@ std::string with_accuracy_tables(const AccuracyBench& bench,
   for (const PictureTable& table : pictures) {
     text += markdown_of(table.title, grid_of(table.rows, kPictureHeadings));
   }
-  const std::size_t first = from + begin.size();
-  return page.replace(first, to - first, text + "\n");
+  replace_part(page, bench.markdown, "tables", text + "\n");
+  return page;
 }
 
 void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables) {

@@ -15,6 +15,7 @@
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/system/platform.h"
 #include "engine/system/write_file.h"
 #include "render/context/context.h"
 #include "render/layers/plot.h"

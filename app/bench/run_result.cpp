@@ -8,6 +8,7 @@
 #include "app/system/process_usage.h"
 #include "engine/measure/measurement.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/system/platform.h"
 
 namespace clatter {
 

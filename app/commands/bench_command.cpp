@@ -23,11 +23,11 @@ struct TableOptions {
 };
 
 void add_json_flag(CLI::App& table, std::string& json) {
-  table.add_option("--json", json, "Write the table to a file, too")->type_name("FILE");
+  table.add_option("--json", json, "File for the table as JSON.")->type_name("FILE");
 }
 
 CLI::Option* add_count_flag(CLI::App& table, int& count, const char* help) {
-  return table.add_option("--count", count, help)->check(CLI::Range(2, 100'000'000));
+  return table.add_option("--count", count, help)->check(whole_number_between(2, 100'000'000));
 }
 
 void add_plot_flag(CLI::App& table, std::string& plot, const char* help) {
@@ -35,7 +35,7 @@ void add_plot_flag(CLI::App& table, std::string& plot, const char* help) {
 }
 
 void add_duration_flag(CLI::App& table, double& duration) {
-  table.add_option("--duration", duration, "Simulated time of each run")
+  table.add_option("--duration", duration, "Simulation time of each run.")
       ->check(positive_number())
       ->capture_default_str();
 }
@@ -43,10 +43,12 @@ void add_duration_flag(CLI::App& table, double& duration) {
 void add_engine_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
   CLI::App* table = bench.add_subcommand(
-      "engine", "How fast collisions are, by number of disks and area fraction; of no table named");
+      "engine",
+      "Collisions per second, by number of disks and area fraction. This is the default table.");
   add_json_flag(*table, options->json);
-  CLI::Option* count = add_count_flag(*table, options->count, "Only the cell of so many disks");
-  table->add_option("--area-fraction", options->area_fraction, "Area fraction phi of that cell")
+  CLI::Option* count =
+      add_count_flag(*table, options->count, "Number of disks. The table then has one cell.");
+  table->add_option("--area-fraction", options->area_fraction, "Area fraction of that cell.")
       ->check(number_between(1e-6, 0.9))
       ->needs(count)
       ->capture_default_str();
@@ -57,11 +59,11 @@ void add_engine_table(CLI::App& bench, int& exit_code) {
 
 void add_growth_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
-  CLI::App* table = bench.add_subcommand(
-      "growth", "How that falls with the number of disks and their density, and in clusters");
+  CLI::App* table =
+      bench.add_subcommand("growth", "Dependence of the speed on number, density and clusters.");
   add_json_flag(*table, options->json);
-  add_count_flag(*table, options->count, "Largest number of disks (default: 4000000)");
-  add_plot_flag(*table, options->plot, "Draw the table, too");
+  add_count_flag(*table, options->count, "Largest number of disks. Default: 4000000.");
+  add_plot_flag(*table, options->plot, "File for a plot of the table.");
   table->callback([options, &exit_code] {
     exit_code = bench_growth(options->json, options->plot, options->count);
   });
@@ -70,16 +72,16 @@ void add_growth_table(CLI::App& bench, int& exit_code) {
 void add_features_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
   CLI::App* table =
-      bench.add_subcommand("features", "What each thing that a scene adds takes of that");
+      bench.add_subcommand("features", "Cost of walls, gravity, spins and other features.");
   add_json_flag(*table, options->json);
-  add_count_flag(*table, options->count, "Number of disks (default: 1000)");
+  add_count_flag(*table, options->count, "Number of disks. Default: 1000.");
   table->callback(
       [options, &exit_code] { exit_code = bench_features(options->json, options->count); });
 }
 
 void add_fields_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
-  CLI::App* table = bench.add_subcommand("fields", "What fields cost and how precise they are");
+  CLI::App* table = bench.add_subcommand("fields", "Cost and precision of fields.");
   add_json_flag(*table, options->json);
   add_duration_flag(*table, options->duration);
   table->callback(
@@ -88,9 +90,9 @@ void add_fields_table(CLI::App& bench, int& exit_code) {
 
 void add_render_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
-  CLI::App* table = bench.add_subcommand("render", "What a frame of film costs");
+  CLI::App* table = bench.add_subcommand("render", "Cost of a frame of film.");
   add_json_flag(*table, options->json);
-  add_count_flag(*table, options->count, "Only this number of disks");
+  add_count_flag(*table, options->count, "Number of disks. Default: several numbers.");
   table->callback(
       [options, &exit_code] { exit_code = bench_render(options->json, options->count); });
 }
@@ -98,31 +100,33 @@ void add_render_table(CLI::App& bench, int& exit_code) {
 void add_window_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
   CLI::App* table =
-      bench.add_subcommand("window", "What a picture of the window costs beside the drawing");
+      bench.add_subcommand("window", "Cost of a picture in the window, without the drawing.");
   add_json_flag(*table, options->json);
-  add_count_flag(*table, options->count, "Number of disks (default: 10000)");
+  add_count_flag(*table, options->count, "Number of disks. Default: 10000.");
   table->callback(
       [options, &exit_code] { exit_code = bench_window(options->json, options->count); });
 }
 
 void add_accuracy_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<AccuracyBench>();
-  CLI::App* table =
-      bench.add_subcommand("accuracy", "What each dial costs and how far off the finest it is");
-  table->add_option("scene", options->scene, "Path or gallery name")
+  CLI::App* table = bench.add_subcommand("accuracy", "Cost and error of each setting.");
+  table->add_option("scene", options->scene, "A scene file, or a scene of the gallery.")
       ->capture_default_str()
       ->type_name("SCENE");
   add_json_flag(*table, options->json);
   add_duration_flag(*table, options->duration);
-  table->add_option("--dial", options->dials, "This dial alone; may be given again")
+  table
+      ->add_option("--dial", options->dials,
+                   "Setting of the table. Repeatable. Default: all settings.")
       ->type_name("NAME")
       ->take_all();
-  table->add_option("--csv", options->csv, "Write the tables as CSV, too")->type_name("FILE");
-  add_plot_flag(*table, options->plot, "Draw cost against error");
+  table->add_option("--csv", options->csv, "File for the tables as CSV.")->type_name("FILE");
+  add_plot_flag(*table, options->plot, "File for a plot of cost against error.");
   table
-      ->add_option("--markdown", options->markdown,
-                   "Put the tables between the lines <!-- tables --> and <!-- end of tables --> of "
-                   "a page")
+      ->add_option(
+          "--markdown", options->markdown,
+          "Page for the tables. They replace the text between the lines <!-- tables --> and "
+          "<!-- end of tables -->.")
       ->type_name("FILE.md");
   table->callback([options, &exit_code] { exit_code = bench_accuracy(*options); });
 }
@@ -130,7 +134,7 @@ void add_accuracy_table(CLI::App& bench, int& exit_code) {
 }  // namespace
 
 void add_bench_command(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("bench", "Print performance tables");
+  CLI::App* command = program.add_subcommand("bench", "Print performance tables.");
   command->require_subcommand(1);
   add_engine_table(*command, exit_code);
   add_growth_table(*command, exit_code);

@@ -63,7 +63,9 @@ int check(const CommonOptions& options) {
 void add_check_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();
   CLI::App* command = program.add_subcommand(
-      "check", "Read and validate a scene, print it with every default written out, run nothing");
+      "check",
+      "Validate a scene, and print it with all defaults. The command also estimates memory and "
+      "collisions.");
   add_common_flags(*command, *options);
   command->callback([options, &exit_code] { exit_code = check(*options); });
 }

@@ -13,6 +13,8 @@ void add_render_command(CLI::App& program, int& exit_code);
 void add_check_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program, int& exit_code);
 void add_bench_command(CLI::App& program, int& exit_code);
+void add_help_command(CLI::App& program, int& exit_code);
+void add_completions_command(CLI::App& program, int& exit_code);
 
 /// Runs the program: parses the command line, runs the command, turns every error into a message on
 /// stderr and an exit code.

@@ -25,7 +25,7 @@ static CLI::Validator number_check(Allows allows, const std::string& wanted) {
       [=](const std::string& text) {
         return allows(number_in(text)) ? "" : "'" + text + "' is wrong; give " + wanted;
       },
-      "");
+      wanted);
 }
 
 CLI::Validator named_file() {
@@ -59,7 +59,18 @@ CLI::Validator share() {
         text = fmt::format("{:.17g}", value);
         return "";
       },
-      "");
+      "a share such as 1% or 0.01");
+}
+
+CLI::Validator whole_number_between(int low, int high) {
+  const std::string wanted = fmt::format("a whole number between {} and {}", low, high);
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        const auto number = whole_number<int>(text);
+        if (number && *number >= low && *number <= high) return "";
+        return "'" + text + "' is wrong; give " + wanted;
+      },
+      wanted);
 }
 
 CLI::Validator seed_number() {

@@ -10,6 +10,7 @@ namespace clatter {
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 CLI::Validator number_between(double low, double high);
+CLI::Validator whole_number_between(int low, int high);
 /// Any text but an empty one.
 CLI::Validator named_file();
 /// Turns a share such as 1% or 0.01, more than 0 and less than 1, into its number.

@@ -8,19 +8,20 @@ namespace clatter {
 void add_scene_flags(CLI::App& command, CommonOptions& options) {
   command
       .add_option("scene", options.scene,
-                  "Scene file, name of a gallery scene, or picture (.png) by this program, for its "
-                  "scene and seed")
+                  "A scene file, a scene of the gallery, or a picture (.png) of this program. A "
+                  "picture has its scene and its seed.")
       ->required()
       ->type_name("SCENE");
   command
       .add_option("--set", options.settings,
-                  "Change a key of the scene, e.g. --set particles.count=500 (repeatable)")
+                  "Change a key of the scene, as in --set particles.count=500. Repeatable.")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option("--seed", options.seed,
-                  "Seed of all random numbers (default: 1, or that of the picture or checkpoint)")
+      .add_option(
+          "--seed", options.seed,
+          "Seed of all random numbers. Default: 1, or the seed of the picture or checkpoint.")
       ->check(seed_number());
   command.parse_complete_callback([&options] {
     if (!options.seed) options.seed = seed_of_picture(options.scene);
@@ -29,13 +30,13 @@ void add_scene_flags(CLI::App& command, CommonOptions& options) {
 
 void add_common_flags(CLI::App& command, CommonOptions& options) {
   add_scene_flags(command, options);
-  command.add_option("--until", options.until, "Simulation time at which the run ends")
+  command.add_option("--until", options.until, "Simulation time at the end of the run.")
       ->check(positive_number());
-  command.add_flag("--quiet", options.quiet, "Print nothing on stderr but errors");
+  command.add_flag("--quiet", options.quiet, "Print errors only on stderr.");
 }
 
 void add_progress_flag(CLI::App& command, CommonOptions& options) {
-  command.add_option("--progress", options.progress, "How to show progress on stderr")
+  command.add_option("--progress", options.progress, "Form of the progress on stderr.")
       ->transform(one_of<ProgressStyle>({{"auto", ProgressStyle::Auto},
                                          {"json", ProgressStyle::Json},
                                          {"none", ProgressStyle::None}}))
@@ -43,7 +44,7 @@ void add_progress_flag(CLI::App& command, CommonOptions& options) {
 }
 
 void add_backend_flag(CLI::App& command, Backend& backend) {
-  command.add_option("--backend", backend, "Where OpenGL comes from")
+  command.add_option("--backend", backend, "Source of OpenGL.")
       ->transform(one_of<Backend>({{"auto", Backend::Auto},
                                    {"egl", Backend::Egl},
                                    {"osmesa", Backend::Osmesa},
@@ -54,17 +55,19 @@ void add_backend_flag(CLI::App& command, Backend& backend) {
 void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
   command
       .add_option("--resume", options.resume,
-                  "Go on from a checkpoint, under the laws of the scene given here")
+                  "Continue from a checkpoint, under the laws of SCENE.")
       ->check(named_file())
       ->type_name("FILE");
   CLI::Option* file = command
                           .add_option("--checkpoint", options.file,
-                                      "Keep a checkpoint up to date; the one before is "
-                                      "FILE.previous (default: one beside the result where the run "
-                                      "is interrupted or stops)")
+                                      "Keep a checkpoint up to date. The one before is "
+                                      "FILE.previous. Default: a checkpoint beside the result, "
+                                      "only after an interrupt or a stop.")
                           ->check(named_file())
                           ->type_name("FILE");
-  command.add_option("--checkpoint-every", options.every, "How often, in seconds of wall time")
+  command
+      .add_option("--checkpoint-every", options.every,
+                  "Time between checkpoints, in seconds of wall time.")
       ->check(positive_number())
       ->needs(file)
       ->capture_default_str();
@@ -75,14 +78,14 @@ void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal) {
       command
           .add_option(
               "--accuracy", goal.relative,
-              "End once the standard error of the temperature is that share of it, e.g. 1% or "
-              "0.01; at --until, or else at the scene's end, at the latest")
+              "End the run at this relative standard error of the temperature. The run ends at "
+              "the latest at --until, or at the end of the scene.")
           ->transform(share())
           ->type_name("SHARE");
   command
       .add_option("--accuracy-of", goal.of,
-                  "Of which mean of the result --accuracy speaks, e.g. pressure.left or "
-                  "energy.dissipated")
+                  "Mean of the result for --accuracy, for example pressure.left or "
+                  "energy.dissipated.")
       ->type_name("NAME")
       ->needs(accuracy)
       ->capture_default_str();

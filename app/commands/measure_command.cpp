@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
 #include "app/results/csv_tables.h"
 #include "app/results/hdf5_file.h"
@@ -245,46 +246,46 @@ int measure(const MeasureOptions& options) {
 
 void add_measure_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<MeasureOptions>();
-  CLI::App* command = program.add_subcommand(
-      "measure", "Run a scene without pictures and write what its [measure] block asks for");
+  CLI::App* command = program.add_subcommand("measure",
+                                             "Measure a scene. The table [measure] of the scene "
+                                             "has the times and the fields. The result is "
+                                             "JSON, with standard errors.");
   add_common_flags(*command, options->common);
   add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   add_accuracy_flags(*command, options->accuracy);
-  command->add_option("--out", options->out, "Result file (default: stdout)")
+  command->add_option("--out", options->out, "File for the result. Default: stdout.")
       ->type_name("FILE.json");
   command
       ->add_option(
           "--csv", options->csv,
-          "Folder for tables of series, profiles and maps; those of an earlier run are replaced")
+          "Folder for tables of series, profiles and maps. Tables of an earlier run are replaced.")
       ->type_name("DIR");
   command
-      ->add_option(
-          "--vtk", options->vtk,
-          "Folder for maps of the fields, as ParaView opens them: fields.vti, averages "
-          "over the whole time and residuals, and series.pvd, the averages' course; those of an "
-          "earlier run are replaced")
+      ->add_option("--vtk", options->vtk,
+                   "Folder for maps of the fields, for ParaView. The file fields.vti has the "
+                   "averages over the whole "
+                   "time and the residuals. The file series.pvd has the averages over parts of the "
+                   "time. Maps of an "
+                   "earlier run are replaced.")
       ->type_name("DIR");
-  command
-      ->add_option("--hdf5", options->hdf5,
-                   "File for all results, series, profiles and maps of the fields in one")
+  command->add_option("--hdf5", options->hdf5, "File for all results, series, profiles and maps.")
       ->type_name("FILE.h5");
   command
       ->add_option("--save-state", options->save_state,
-                   "Write the disks at the end, from which a scene may start: "
-                   "--set 'particles.start={layout=\"file\",file=\"FILE.csv\"}'")
+                   "File for the state at the end. A scene starts from it with "
+                   "--set 'particles.start={layout=\"file\",file=\"FILE.csv\"}'.")
       ->type_name("FILE.csv");
   CLI::Option* replicas =
       command
           ->add_option("--replicas", options->replicas,
-                       "Measure so many runs, of the seed and those that follow it; the result has "
-                       "means over them, and all of theirs")
-          ->check(CLI::Range(1, 100'000))
-          ->type_name("N");
+                       "Number of runs, with consecutive seeds. The result has each run, and the "
+                       "means over all runs.")
+          ->check(whole_number_between(1, 100'000));
   command
       ->add_option("--threads", options->threads,
-                   "Replicas that run at once (default: as many as there are processors)")
-      ->check(CLI::Range(1, 256));
+                   "Number of replicas that run at once. Default: the number of processors.")
+      ->check(whole_number_between(1, 256));
   for (const char* other :
        {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5", "--save-state"}) {
     replicas->excludes(command->get_option(other));

@@ -3,10 +3,12 @@
 #include <exception>
 #include <new>
 
+#include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
+#include "app/commands/help_formatter.h"
+#include "app/system/commit.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
-#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -16,19 +18,8 @@ static int report(const char* message, int code) {
 }
 
 // CLI11 itself would only say that a command is missing.
-static void require_command(const CLI::App& program, const std::string& word, const char* what) {
-  if (word.starts_with('-')) return;
-  std::vector<std::string> names;
-  std::string all;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == word) return;
-    names.push_back(command->get_name());
-    all += (all.empty() ? "" : ", ") + names.back();
-  }
-  const std::string near(near_miss(word, names));
-  throw UserError(
-      {}, std::string("there is no ") + what + " '" + word + "'",
-      near.empty() ? std::string("the ") + what + "s are " + all : "did you mean '" + near + "'?");
+static void require_command(const CLI::App& parent, const std::string& word, const char* what) {
+  if (!word.starts_with('-')) find_command(parent, word, what);
 }
 
 // What was typed, with the command where there is none: alone the program opens a window, and
@@ -43,18 +34,27 @@ static std::vector<const char*> with_commands(int argc, const char* const* argv)
   return words;
 }
 
+static std::string version_text() {
+  const std::string commit(kCommit);
+  return "clatter " CLATTER_VERSION + (commit.empty() ? "" : " (commit " + commit + ")");
+}
+
 int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
     CLI::App program(
-        "Driven granular gases of hard disks: explore, film and measure them.\n"
-        "Alone it opens a window. Without a display start with\n"
-        "  clatter scenes   and   clatter render vibrated --out vibrated.mp4",
+        "Simulate driven granular gases of hard disks. Explore, film and measure them.\n"
+        "Without a command the program opens a window.\n"
+        "Without a display, begin with these commands:\n"
+        "  clatter scenes\n"
+        "  clatter render vibrated --out vibrated.mp4",
         "clatter");
-    program.set_version_flag("--version", "clatter " CLATTER_VERSION);
+    program.formatter(std::make_shared<HelpFormatter>());
+    program.set_help_flag("-h,--help", "Print this help.");
+    program.set_version_flag("--version", version_text(), "Print the version and the commit.");
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return std::string("clatter: ") + error.what() + "; --help after a command lists its flags\n";
+      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` has the flags\n";
     });
     add_view_command(program, exit_code);
     add_render_command(program, exit_code);
@@ -62,6 +62,14 @@ int run_program(int argc, const char* const* argv) {
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);
+    add_help_command(program, exit_code);
+    add_completions_command(program, exit_code);
+    for (CLI::App* command : program.get_subcommands({})) {
+      command->group("Commands");
+      for (CLI::App* inner : command->get_subcommands({})) {
+        inner->group(command->get_name() == "bench" ? "Tables" : "Topics");
+      }
+    }
     const std::vector<const char*> words = with_commands(argc, argv);
     require_command(program, words[1], "command");
     if (words[1] == std::string_view("bench")) {

@@ -265,67 +265,74 @@ int render(const RenderOptions& options) {
 
 void add_render_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command =
-      program.add_subcommand("render", "Film a scene, or draw one picture of it, without a window");
+  CLI::App* command = program.add_subcommand("render", "Film a scene, or draw one picture of it.");
   add_common_flags(*command, options->common);
   add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command
-      ->add_option(
-          "--out", options->out,
-          "FILE.mp4, .webm, .gif or, without loss, .mkv (film), FILE.png (one picture), or DIR "
-          "(a picture a frame)")
-      ->required();
+      ->add_option("--out", options->out,
+                   "The ending decides the format. Films end in .mp4, .webm, .gif, or .mkv "
+                   "(without loss). One "
+                   "picture ends in .png. A folder gets a picture for each frame.")
+      ->required()
+      ->type_name("FILE|DIR");
   command
       ->add_option("-q,--quality", options->quality,
-                   "-ql: 854x480, 15 frames a second; -qm: 1280x720, 30; -qh: 1920x1080, 60 "
-                   "(default: m)")
+                   "Size and frame rate. -ql: 854x480, 15 frames a second. -qm: 1280x720, 30. -qh: "
+                   "1920x1080, 60. Default: m.")
       ->transform(
           one_of<Quality>({{"l", Quality::Low}, {"m", Quality::Medium}, {"h", Quality::High}}))
       ->type_name("l|m|h");
-  command->add_option("--size", options->size, "Picture size in pixels (default: the quality's)")
+  command
+      ->add_option("--size", options->size,
+                   "Size of the picture in pixels. Default: the size of --quality.")
       ->type_name("WIDTHxHEIGHT");
-  command->add_option("--fps", options->fps, "Frames per second of film (default: the quality's)")
+  command
+      ->add_option("--fps", options->fps,
+                   "Frames per second of film. Default: the rate of --quality.")
       ->check(number_between(1.0, 1000.0));
   command
       ->add_option("--from", options->from,
-                   "Simulation time of the first frame, or of the one picture (default: 0, or that "
-                   "of the checkpoint)")
+                   "Simulation time of the first frame, or of the one picture. Default: 0, or the "
+                   "time of the checkpoint.")
       ->check(non_negative_number());
   command
       ->add_option(
           "--to", options->to,
-          "Simulation time of the film's end, or of the one picture (default: 20 s of film; a "
-          "picture 10 s into it)")
+          "Simulation time at the end of the film, or of the one picture. Default: 20 s of film, "
+          "and a picture after 10 s.")
       ->check(non_negative_number());
   command
       ->add_option("--speed", options->speed,
-                   "Simulation time per second of film (default: the scene's view.speed)")
+                   "Simulation time per second of film. Default: view.speed of the scene.")
       ->check(positive_number());
   command
-      ->add_option("--supersample", options->supersample,
-                   "Draw all but the overlay so many times larger, and average in linear light "
-                   "(default: 1)")
-      ->check(CLI::Range(1, 4));
+      ->add_option(
+          "--supersample", options->supersample,
+          "Samples per pixel, along each axis. They are averaged in linear light. Default: "
+          "1.")
+      ->check(whole_number_between(1, 4));
   command
       ->add_option("--shutter", options->shutter,
-                   "Blur disks by their motion: share of the time between frames for which the "
-                   "shutter is open before each (default: 0)")
+                   "Motion blur of the disks. The value is the open share of the time between two "
+                   "frames. Default: 0.")
       ->check(number_between(0.0, 1.0));
-  command->add_option("--threads", options->threads, "Threads that encode a folder's pictures")
-      ->check(CLI::Range(1, 256))
+  command
+      ->add_option("--threads", options->threads,
+                   "Number of threads that encode the pictures of a folder.")
+      ->check(whole_number_between(1, 256))
       ->capture_default_str();
   command->add_flag("--no-overlay", options->no_overlay,
-                    "Draw no title, time, colour bar, scale bar");
+                    "Draw no title, time, colour bar and scale bar.");
   command->add_flag("--transparent", options->transparent,
-                    "Leave the background out, of a PNG picture or of a folder of them");
+                    "Draw PNG pictures without a background.");
   command->add_flag("--overwrite", options->overwrite,
-                    "Replace frames that a folder holds already, or a film that was cut");
+                    "Replace existing frames in a folder, or an interrupted film.");
   command
       ->add_option(
           "--frames", options->frames,
-          "Draw only these frames of the film, numbered from 0: what several machines make "
-          "is one film")
+          "Draw these frames of the film only, numbered from 0, without END. Parts from several "
+          "machines make one film.")
       ->type_name("FIRST:END");
   add_backend_flag(*command, options->backend);
   command->callback([options, &exit_code] { exit_code = render(*options); });

@@ -10,7 +10,7 @@
 namespace clatter {
 
 void add_scenes_command(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("scenes", "List the gallery, one line each");
+  CLI::App* command = program.add_subcommand("scenes", "List the scenes of the gallery.");
   command->callback([&exit_code] {
     std::string list;
     for (const EmbeddedFile& file : embedded_scenes()) {

@@ -38,18 +38,20 @@ int view(const ViewOptions& options) {
 void add_view_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   options->common.scene = "vibrated";
-  CLI::App* command = program.add_subcommand("view", "Explore a scene in a window");
+  CLI::App* command = program.add_subcommand("view", "Explore a scene in a window.");
   add_scene_flags(*command, options->common);
   command->get_option("scene")->required(false)->capture_default_str();
-  command->add_option("--size", options->size, "Extent of the window")->capture_default_str();
+  command->add_option("--size", options->size, "Size of the window in pixels.")
+      ->type_name("WIDTHxHEIGHT")
+      ->capture_default_str();
   command
       ->add_option("--until", options->common.until,
-                   "Simulation time at which the gas halts, until it is played on")
+                   "Simulation time at which the gas halts. The space bar continues.")
       ->check(positive_number());
   add_backend_flag(*command, options->backend);
   command
       ->add_option("--script-log", options->script_log,
-                   "Tell what the window does, a JSON object per line")
+                   "Log of the window for scripts. Each line is a JSON object.")
       ->type_name("FILE");
   command->callback([options, &exit_code] { exit_code = view(*options); });
 }

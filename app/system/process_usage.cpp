@@ -1,10 +1,7 @@
 #include "app/system/process_usage.h"
 
-#include <malloc.h>
 #include <sys/resource.h>
 #include <time.h>
-
-#include <fstream>
 
 namespace clatter {
 
@@ -20,15 +17,6 @@ std::uint64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-double heap_bytes() {
-  const struct mallinfo2 heap = mallinfo2();
-  return static_cast<double>(heap.uordblks + heap.hblkhd);
-}
-
-void restart_peak_memory() {
-  std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 }  // namespace clatter

@@ -3,11 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "engine/system/platform.h"
+
 namespace clatter {
 
-// The program itself, however it was started.
 static std::vector<std::string> command_of(std::vector<std::string> arguments) {
-  arguments.front() = "/proc/self/exe";
+  arguments.front() = this_program(arguments.front());
   return arguments;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <new>
 #include <vector>
+
+#include "engine/system/platform.h"
 
 namespace clatter {
 
@@ -21,7 +21,7 @@ struct LargeArrayAllocator {
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     void* const memory = ::operator new(bytes, alignment(bytes));
-    if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
+    if (bytes >= kHugePage) prefer_huge_pages(memory, bytes);
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {

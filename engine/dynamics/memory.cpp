@@ -1,7 +1,5 @@
 #include "engine/dynamics/memory.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,6 +13,7 @@
 #include "engine/physics/spin.h"
 #include "engine/physics/state.h"
 #include "engine/scene/text.h"
+#include "engine/system/platform.h"
 
 namespace clatter {
 
@@ -43,8 +42,7 @@ static int most_particles(const Scene& scene) {
 }
 
 void require_memory(const Scene& scene) {
-  const double there =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double there = machine_memory();
   const double needed = gas_memory(scene).total();
   if (needed <= there && scene.particles.count <= most_particles(scene)) return;
   const double fitting = std::floor(scene.particles.count * (there / needed));

@@ -118,8 +118,9 @@ class Work {
   void obey(const command::Open& asked) {
     Scene scene = asked.scene;
     if (asked.keeps_gas && watched_) {
-      std::visit([&](auto&& state) { start_from(std::move(state), asked, scene); },
-                 watched_->state());
+      std::visit(
+          [&](auto&& state) { start_from(std::forward<decltype(state)>(state), asked, scene); },
+          watched_->state());
     }
     auto opened = watched_run(scene, asked.seed);
     halt();

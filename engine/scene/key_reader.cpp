@@ -9,24 +9,6 @@
 
 namespace clatter {
 
-/// "numbers between 0 and 1", "a number greater than 0": what the limits allow.
-static std::string within(const std::string& what, Limits limits) {
-  if (limits.lowest == limits.highest) return number_text(limits.lowest);
-  if (limits.above) {
-    const bool bounded = limits.highest < Limits{}.highest;
-    return what + " greater than " + number_text(limits.lowest) +
-           (bounded ? " and at most " + number_text(limits.highest) : "");
-  }
-  if (limits.highest < Limits().highest) {
-    return what + " between " + number_text(limits.lowest) + " and " + number_text(limits.highest);
-  }
-  if (std::isinf(limits.highest)) {
-    return what + " of at least " + number_text(limits.lowest) + ", or inf";
-  }
-  return limits.lowest > Limits().lowest ? what + " of at least " + number_text(limits.lowest)
-                                         : what;
-}
-
 /// The value as a person would write it; a date by its type only.
 static std::string value_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) {
@@ -150,63 +132,55 @@ static std::optional<VecX> numbers_in(const toml::node& node, Limits limits, Eig
   return numbers;
 }
 
-/// How many of them there are to be, and along which axes.
-static std::string count_and_axes(const std::string& numbers, Limits limits, Eigen::Index size) {
-  return (size == 2 ? "two " : "three ") + numbers + within("", limits) +
-         (size == 2 ? ", along x and y" : ", along x, y and z");
-}
-
-std::string KeyReader::read(const toml::node& node, Limits limits, double& value) {
+bool KeyReader::read(const toml::node& node, Limits limits, double& value) {
   const auto number = number_in(node, limits);
   value = number.value_or(value);
-  return number ? "" : within("a number", limits);
+  return number.has_value();
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits, int& value) {
+bool KeyReader::read(const toml::node& node, Limits limits, int& value) {
   const auto number = number_in(node, limits);
-  if (!number || !node.is_integer()) return within("a whole number", limits);
+  if (!number || !node.is_integer()) return false;
   value = static_cast<int>(*number);
-  return "";
+  return true;
 }
 
-std::string KeyReader::read(const toml::node& node, Limits, bool& value) {
-  if (!node.is_boolean()) return "true or false";
+bool KeyReader::read(const toml::node& node, Limits, bool& value) {
+  if (!node.is_boolean()) return false;
   value = node.as_boolean()->get();
-  return "";
+  return true;
 }
 
-std::string KeyReader::read(const toml::node& node, Limits, std::string& value) {
-  if (!node.is_string()) return "a text between quotes";
+bool KeyReader::read(const toml::node& node, Limits, std::string& value) {
+  if (!node.is_string()) return false;
   value = node.as_string()->get();
-  return "";
+  return true;
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
+bool KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
   const auto numbers = numbers_in(node, limits, 2);
-  if (!numbers) return count_and_axes("numbers", limits, 2);
+  if (!numbers) return false;
   value = *numbers;
-  return "";
+  return true;
 }
 
 // As many numbers as the default has, which are the dimensions of the scene.
-std::string KeyReader::read(const toml::node& node, Limits limits, VecX& value) {
+bool KeyReader::read(const toml::node& node, Limits limits, VecX& value) {
   const auto numbers = numbers_in(node, limits, value.size());
-  if (!numbers) return count_and_axes("numbers", limits, value.size());
+  if (!numbers) return false;
   value = *numbers;
-  return "";
+  return true;
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits, std::vector<int>& value) {
+bool KeyReader::read(const toml::node& node, Limits limits, std::vector<int>& value) {
   const auto size = static_cast<Eigen::Index>(value.size());
   const auto numbers = numbers_in(node, limits, size);
-  if (!numbers || !node.as_array()->is_homogeneous(toml::node_type::integer)) {
-    return count_and_axes("whole numbers", limits, size);
-  }
+  if (!numbers || !node.as_array()->is_homogeneous(toml::node_type::integer)) return false;
   std::ranges::transform(*numbers, value.begin(), [](double n) { return static_cast<int>(n); });
-  return "";
+  return true;
 }
 
-std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& range) {
+bool KeyReader::read(const toml::node& node, Limits limits, ColourRange& range) {
   const auto name = node.value<std::string_view>();
   const auto ends = numbers_in(node, limits, 2);
   if (name == "auto") {
@@ -216,23 +190,20 @@ std::string KeyReader::read(const toml::node& node, Limits limits, ColourRange& 
   } else if (ends && (*ends)[1] - (*ends)[0] >= ColourRange::kLeastWidth) {
     range = {ColourRange::Given, {(*ends)[0], (*ends)[1]}};
   } else {
-    return "\"auto\", \"locked\" or two numbers [low, high] with low < high, neither beyond " +
-           number_text(limits.highest) + " nor closer than " +
-           number_text(ColourRange::kLeastWidth);
+    return false;
   }
-  return "";
+  return true;
 }
 
-std::string KeyReader::read(const toml::node& node, Limits, Rgb& colour) {
-  const std::string wanted = "a colour as \"#rrggbb\", for instance \"#ffffff\"";
+bool KeyReader::read(const toml::node& node, Limits, Rgb& colour) {
   const auto text = node.value<std::string_view>();
-  if (!text || text->size() != 7 || text->front() != '#') return wanted;
+  if (!text || text->size() != 7 || text->front() != '#') return false;
   std::uint8_t* const channels[] = {&colour.red, &colour.green, &colour.blue};
   for (std::size_t i = 0; i < 3; ++i) {
     const char* begin = text->data() + 1 + 2 * i;
-    if (std::from_chars(begin, begin + 2, *channels[i], 16).ptr != begin + 2) return wanted;
+    if (std::from_chars(begin, begin + 2, *channels[i], 16).ptr != begin + 2) return false;
   }
-  return "";
+  return true;
 }
 
 }  // namespace clatter

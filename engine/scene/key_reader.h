@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/scene/key_values.h"
 #include "engine/scene/scene_keys.h"
 
 namespace clatter {
@@ -27,9 +28,7 @@ class KeyReader {
   void value(std::string_view key, T& value, Limits limits = {}, Presence presence = kOptional) {
     const toml::node* node = find(key, presence);
     if (!node) return;
-    if (const std::string wanted = read(*node, limits, value); !wanted.empty()) {
-      refuse(key, *node, wanted);
-    }
+    if (!read(*node, limits, value)) refuse(key, *node, allowed_values(value, limits));
   }
 
   /// A number that may be absent.
@@ -125,15 +124,15 @@ class KeyReader {
 
   // Each reads a node of its type that lies within the limits, and returns nothing, or else what
   // the node should be.
-  static std::string read(const toml::node& node, Limits limits, double& value);
-  static std::string read(const toml::node& node, Limits limits, int& value);
-  static std::string read(const toml::node& node, Limits limits, bool& value);
-  static std::string read(const toml::node& node, Limits limits, std::string& value);
-  static std::string read(const toml::node& node, Limits limits, Vec2& value);
-  static std::string read(const toml::node& node, Limits limits, VecX& value);
-  static std::string read(const toml::node& node, Limits limits, std::vector<int>& value);
-  static std::string read(const toml::node& node, Limits limits, ColourRange& range);
-  static std::string read(const toml::node& node, Limits limits, Rgb& colour);
+  static bool read(const toml::node& node, Limits limits, double& value);
+  static bool read(const toml::node& node, Limits limits, int& value);
+  static bool read(const toml::node& node, Limits limits, bool& value);
+  static bool read(const toml::node& node, Limits limits, std::string& value);
+  static bool read(const toml::node& node, Limits limits, Vec2& value);
+  static bool read(const toml::node& node, Limits limits, VecX& value);
+  static bool read(const toml::node& node, Limits limits, std::vector<int>& value);
+  static bool read(const toml::node& node, Limits limits, ColourRange& range);
+  static bool read(const toml::node& node, Limits limits, Rgb& colour);
 
   const toml::table& root_;
   const toml::table* table_;  // the one being visited; nullptr: absent, all defaults

@@ -5,10 +5,12 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/scene/key_table.h"
 #include "engine/scene/scene.h"
 
-// Every key of the scene file, in the order in which it is written, told once. A visitor passes
-// over the keys to list, read or write them (key_lister.h, key_reader.h, key_writer.h); it has
+// The keys of the scene file, each defined once, in the order of the file. A table before each
+// block has their units and meanings. A visitor passes over the keys to list, read, write or
+// document them (key_lister.h, key_reader.h, key_writer.h, key_docs.cpp). It has
 //   value(key, variable, limits, presence)   for numbers, flags, text and arrays of numbers,
 //   value(key, optional, limits, presence)   for a number that may be absent,
 //   choice(key, variable, names, presence)   for enumerations and fields, optional ones, and lists
@@ -180,146 +182,279 @@ struct SceneInput {
   Presence spin_key() const { return spins ? kOptional : kNotWithoutSpins; }
 };
 
+/// The commands that run a gas.
+inline constexpr std::string_view kRunCommands = "view render measure";
+
+inline constexpr auto kRoughnessKeys = key_table(
+    kRunCommands,
+    {{"friction", "1",
+      "Coulomb's coefficient of friction. Without a value it is inf beside "
+      "`tangential_restitution`, and 0 otherwise."},
+     {"tangential_restitution", "1",
+      "Ratio of the tangential velocities after and before a contact that sticks, with opposite "
+      "sign. -1 is smooth, 1 is perfectly rough. Without a value it is 1 beside `friction`, and "
+      "-1 otherwise."}});
+
 /// The keys of rough partners, particles or walls.
 template <class Visitor>
 void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
-  io.value("friction", roughness.friction, at_least_or_infinite(0.0), presence);
-  io.value("tangential_restitution", roughness.tangential_restitution, between(-1.0, 1.0),
-           presence);
+  io.value(kRoughnessKeys.at("friction"), roughness.friction, at_least_or_infinite(0.0), presence);
+  io.value(kRoughnessKeys.at("tangential_restitution"), roughness.tangential_restitution,
+           between(-1.0, 1.0), presence);
 }
+
+inline constexpr auto kWallKeys = key_table(
+    kRunCommands,
+    {{"kind", "",
+      "Action of the wall. A static wall reflects. A driven wall adds speed. A thermal wall emits "
+      "at its temperature. The other two move."},
+     {"restitution", "1",
+      "Ratio of the normal velocities after and before a bounce, relative to the wall. A value "
+      "above 1 adds energy."},
+     {"drive_speed", "a/t", "Gain in normal velocity at each bounce."},
+     {"temperature", "m a^2/t^2", "Temperature of the particles that leave the wall."},
+     {"stroke", "a", "Whole travel of the motion."},
+     {"frequency", "1/t", "Periods of the motion per time unit."},
+     {"phase", "1", "Phase of the motion at time 0, in periods."}});
 
 /// The keys of one wall; which of them it may have depends on its kind.
 template <class Visitor>
 void visit_wall(Visitor& io, Wall& wall) {
-  io.choice("kind", wall.kind, kWallKinds, kRequired);
+  io.choice(kWallKeys.at("kind"), wall.kind, kWallKinds, kRequired);
   const bool driven = wall.kind == WallKind::Driven;
   const bool thermal = wall.kind == WallKind::Thermal;
   const Presence of_touch = thermal ? kNotOfWall : kOptional;
   const Presence of_motion = wall.moves() ? kRequired : kNotOfWall;
-  io.value("restitution", wall.restitution, between(0.0, kMaxWallRestitution), of_touch);
+  io.value(kWallKeys.at("restitution"), wall.restitution, between(0.0, kMaxWallRestitution),
+           of_touch);
   visit_roughness(io, wall.roughness, of_touch);
-  io.value("drive_speed", wall.drive_speed, between(0.0, kMaxSpeed),
+  io.value(kWallKeys.at("drive_speed"), wall.drive_speed, between(0.0, kMaxSpeed),
            driven ? kRequired : kNotOfWall);
-  io.value("temperature", wall.temperature, between(0.0, kMaxTemperature),
+  io.value(kWallKeys.at("temperature"), wall.temperature, between(0.0, kMaxTemperature),
            thermal ? kRequired : kNotOfWall);
-  io.value("stroke", wall.stroke, between(0.0, kMaxLength), of_motion);
-  io.value("frequency", wall.frequency, between(0.0, kMaxFrequency), of_motion);
-  io.value("phase", wall.phase, between(-kMaxPhase, kMaxPhase),
+  io.value(kWallKeys.at("stroke"), wall.stroke, between(0.0, kMaxLength), of_motion);
+  io.value(kWallKeys.at("frequency"), wall.frequency, between(0.0, kMaxFrequency), of_motion);
+  io.value(kWallKeys.at("phase"), wall.phase, between(-kMaxPhase, kMaxPhase),
            wall.moves() ? kOptional : kNotOfWall);
 }
+
+inline constexpr auto kStartKeys = key_table(
+    kRunCommands,
+    {{"layout", "", "Positions at time 0: random, on a lattice, or those of a file."},
+     {"file", "", "Name of the CSV file with the state at time 0, relative to the scene file."},
+     {"temperature", "m a^2/t^2",
+      "Temperature at time 0. Velocities are Gaussian, without a mean, and scaled to this value."},
+     {"spin_temperature", "m a^2/t^2", "Temperature of the spins at time 0."}});
 
 /// The keys of [particles.start]; which of them it may have depends on its layout.
 template <class Visitor>
 void visit_start(Visitor& io, Start& start, Presence spin_key) {
-  io.choice("layout", start.layout, kLayouts);
+  io.choice(kStartKeys.at("layout"), start.layout, kLayouts);
   const bool from_file = start.layout == Layout::File;
-  io.value("file", start.file, Limits{}, from_file ? kRequired : kNotWithoutFile);
-  io.value("temperature", start.temperature, between(0.0, kMaxTemperature),
+  io.value(kStartKeys.at("file"), start.file, Limits{}, from_file ? kRequired : kNotWithoutFile);
+  io.value(kStartKeys.at("temperature"), start.temperature, between(0.0, kMaxTemperature),
            from_file ? kNotBesideFile : kOptional);
-  io.value("spin_temperature", start.spin_temperature, between(0.0, kMaxTemperature),
+  io.value(kStartKeys.at("spin_temperature"), start.spin_temperature, between(0.0, kMaxTemperature),
            from_file ? kNotBesideFile : spin_key);
 }
+
+inline constexpr auto kParticleKeys = key_table(
+    kRunCommands,
+    {{"count", "1", "Number of particles. A scene has either this key or a fraction."},
+     {"area_fraction", "1",
+      "Share of the box that the disks fill. The number of disks is the nearest one."},
+     {"volume_fraction", "1",
+      "Share of the box that the spheres fill. The number of spheres is the nearest one."},
+     {"restitution", "1",
+      "Ratio of the normal relative velocities after and before a collision of two particles. 1 is "
+      "elastic."},
+     {"inertia", "1",
+      "Moment of inertia, as q = 4I/(m a^2). A uniform disk has 0.5, a uniform sphere 0.4."}});
 
 /// The keys of [particles]; count and packing fraction are resolved when the whole scene is known.
 template <class Visitor>
 void visit_particles(Visitor& io, SceneInput& input) {
   constexpr double kLargestCount = std::numeric_limits<int>::max();
   Particles& particles = input.scene.particles;
-  io.value("count", input.count, between(0, kLargestCount));
-  io.value(input.packing_key().substr(std::string_view("particles.").size()),
+  io.value(kParticleKeys.at("count"), input.count, between(0, kLargestCount));
+  const bool disks = input.scene.dimension() == 2;
+  io.value(disks ? kParticleKeys.at("area_fraction") : kParticleKeys.at("volume_fraction"),
            input.packing_fraction, between(0.0, 1.0));
-  io.value("restitution", particles.restitution, between(0.0, 1.0));
+  io.value(kParticleKeys.at("restitution"), particles.restitution, between(0.0, 1.0));
   visit_roughness(io, particles.roughness, kOptional);
-  io.value("inertia", particles.inertia, between(kMinInertia, 1.0), input.spin_key());
+  io.value(kParticleKeys.at("inertia"), particles.inertia, between(kMinInertia, 1.0),
+           input.spin_key());
   io.table("start", [&](auto& io) { visit_start(io, particles.start, input.spin_key()); });
 }
+
+inline constexpr auto kBulkDriveKeys = key_table(
+    kRunCommands,
+    {{"interval", "t", "Time between two kicks. A kick acts on all particles at once."},
+     {"kick_speed", "a/t",
+      "Standard deviation of a kick, per component of the velocity. The mean kick is removed."},
+     {"kick_spin", "1/t", "Standard deviation of the kick of a spin."}});
 
 /// The keys of [bulk_drive], where there is one.
 template <class Visitor>
 void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
-  io.value("interval", drive.interval, above(0.0), kRequired);
-  io.value("kick_speed", drive.kick_speed, between(0.0, kMaxSpeed), kRequired);
-  io.value("kick_spin", drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
+  io.value(kBulkDriveKeys.at("interval"), drive.interval, above(0.0), kRequired);
+  io.value(kBulkDriveKeys.at("kick_speed"), drive.kick_speed, between(0.0, kMaxSpeed), kRequired);
+  io.value(kBulkDriveKeys.at("kick_spin"), drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
 }
+
+inline constexpr auto kMeasureKeys = key_table(
+    "measure",
+    {{"burn_in", "t", "Time before averages start."},
+     {"duration", "t", "Time over which averages are taken."},
+     {"series_interval", "t",
+      "Spacing of the series of temperatures. The series starts at time 0."},
+     {"fields", "", "Fields that are averaged, and residuals of the balance equations."},
+     {"cells", "1", "Number of cells along each axis, for fields."},
+     {"profile_axis", "", "Axis along which profiles go. z is for spheres."},
+     {"estimator", "", "Estimator of the fields. It integrates every flight, or takes snapshots."},
+     {"interval", "t", "Time between snapshots."},
+     {"kernel", "",
+      "Weight of a particle in the cells. A box counts it in its own cell. A Gaussian needs "
+      "snapshots."},
+     {"width", "a", "Standard deviation of the Gaussian, per axis. At least half a cell."}});
 
 /// The keys of [measure] in a box of so many dimensions; those of snapshots and of the Gaussian
 /// only with these.
 template <class Visitor>
 void visit_measure(Visitor& io, Measure& measure, int dimension) {
-  io.value("burn_in", measure.burn_in, at_least(0.0));
-  io.value("duration", measure.duration, above(0.0));
-  io.value("series_interval", measure.series_interval, above(0.0));
-  io.choice("fields", measure.fields, measured_names(dimension));
-  io.value("cells", measure.cells, between(1, 2000));
-  io.choice("profile_axis", measure.profile_axis, kAxes);
-  io.choice("estimator", measure.estimator, kEstimators);
+  io.value(kMeasureKeys.at("burn_in"), measure.burn_in, at_least(0.0));
+  io.value(kMeasureKeys.at("duration"), measure.duration, above(0.0));
+  io.value(kMeasureKeys.at("series_interval"), measure.series_interval, above(0.0));
+  io.choice(kMeasureKeys.at("fields"), measure.fields, measured_names(dimension));
+  io.value(kMeasureKeys.at("cells"), measure.cells, between(1, 2000));
+  io.choice(kMeasureKeys.at("profile_axis"), measure.profile_axis, kAxes);
+  io.choice(kMeasureKeys.at("estimator"), measure.estimator, kEstimators);
   const bool exact = measure.estimator == Estimator::Exact;
-  io.value("interval", measure.interval, above(0.0), exact ? kNotOfExact : kRequired);
-  io.choice("kernel", measure.kernel, kKernels);
+  io.value(kMeasureKeys.at("interval"), measure.interval, above(0.0),
+           exact ? kNotOfExact : kRequired);
+  io.choice(kMeasureKeys.at("kernel"), measure.kernel, kKernels);
   const bool box = measure.kernel == Kernel::Box;
-  io.value("width", measure.width, above(0.0), box ? kNotOfBox : kRequired);
+  io.value(kMeasureKeys.at("width"), measure.width, above(0.0), box ? kNotOfBox : kRequired);
 }
+
+inline constexpr auto kCameraKeys = key_table(
+    "render",
+    {{"time", "t", "Simulation time at which the camera has this position. Times increase."},
+     {"follow", "1", "Number of the particle in the middle of the picture, from 0."},
+     {"centre", "a",
+      "Point in the middle of the picture. Without a value it is that of the whole box."},
+     {"width", "a", "Width of the picture. Without a value the whole box is visible."}});
 
 /// The keys of one of [[view.camera]].
 template <class Visitor>
 void visit_camera(Visitor& io, CameraKey& key) {
-  io.value("time", key.time, at_least(0.0));
-  io.value("follow", key.follow, at_least(0.0));
-  io.value("centre", key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
+  io.value(kCameraKeys.at("time"), key.time, at_least(0.0));
+  io.value(kCameraKeys.at("follow"), key.follow, at_least(0.0));
+  io.value(kCameraKeys.at("centre"), key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
            key.follow ? kNotBesideFollow : kOptional);
-  io.value("width", key.width, between(kMinCameraWidth, kMaxCameraWidth));
+  io.value(kCameraKeys.at("width"), key.width, between(kMinCameraWidth, kMaxCameraWidth));
 }
+
+inline constexpr auto kViewKeys = key_table(
+    "view render",
+    {{"colour_by", "", "Quantity that colours the particles. Spin needs rough particles or walls."},
+     {"field", "", "Field of the heatmap below the particles. Without a value there is none."},
+     {"window", "t", "Averaging time of the heatmap and the arrows."},
+     {"estimator", "", "Estimator of the heatmap and the arrows, as in `measure`."},
+     {"interval", "t",
+      "Time between snapshots. Its range follows the `window`. The values shown are those of the "
+      "default."},
+     {"speed", "t/s", "Simulation time per second of film or window."},
+     {"palette", "", "Colours of the particles. Quantities with a sign are blue and red."},
+     {"range", "",
+      "Range of the particles' colours. auto follows the picture, locked keeps the first range."},
+     {"field_palette", "", "Colours of the heatmap. Without a value they are those of `palette`."},
+     {"field_range", "",
+      "Range of the heatmap's colours. locked keeps the range of the first whole window."},
+     {"arrows", "", "Field of the arrows. Without a value there are none."},
+     {"theme", "", "Colours of background, letters, walls and lines."},
+     {"background", "", "Colour of the background. Without a value it is that of the theme."},
+     {"grid", "", "Lines over the box, as far apart as the scale bar is long."},
+     {"overlay", "", "Title, time, colour bar and scale bar."},
+     {"trails", "t", "Time that the paths of the particles reach back. Without a value: none."},
+     {"card", "s", "Time of title and caption at the start of a film. Without a value: none.",
+      "render"}});
 
 /// The keys of [view] in a box of so many dimensions; the list comes last, because in a file it
 /// stands below the other keys.
 template <class Visitor>
 void visit_view(Visitor& io, View& view, int dimension) {
-  io.choice("colour_by", view.colour_by, kColourings);
-  io.choice("field", view.field, field_names(dimension));
+  io.choice(kViewKeys.at("colour_by"), view.colour_by, kColourings);
+  io.choice(kViewKeys.at("field"), view.field, field_names(dimension));
   const Limits times = between(kMinViewTime, kMaxViewTime);
-  io.value("window", view.window, times);
-  io.choice("estimator", view.estimator, kEstimators);
+  io.value(kViewKeys.at("window"), view.window, times);
+  io.choice(kViewKeys.at("estimator"), view.estimator, kEstimators);
   const bool exact = view.estimator == Estimator::Exact;
-  io.value("interval", view.interval, between(view.window / kMaxWindowSamples, view.window),
-           exact ? kNotOfExact : kRequired);
-  io.value("speed", view.speed, times);
-  io.choice("palette", view.palette, kPalettes);
+  io.value(kViewKeys.at("interval"), view.interval,
+           between(view.window / kMaxWindowSamples, view.window), exact ? kNotOfExact : kRequired);
+  io.value(kViewKeys.at("speed"), view.speed, times);
+  io.choice(kViewKeys.at("palette"), view.palette, kPalettes);
   const Limits colours = between(-ColourRange::kLargestEnd, ColourRange::kLargestEnd);
-  io.value("range", view.range, colours);
-  io.choice("field_palette", view.field_palette, kPalettes);
-  io.value("field_range", view.field_range, colours);
-  io.choice("arrows", view.arrows, kArrows);
-  io.choice("theme", view.theme, kThemes);
-  io.value("background", view.background, Limits{});
-  io.value("grid", view.grid);
-  io.value("overlay", view.overlay);
-  io.value("trails", view.trails, times);
-  io.value("card", view.card, times);
+  io.value(kViewKeys.at("range"), view.range, colours);
+  io.choice(kViewKeys.at("field_palette"), view.field_palette, kPalettes);
+  io.value(kViewKeys.at("field_range"), view.field_range, colours);
+  io.choice(kViewKeys.at("arrows"), view.arrows, kArrows);
+  io.choice(kViewKeys.at("theme"), view.theme, kThemes);
+  io.value(kViewKeys.at("background"), view.background, Limits{});
+  io.value(kViewKeys.at("grid"), view.grid);
+  io.value(kViewKeys.at("overlay"), view.overlay);
+  io.value(kViewKeys.at("trails"), view.trails, times);
+  io.value(kViewKeys.at("card"), view.card, times);
   io.list("camera", view.camera, [](auto& io, CameraKey& key) { visit_camera(io, key); });
 }
+
+inline constexpr auto kChangeKeys = key_table(
+    kRunCommands,
+    {{"time", "t", "Simulation time of the change."},
+     {"set", "", "Keys and their new values. The keys are among those that can change in a run."},
+     {"ramp", "", "Course of numbers to their new values. Without a value they jump."},
+     {"until", "t", "Simulation time at which the ramp ends. It is later than `time`."}});
 
 /// The keys of one of [[change]].
 template <class Visitor>
 void visit_change(Visitor& io, Change& change) {
-  io.value("time", change.time, at_least(0.0), kRequired);
-  io.settings("set", change.set);
-  io.choice("ramp", change.ramp, kRamps);
-  io.value("until", change.until, above(change.time), change.ramp ? kRequired : kNotWithoutRamp);
+  io.value(kChangeKeys.at("time"), change.time, at_least(0.0), kRequired);
+  io.settings(kChangeKeys.at("set"), change.set);
+  io.choice(kChangeKeys.at("ramp"), change.ramp, kRamps);
+  io.value(kChangeKeys.at("until"), change.until, above(change.time),
+           change.ramp ? kRequired : kNotWithoutRamp);
 }
+
+inline constexpr auto kSceneKeys = key_table(
+    kRunCommands, {{"schema", "1", "Version of the format."},
+                   {"title", "", "Title in pictures, in the gallery and in results."},
+                   {"caption", "", "A line on what to watch."},
+                   {"goal", "", "The aim of the scene as a lesson.", "view"},
+                   {"try_this", "", "Proposal for an experiment in the window.", "view"}});
+inline constexpr auto kBoxKeys = key_table(
+    kRunCommands, {{"size", "a", "Sides of the box. Two numbers make disks, three make spheres."}});
+inline constexpr auto kGravityKeys =
+    key_table(kRunCommands, {{"acceleration", "a/t^2", "Acceleration of all particles."}});
+inline constexpr auto kCollapseKeys = key_table(
+    kRunCommands,
+    {{"contact_time", "t",
+      "Contact time t_c. A collision is elastic if one of its partners collided less than t_c "
+      "before. Without a value: off."}});
 
 /// All keys of a scene file.
 template <class Visitor>
 void visit_scene(Visitor& io, SceneInput& input) {
   Scene& scene = input.scene;
-  io.value("schema", input.schema, between(1, 1));
-  io.value("title", scene.title);
-  io.value("caption", scene.caption);
-  io.value("goal", scene.goal);
-  io.value("try_this", scene.try_this);
+  io.value(kSceneKeys.at("schema"), input.schema, between(1, 1));
+  io.value(kSceneKeys.at("title"), scene.title);
+  io.value(kSceneKeys.at("caption"), scene.caption);
+  io.value(kSceneKeys.at("goal"), scene.goal);
+  io.value(kSceneKeys.at("try_this"), scene.try_this);
   // A side of one diameter leaves a particle between walls no room to move, and across a periodic
   // side the particle touches its own image.
   io.table("box", [&](auto& io) {
-    io.value("size", scene.box, Limits{.lowest = 1.0, .highest = kMaxLength, .above = true});
+    io.value(kBoxKeys.at("size"), scene.box,
+             Limits{.lowest = 1.0, .highest = kMaxLength, .above = true});
   });
   io.table("particles", [&](auto& io) { visit_particles(io, input); });
   io.table("walls", [&](auto& io) {
@@ -330,11 +465,14 @@ void visit_scene(Visitor& io, SceneInput& input) {
   });
   io.table("gravity", scene.gravity, [&](auto& io, VecX& acceleration) {
     if (acceleration.size() == 0) acceleration = VecX::Zero(scene.dimension());
-    io.value("acceleration", acceleration, between(-kMaxAcceleration, kMaxAcceleration), kRequired);
+    io.value(kGravityKeys.at("acceleration"), acceleration,
+             between(-kMaxAcceleration, kMaxAcceleration), kRequired);
   });
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });
-  io.table("collapse", [&](auto& io) { io.value("contact_time", scene.contact_time, above(0.0)); });
+  io.table("collapse", [&](auto& io) {
+    io.value(kCollapseKeys.at("contact_time"), scene.contact_time, above(0.0));
+  });
   const int dimension = scene.dimension();
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure, dimension); });
   io.table("view", [&](auto& io) { visit_view(io, scene.view, dimension); });

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
@@ -11,6 +10,7 @@
 #include <cstring>
 
 #include "engine/error.h"
+#include "engine/system/platform.h"
 
 extern char** environ;
 
@@ -38,16 +38,16 @@ struct SpawnSetup {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Interrupts interrupts)
-    : errors_(memfd_create("errors", MFD_CLOEXEC)) {
-  int ends[2];
-  if (!errors_ || pipe2(ends, O_CLOEXEC) != 0) {
+    : errors_(nameless_file()) {
+  std::optional<Pipe> pipe;
+  if (errors_) pipe = make_pipe();
+  if (!pipe) {
     throw RunError("cannot make a pipe to " + arguments[0] + ": " + std::strerror(errno));
   }
-  const FileDescriptor output(ends[0]);
-  input_ = FileDescriptor(ends[1]);
+  input_ = std::move(pipe->input);
 
   SpawnSetup setup;
-  posix_spawn_file_actions_adddup2(&setup.files, output.get(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&setup.files, pipe->output.get(), STDIN_FILENO);
   posix_spawn_file_actions_addopen(&setup.files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&setup.files, errors_.get(), STDERR_FILENO);
   if (interrupts == Interrupts::Shielded) {

@@ -52,7 +52,7 @@ class ChildProcess {
   pid_t pid_ = -1;         ///< -1: has ended
   int status_ = 0;         ///< of its end, as waitpid() tells it
   FileDescriptor input_;   ///< our end of the pipe
-  FileDescriptor errors_;  ///< a file in memory, which never makes it wait
+  FileDescriptor errors_;  ///< a file, which never makes it wait
   off_t read_ = 0;         ///< bytes of that which new_words() has given
 };
 

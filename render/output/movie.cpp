@@ -3,25 +3,25 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <span>
 #include <sstream>
 
 #include "engine/error.h"
 #include "engine/system/checksum.h"
+#include "engine/system/platform.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
 
 namespace {
 
-// File in the folder of the pieces, which ffmpeg reads.
+// Files in the folder of the pieces, which ffmpeg reads.
 constexpr const char* kList = "pieces.txt";
+constexpr const char* kTexts = "texts.txt";
 
 // Thrown on the writing thread; the caller's thread asks the encoder for the reason.
 struct EncoderStopped {};
@@ -37,25 +37,9 @@ void require_no_pieces(const std::filesystem::path& folder) {
                   "go on with it by --resume, or give --overwrite to film anew");
 }
 
-// By this name a program beside ours opens this very file, while we live. An encoder that is late
-// to open its file, of a run that was killed meanwhile, thus cannot write into that of the run that
-// goes on.
-std::filesystem::path name_while_open(const FileDescriptor& file) {
-  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file.get());
-}
-
 FileDescriptor open_new(const std::filesystem::path& path) {
   unlink(path.c_str());
   return FileDescriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-}
-
-// A file in memory, which takes no place on a full disk. Throws RunError.
-FileDescriptor in_memory(const std::string& text) {
-  FileDescriptor file(memfd_create("texts", MFD_CLOEXEC));
-  if (!file || !file.write_all(std::as_bytes(std::span(text)))) {
-    throw RunError(std::string("cannot keep the texts of a film: ") + std::strerror(errno));
-  }
-  return file;
 }
 
 // Whether the folder of that name is still the one that is open.
@@ -145,7 +129,7 @@ std::filesystem::path Movie::piece_path(long first) const {
 // As name_while_open(): a path that also has no characters which a list of ffmpeg's takes for
 // something else, whatever the film is called.
 std::filesystem::path Movie::name_in_folder(const std::string& file) const {
-  return name_while_open(held_) / file;
+  return std::filesystem::path(name_while_open(held_, folder_.string())) / file;
 }
 
 // The number of the first picture in the piece that has this one.
@@ -159,10 +143,13 @@ void Movie::start_piece() {
   // Found out now rather than after the first hour of a run.
   file_ = open_new(piece);
   if (!file_) fail(std::strerror(errno));
-  texts_ = in_memory(metadata_file(options_.texts));
+  write_file(folder_ / kTexts, metadata_file(options_.texts));
+  // An encoder may open its file late, after its run was killed. By this name it cannot write into
+  // the file of the run that goes on.
+  const std::string name = name_while_open(file_, piece.string());
   try {
-    encoder_ = std::make_unique<ChildProcess>(encoding_command(
-        program_, *format_, options_, name_while_open(texts_), name_while_open(file_)));
+    encoder_ = std::make_unique<ChildProcess>(
+        encoding_command(program_, *format_, options_, name_in_folder(kTexts), name));
   } catch (const RunError& error) {
     unlink(piece.c_str());
     fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
@@ -226,14 +213,15 @@ void Movie::join() {
   write_file(folder_ / kList, list);
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
-  const FileDescriptor metadata = in_memory(metadata_file(texts));
+  write_file(folder_ / kTexts, metadata_file(texts));
   require_unchanged(pieces);
 
   const std::filesystem::path joined = folder_ / ("joined" + format_->extension);
   const FileDescriptor file = open_new(joined);
   if (!file) fail(std::strerror(errno));
-  ChildProcess joiner(joining_command(program_, *format_, name_while_open(metadata),
-                                      name_in_folder(kList), name_while_open(file)));
+  ChildProcess joiner(joining_command(program_, *format_, name_in_folder(kTexts),
+                                      name_in_folder(kList),
+                                      name_while_open(file, joined.string())));
   if (!joiner.wait()) {
     unlink(joined.c_str());
     fail(joiner);
@@ -266,6 +254,7 @@ void Movie::tidy() {
     const std::filesystem::path piece = piece_path(piece_);
     if (pictures_in(piece) == 0) unlink(piece.c_str());
   }
+  unlink((folder_ / kTexts).c_str());
   rmdir(folder_.c_str());
 }
 

@@ -60,7 +60,6 @@ class Movie final : public FrameSink {
   const MovieFormat* format_;
   SinkOptions options_;
   std::string program_;                    ///< that encodes
-  FileDescriptor texts_;                   ///< of the film, as the encoder reads them
   std::vector<std::uint32_t> checksums_;   ///< of the pieces that are whole, in order
   std::vector<PngText> notes_;             ///< of the last picture
   long next_;                              ///< number of the next picture

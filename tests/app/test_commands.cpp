@@ -105,10 +105,14 @@ TEST_CASE("Commands: output that cannot be written is a failure") {
   }
 }
 
-TEST_CASE("Commands: the version is printed") {
-  const Outcome outcome = Shell().run("clatter --version");
+TEST_CASE("Commands: the version is printed, with the commit of a checkout") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter --version");
   CHECK(outcome.code == 0);
-  CHECK(outcome.out == "clatter " CLATTER_VERSION "\n");
+  const std::string commit = shell.run("git -C " CLATTER_DOCS " rev-parse --short=12 HEAD").out;
+  const std::string shown =
+      commit.empty() ? "\n" : " (commit " + commit.substr(0, commit.size() - 1) + ")\n";
+  CHECK(outcome.out == "clatter " CLATTER_VERSION + shown);
 }
 
 TEST_CASE("Commands: every command explains its flags, and only those") {

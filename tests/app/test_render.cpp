@@ -227,7 +227,7 @@ TEST_CASE("Render: on a full disk it fails, says so and keeps what can be used")
   const Shell shell;
   // In a namespace of its own, so that the mount goes with the command.
   const std::string small_disk =
-      "mkdir -p small; exec unshare --mount sh -c 'mount -t tmpfs -o size=64k none small || exit "
+      "mkdir -p small; exec unshare --mount sh -c 'mount -t tmpfs -o size=96k none small || exit "
       "77; ";
   if (shell.run(small_disk + "'").code != 0) {
     MESSAGE("skipped: only root may mount a small disk");

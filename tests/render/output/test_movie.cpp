@@ -334,7 +334,7 @@ TEST_CASE("Movie: an encoder that dies later leaves the pieces before, and those
   const auto encoder =
       make_encoder(programs / "encoder",
                    "for last; do :; done\n"
-                   "case $(readlink \"${last#file:}\") in *000060*) exit 1 ;; esac\n"
+                   "case $(readlink -f \"${last#file:}\") in *000060*) exit 1 ;; esac\n"
                    "exec ffmpeg \"$@\"");
   {
     Movie movie(folder / "film.webm", options(), encoder);

@@ -1,0 +1,162 @@
+#include "app/commands/key_help.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+#include "app/commands/wrapped_text.h"
+#include "app/system/page_parts.h"
+#include "engine/error.h"
+#include "engine/scene/field.h"
+#include "engine/scene/key_docs.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/text.h"
+#include "engine/system/read_file.h"
+#include "engine/system/write_file.h"
+
+namespace clatter {
+
+namespace {
+
+// Longer lists of choices stand below a table of a page.
+constexpr std::size_t kChoicesInTable = 8;
+
+std::vector<std::string> commands_of(const KeyDoc& doc) {
+  std::istringstream words{std::string(doc.key.commands)};
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+std::string initial_of(const KeyDoc& doc, const std::string& quote) {
+  if (doc.initial.empty()) return "required";
+  if (doc.initial == "none") return "none";
+  const std::string disks = quote + doc.initial + quote;
+  if (doc.sphere_initial.empty()) return disks;
+  return disks + ", for spheres " + quote + doc.sphere_initial + quote;
+}
+
+std::string values_of(const KeyDoc& doc) {
+  return doc.sphere_values.empty() ? doc.values : doc.values + "; " + doc.sphere_values;
+}
+
+std::string choices_of(const KeyDoc& doc, const std::string& quote) {
+  const std::string comma = quote + ", " + quote;
+  const std::string disks = quote + fmt::format("{}", fmt::join(doc.choices, comma)) + quote;
+  if (doc.sphere_choices.empty()) return disks;
+  return disks + "; for spheres also " + quote +
+         fmt::format("{}", fmt::join(doc.sphere_choices, comma)) + quote;
+}
+
+std::string meaning_of(const KeyDoc& doc) {
+  return std::string(doc.key.meaning) + (doc.conditions.empty() ? "" : " " + doc.conditions);
+}
+
+// The text in lines that begin with `indent` blanks, but for the first.
+std::string indented(const std::string& text, std::size_t indent) {
+  std::string lines;
+  for (const char letter : wrapped(text, kTextWidth - indent)) {
+    lines += letter;
+    if (letter == '\n') lines += std::string(indent, ' ');
+  }
+  return lines;
+}
+
+std::string text_of(const KeyDoc& doc) {
+  std::string text = doc.path() + '\n';
+  const auto add = [&](const char* label, const std::string& value) {
+    if (!value.empty()) text += fmt::format("  {:<9}{}\n", label, indented(value, 11));
+  };
+  std::string meaning = meaning_of(doc);
+  std::erase(meaning, '`');
+  text += "  " + indented(meaning, 2) + '\n';
+  add("unit", std::string(doc.key.unit));
+  add("default", initial_of(doc, ""));
+  add("values", doc.choices.empty() ? values_of(doc) : choices_of(doc, ""));
+  add("read by", fmt::format("{}", fmt::join(commands_of(doc), ", ")));
+  if (doc.changes_live) add("changes", "in a run, by [[change]] and in the window");
+  return text;
+}
+
+// "`view`, `render` and `measure`"
+std::string listed(const std::vector<std::string>& commands) {
+  std::string text;
+  for (const std::string& command : commands) {
+    const bool last = &command == &commands.back();
+    text += (text.empty() ? "`" : last ? " and `" : ", `") + command + "`";
+  }
+  return text;
+}
+
+std::string row_of(const KeyDoc& doc, const std::vector<std::string>& table_commands) {
+  const bool many = doc.choices.size() > kChoicesInTable;
+  std::string meaning = meaning_of(doc);
+  const std::vector<std::string> commands = commands_of(doc);
+  if (commands != table_commands) meaning += " Read by " + listed(commands) + ".";
+  const std::string values = many                  ? "see below"
+                             : doc.choices.empty() ? values_of(doc)
+                                                   : choices_of(doc, "`");
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", doc.key.name, doc.key.unit,
+                     initial_of(doc, "`"), values, doc.changes_live ? "yes" : "", meaning);
+}
+
+// The keys of one table as Markdown.
+std::string markdown_of(const std::vector<KeyDoc>& docs) {
+  // Most keys of a table have the commands of its first one.
+  const std::vector<std::string> commands = commands_of(docs.front());
+  std::string text = "\nRead by " + listed(commands) + ".\n\n" +
+                     "| key | unit | default | values | live | meaning |\n"
+                     "|---|---|---|---|---|---|\n";
+  std::string lists;
+  for (const KeyDoc& doc : docs) {
+    text += row_of(doc, commands);
+    if (doc.choices.size() <= kChoicesInTable) continue;
+    lists += fmt::format("\nValues of `{}`: {}.\n", doc.key.name, choices_of(doc, "`"));
+  }
+  return text + lists + "\n";
+}
+
+}  // namespace
+
+std::string key_help(const std::string& name) {
+  std::string wanted = name;
+  for (const char* side : kSideNames) {
+    const std::string wall = std::string("walls.") + side;
+    if (wanted == wall || wanted.starts_with(wall + '.')) {
+      wanted.replace(0, wall.size(), "walls.SIDE");
+    }
+  }
+  std::string text;
+  std::vector<std::string> paths;
+  for (const KeyDoc& doc : key_docs()) {
+    paths.push_back(doc.path());
+    const bool within = doc.path() == wanted || doc.path().starts_with(wanted + '.');
+    if (wanted.empty() || within) text += (text.empty() ? "" : "\n") + text_of(doc);
+  }
+  if (text.empty()) {
+    const std::string near(near_miss(wanted, paths));
+    throw UserError(
+        {}, "there is no key " + in_quotes(name),
+        near.empty() ? "`clatter help keys` prints all keys" : "did you mean '" + near + "'?");
+  }
+  return text + "\nunits: " + kUnits + ", s: second of film\n";
+}
+
+void write_key_tables(const std::string& page) {
+  std::string text = read_file(page, 1 << 20, "a page of text");
+  const std::vector<KeyDoc> docs = key_docs();
+  std::vector<std::string> tables;
+  for (const KeyDoc& doc : docs) {
+    if (std::ranges::find(tables, doc.table) == tables.end()) tables.push_back(doc.table);
+  }
+  for (const std::string& table : tables) {
+    std::vector<KeyDoc> rows;
+    std::ranges::copy_if(docs, std::back_inserter(rows),
+                         [&](const KeyDoc& doc) { return doc.table == table; });
+    replace_part(text, page, "keys of " + (table.empty() ? "the scene" : table), markdown_of(rows));
+  }
+  write_file(page, text);
+}
+
+}  // namespace clatter

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+// The values that a key allows, in words: "a number between 0 and 1". The first argument is a value
+// of the key. An array must have as many numbers as this one.
+std::string allowed_values(double number, Limits limits);
+std::string allowed_values(int number, Limits limits);
+std::string allowed_values(bool flag, Limits limits);
+std::string allowed_values(const std::string& text, Limits limits);
+std::string allowed_values(const Vec2& numbers, Limits limits);
+std::string allowed_values(const VecX& numbers, Limits limits);
+std::string allowed_values(const std::vector<int>& numbers, Limits limits);
+std::string allowed_values(const ColourRange& range, Limits limits);
+std::string allowed_values(const Rgb& colour, Limits limits);
+
+}  // namespace clatter

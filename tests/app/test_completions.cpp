@@ -1,0 +1,88 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+namespace {
+
+// The candidates that bash offers for the last of these words.
+std::vector<std::string> candidates(const Shell& shell, const std::string& words) {
+  shell.write("complete.bash",
+              "source <(clatter completions bash)\n"
+              "compopt() { :; }\n"
+              "COMP_WORDS=(" +
+                  words +
+                  ")\n"
+                  "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
+                  "_clatter\n"
+                  "printf '%s\\n' \"${COMPREPLY[@]}\"\n");
+  const Outcome outcome = shell.run("bash complete.bash");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  std::istringstream lines(outcome.out);
+  std::vector<std::string> found;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) found.push_back(line);
+  }
+  return found;
+}
+
+using Words = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("Completions: bash offers commands, tables and the topics of help") {
+  const Shell shell;
+  CHECK(candidates(shell, "clatter sc") == Words{"scenes"});
+  CHECK(candidates(shell, "clatter bench acc") == Words{"accuracy"});
+  CHECK(candidates(shell, "clatter help ren") == Words{"render"});
+  CHECK(candidates(shell, "clatter help ke") == Words{"keys"});
+  CHECK(candidates(shell, "clatter completions ''") == Words{"bash", "zsh", "fish"});
+}
+
+TEST_CASE("Completions: bash offers the flags of the command and the choices of a flag") {
+  const Shell shell;
+  CHECK(candidates(shell, "clatter render --ba") == Words{"--backend"});
+  CHECK(candidates(shell, "clatter measure --backend") == Words{});
+  CHECK(candidates(shell, "clatter bench engine --are") == Words{"--area-fraction"});
+  CHECK(candidates(shell, "clatter render vibrated --progress ''") ==
+        Words{"auto", "json", "none"});
+  CHECK(candidates(shell, "clatter render -q ''") == Words{"l", "m", "h"});
+  CHECK(candidates(shell, "clatter render --seed ''") == Words{});
+}
+
+TEST_CASE("Completions: bash offers gallery names and files where a scene is expected") {
+  const Shell shell;
+  shell.write("vib.toml", "");
+  CHECK(candidates(shell, "clatter view vib") == Words{"vibrated", "vib.toml"});
+  CHECK(candidates(shell, "clatter measure --resume vib") == Words{"vib.toml"});
+  CHECK(candidates(shell, "clatter render vibrated --out vib") == Words{"vib.toml"});
+  shell.run("mkdir vib");
+  CHECK(candidates(shell, "clatter measure --csv vib") == Words{"vib"});
+}
+
+TEST_CASE("Completions: bash offers the keys of a scene") {
+  const Shell shell;
+  CHECK(candidates(shell, "clatter check --set particles.inert") == Words{"particles.inertia="});
+  CHECK(candidates(shell, "clatter help keys walls.top.dr") == Words{"walls.top.drive_speed"});
+}
+
+TEST_CASE("Completions: every command has the scripts of zsh and fish") {
+  const Shell shell;
+  const std::string zsh = shell.run("clatter completions zsh").out;
+  const std::string fish = shell.run("clatter completions fish").out;
+  CHECK(zsh.starts_with("#compdef clatter\n"));
+  for (const std::string command : {"view", "render", "measure", "check", "scenes", "bench"}) {
+    CAPTURE(command);
+    CHECK(says(zsh, "_clatter_" + command + "() {"));
+    CHECK(says(fish, "'__clatter_command_is' -a " + command + " "));
+  }
+  check_refused(shell, "clatter completions csh", {"'csh' is none of bash, zsh, fish"});
+}
+
+}  // namespace clatter
