@@ -171,30 +171,28 @@ bool goes_on_to(double end, const Resumed& resumed) {
   return !resumed.checkpoint.measurement.empty() && changed_laws(resumed).empty();
 }
 
-// The time at which the run ends. One that ends within the burn-in gets a shorter one, as large a
-// share of it as that of the scene, unless that was asked for beside it.
-double end_of(const MeasureOptions& options, Measure& spec) {
-  const double whole = spec.burn_in + spec.duration;
-  const double end = options.common.until.value_or(whole);
-  if (end > spec.burn_in) return end;
-  if (options.common.sets("measure.burn_in")) {
+// A run that ends within the burn-in gets a shorter one, which is as large a share of it as that of
+// the scene, unless both times were given as flags.
+void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
+  if (end > measure.burn_in) return;
+  if (options.sets("measure.burn_in")) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
-                    "go beyond measure.burn_in = " + number_text(spec.burn_in));
+                    "go beyond measure.burn_in = " + number_text(measure.burn_in));
   }
-  const double shorter = end * (spec.burn_in / whole);
-  if (!options.common.quiet) {
+  const double shorter = end * (measure.burn_in / (measure.burn_in + measure.duration));
+  if (!options.quiet) {
     std::fprintf(
         stderr,
         "note: the run ends within measure.burn_in = %s; averages begin at t = %s instead\n",
-        number_text(spec.burn_in).c_str(), number_text(shorter).c_str());
+        number_text(measure.burn_in).c_str(), number_text(shorter).c_str());
   }
-  spec.burn_in = shorter;
-  return end;
+  measure.burn_in = shorter;
 }
 
 int measure(const MeasureOptions& options) {
   Scene scene = load_disks(options.common, options.checkpoints.start_file());
-  const double end = end_of(options, scene.measure);
+  const double end = options.common.until.value_or(scene.measure.burn_in + scene.measure.duration);
+  fit_burn_in(scene.measure, end, options.common);
   const Measure& spec = scene.measure;
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
   if (resumed && !goes_on_to(end, *resumed)) {

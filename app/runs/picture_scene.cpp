@@ -7,7 +7,6 @@ namespace clatter {
 
 Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
                      StartFile start_file) {
-  constexpr std::size_t kLargestScene = 1'000'000;
   if (!is_png(path_or_name)) return load_scene(path_or_name, overrides, start_file);
   const auto inside = png_text(path_or_name, "Scene");
   if (!inside) {

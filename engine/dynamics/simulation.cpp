@@ -127,10 +127,24 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
   plan_all();
 }
 
+// A wall that swings goes out of the box by less than its side; farther out there are no cells.
+template <int D>
+static bool is_inside(const Model<D>& model, const Vec<D>& r) {
+  for (int axis = 0; axis < D; ++axis) {
+    const double side = model.box[axis];
+    const bool inside = -side < r[axis] && r[axis] < 2.0 * side;
+    if (!model.periodic(axis) && !inside) return false;
+  }
+  return r.allFinite();
+}
+
 template <int D>
 void Simulation<D>::fill_cells() {
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
+    if (!is_inside<D>(model_, r)) {
+      throw PhysicalStop("particle " + std::to_string(i) + " is outside of the walls at the start");
+    }
     particles_[i].image = model_.image_index(r);
     plans_[i].cell = grid_.cell_at(r - particles_[i].image.cwiseProduct(model_.box));
     grid_.insert(i, plans_[i].cell);

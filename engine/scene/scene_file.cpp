@@ -27,7 +27,6 @@ namespace {
 /// Where the files lie that a scene names.
 enum class Origin { Folder, Gallery };
 
-constexpr std::size_t kLargestScene = 1'000'000;
 constexpr std::size_t kLargestState = 4'000'000'000;
 
 const EmbeddedFile* find_embedded(std::span<const EmbeddedFile> files, std::string_view name) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ enum class StartFile { Read, Skip };
 /// validates the whole. Throws UserError with file, line, column, what is wrong and what to do.
 Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {},
                  StartFile start_file = StartFile::Read);
+
+/// Most bytes that the text of a scene may have.
+inline constexpr std::size_t kLargestScene = 1'000'000;
 
 /// Like load_scene, of a scene in the gallery.
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides = {});

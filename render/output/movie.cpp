@@ -92,16 +92,15 @@ void Movie::open_folder() {
 }
 
 void Movie::require_earlier_pieces() {
-  for (long piece = options_.begin; piece < next_; piece = start_of_piece(piece) + kPiece) {
-    if (std::filesystem::exists(piece_path(piece))) continue;
-    throw UserError(
-        {path_.string()},
-        "the film goes on, but its piece " + piece_path(piece).string() + " is not there",
-        (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
-            ("name the film that was cut, or begin one by --frames " + std::to_string(next_) +
-             ":"));
-  }
   const std::vector<Piece> earlier = pieces();
+  for (const Piece& piece : earlier) {
+    if (std::filesystem::exists(piece.path)) continue;
+    throw UserError({path_.string()},
+                    "the film goes on, but its piece " + piece.path.string() + " is not there",
+                    (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
+                        ("name the film that was cut, or begin one by --frames " +
+                         std::to_string(next_) + ":"));
+  }
   for (std::size_t i = checksums_.size(); i < earlier.size(); ++i) {
     checksums_.push_back(checksum_of_file(earlier[i].path).value_or(0));
   }

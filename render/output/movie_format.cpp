@@ -86,32 +86,24 @@ std::string metadata_file(const std::vector<PngText>& texts) {
   return ";FFMETADATA1\ntitle=" + escaped(title) + "\ncomment=" + escaped(comment) + "\n";
 }
 
+// The encoder, which says no more than errors and replaces its output.
+static std::vector<std::string> quiet(const std::string& encoder) {
+  return {encoder, "-v", "error", "-nostdin", "-y"};
+}
+
+// The texts of a film, as the input after the pictures.
+static std::vector<std::string> texts_of(const std::filesystem::path& metadata) {
+  return {"-f", "ffmetadata", "-i", name_of(metadata), "-map_metadata", "1"};
+}
+
 std::vector<std::string> encoding_command(const std::string& encoder, const MovieFormat& format,
                                           const SinkOptions& options,
                                           const std::filesystem::path& metadata,
                                           const std::filesystem::path& file) {
-  const std::string fps = fmt::format("{:.10g}", options.fps);
-  std::vector<std::string> all = {encoder,
-                                  "-v",
-                                  "error",
-                                  "-nostdin",
-                                  "-y",
-                                  "-f",
-                                  "rawvideo",
-                                  "-pix_fmt",
-                                  "rgba",
-                                  "-video_size",
-                                  size_text(options.size),
-                                  "-framerate",
-                                  fps,
-                                  "-i",
-                                  "pipe:0",
-                                  "-f",
-                                  "ffmetadata",
-                                  "-i",
-                                  name_of(metadata),
-                                  "-map_metadata",
-                                  "1"};
+  std::vector<std::string> all = quiet(encoder);
+  append(all, {"-f", "rawvideo", "-pix_fmt", "rgba", "-video_size", size_text(options.size)});
+  append(all, {"-framerate", fmt::format("{:.10g}", options.fps), "-i", "pipe:0"});
+  append(all, texts_of(metadata));
   append(all, format.encoding);
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
@@ -121,25 +113,11 @@ std::vector<std::string> joining_command(const std::string& encoder, const Movie
                                          const std::filesystem::path& metadata,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file) {
-  std::vector<std::string> all = {encoder,
-                                  "-v",
-                                  "error",
-                                  "-nostdin",
-                                  "-y",
-                                  "-f",
-                                  "concat",
-                                  "-i",
-                                  name_of(list),
-                                  "-f",
-                                  "ffmetadata",
-                                  "-i",
-                                  name_of(metadata),
-                                  "-map_metadata",
-                                  "1",
-                                  "-c",
-                                  "copy"};
+  std::vector<std::string> all = quiet(encoder);
+  append(all, {"-f", "concat", "-i", name_of(list)});
+  append(all, texts_of(metadata));
   // Without names that the muxer makes up, so that the same film is the same file.
-  append(all, {"-fflags", "+bitexact"});
+  append(all, {"-c", "copy", "-fflags", "+bitexact"});
   if (format.muxer == "mp4") append(all, {"-movflags", "+faststart"});
   append(all, {"-f", format.muxer, name_of(file)});
   return all;

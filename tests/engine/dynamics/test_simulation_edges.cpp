@@ -94,6 +94,10 @@ TEST_CASE("Simulation: a start with overlap is refused, one that touches is not"
   CHECK_THROWS_AS(Simulation<2>(model, start({2.0, 0.2}, {2.0, 7.5})), PhysicalStop);
   CHECK_THROWS_AS(Simulation<2>(model, start({0.4, 3.0}, {5.0, 3.0})), PhysicalStop);
   CHECK_THROWS_AS(Simulation<2>(model, start({2.0, 3.0}, {8.6, 3.0})), PhysicalStop);
+  for (const double far : {-1e300, -9.5, 18.5, 1e14}) {
+    CHECK_THROWS_WITH_AS(Simulation<2>(model, start({2.0, 3.0}, {far, 3.0})),
+                         "particle 1 is outside of the walls at the start", PhysicalStop);
+  }
 }
 
 // Dropped from rest at the border of two cells, an elastic particle turns there again and again,
