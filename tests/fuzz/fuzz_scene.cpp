@@ -1,18 +1,23 @@
-// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn. Lines
+// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn and
+// measured. The JSON of the result is parsed again and has finite numbers only. Lines
 // "#set key=value" in it are settings, as --set gives them; a mutator of our own adds these, of
 // every key and with the ends of all ranges.
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/results/result_json.h"
 #include "engine/error.h"
+#include "engine/measure/measurement.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/scene_file.h"
@@ -20,6 +25,7 @@
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
+#include "tests/fuzz/extreme_number.h"
 
 using namespace clatter;
 
@@ -30,6 +36,7 @@ constexpr int kMaxParticles = 1000;
 constexpr std::uint64_t kCollisions = 1000, kSteps = 20000;
 // Averages take time where nothing moves, too.
 constexpr double kWindows = 100.0;
+constexpr double kMaxCells = 4000.0, kSamples = 100.0;
 
 constexpr std::string_view kSetting = "#set ";
 
@@ -41,49 +48,6 @@ std::vector<std::string> keys_of_scenes() {
   return lister.keys();
 }
 
-// Limits, their neighbours, and numbers at the ends of double precision.
-std::string extreme_number(std::minstd_rand& random) {
-  constexpr std::array<const char*, 36> kNumbers = {"0",
-                                                    "-0.0",
-                                                    "1",
-                                                    "-1",
-                                                    "2",
-                                                    "3",
-                                                    "5e-324",
-                                                    "2.3e-308",
-                                                    "1e-300",
-                                                    "1e-30",
-                                                    "1e-15",
-                                                    "1e-9",
-                                                    "1e-6",
-                                                    "1e-3",
-                                                    "0.5",
-                                                    "0.999999999999999",
-                                                    "1.0000000001",
-                                                    "10",
-                                                    "16",
-                                                    "1000",
-                                                    "1e3",
-                                                    "2000",
-                                                    "1e6",
-                                                    "1e9",
-                                                    "1e12",
-                                                    "1e15",
-                                                    "1e30",
-                                                    "1e100",
-                                                    "1e300",
-                                                    "1.7e308",
-                                                    "-1e308",
-                                                    "inf",
-                                                    "nan",
-                                                    "2147483647",
-                                                    "2147483648",
-                                                    "9223372036854775807"};
-  if (random() % 4) return kNumbers[random() % kNumbers.size()];
-  const double magnitude = std::pow(10.0, static_cast<double>(random() % 4000) / 100.0 - 20.0);
-  return std::to_string(magnitude);
-}
-
 std::string extreme_value(std::minstd_rand& random) {
   constexpr std::array<const char*, 20> kWords = {
       "static",   "driven", "thermal",  "sawtooth",  "sinusoidal", "exact",  "snapshot",
@@ -93,7 +57,7 @@ std::string extreme_value(std::minstd_rand& random) {
     case 0:
       return kWords[random() % kWords.size()];
     case 1:
-      return "[" + extreme_number(random) + ", " + extreme_number(random) + "]";
+      return extreme_list(random);
     case 2:
       return "[{ time = " + extreme_number(random) + ", width = " + extreme_number(random) + " }]";
     case 3:
@@ -128,6 +92,34 @@ void draw(const Scene& scene, const Snapshot& snapshot) {
   renderer.draw(snapshot, camera, {64, 48}, scene.view, text);
 }
 
+// JSON writes a number that is not finite as null.
+void require_finite(const nlohmann::ordered_json& json, const std::string& name) {
+  for (const auto& [key, value] : json.items()) {
+    // A column that no particle visits has no temperature.
+    if (key == "profile") continue;
+    if (value.is_null()) {
+      std::fprintf(stderr, "%s.%s is not finite\n", name.c_str(), key.c_str());
+      std::abort();
+    }
+    if (value.is_structured()) require_finite(value, name + '.' + key);
+  }
+}
+
+// Measures a scene without changes up to a time, and reads the result's text again.
+void measure(Scene scene, double end) {
+  double cells = 1.0;
+  for (const int count : scene.measure.cells) cells *= count;
+  if (!scene.changes.empty() || !(end > 0.0) || cells > kMaxCells) return;
+  scene.measure.burn_in = 0.0;
+  scene.measure.series_interval = std::max(scene.measure.series_interval, end / kSamples);
+  scene.measure.interval = std::max(scene.measure.interval, end / kSamples);
+  const auto simulation = simulation_of<2>(scene, 1);
+  Measurement measurement(*simulation, scene.measure, end);
+  simulation->run_until(end, kCollisions, kSteps);
+  const auto result = result_json(scene, 1, *simulation, measurement.result(), {});
+  require_finite(nlohmann::ordered_json::parse(result.dump()), "result");
+}
+
 void run(const std::string& text) {
   const Scene scene = parse_scene(text, "fuzz.toml", settings_in(text));
   if (scene.particles.count > kMaxParticles) return;
@@ -136,6 +128,7 @@ void run(const std::string& text) {
   const double end = scene.measure.burn_in + scene.measure.duration;
   run.run_until(std::min(end, kWindows * scene.view.window), kCollisions, kSteps);
   draw(run.scene(), run.snapshot());
+  measure(scene, run.simulation().time());
 }
 
 }  // namespace
