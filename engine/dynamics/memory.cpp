@@ -17,9 +17,9 @@
 
 namespace clatter {
 
-// Besides the particle and its plan: the list of one cell, of up to four and what continues them
-// where particles lie in clusters (Simulation::fit_cells), and two entries of the event queue with
-// room to grow.
+// Besides the particle and its plan, this counts the list of one cell and four events: two entries
+// of the event queue with room to grow. In clusters a particle may have up to four cells with
+// continued lists (Simulation::fit_cells).
 template <int D>
 static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
                                             sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event);

@@ -11,7 +11,7 @@
 
 namespace clatter {
 
-/// The laws of one run, constant while it lasts.
+/// The laws of one run, constant during the run.
 template <int D>
 struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
@@ -32,7 +32,8 @@ struct Model {
   bool has_gravity() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// The whole box lengths by which a position lies outside the box, along periodic axes.
+  /// Periodic image of a position: whole box lengths from the box along periodic axes; 0 along
+  /// others.
   Vec<D> image_index(const Vec<D>& position) const {
     Vec<D> boxes = Vec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {
@@ -42,14 +43,14 @@ struct Model {
     }
     return boxes;
   }
-  /// Where the centres of particles that touch a wall lie: `end` 0 is the near wall of the axis, 1
-  /// the far.
+  /// Coordinate of the centre of a particle that touches a wall at its resting place. `end` is 0
+  /// for the near wall of the axis and 1 for the far wall.
   double wall_plane(int axis, int end) const {
     return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;
   }
 };
 
-/// The laws that a scene of D dimensions asks for.
+/// The laws of a scene of D dimensions.
 template <int D>
 Model<D> model_of(const Scene& scene, std::uint64_t seed);
 
