@@ -10,12 +10,13 @@
 
 namespace clatter {
 
-// A file is: the magic, the head, the body, and the CRC-32 of all before.
+// A file consists of the magic, the head, the body, and the CRC-32 of all bytes before it.
 static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
-// To be raised when a struct that it keeps changes.
+// Raise it when a struct in the checkpoint changes.
 static constexpr std::uint32_t kVersion = 9;
 
-// Program and command come first in every version, so that a file of another one can be told.
+// Program and command come first in every version, so that the error for another version can name
+// them.
 template <class Archive>
 static void visit(Archive& io, Checkpoint& checkpoint) {
   auto& [program, command, scene, start_temperature, seed, saved, measurement, film] = checkpoint;
@@ -71,7 +72,7 @@ std::string read_whole(const std::filesystem::path& file) {
   return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a particle");
 }
 
-// The body is that of another version, of which only the beginning is known.
+// Of the body of another version only the beginning is known.
 [[noreturn]] void refuse_version(const std::filesystem::path& file, std::uint32_t version,
                                  std::string_view body) {
   std::string program;
