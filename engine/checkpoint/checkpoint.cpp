@@ -59,7 +59,7 @@ void read(T& value, std::string_view bytes, const std::filesystem::path& file) {
   std::error_code ignored;
   throw UserError({file.string()}, what,
                   std::filesystem::exists(previous, ignored)
-                      ? "the one before is " + previous.string()
+                      ? "the previous checkpoint is " + previous.string()
                       : "give a file that --checkpoint, an interrupt or a stop has left");
 }
 
@@ -69,7 +69,7 @@ std::string read_whole(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
   if (!std::ifstream(file)) refuse(file, "the file cannot be read");
   if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
-  return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a particle");
+  return read_file(file.string(), kLargest, "a checkpoint has about 100 bytes per particle");
 }
 
 // Of the body of another version only the beginning is known.
@@ -113,7 +113,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string_view body = take(head.length);
   std::uint32_t sum = 0;
   read(sum, take(kChecksumBytes), file);
-  if (!bytes.empty()) refuse(file, "the checkpoint is damaged: something follows its end");
+  if (!bytes.empty()) refuse(file, "the checkpoint is damaged: extra bytes follow its end");
   if (sum != checksum({whole.data(), whole.size() - kChecksumBytes})) {
     refuse(file, "the checkpoint is damaged: its checksum differs");
   }

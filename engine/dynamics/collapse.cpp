@@ -110,7 +110,8 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
                            std::to_string(particle) + " and " + partner_name(partner) +
                            " collide without end";
   if (is_cold_wall<D>(model, partner)) {
-    return PhysicalStop(what + "; a wall of temperature 0 lets no particle go, give it some");
+    return PhysicalStop(what +
+                        "; a wall of temperature 0 emits no particle: raise its temperature");
   }
   const double helpful = helpful_contact_time<D>(model, watchdog);
   if (helpful == 0.0) {

@@ -47,7 +47,7 @@ void require_memory(const Scene& scene) {
   if (needed <= there && scene.particles.count <= most_particles(scene)) return;
   const double fitting = std::floor(scene.particles.count * (there / needed));
   const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
-  const std::string reason = needed <= there ? " particles are more than can be numbered"
+  const std::string reason = needed <= there ? " particles exceed the limit of the program"
                                              : " particles take about " + gigabytes(needed) +
                                                    " GB, and this machine has " + gigabytes(there);
   throw UserError({"particles.count", 0, 0}, std::to_string(scene.particles.count) + reason,
