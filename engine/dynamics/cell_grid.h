@@ -35,7 +35,7 @@ class CellGrid {
   const IntVec<D>& counts() const { return counts_; }
   /// The cell that holds a position inside the box.
   IntVec<D> cell_at(const Vec<D>& position) const;
-  /// The cell next to one along an axis, on the side of `step` = +1 or -1, round the periodic
+  /// The cell next to one along an axis, on the side of `step` = +1 or -1, across the periodic
   /// border.
   IntVec<D> neighbour(IntVec<D> cell, int axis, int step) const {
     cell[axis] += step;

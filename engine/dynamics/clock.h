@@ -10,8 +10,8 @@ struct LongTime {
   double low = 0.0;
 };
 
-/// Maps between simulation time and the moving base on which the engine keeps event times, so that
-/// an event at t = 1e9 is as precise as one at t = 0.
+/// Maps between simulation time and the moving base. The engine keeps event times on this base, so
+/// that an event at t = 1e9 is as precise as one at t = 0.
 class Clock {
  public:
   /// A clock with its base at `start`.

@@ -44,8 +44,8 @@ class EventQueue {
   std::int64_t bucket() const { return bucket_; }
 
  private:
-  // Measured best from N = 10^3 to 10^6. With fewer buckets in the current row, more of the L2
-  // cache is left to the particles, but more events are in rows and are moved once more.
+  // Measured best from N = 10^3 to 10^6. Fewer buckets per row leave more of the L2 cache to the
+  // particles. But then more events are in rows and are moved once more.
   static constexpr unsigned kRowShift = 9;  // log2 of the buckets per row
   // Mask of a bucket's number that gives its index in its row.
   static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;

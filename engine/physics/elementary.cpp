@@ -130,7 +130,7 @@ double acos_turns(double x) {
 }
 
 double natural_log(double x) {
-  // x = 2^exponent (1 + f), where 1 + f lies between the roots of 1/2 and 2.
+  // x = 2^exponent (1 + f), with 1 + f between the square roots of 1/2 and 2.
   constexpr std::uint64_t kRootOfHalf = std::bit_cast<std::uint64_t>(0.5 * std::numbers::sqrt2);
   const bool subnormal = x < 0x1p-1022;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(subnormal ? x * 0x1p54 : x);

@@ -142,7 +142,7 @@ class WidestGrid {
     const std::int64_t last =
         std::min(bound_along(room_, grid.centred, axis), needed_ / product + unit);
     for (points = unit; points <= last; points += unit) {
-      // With more points, sites lie only closer along this axis.
+      // With more points, sites are only closer along this axis.
       if (distance_in_row(room_, grid.centred, axis, points) <= distance_) return;
       search(grid, k + 1, product * points);
     }

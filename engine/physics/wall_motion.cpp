@@ -69,11 +69,11 @@ double gap_rate(const Approach& particle, double t) {
          wall_velocity(particle.motion, particle.motion.phase + particle.motion.frequency * t);
 }
 
-// Newton's method on a convex or concave gap never passes a root that it approaches from the side
-// where gap and curvature have the same sign, because the tangent reaches zero first. Each step
-// divides gap * rate by at least four, even for grazing contacts: by convexity the factors of gap
-// and rate have a sum of at most one. Both searches end when the gap changes its sign or the step
-// is lost in rounding. kMaxSteps steps suffice for this.
+// Newton's method starts on the side of the root where gap and curvature have the same sign. On a
+// convex or concave gap it then never passes the root, because the tangent reaches zero first. Each
+// step divides gap * rate by at least four, even for grazing contacts: by convexity the factors of
+// gap and rate have a sum of at most one. Both searches end when the gap changes its sign or the
+// step is lost in rounding. kMaxSteps steps suffice for this.
 constexpr int kMaxSteps = 200;
 
 // The first root of a gap that is convex and not negative at `left`; the search starts at `left`.

@@ -33,7 +33,7 @@ struct FlightPiece {
   VecX velocity;                ///< at `from`
   VecX acceleration;            ///< of gravity
 
-  /// The centre at a time; may lie outside a periodic box.
+  /// The centre at a time; may be outside a periodic box.
   VecX at(double time) const {
     const double dt = time - from;
     return position + (velocity + 0.5 * dt * acceleration) * dt;

@@ -19,8 +19,8 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
 /// known.
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// The number of particles of the input. Throws UserError if both keys or none are given, if the
-/// number exceeds the capacity of all lattices, or if it differs from the start state.
+/// The number of particles of the input. Throws UserError if both keys or none are given, if no
+/// lattice holds that many, or if the start state has another number.
 int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file);
 
 }  // namespace clatter
