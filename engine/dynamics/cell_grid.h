@@ -14,9 +14,11 @@ namespace clatter {
 /// Grid of cells that finds near particles. Two particles that touch belong to the same cell or to
 /// neighbouring cells. A particle stays in its cell until it is beyond the cell's border by an
 /// overhang. This hysteresis prevents repeated crossings; the overhang is as wide as the first
-/// condition allows.  The list of a cell holds the particles of the cell and of all neighbouring
-/// cells. A search for partners reads one list. A crossing removes the particle from one row of
-/// lists and adds it to another. Searches are far more frequent than crossings.
+/// condition allows.
+///
+/// The list of a cell holds the particles of the cell and of all neighbouring cells. A search for
+/// partners reads one list. A crossing removes the particle from one row of lists and adds it to
+/// another. Searches are far more frequent than crossings.
 template <int D>
 class CellGrid {
  public:
@@ -25,7 +27,7 @@ class CellGrid {
 
   /// Puts a particle into a cell.
   void insert(std::uint32_t particle, const IntVec<D>& cell);
-  /// Takes a particle out of the cell it was put into.
+  /// Removes a particle from its cell.
   void remove(std::uint32_t particle, const IntVec<D>& cell);
   /// Moves a particle from its cell to the neighbour along an axis, on the side of `step` = +1 or
   /// -1.
@@ -98,7 +100,7 @@ class CellGrid {
   void visit_moved(const IntVec<D>& cell, int axis, int step, const Visit& visit) const;
 
  private:
-  // A cell along one axis, from the one before the first to the one after the last.
+  // A cell along one axis. There is one more beyond either end.
   struct Place {
     std::uint32_t index = kNone;  // this axis' part of the index of its list; kNone: a wall
     Neighbour wrap = 0;           // wrap of a particle within the box, seen from there

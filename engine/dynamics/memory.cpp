@@ -17,9 +17,9 @@
 
 namespace clatter {
 
-// Besides the particle and its plan, this counts the list of one cell and four events: two entries
-// of the event queue with room to grow. In clusters a particle may have up to four cells with
-// continued lists (Simulation::fit_cells).
+// Bytes of a particle, its plan, one cell list, and two entries of the event queue with room to
+// grow. In clusters there may be up to four cells per particle and continued lists
+// (Simulation::fit_cells), which are not counted.
 template <int D>
 static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
                                             sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event);

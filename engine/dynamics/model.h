@@ -20,7 +20,7 @@ struct Model {
   double restitution = 1.0;  ///< alpha of collisions between particles
   Roughness roughness;       ///< of the particles
   double inertia = 0.5;      ///< q = 4I/(m a^2)
-  bool spins = false;        ///< whether particles or walls are rough, so that spins are carried
+  bool spins = false;        ///< whether particles or walls are rough; then particles have spins
   Vec<D> gravity = Vec<D>::Zero();      ///< acceleration of every particle
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off

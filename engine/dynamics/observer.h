@@ -15,9 +15,9 @@ template <int D>
 struct ParticleChange {
   std::uint32_t particle = 0;
   Flight<D> before;                  ///< flight that ends here
-  Vec<D> position = Vec<D>::Zero();  ///< centre, in the frame of that flight
+  Vec<D> position = Vec<D>::Zero();  ///< centre, in the flight's frame
   Vec<D> velocity = Vec<D>::Zero();  ///< just before
-  Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 where none are carried
+  Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 without spins
   Impulse<D> gain;                   ///< of momentum and of spin
   double energy = 0.0;               ///< gain in kinetic energy, of motion and of spin
 };
@@ -27,7 +27,7 @@ template <int D>
 struct PairCollision {
   double time = 0.0;  ///< on the moving base
   std::array<ParticleChange<D>, 2> particles;
-  Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 at the image that touches
+  Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 of the periodic images in contact
   bool elasticised = false;            ///< whether the TC model made the collision elastic
   double undissipated = 0.0;           ///< energy that the TC model saved from dissipation
 };

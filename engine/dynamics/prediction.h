@@ -20,8 +20,8 @@ struct FirstContact;
 /// The next event of a particle: its first contact near its cell, or its exit from the cell.
 template <int D>
 struct Plan {
-  double time = kNever;              ///< kNever: it rests, and nothing comes near
-  std::uint32_t partner = 0;         ///< as in an Event
+  double time = kNever;              ///< kNever: no event, for a particle at rest
+  std::uint32_t partner = 0;         ///< as Event::partner
   std::uint32_t partner_flight = 0;  ///< number of the partner's flight at the prediction
   IntVec<D> image =
       IntVec<D>::Zero();  ///< box lengths to add to this particle's r minus the partner's
@@ -57,7 +57,7 @@ class Prediction {
   using Requests = std::array<Request, kParticles>;
   template <std::size_t kParticles>
   using Planner = void(const Prediction&, const Requests<kParticles>&, double now);
-  // With the widest vectors that the processor has.
+  // Functions that use the widest vectors of the processor.
   struct Planners {
     Planner<1>* one;
     Planner<2>* two;
@@ -109,8 +109,7 @@ class Prediction {
   const CellGrid<D>& grid_;
   bool walled_;  // whether there are walls
   Planners planners_;
-  std::array<double, 2 * D>
-      reach_;  // distance from the box's edge within which the wall can be touched
+  std::array<double, 2 * D> reach_;  // range of each side's wall, from the box's edge
 };
 
 extern template class Prediction<2>;

@@ -41,7 +41,7 @@ static bool may_collapse(const Model<D>& model) {
   return may;
 }
 
-// 0 where there are no kicks.
+// Interval of kicks; 0 without bulk driving.
 template <int D>
 static double kick_interval(const Model<D>& model) {
   return model.bulk_drive ? model.bulk_drive->interval : 0.0;

@@ -62,7 +62,7 @@ class Simulation {
   std::uint64_t state_hash() const;
   /// Kinetic energy of all particles' centres at time().
   double kinetic_energy() const;
-  /// T = (m/DN) sum v^2 at time(); 0 where there are no particles.
+  /// T = (m/DN) sum v^2 at time(); 0 without particles.
   double temperature() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
@@ -77,7 +77,7 @@ class Simulation {
   const Model<D>& model() const { return model_; }
   /// [N] stored states, in original order; each since the particle's last physical event.
   const LargeArray<Particle<D>>& particles() const { return particles_; }
-  /// [N] angular velocities, in original order; empty where the model carries none.
+  /// [N] angular velocities, in original order; empty without spins.
   const LargeArray<Spin<D>>& spins() const { return spins_; }
   /// Events since the start.
   const EventCounts& counts() const { return counts_; }

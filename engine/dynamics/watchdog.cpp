@@ -36,8 +36,10 @@ double Watchdog::longest_known_mean() const {
 }
 
 // The first checks follow each other closely, so that a collapse soon after the start does not
-// enter the mean time.  Pairs are counted only after a first suspicion. A normal run then pays for
-// one check every 10^4 collisions.
+// enter the mean time.
+//
+// Pairs are counted only after a first suspicion. A normal run then pays for one check every 10^4
+// collisions.
 bool Watchdog::look(double time) {
   const std::uint64_t seen = look_interval_;
   look_interval_ = std::min(2 * seen, longest_interval_);

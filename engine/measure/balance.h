@@ -22,7 +22,7 @@ struct Booked {
   Conserved<D> size = Conserved<D>::Zero();  ///< sum of the bookings' magnitudes
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Booked<D>& sum) {
   auto& [net, size] = sum;
@@ -44,7 +44,7 @@ struct Bookings {
   std::vector<Conserved<D>> weights;
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Bookings<D>& bookings) {
   auto& [faces, sources, weights] = bookings;
@@ -68,7 +68,7 @@ struct Imbalances {
   Imbalances& operator+=(const Imbalances& other);
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Imbalances<D>& imbalances) {
   auto& [gaps, sizes] = imbalances;

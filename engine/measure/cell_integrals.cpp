@@ -169,7 +169,7 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [a, b] = collision.particles;
   end_flight(a, collision.time);
   end_flight(b, collision.time);
-  // The partner at the image that touches.
+  // The periodic image of the partner in contact.
   const Vec<D> partner = a.position - collision.separation;
   add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy - b.energy));
   // Without dissipation zeta is exactly 0, not the rounding of energies that cancel.

@@ -25,7 +25,7 @@ struct CellSums {
   CellSums& operator+=(const CellSums& other);
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, CellSums& sums) {
   auto& [time, kinetic_weight, rows] = sums;

@@ -14,9 +14,11 @@ namespace clatter {
 
 /// Equal cells over the whole box. Along each axis cell 0 is at the low end of the box; the
 /// numbering continues beyond the box on both sides. Folding maps a number into the box:
-/// periodically, or, between walls, to the nearest edge cell.  The side of a border on which a
-/// position is depends on rounding. To count each particle exactly once, callers therefore track
-/// its cell from border to border: walks start, and lines end, in the given cells.
+/// periodically, or, between walls, to the nearest edge cell.
+///
+/// The side of a border on which a position is depends on rounding. To count each particle exactly
+/// once, callers therefore track its cell from border to border: walks start, and lines end, in the
+/// given cells.
 template <int D>
 class FieldGrid {
  public:
@@ -140,7 +142,7 @@ class FieldGrid {
       for (int k = 1; k < D; ++k) {
         if (borders[k].next < borders[axis].next) axis = k;
       }
-      // Rounding must not let a piece be negative.
+      // Rounding must not make a piece negative.
       const double next = std::clamp(borders[axis].next, done, 1.0);
       piece(cell, next - done);
       cross(cell, axis, borders[axis].step);

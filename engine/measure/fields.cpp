@@ -43,7 +43,7 @@ S collisional_stress(const Cell<D, S>& cell, int k, int l) {
   return -cell.transfer[k][l];
 }
 
-// (theory 8.8), multiplied out: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
+// (theory 8.8), expanded: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
 template <int D, class S>
 S kinetic_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_flux[k] - cell.energy() * velocity(cell, k);
@@ -119,7 +119,7 @@ constexpr std::array<Derivation<D, S>, kQuantities.size()> kDerivations = {{
        return part_of(field.part, cell, kinetic_stress(cell, field.i, field.j),
                       collisional_stress(cell, field.i, field.j));
      }},
-    // (theory 8.8), multiplied out, has the energy and every component of the kinetic stress.
+    // The expanded (theory 8.8) contains the energy and every component of the kinetic stress.
     {Quantity::HeatFlux,
      sum::kVelocity | sum::kSquares | sum::kShears | sum::kEnergyFlux | sum::kSpinEnergy,
      sum::kVelocity | sum::kTransfer | sum::kEnergyTransfer,

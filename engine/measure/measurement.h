@@ -21,7 +21,7 @@ namespace clatter {
 /// are absent.
 struct Measured {
   double burn_in = 0.0;               ///< simulation time at which averages start
-  double duration = 0.0;              ///< time averaged over
+  double duration = 0.0;              ///< averaging time
   std::uint64_t pair_collisions = 0;  ///< collisions in that time
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;                   ///< of bulk driving, each of all particles
@@ -29,7 +29,7 @@ struct Measured {
   std::uint64_t elasticised_wall = 0;        ///< collisions with walls that t_c made elastic
   Estimate temperature;                      ///< T
   std::vector<Estimate> axis_temperatures;   ///< [D] T_k
-  std::optional<Estimate> spin_temperature;  ///< T_rot = I <omega^2>, where spins are carried
+  std::optional<Estimate> spin_temperature;  ///< T_rot = I <omega^2>; absent without spins
   std::vector<Estimate> kurtosis_excess;     ///< [D] <v_k^4>/(3 <v_k^2>^2) - 1
   Estimate collision_rate;  ///< pair collisions per particle and time; each counts for both
   std::optional<Estimate> walls_in;    ///< power of the walls
@@ -49,7 +49,7 @@ struct Measured {
   std::vector<FieldMaps> map_series;        ///< of averages, over parts of `duration`, see PartSums
   std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
   std::vector<double> series_temperature;   ///< T at those times
-  std::vector<double> series_spin_temperature;  ///< T_rot; empty where no spins are carried
+  std::vector<double> series_spin_temperature;  ///< T_rot; empty without spins
 };
 
 /// Upper estimate of the memory of fields and balances in a measurement, in bytes; 0 without

@@ -28,7 +28,7 @@ struct Residuals {
 /// Throws RunError if a residual exceeds rounding (1e-6).
 void require_closed(const Residuals& residuals);
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Residuals& residuals) {
   auto& [equations] = residuals;

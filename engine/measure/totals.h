@@ -28,7 +28,7 @@ struct WindowTotals {
   std::array<double, 2 * D> wall_impulse{};  ///< momentum transfer to each wall, along its normal
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,

@@ -158,9 +158,10 @@ template <int D, bool kShifted>
 
 /// For each particle, the first pair_contact_time with its candidates. A particle may be its own
 /// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `gravity` is
-/// read only with kFalling. The result has the same bits with any instruction set.  Without
-/// kShifted, no candidate may be wrapped, and all rows must be in the frame of the box. If a row is
-/// in another frame, `unique` is false and the other results are invalid.
+/// read only with kFalling. The result has the same bits with any instruction set.
+///
+/// Without kShifted, no candidate may be wrapped, and all rows must be in the frame of the box. If
+/// a row is in another frame, `unique` is false and the other results are invalid.
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
     const double* rows, const std::array<std::uint32_t, kParticles>& particles,

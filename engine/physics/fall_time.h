@@ -9,7 +9,9 @@ namespace clatter {
 
 /// Time from now at which gap + speed t + acceleration t^2/2 first passes zero downwards, or
 /// kNever. A gap below zero counts as rounding and is set to zero. Without acceleration the result
-/// has the bits of gap / -speed.  The form of the root is the one that adds numbers of one sign.
+/// has the bits of gap / -speed.
+///
+/// The form of the root is the one that adds numbers of one sign.
 inline double fall_time(double gap, double speed, double acceleration) {
   if (speed >= 0.0 && acceleration >= 0.0) return kNever;
   if (!(gap > 0.0)) gap = 0.0;
@@ -28,8 +30,9 @@ struct WayOut {
 
 /// The first exit of a body at the distance `above` from the lower and `below` from the upper
 /// plane. Distances below zero count as rounding and are set to zero. The acceleration must not be
-/// zero.  As fall_time(), but branch-free, because the speed's sign and the plane are
-/// unpredictable.
+/// zero.
+///
+/// As fall_time(), but branch-free, because the speed's sign and the plane are unpredictable.
 inline WayOut exit_time(double above, double below, double speed, double acceleration) {
   const bool upwards = acceleration > 0.0;
   const double a = std::fabs(acceleration);

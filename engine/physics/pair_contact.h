@@ -45,6 +45,7 @@ struct PairApproach {
 };
 
 /// The approach of two flights. A null `shift` means 0. Without kFalling, `gravity` is not read.
+///
 /// Gravity accelerates all particles equally, so relative motion is along a straight line. Gravity
 /// enters only through the positions and velocities at the later flight's start.
 template <int D, bool kFalling, class Number>
@@ -82,9 +83,11 @@ template <int D, bool kFalling, class Number>
 
 /// Time at which the particles of two flights touch, kNever, or kTouching. Exchange of the flights
 /// with a negated shift gives the same bits. So the result does not depend on the particle and the
-/// time of the prediction.  Contact is the first root of |x + g t| = a. Its discriminant is
-/// calculated as g^2 a^2 - |x ^ g|^2. Unlike (x.g)^2 - g^2 (x^2 - a^2), this form has no
-/// cancellation for particles that start far apart.
+/// time of the prediction.
+///
+/// Contact is the first root of |x + g t| = a. Its discriminant is calculated as g^2 a^2 - |x ^
+/// g|^2. Unlike (x.g)^2 - g^2 (x^2 - a^2), this form has no cancellation for particles that start
+/// far apart.
 template <class Number>
 [[gnu::always_inline]] inline Number pair_contact_time(const PairApproach<Number>& a) {
   const Number zero{};

@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-/// Angular velocity in D dimensions: one number in the plane, a vector in space.
+/// Angular velocity: one number in 2D, a vector in 3D.
 template <int D>
 using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
 

@@ -141,13 +141,16 @@ double contact_with_ramp(const Approach& particle, double number) {
 // crest. A particle behind the wall at a crest has been hit. A particle in front of the wall at a
 // crest can be hit only after it has fallen to the crest's height; the search continues there. A
 // particle that stays below this height for a period is hit. A parabola falls to a height at most
-// twice, so the search visits few crests.  "Near" means one stroke from the wall's extreme
-// positions: the rounding of the initial height must not affect particles that touch the wall
-// there.  The search ends for every input. Times after kMaxPeriods periods are too coarse to
-// resolve a period, and the wall passes its innermost position between any two of them. The contact
-// then is the particle's arrival at this position. Before that time, each crest is later than the
-// previous one. A particle still in front after kMaxCrests crests has fallen to their height each
-// time, and only rounding keeps it there.
+// twice, so the search visits few crests.
+//
+// "Near" means one stroke from the wall's extreme positions: the rounding of the initial height
+// must not affect particles that touch the wall there.
+//
+// The search ends for every input. Times after kMaxPeriods periods are too coarse to resolve a
+// period, and the wall passes its innermost position between any two of them. The contact then is
+// the particle's arrival at this position. Before that time, each crest is later than the previous
+// one. A particle still in front after kMaxCrests crests has fallen to their height each time, and
+// only rounding keeps it there.
 double contact_with_moving(const Approach& particle) {
   constexpr double kMaxPeriods = 0x1p51;
   constexpr int kMaxCrests = 1000;

@@ -2,7 +2,7 @@
 
 namespace clatter {
 
-/// How a wall moves along its normal (theory 4.3).
+/// Motion of a wall along its normal (theory 4.3).
 enum class WallPath {
   Sawtooth,    ///< inwards at constant speed, jumping back at the end of each period
   Sinusoidal,  ///< harmonically about its resting place
@@ -35,10 +35,12 @@ double innermost_travel(const WallMotion& motion);
 
 /// First time >= `start` at which a particle meets the moving wall, or kNever. The distance of its
 /// contact point from the wall's resting place, inwards, is distance + speed t + acceleration t^2/2
-/// with t = time - start.  A particle may touch the wall at `start`, or be behind it by rounding.
-/// It then hits the wall at once if it approaches faster than the rounding of the speeds. It also
-/// does so without relative speed if the accelerations press it against the wall. Otherwise the
-/// result is its next contact, later than `start`. The jump back of the saw-tooth hits no particle.
+/// with t = time - start.
+///
+/// A particle may touch the wall at `start`, or be behind it by rounding. It then hits the wall at
+/// once if it approaches faster than the rounding of the speeds. It also does so without relative
+/// speed if the accelerations press it against the wall. Otherwise the result is its next contact,
+/// later than `start`. The jump back of the saw-tooth hits no particle.
 double moving_wall_contact(const WallMotion& motion, double start, double distance, double speed,
                            double acceleration);
 

@@ -17,9 +17,9 @@ namespace clatter {
 /// frames between were dropped.
 struct Tally {
   double time = 0.0;              ///< covered by the sums
-  VecX temperature_integral;      ///< of T_x, T_y and, of spheres, T_z over time
-  double walls_in = 0.0;          ///< energy that the walls gave
-  double bulk_in = 0.0;           ///< energy that kicks gave
+  VecX temperature_integral;      ///< time integrals of T_x, T_y and, for spheres, T_z
+  double walls_in = 0.0;          ///< energy input of the walls
+  double bulk_in = 0.0;           ///< energy input of kicks
   double gravity_in = 0.0;        ///< work of gravity
   double dissipated = 0.0;        ///< energy lost between particles, > 0
   double undissipated = 0.0;      ///< additional loss without t_c
@@ -46,8 +46,7 @@ struct Frame {
                                    ///< trails; absent: not requested
   std::optional<ResidualProfile> residuals;         ///< as for `profile`
   std::optional<ParticleCollision> last_collision;  ///< of the picked particle, since it was picked
-  std::optional<ParticleCollision>
-      next_collision;  ///< of the picked particle; absent: not found yet
+  std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
   std::uint64_t seed = 1;
   bool plays = false;
   double speed = 1.0;              ///< requested simulation time per second

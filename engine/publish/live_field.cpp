@@ -110,7 +110,7 @@ template <int D>
 void LiveField<D>::watch(Simulation<D>& simulation, const View& view) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);
-  // Before the parts, so that a sample at the end of one belongs to it.
+  // Timers of samples come before timers of parts, so that a sample at a part's end belongs to it.
   if (averages_ && view.estimator == Estimator::Snapshot) {
     const auto sample = [this](double) {
       ++samples_;

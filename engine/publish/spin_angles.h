@@ -11,7 +11,7 @@ namespace clatter {
 /// own events. So the angle is exact: the sum of spin times duration over its flights.
 class SpinAngles : public Observer<2> {
  public:
-  /// Watches a simulation that carries spins from now on.
+  /// Watches a simulation with spins from now on.
   explicit SpinAngles(Simulation<2>& simulation);
   /// Continues the angles of `before`. The new simulation has the same particles at the same time.
   SpinAngles(Simulation<2>& simulation, SpinAngles&& before);

@@ -54,9 +54,8 @@ class RunOf : public WatchedRun {
   std::optional<std::uint32_t> picked_;
   std::optional<CollisionWatch<D>> picked_collisions_;  // of the picked particle
   std::optional<ParticleCollision> last_collision_;  // its last collision before a change of laws
-  std::optional<CollisionLookahead<D>>
-      lookahead_;                 // of the picked particle; made for the first frame
-  std::uint64_t steps_told_ = 0;  // the run's steps at the last frame
+  std::optional<CollisionLookahead<D>> lookahead_;   // of the picked particle, from its first frame
+  std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
   Profiled profiled_ = Profiled::Nothing;
   std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
   std::optional<LiveResiduals<D>> residuals_;

@@ -57,8 +57,7 @@ class Schedule {
   void change_to(const std::vector<Override>& settings);
 
   Scene laws_;
-  std::shared_ptr<const std::vector<Change>>
-      changes_;              // shared by copies, which each change of laws makes
+  std::shared_ptr<const std::vector<Change>> changes_;  // shared by the copies of each change
   std::vector<Step> steps_;  // future steps, a heap with the earliest in front
 };
 

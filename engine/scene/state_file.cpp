@@ -67,7 +67,7 @@ struct Cell {
   int column = 1;  // of its first character in the line
 };
 
-/// Reads the text from top to bottom.
+/// Parser of a CSV text.
 template <int D>
 class Reader {
  public:
