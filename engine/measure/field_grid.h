@@ -184,9 +184,8 @@ class FieldGrid {
   /// The borders that a line crosses along one axis.
   struct Borders {
     int step = 0;
-    double per_length = 0.0;  ///< 1 / the line's extent
-    double next =
-        std::numeric_limits<double>::infinity();  ///< share of the line up to the next border
+    double per_length = 0.0;                                ///< 1 / the line's extent
+    double next = std::numeric_limits<double>::infinity();  ///< next border, as share of the line
   };
 
   /// The exit of a flight from a cell.
