@@ -111,8 +111,7 @@ double concave_contact(const Approach& particle, double left, double right) {
 // acceleration + peak_acceleration sin(2 pi phase), is positive near the crests and negative
 // between them, or has one sign always. So there are at most three pieces.
 double contact_with_wave(const Approach& particle, double t, double crest) {
-  const double lowest =
-      particle.time_to(-1.5 * particle.motion.stroke);  // The wall is hit before this.
+  const double lowest = particle.time_to(-1.5 * particle.motion.stroke);  // A hit is earlier.
   const double cosine =
       std::clamp(-particle.acceleration / peak_acceleration(particle.motion), -1.0, 1.0);
   const double period = 1.0 / particle.motion.frequency;

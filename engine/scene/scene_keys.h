@@ -167,7 +167,7 @@ inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}
 /// Content of a scene file: the scene, and the keys that are resolved when it is read.
 struct SceneInput {
   int schema = 1;            ///< version of the format
-  std::optional<int> count;  ///< number of particles; exactly one of count and fraction is given
+  std::optional<int> count;  ///< number of particles; not together with the fraction
   std::optional<double>
       packing_fraction;  ///< phi: area_fraction of disks, volume_fraction of spheres
   bool spins = true;     ///< whether the keys of spins are allowed
