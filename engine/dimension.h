@@ -6,8 +6,8 @@
 
 namespace clatter {
 
-/// Calls function(std::integral_constant<int, D>) for the dimension D that a scene has, 2 or 3: the
-/// one place where a number known at run time chooses the types of disks or of spheres.
+/// Calls function(std::integral_constant<int, D>) for the dimension D of a scene, 2 or 3. Only this
+/// function selects the types of disks or spheres at run time.
 template <class Function>
 decltype(auto) with_dimension(int dimension, Function&& function) {
   switch (dimension) {
@@ -16,7 +16,7 @@ decltype(auto) with_dimension(int dimension, Function&& function) {
     case 3:
       return std::forward<Function>(function)(std::integral_constant<int, 3>{});
   }
-  throw std::logic_error("there are scenes of two and of three dimensions only");
+  throw std::logic_error("a scene has two or three dimensions");
 }
 
 }  // namespace clatter

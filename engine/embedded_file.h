@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-/// A file that the build put into the program: its name without folders, and its bytes.
+/// A file embedded into the program: its name without folders, and its bytes.
 struct EmbeddedFile {
   std::string_view name;
   std::string_view bytes;
@@ -14,7 +14,7 @@ struct EmbeddedFile {
 /// The scenes of assets/scenes, in alphabetical order.
 std::span<const EmbeddedFile> embedded_scenes();
 
-/// The start states of assets/scenes that the scenes beside them name.
+/// The start states in assets/scenes that the gallery scenes name.
 std::span<const EmbeddedFile> embedded_start_states();
 
 }  // namespace clatter

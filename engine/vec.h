@@ -9,16 +9,16 @@ namespace clatter {
 template <int D>
 using Vec = Eigen::Matrix<double, D, 1>;
 
-/// A cell, an image or a count along each of D dimensions.
+/// Integers along each of D dimensions: a cell, a periodic image or counts.
 template <int D>
 using IntVec = Eigen::Matrix<int, D, 1>;
 
 using Vec2 = Vec<2>;
 
-/// A vector of two or three components, as many as the scene has dimensions.
+/// A vector of two or three components: the dimension of the scene.
 using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;
 
-/// [D][N] vectors of two or three components, a column each.
+/// [D][N] vectors of two or three components, one per column.
 using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3>;
 
 /// The vectors of a list as columns.

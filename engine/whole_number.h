@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-/// The whole number that a text is; absent where it is anything else, or does not fit.
+/// The integer in a text; absent if the text is anything else, or the number does not fit T.
 template <class T>
 std::optional<T> whole_number(std::string_view text) {
   T number{};

@@ -15,20 +15,20 @@
 #include <variant>
 #include <vector>
 
-// What a checkpoint keeps of a type is told once, beside it: a function that passes over the
-// members in order, for writing and reading alike,
+// Each type that a checkpoint keeps has one function beside it that visits the members in order.
+// Writing and reading share this function:
 //   template <class Archive> void visit(Archive& io, Type& value)   for plain structs,
-//   template <class Archive> void visit(Archive& io)                for classes, a member of them.
-// It takes the value apart by a structured binding of all its members, so that one added to the
-// type does not compile until it is named there, too.
+//   template <class Archive> void visit(Archive& io)                for classes, as a member.
+// The function binds all members with a structured binding. A new member of the type does not
+// compile until the function names it.
 
 namespace clatter {
 
-/// What writing and reading share: the way through structs, vectors and containers down to numbers.
+/// Common base of writing and reading: descends through structs, vectors and containers to numbers.
 template <class Self>
 class Archive {
  public:
-  /// Passes over values, one after the other.
+  /// Visits values in order.
   template <class... T>
   void operator()(T&... values) {
     (item(values), ...);
@@ -103,12 +103,12 @@ class Archive {
   }
 };
 
-/// Collects values as bytes: numbers in the order of little-endian machines, bit for bit.
+/// Writes values as bytes: the bits of each number, little-endian.
 class ArchiveWriter : public Archive<ArchiveWriter> {
  public:
-  /// All that has been written.
+  /// All bytes written so far.
   const std::string& written() const { return bytes_; }
-  /// What is written makes sense.
+  /// Does nothing: written values are valid.
   void require(bool) const {}
 
  private:
@@ -132,16 +132,15 @@ class ArchiveWriter : public Archive<ArchiveWriter> {
   std::string bytes_;
 };
 
-/// Gives values back from bytes; throws UserError where these are not what a writer of the same
-/// program made.
+/// Reads values from bytes. Throws UserError if the bytes do not fit the types of this program.
 class ArchiveReader : public Archive<ArchiveReader> {
  public:
-  /// Reads these bytes, which outlive it; `file` is the name that errors carry.
+  /// Reads `bytes`, which must outlive this object. `file` is the name for errors.
   ArchiveReader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
-  /// Throws UserError where bytes are left over.
+  /// Throws UserError if bytes are left over.
   void finish() const { require(bytes_.empty()); }
-  /// Throws UserError unless what has been read makes sense.
+  /// Throws UserError unless `sense` is true, the result of a check of read values.
   void require(bool sense) const {
     if (!sense) refuse();
   }
@@ -158,8 +157,8 @@ class ArchiveReader : public Archive<ArchiveReader> {
     if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
     std::memcpy(&value, raw, sizeof value);
   }
-  // Every element takes a byte at least, so that no length makes it ask for memory without end. A
-  // container that has elements already has its size from the scene, and keeps it.
+  // Every element takes at least one byte, so a damaged length cannot cause a huge allocation. A
+  // container that already has elements has its size from the scene and keeps it.
   template <class Container>
   void length(Container& container) {
     std::uint64_t size = 0;
@@ -167,7 +166,7 @@ class ArchiveReader : public Archive<ArchiveReader> {
     if (size > bytes_.size() || (!container.empty() && size != container.size())) refuse();
     container.resize(size);
   }
-  // Makes the variant hold its alternative of that index.
+  // Selects the variant's alternative of this index.
   template <class... T>
   void choose(std::variant<T...>& variant, std::size_t index) {
     if (index >= sizeof...(T)) refuse();

@@ -10,12 +10,13 @@
 
 namespace clatter {
 
-// A file is: the magic, the head, the body, and the CRC-32 of all before.
+// A file consists of the magic, the head, the body, and the CRC-32 of all bytes before it.
 static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
-// To be raised when a struct that it keeps changes.
+// Raise it when a struct in the checkpoint changes.
 static constexpr std::uint32_t kVersion = 9;
 
-// Program and command come first in every version, so that a file of another one can be told.
+// Program and command come first in every version, so that the error for another version can name
+// them.
 template <class Archive>
 static void visit(Archive& io, Checkpoint& checkpoint) {
   auto& [program, command, scene, start_temperature, seed, saved, measurement, film] = checkpoint;
@@ -58,7 +59,7 @@ void read(T& value, std::string_view bytes, const std::filesystem::path& file) {
   std::error_code ignored;
   throw UserError({file.string()}, what,
                   std::filesystem::exists(previous, ignored)
-                      ? "the one before is " + previous.string()
+                      ? "the previous checkpoint is " + previous.string()
                       : "give a file that --checkpoint, an interrupt or a stop has left");
 }
 
@@ -68,10 +69,10 @@ std::string read_whole(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
   if (!std::ifstream(file)) refuse(file, "the file cannot be read");
   if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
-  return read_file(file.string(), kLargest, "a checkpoint has some 100 bytes a particle");
+  return read_file(file.string(), kLargest, "a checkpoint has about 100 bytes per particle");
 }
 
-// The body is that of another version, of which only the beginning is known.
+// Of the body of another version only the beginning is known.
 [[noreturn]] void refuse_version(const std::filesystem::path& file, std::uint32_t version,
                                  std::string_view body) {
   std::string program;
@@ -112,7 +113,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string_view body = take(head.length);
   std::uint32_t sum = 0;
   read(sum, take(kChecksumBytes), file);
-  if (!bytes.empty()) refuse(file, "the checkpoint is damaged: something follows its end");
+  if (!bytes.empty()) refuse(file, "the checkpoint is damaged: extra bytes follow its end");
   if (sum != checksum({whole.data(), whole.size() - kChecksumBytes})) {
     refuse(file, "the checkpoint is damaged: its checksum differs");
   }

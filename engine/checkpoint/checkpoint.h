@@ -8,31 +8,31 @@
 
 namespace clatter {
 
-/// A run put aside in a file, from which it can go on.
+/// A saved run, from which it can be resumed.
 struct Checkpoint {
-  std::string program;             ///< that wrote it, with its version
-  std::string command;             ///< of that program: "measure"
+  std::string program;             ///< program that wrote it, with its version
+  std::string command;             ///< command of the program, such as "measure"
   std::string scene;               ///< the whole scene as TOML, every default written out
-  double start_temperature = 0.0;  ///< T at time 0, which the scene lacks where a file has it
+  double start_temperature = 0.0;  ///< T at time 0; a scene with a start file does not contain it
   std::uint64_t seed = 1;          ///< of the run
   AnyRunState saved;               ///< the run itself
-  std::string measurement;         ///< what Measurement::save() gave; empty: nothing was measured
-  std::string film;                ///< how far a film has come; empty: none was made
+  std::string measurement;         ///< result of Measurement::save(); empty: no measurement
+  std::string film;                ///< state of a film; empty: no film
 };
 
-/// Writes a checkpoint, so that at any moment, also if the machine stops, there is a whole one: it
-/// gets its name once it is on the disk, and the one before then is called FILE.previous. Throws
-/// RunError.
+/// Writes a checkpoint. A whole checkpoint exists at every moment, even if the machine stops. The
+/// new file gets its name only after it is on the disk, and the previous one becomes FILE.previous.
+/// Throws RunError.
 void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint);
 
-/// Reads a checkpoint; throws UserError where there is none, or one that is damaged or of another
-/// version, and then says which program wrote it.
+/// Reads a checkpoint. Throws UserError if the file is missing, damaged or of another version; the
+/// last error names the program that wrote it.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
-/// What the one before is called.
+/// Name of the previous checkpoint.
 std::filesystem::path previous_checkpoint(const std::filesystem::path& file);
 
-/// Whether a file begins as checkpoints do.
+/// Whether a file begins with the magic of checkpoints.
 bool is_checkpoint(const std::filesystem::path& file);
 
 }  // namespace clatter

@@ -51,8 +51,8 @@ double Boundary<D>::contact_time(int side, const Flight<D>& flight, double now) 
     return moving_wall_contact(*motions_[side], time, inward(side) * (place - plane),
                                inward(side) * speed, inward(side) * model_.gravity[axis]);
   };
-  // A particle that left the wall, or passed it, within rounding seems to have touched it when the
-  // base has moved since, for the wall's phase is rounded anew. What is past has not happened.
+  // A move of the base rounds the wall's phase again. A particle that left the wall within rounding
+  // then seems to touch it in the past. A contact in the past is not an event.
   const double contact = contact_from(flight.time);
   return contact < now ? contact_from(now) : contact;
 }

@@ -10,28 +10,29 @@
 
 namespace clatter {
 
-/// How each wall moves, with its phase at simulation time 0; one without stroke stays in its place.
+/// The motion of each wall, with its phase at simulation time 0. A wall with stroke 0 is at rest.
 template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 
-/// Where the walls of a run are, at times on its moving base. Places are those of the centres of
-/// particles that touch.
+/// The walls of a run, at times on its moving base. A wall's place is the position of the centre of
+/// a particle that touches it.
 template <int D>
 class Boundary {
  public:
-  /// The walls of a model, which outlives this.
+  /// The walls of `model`, which must outlive this object.
   Boundary(const Model<D>& model, const Clock& clock);
 
-  /// Takes up the phases that moving walls have at the clock's new base.
+  /// Computes the phases of moving walls at the clock's new base.
   void move_base(const Clock& clock);
 
   /// Displacement into the box, velocity and acceleration of a wall along its inward normal.
   WallState wall(int side, double time) const;
-  /// Coordinate along the wall's axis of a particle that touches it, as the contact times have it.
+  /// Coordinate, along the wall's axis, of a particle that touches the wall. The contact times use
+  /// the same coordinate.
   double touching_place(int side, double time) const;
-  /// Time at which a flight that is under way at `now` touches a wall, or kNever.
+  /// Time, not before `now`, at which a flight touches a wall; kNever without a contact.
   double contact_time(int side, const Flight<D>& flight, double now) const;
-  /// The farthest from its place that a wall comes into the box.
+  /// Largest displacement of a wall into the box.
   double innermost_travel(int side) const;
 
   /// +1 for the near wall of an axis, -1 for the far one: the direction into the box.

@@ -8,13 +8,13 @@
 
 namespace clatter {
 
-// Cells less the overhangs of both neighbours are wider than a diameter by more than any rounding
-// of positions.
+// Smallest width of a cell without the overhangs of both neighbours, in diameters. It exceeds a
+// diameter by more than any rounding of positions.
 static constexpr double kMinWidth = 1.01;
 static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Cells along each axis: as near to cubes as the box allows, shortest edge first, so that a narrow
-// box has the more cells along it.
+// Numbers of cells along each axis, so that cells are nearly cubes. The shortest edge comes first:
+// a narrow box then gets more cells along its long edges.
 template <int D>
 static IntVec<D> choose_counts(const Model<D>& model, double cells) {
   std::array<int, D> axes;
@@ -54,7 +54,8 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
       places[static_cast<std::size_t>(cell) + 1].index = static_cast<std::uint32_t>(cell * stride);
     }
     if (model.periodic(axis)) {
-      // From beyond the low border the box lies a length above, from beyond the high one below.
+      // Seen from beyond the low border, the box is one length higher; from beyond the high border,
+      // one length lower.
       const auto wrap = [&](unsigned bits) {
         return Neighbour{bits} << (kParticleBits + 2 * axis);
       };
@@ -66,7 +67,7 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
     }
     stride *= count;
   }
-  // With room for those that continue them in a dilute gas, one in 25, so that nothing is moved.
+  // In a dilute gas about one list in 25 is continued. Room for these avoids a reallocation.
   lists_.reserve(static_cast<std::size_t>(stride) + static_cast<std::size_t>(stride) / 8);
   lists_.resize(static_cast<std::size_t>(stride));
 }
@@ -97,7 +98,7 @@ template <int D>
 void CellGrid<D>::move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step) {
   const int next = cell[axis] + step;
   if (next < 0 || next == counts_[axis]) {
-    // Round a border, it is seen otherwise from everywhere.
+    // A particle that crosses a periodic border has another wrap in every list.
     remove(particle, cell);
     insert(particle, neighbour(cell, axis, step));
     return;
@@ -122,8 +123,8 @@ void CellGrid<D>::put_on(std::uint32_t at, Neighbour neighbour) {
   list.wraps = list.wraps || neighbour != particle_of(neighbour);
 }
 
-// Where a neighbour stands on a list; 0 where it does not. Looks at all places at once, for where
-// it is cannot be foreseen.
+// Index of a neighbour in a list; 0 if it is not there. Compares all entries at once, because a
+// branch on the index would be unpredictable.
 template <class List>
 static std::uint32_t place_of(std::uint32_t neighbour, const List& list) {
   using Four = std::uint32_t __attribute__((vector_size(16)));
@@ -151,7 +152,7 @@ void CellGrid<D>::take_off(std::uint32_t at, Neighbour neighbour) {
   last = kNobody;
 }
 
-// The last of the chain comes to where the neighbour was.
+// The last entry of the chain replaces the neighbour.
 template <int D>
 void CellGrid<D>::take_off_chain(std::uint32_t at, Neighbour neighbour) {
   Neighbour* place = nullptr;

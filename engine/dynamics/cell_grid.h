@@ -11,13 +11,14 @@
 
 namespace clatter {
 
-/// Cells that say which particles are near: two particles that touch belong to the same cell or to
-/// neighbouring ones. A particle belongs to its cell until it is beyond the cell's border by an
-/// overhang, as wide as that allows, so that those who rattle about a border do not cross it.
+/// Grid of cells that finds near particles. Two particles that touch belong to the same cell or to
+/// neighbouring cells. A particle stays in its cell until it is beyond the cell's border by an
+/// overhang. This hysteresis prevents repeated crossings; the overhang is as wide as the first
+/// condition allows.
 ///
-/// Each cell lists the particles of itself and of all cells about it, for a particle looks for
-/// partners far more often than it changes cells: who looks reads one list, and who enters a cell
-/// is taken off one row of lists and put on another.
+/// The list of a cell holds the particles of the cell and of all neighbouring cells. A search for
+/// partners reads one list. A crossing removes the particle from one row of lists and adds it to
+/// another. Searches are far more frequent than crossings.
 template <int D>
 class CellGrid {
  public:
@@ -26,7 +27,7 @@ class CellGrid {
 
   /// Puts a particle into a cell.
   void insert(std::uint32_t particle, const IntVec<D>& cell);
-  /// Takes a particle out of the cell it was put into.
+  /// Removes a particle from its cell.
   void remove(std::uint32_t particle, const IntVec<D>& cell);
   /// Moves a particle from its cell to the neighbour along an axis, on the side of `step` = +1 or
   /// -1.
@@ -36,15 +37,15 @@ class CellGrid {
   const IntVec<D>& counts() const { return counts_; }
   /// The cell that holds a position inside the box.
   IntVec<D> cell_at(const Vec<D>& position) const;
-  /// The cell next to one along an axis, on the side of `step` = +1 or -1, round the periodic
+  /// The cell next to one along an axis, on the side of `step` = +1 or -1, across the periodic
   /// border.
   IntVec<D> neighbour(IntVec<D> cell, int axis, int step) const {
     cell[axis] += step;
     if (cell[axis] < 0 || cell[axis] == counts_[axis]) cell[axis] -= step * counts_[axis];
     return cell;
   }
-  /// Place along an axis where a particle leaves cell number `cell`, above it or below; infinitely
-  /// far off where the box ends at a wall, for there is no cell beyond.
+  /// Coordinate at which a particle leaves cell number `cell` through its upper or lower border,
+  /// overhang included. Infinite at a wall, which has no cell beyond it.
   double border(int axis, int cell, bool upper) const {
     return borders_[axis][static_cast<std::size_t>(2 * cell + upper)];
   }
@@ -54,25 +55,24 @@ class CellGrid {
     return cells * widths_[axis] - overhangs_[axis];
   }
 
-  /// A particle that is near: its number below, and above for each axis, in two bits, by how many
-  /// box lengths it lies round the periodic borders (-1, 0 or +1). A particle comes up several
-  /// times, seen round different borders, where the box is only one or two cells wide.
+  /// A near particle and its periodic image. The low bits are its number. Two bits per axis above
+  /// give its wrap: the box lengths -1, 0 or +1 across the periodic border. If the box is only one
+  /// or two cells wide, a particle occurs several times with different wraps.
   using Neighbour = std::uint32_t;
   static constexpr int kParticleBits = 32 - 2 * D;
-  static_assert(kMaxParticles<D> < (std::uint64_t{1} << kParticleBits));  // the last is kNobody's
+  static_assert(kMaxParticles<D> < (std::uint64_t{1} << kParticleBits));  // the last is kNobody
   static std::uint32_t particle_of(Neighbour neighbour) { return neighbour & kParticleMask; }
   static int wrap_of(Neighbour neighbour, int axis) {
     // Two bits with their sign.
     return static_cast<std::int32_t>(neighbour << (2 * (D - 1 - axis))) >> 30;
   }
 
-  /// A list of those near a cell, or a part of it: a cache line, or two where there are 27 cells
-  /// about one.
+  /// The particles near a cell, or a part of them. A list fills one cache line in 2D and two in 3D.
   struct alignas(64) List {
     static constexpr int kCapacity = D == 2 ? 14 : 30;
-    std::array<Neighbour, kCapacity> neighbours;  ///< those beyond the count are kNobody
+    std::array<Neighbour, kCapacity> neighbours;  ///< entries beyond the count are kNobody
     std::uint16_t count = 0;
-    bool wraps = false;          ///< whether some may lie round a periodic border
+    bool wraps = false;          ///< whether a neighbour may have a wrap other than 0
     std::uint32_t next = kNone;  ///< list that continues this one, which is full; or kNone
 
     List() { neighbours.fill(kNobody); }
@@ -83,27 +83,27 @@ class CellGrid {
 
   /// The list of a cell.
   const List& near(const IntVec<D>& cell) const { return lists_[index(cell)]; }
-  /// The one that continues a list, or null.
+  /// The list that continues `list`, or null.
   const List* next(const List& list) const {
     return list.next == kNone ? nullptr : &lists_[list.next];
   }
-  /// How many are near a cell.
+  /// Number of particles near a cell.
   std::size_t count_near(const IntVec<D>& cell) const;
-  /// Calls visit(particle, wrap) for each particle near a cell; `wrap` are the box lengths by which
-  /// it lies round the periodic borders.
+  /// Calls visit(particle, wrap) for each particle near a cell. `wrap` is its periodic image in box
+  /// lengths.
   template <typename Visit>
   void visit(const IntVec<D>& cell, const Visit& visit) const;
 
-  /// Calls visit(list) for the first list of each cell that move() changes; round a periodic border
-  /// it changes more.
+  /// Calls visit(list) for the first list of each cell that move() changes. Across a periodic
+  /// border move() changes further lists.
   template <typename Visit>
   void visit_moved(const IntVec<D>& cell, int axis, int step, const Visit& visit) const;
 
  private:
-  // A cell along one axis, from the one before the first to the one after the last.
+  // A cell along one axis. There is one more beyond either end.
   struct Place {
-    std::uint32_t index = kNone;  // of its list, less those of the other axes; kNone: a wall
-    Neighbour wrap = 0;           // how those within the box are seen from there
+    std::uint32_t index = kNone;  // this axis' part of the index of its list; kNone: a wall
+    Neighbour wrap = 0;           // wrap of a particle within the box, seen from there
   };
   struct Block {
     IntVec<D> from;
@@ -127,8 +127,8 @@ class CellGrid {
   Vec<D> overhangs_;
   std::array<std::vector<double>, D> borders_;  // [2 counts] along each axis: lower, upper, ...
   std::array<std::vector<Place>, D> places_;    // [counts + 2] along each axis
-  LargeArray<List> lists_;            // the cells' own first, then those that continue them
-  std::vector<std::uint32_t> spare_;  // of the latter, those not in use
+  LargeArray<List> lists_;            // the first list of each cell, then the continuations
+  std::vector<std::uint32_t> spare_;  // unused continuations
 };
 
 template <int D>
@@ -160,7 +160,7 @@ typename CellGrid<D>::Block CellGrid<D>::about(const IntVec<D>& cell) {
   return {cell - IntVec<D>::Ones(), cell + IntVec<D>::Ones()};
 }
 
-// Those of the cells about one that lie at a place along an axis.
+// The cells about `cell` whose number along an axis is `at`.
 template <int D>
 typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, int at) {
   Block block = about(cell);
@@ -168,8 +168,8 @@ typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, in
   return block;
 }
 
-// Calls visit(list, wrap) for the list of each cell of a block; `wrap` is how a particle within the
-// box is seen from there.
+// Calls visit(list, wrap) for the list of each cell of a block. `wrap` is the periodic image of a
+// particle within the box, seen from that cell.
 template <int D>
 template <int Axis, typename Visit>
 [[gnu::always_inline]] inline void CellGrid<D>::visit_lists(const Block& block, std::uint32_t index,

@@ -51,7 +51,7 @@ double Clock::relative(double start, std::uint64_t count, double interval) const
 }
 
 double Clock::periods(double frequency, double phase) const {
-  // The nearest whole periods are taken off each exact part first, which is exact too.
+  // First subtracts the nearest whole number of periods from each exact part; this is exact too.
   double sum = phase;
   for (const double part : {base_.high, base_.low}) {
     const LongTime product = two_product(frequency, part);

@@ -10,11 +10,11 @@ struct LongTime {
   double low = 0.0;
 };
 
-/// Maps between simulation time and the moving base on which the engine keeps event times, so that
-/// an event at t = 1e9 is as precise as one at t = 0.
+/// Maps between simulation time and the moving base. The engine keeps event times on this base, so
+/// that an event at t = 1e9 is as precise as one at t = 0.
 class Clock {
  public:
-  /// A clock whose base lies at `start`.
+  /// A clock with its base at `start`.
   explicit Clock(double start = 0.0) : base_{start, 0.0} {}
   /// A clock with this base.
   explicit Clock(const LongTime& base) : base_(base) {}
@@ -26,13 +26,13 @@ class Clock {
   const LongTime& base() const { return base_; }
   /// Simulation time of a time on the base.
   double absolute(double relative) const;
-  /// A simulation time on the base; infinite times stay so.
+  /// A simulation time on the base; infinite times stay infinite.
   double relative(double absolute) const;
   /// start + count * interval on the base: the product is exact, however large the count.
   double relative(double start, std::uint64_t count, double interval) const;
 
-  /// The fractional part, in [0,1), of frequency * base + phase: the periods done at the base by
-  /// what has done `phase` at simulation time 0. The product is exact, however many they are.
+  /// Phase at the base, in periods, of a motion with `phase` at simulation time 0: the fractional
+  /// part of frequency * base + phase, in [0,1). The product is exact for any number of periods.
   double periods(double frequency, double phase) const;
 
  private:

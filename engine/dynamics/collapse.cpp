@@ -26,16 +26,16 @@ static bool gains(const Model<D>& model) {
                              [](const auto& wall) { return wall && wall->restitution > 1.0; });
 }
 
-// Walls with restitution > 1 heat without bound: particles have become so fast that in what used to
-// be the time between collisions they would cross the box a thousand times.
+// Whether walls with restitution > 1 heat the gas without bound. The criterion: within the mean
+// collision time known so far, a particle would cross the box a thousand times.
 template <int D>
 static bool diverges(const Model<D>& model, const Watchdog& watchdog, double temperature) {
   const double flight = std::sqrt(temperature) * watchdog.mean_collision_time();
   return gains(model) && flight > 1e3 * model.box.maxCoeff();
 }
 
-// Long against the rounding of times, short against the mean collision time; a run that has a t_c
-// already needs a longer one.
+// A t_c that resolves a collapse: long against the rounding of times, short against the mean
+// collision time. It is at least ten times a t_c that the run already has.
 template <int D>
 static double helpful_contact_time(const Model<D>& model, const Watchdog& watchdog) {
   constexpr double kShare = 1e-3;  // of the mean collision time
@@ -54,8 +54,8 @@ static bool is_lossless(const Model<D>& model) {
   return lossless;
 }
 
-// About the greatest speed that a wall's drive or its motion gives to a particle at rest: exactly
-// for driven walls and the saw-tooth.
+// Greatest speed that a wall's drive or motion gives to a particle at rest. Exact for driven walls
+// and the saw-tooth, approximate for sinusoidal walls.
 template <int D>
 static double drive_of(const Model<D>& model) {
   double drive = 0.0;
@@ -65,16 +65,16 @@ static double drive_of(const Model<D>& model) {
   return drive;
 }
 
-// Speeds that particles reach without walls: by falling across the box, and by a kick.
+// Speed that particles reach without walls: the larger of a fall across the box and a kick.
 template <int D>
 static double free_speed(const Model<D>& model) {
   const double fall = std::sqrt(2.0 * model.gravity.cwiseAbs().dot(model.box));
   return std::max(fall, model.bulk_drive ? model.bulk_drive->kick_speed : 0.0);
 }
 
-// Where walls multiply speeds, beyond 1e60 products of them would soon be no ordinary numbers any
-// more. Where they only add to them and nothing is lost, speeds grow as exp(t), at the price of as
-// many collisions, and another e-folding takes a million beyond this.
+// Walls with restitution > 1 multiply speeds: beyond 1e60, products of speeds would soon overflow.
+// Walls that only add speed, in a gas without losses, make speeds grow as exp(t). The number of
+// collisions grows alike, and one more e-folding beyond kMaxGrowth costs a million of them.
 template <int D>
 double fastest_speed(const Model<D>& model, double start_speed) {
   constexpr double kFastest = 1e60;
@@ -95,7 +95,7 @@ PhysicalStop divergence(const Model<D>& model, double time, double temperature) 
                              "need a restitution below 1"));
 }
 
-// Whether a partner is a wall that emits particles without any speed, which no t_c changes.
+// Whether a partner is a thermal wall. A collapse there means temperature 0, which no t_c changes.
 template <int D>
 static bool is_cold_wall(const Model<D>& model, std::uint32_t partner) {
   return partner >= kWall && model.walls[partner - kWall]->kind == WallKind::Thermal;
@@ -110,7 +110,8 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
                            std::to_string(particle) + " and " + partner_name(partner) +
                            " collide without end";
   if (is_cold_wall<D>(model, partner)) {
-    return PhysicalStop(what + "; a wall of temperature 0 lets no particle go, give it some");
+    return PhysicalStop(what +
+                        "; a wall of temperature 0 emits no particle: raise its temperature");
   }
   const double helpful = helpful_contact_time<D>(model, watchdog);
   if (helpful == 0.0) {

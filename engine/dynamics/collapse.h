@@ -6,18 +6,19 @@
 
 namespace clatter {
 
-/// What stops a run that stands still at a simulation time: why, where, and what would carry on.
+/// The error of a run whose simulation time no longer advances: cause, place, and the setting with
+/// which the run would continue.
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature);
 
-/// The speed beyond which a particle shows that walls heat the gas without bound; kNever where they
-/// do not, or what particles lose may balance it. Of a run that began with particles as fast as
-/// `start_speed`.
+/// Speed limit of a run whose fastest particle began with `start_speed`. A faster particle shows
+/// that walls heat the gas without bound. kNever if walls do not heat, or if dissipation may
+/// balance them.
 template <int D>
 double fastest_speed(const Model<D>& model, double start_speed);
 
-/// What stops a run in which walls have made the speeds diverge.
+/// The error of a run in which walls make the speeds diverge.
 template <int D>
 PhysicalStop divergence(const Model<D>& model, double time, double temperature);
 

@@ -43,10 +43,10 @@ static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& a
   return departure;
 }
 
-// Where a wall presses upon a particle that rests on it, or that it holds without any restitution,
-// the TC model has nothing left to reflect. So that the contact does not return for ever at one
-// time, the particle leaves fast enough to stay away for half of t_c, or of the time that a
-// swinging wall presses.
+// Least speed at which a particle leaves a wall under the TC model. A particle at rest on the wall,
+// or at a wall with restitution 0, has no normal velocity to reflect: its contact would repeat at
+// one time without end. With this speed it stays away for half of t_c, or for half of an inverse
+// angular frequency of a sinusoidal wall if that is shorter.
 template <int D>
 static double least_rebound(const Model<D>& model, int side, const WallState& wall,
                             double approach) {

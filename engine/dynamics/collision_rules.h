@@ -9,21 +9,21 @@
 
 namespace clatter {
 
-/// What a collision does to two particles.
+/// Result of a collision of two particles.
 template <int D>
 struct PairOutcome {
   Impulse<D> gain;            ///< of the first
-  bool elasticised = false;   ///< whether the TC model took the dissipation away
-  double undissipated = 0.0;  ///< energy that they would have lost otherwise
+  bool elasticised = false;   ///< whether the TC model made the collision elastic
+  double undissipated = 0.0;  ///< energy that the TC model saved from dissipation
 };
 
 /// Outcome for two particles that touch: x = r_1 - r_2, v = v_1 - v_2, spin = omega_1 + omega_2.
-/// `elastic`: by the TC model (theory 5.3) nothing dissipates.
+/// With `elastic` nothing dissipates (TC model, theory 5.3).
 template <int D>
 PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>& v,
                             const Spin<D>& spin, bool elastic);
 
-/// How a particle comes to a wall.
+/// State of a particle just before it hits a wall.
 template <int D>
 struct Arrival {
   Vec<D> velocity = Vec<D>::Zero();
@@ -32,15 +32,15 @@ struct Arrival {
   std::uint32_t flight = 0;  ///< number of the flight that ends here
 };
 
-/// How a particle leaves a wall.
+/// State of a particle just after it hits a wall.
 template <int D>
 struct Departure {
   Vec<D> velocity = Vec<D>::Zero();
   Spin<D> spin = Spin<D>::Zero();
 };
 
-/// Departure of a particle that touches a wall, whose state is that of the same time. `elastic`: by
-/// the TC model (theory 5.4) alpha_w becomes at least 1 and beta_w -1; the drive stays.
+/// Departure of a particle that touches a wall; `wall` is the wall's state at that time. With
+/// `elastic` (TC model, theory 5.4) alpha_w becomes at least 1 and beta_w -1. The drive stays.
 template <int D>
 Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
                           const Arrival<D>& arrival, bool elastic);

@@ -5,12 +5,12 @@
 
 namespace clatter {
 
-/// What stands for a partner where an event has none: a wall (kWall + side) or a border of the
-/// particle's cell (kCellBorder + side). Particle numbers lie below.
+/// Values of Event::partner that are no particle: a wall (kWall + side) or a border of the
+/// particle's cell (kCellBorder + side). Particle numbers are smaller.
 inline constexpr std::uint32_t kWall = 0xffffffe0u;
 inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
 
-/// Which border of its cell a particle crosses: the axis, and the step across it, +1 or -1.
+/// Border of its cell that a particle crosses: the axis, and the step along it, +1 or -1.
 struct Crossing {
   int axis;
   int step;
@@ -20,15 +20,15 @@ inline Crossing crossing_of(std::uint32_t border) {
   return {side / 2, side % 2 ? 1 : -1};
 }
 
-/// An entry of the event queue: something that a particle does at a time.
+/// An entry of the event queue: a predicted event of one particle.
 struct Event {
   double time = 0.0;  ///< on the moving base
   std::uint32_t particle = 0;
   std::uint32_t partner = 0;  ///< a particle, kWall + side, or kCellBorder + side
 };
 
-/// Total order of events: by time; ties by kind (particles, walls, cell borders), then by
-/// particles, a pair counting the same from either side.
+/// Total order of events: by time, then by kind (particles, walls, cell borders), then by particle
+/// numbers. Both orders of a pair are the same event.
 inline bool before(const Event& a, const Event& b) {
   if (a.time != b.time) return a.time < b.time;
   const auto rank = [](const Event& e) {

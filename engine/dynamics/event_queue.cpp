@@ -12,7 +12,8 @@ void EventQueue::rebuild(std::vector<Event>& events) {
   spread(events, events.size() / 4);
 }
 
-// Five events a bucket, by the density of the first ones; two of them are dead when it comes up.
+// The bucket width holds five of the first events on average. About two of these are stale when
+// their bucket becomes current.
 void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   current_.clear();
   moved_aside_ = 0;
@@ -22,7 +23,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   chunks_.clear();
   spare_ = nullptr;
   later_.clear();
-  arrived_ = {};  // without the room that a burst of them took
+  arrived_ = {};  // also frees the capacity that a burst took
   bucket_ = 0;
   if (events.empty()) return;
 
@@ -42,7 +43,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   sort_current();
 }
 
-// Takes up an event of a later bucket than the one at hand.
+// Stores an event of a bucket after the current one.
 void EventQueue::put_away(const Event& event) {
   const std::int64_t number = bucket_of(event.time);
   if (number > last_of_row()) {
@@ -53,8 +54,8 @@ void EventQueue::put_away(const Event& event) {
   }
 }
 
-// Puts the last of the events where it belongs among the others, which are sorted, the earliest
-// last. Returns how many it passes.
+// Inserts the last event into the others, which are sorted with the earliest last. Returns the
+// number of events that it passes.
 static std::size_t insert_last(Event* events, std::size_t size) {
   const Event event = events[size - 1];
   std::size_t at = size - 1;
@@ -63,8 +64,8 @@ static std::size_t insert_last(Event* events, std::size_t size) {
   return size - 1 - at;
 }
 
-// Exchanges two events unless the later one comes first. Without branches, for which is later
-// cannot be foreseen.
+// Exchanges two events unless the later one comes first. Branch-free, because the order is
+// unpredictable.
 static void put_later_first(Event& a, Event& b) {
   using Words = std::array<std::uint64_t, 2>;
   static_assert(sizeof(Words) == sizeof(Event));
@@ -96,8 +97,8 @@ void EventQueue::sort_current() {
   }
 }
 
-// The bucket at hand holds a few events; where a few hot particles among many cold ones crowd it,
-// the calendar is laid out anew before the crowding has cost more than that does.
+// The current bucket normally holds a few events. A few hot particles among many cold ones can
+// crowd it. The calendar is then rebuilt before the crowding has cost more than a rebuild.
 void EventQueue::push_current(Event event) {
   current_.push_back(event);
   moved_aside_ += insert_last(current_.data(), current_.size());
@@ -107,7 +108,7 @@ void EventQueue::push_current(Event event) {
   }
 }
 
-// Lays the calendar out by the density of the bucket at hand.
+// Rebuilds the calendar with a bucket width from the density of the current bucket.
 void EventQueue::thin_out() {
   const std::size_t crowd = current_.size();
   std::vector<Event> events = std::exchange(current_, {});
@@ -152,7 +153,7 @@ void EventQueue::next_bucket() {
   for (const Event& event : arrived_) put_away(event);
   arrived_.clear();
   if (in_buckets_ + in_rows_ == 0) {
-    // Nothing within reach: start afresh, at the width of what lies beyond.
+    // Buckets and rows are empty: rebuild with a width from the events beyond them.
     std::vector<Event> events = std::exchange(later_, {});
     rebuild(events);
     return;
@@ -165,11 +166,11 @@ void EventQueue::next_bucket() {
   current_.swap(bucket);
 }
 
-// Spreads the row that begins with the bucket at hand.
+// Spreads the row that begins with the current bucket over the buckets.
 void EventQueue::next_row() {
   const std::int64_t row = bucket_ >> kRowShift;
   if ((row & (kRows / 2 - 1)) == 0) {
-    // Twice a turn of the ring, what has come within its reach moves in.
+    // Twice per turn of the ring, events that are now within its range enter the rows.
     for (const Event& event : std::exchange(later_, {})) add_to_row(event, bucket_of(event.time));
   }
   for (Chunk* chunk = std::exchange(row_of(bucket_), nullptr); chunk;) {

@@ -11,50 +11,48 @@
 
 namespace clatter {
 
-/// The calendar: a ladder queue. Events of the far future lie unsorted in rows, the row at hand is
-/// spread over buckets, and the bucket at hand is sorted; an event moves down once per rung,
-/// so push and pop cost O(1) at any number of particles. Events are never taken out early: the
-/// caller says which are still live, and the others are dropped as they come up.
+/// The calendar of events, a ladder queue. Rows hold the far future unsorted, the current row is
+/// spread over buckets, and the current bucket is sorted. An event moves down once per rung, so
+/// push and pop cost O(1) for any number of particles. Stale events stay in the queue until their
+/// time: the caller states which events are live, and the queue drops the others.
 class EventQueue {
  public:
   EventQueue() = default;
   EventQueue(const EventQueue&) = delete;
   EventQueue& operator=(const EventQueue&) = delete;
 
-  /// Replaces the contents and chooses the bucket width from how dense the first events lie.
+  /// Replaces the contents; chooses the bucket width from the density of the first events.
   void rebuild(std::vector<Event>& events);
 
   /// Adds an event at a finite time.
   void push(Event event);
 
-  /// The earliest live event (in the order of `before`), or null where none is left. It stays until
-  /// pop(). `live(event)` says whether an event still holds.
+  /// The earliest live event in the order of `before`, or null if none is left. It stays in the
+  /// queue until pop(). `live(event)` returns whether an event is still valid.
   template <typename Live>
   const Event* top(const Live& live);
 
-  /// Takes out what top() returned.
+  /// Removes the event that top() returned.
   void pop() { current_.pop_back(); }
 
-  /// Calls `visit` with each event of the bucket that comes `ahead` buckets after the one at hand,
-  /// so that the caller can prefetch what they will need; but for events pushed since the bucket at
-  /// hand came up.
+  /// Calls `visit` with each event of the bucket `ahead` buckets after the current one, so that the
+  /// caller can prefetch its data. Events pushed since the current bucket began are not included.
   template <typename Visit>
   void look_ahead(std::size_t ahead, const Visit& visit) const;
 
-  /// Number of the bucket at hand; changes when top() moves on.
+  /// Number of the current bucket; changes when top() enters the next bucket.
   std::int64_t bucket() const { return bucket_; }
 
  private:
-  // Measured best from N = 10^3 to 10^6: the fewer the buckets of the row at hand, the more of the
-  // second cache they leave to the particles, but the more events lie in rows and are moved once
-  // more.
+  // Measured best from N = 10^3 to 10^6. Fewer buckets per row leave more of the L2 cache to the
+  // particles. But then more events are in rows and are moved once more.
   static constexpr unsigned kRowShift = 9;  // log2 of the buckets per row
-  // The bits of a bucket's number that say which of its row it is.
+  // Mask of a bucket's number that gives its index in its row.
   static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;
-  // So many that a gas of 10^6 particles plans little beyond them.
+  // Enough rows that a gas of 10^6 particles has few events beyond them.
   static constexpr std::int64_t kRows = 2048;
-  // Rows grow by chunks from a common store, so that memory follows what is planned and not what
-  // each row once held.
+  // Rows grow by chunks from a common store. Memory then follows the number of planned events, not
+  // the largest size of each row.
   struct Chunk {
     Chunk* next = nullptr;
     std::size_t size = 0;
@@ -81,17 +79,18 @@ class EventQueue {
 
   double per_width_ = 1.0;       // buckets per time
   double origin_ = 0.0;          // time at which bucket 0 starts
-  std::int64_t bucket_ = 0;      // number of the bucket at hand
-  std::vector<Event> current_;   // the bucket at hand, the earliest last
-  std::size_t moved_aside_ = 0;  // events, to make room for others in current_
-  std::array<std::vector<Event>, kInRow + 1> buckets_;  // of the row at hand
+  std::int64_t bucket_ = 0;      // number of the current bucket
+  std::vector<Event> current_;   // the current bucket, the earliest event last
+  std::size_t moved_aside_ = 0;  // events shifted by insertions into current_
+  std::array<std::vector<Event>, kInRow + 1> buckets_;  // of the current row
   // [kRows], a ring over the coming rows: their newest chunks, or null
   std::vector<Chunk*> rows_ = std::vector<Chunk*>(kRows);
   std::deque<Chunk> chunks_;  // of all rows
   Chunk* spare_ = nullptr;    // chunks not in use
   std::vector<Event> later_;  // beyond the last row
-  // For later buckets, since the one at hand came up: put away when the next one does, for where to
-  // cannot be foreseen, and their times are long known then.
+  // Events of later buckets, pushed since the current bucket began. They are sorted into buckets
+  // and rows when the next bucket begins: their targets are unpredictable, and by then their times
+  // are computed.
   std::vector<Event> arrived_;
   std::size_t in_buckets_ = 0;
   std::size_t in_rows_ = 0;
@@ -124,7 +123,7 @@ const Event* EventQueue::top(const Live& live) {
   }
 }
 
-// Without branches, for which are dead cannot be foreseen.
+// Branch-free, because it is unpredictable which events are stale.
 template <typename Live>
 void EventQueue::drop_dead(const Live& live) {
   std::size_t kept = 0;

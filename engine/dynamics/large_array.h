@@ -8,8 +8,8 @@
 
 namespace clatter {
 
-/// Allocates large arrays on huge pages where the system has them: particles are visited in no
-/// order, and with small pages most visits at N >= 10^5 would also miss the table of pages.
+/// Allocates large arrays on huge pages if the system has them. Particles are visited in random
+/// order. With small pages most visits at N >= 10^5 would be TLB misses as well as cache misses.
 template <typename T>
 struct LargeArrayAllocator {
   using value_type = T;
@@ -36,7 +36,7 @@ struct LargeArrayAllocator {
   }
 };
 
-/// An array that may be large and is visited in no order.
+/// An array that may be large and is visited in random order.
 template <typename T>
 using LargeArray = std::vector<T, LargeArrayAllocator<T>>;
 

@@ -17,9 +17,9 @@
 
 namespace clatter {
 
-// Besides the particle and its plan: the list of one cell, of up to four and what continues them
-// where particles lie in clusters (Simulation::fit_cells), and two entries of the event queue with
-// room to grow.
+// Bytes of a particle, its plan, one cell list, and two entries of the event queue with room to
+// grow. In clusters there may be up to four cells per particle and continued lists
+// (Simulation::fit_cells), which are not counted.
 template <int D>
 static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
                                             sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event);
@@ -47,7 +47,7 @@ void require_memory(const Scene& scene) {
   if (needed <= there && scene.particles.count <= most_particles(scene)) return;
   const double fitting = std::floor(scene.particles.count * (there / needed));
   const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
-  const std::string reason = needed <= there ? " particles are more than can be numbered"
+  const std::string reason = needed <= there ? " particles exceed the limit of the program"
                                              : " particles take about " + gigabytes(needed) +
                                                    " GB, and this machine has " + gigabytes(there);
   throw UserError({"particles.count", 0, 0}, std::to_string(scene.particles.count) + reason,

@@ -4,21 +4,22 @@
 
 namespace clatter {
 
-/// Bytes that the simulation of a scene takes: those of its particles, of their spins, and of their
-/// last collisions, which t_c needs.
+/// Memory of the simulation of a scene, in bytes: particles, spins, and the times of last
+/// collisions, which t_c needs.
 struct GasMemory {
   double particles = 0.0;
   double spins = 0.0;
   double last_collisions = 0.0;
 
-  /// Of all three.
+  /// Sum of all three.
   double total() const { return particles + spins + last_collisions; }
 };
 
-/// What the scene's simulation will take.
+/// Estimated memory of the scene's simulation.
 GasMemory gas_memory(const Scene& scene);
 
-/// Throws UserError where that is more than the machine has.
+/// Throws UserError if gas_memory() exceeds the machine's memory, or if there are too many
+/// particles.
 void require_memory(const Scene& scene);
 
 }  // namespace clatter

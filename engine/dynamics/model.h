@@ -11,7 +11,7 @@
 
 namespace clatter {
 
-/// The laws of one run, constant while it lasts.
+/// The laws of one run, constant during the run.
 template <int D>
 struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
@@ -20,7 +20,7 @@ struct Model {
   double restitution = 1.0;  ///< alpha of collisions between particles
   Roughness roughness;       ///< of the particles
   double inertia = 0.5;      ///< q = 4I/(m a^2)
-  bool spins = false;        ///< whether particles or walls are rough, so that spins are carried
+  bool spins = false;        ///< whether particles or walls are rough; then particles have spins
   Vec<D> gravity = Vec<D>::Zero();      ///< acceleration of every particle
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
@@ -32,7 +32,8 @@ struct Model {
   bool has_gravity() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// The whole box lengths by which a position lies outside the box, along periodic axes.
+  /// Periodic image of a position: whole box lengths from the box along periodic axes; 0 along
+  /// others.
   Vec<D> image_index(const Vec<D>& position) const {
     Vec<D> boxes = Vec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {
@@ -42,14 +43,14 @@ struct Model {
     }
     return boxes;
   }
-  /// Where the centres of particles that touch a wall lie: `end` 0 is the near wall of the axis, 1
-  /// the far.
+  /// Coordinate of the centre of a particle that touches a wall at its resting place. `end` is 0
+  /// for the near wall of the axis and 1 for the far wall.
   double wall_plane(int axis, int end) const {
     return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;
   }
 };
 
-/// The laws that a scene of D dimensions asks for.
+/// The laws of a scene of D dimensions.
 template <int D>
 Model<D> model_of(const Scene& scene, std::uint64_t seed);
 

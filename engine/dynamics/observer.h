@@ -10,16 +10,16 @@
 
 namespace clatter {
 
-/// What one particle brings to an event and gains in it.
+/// State of one particle before an event, and its gain in the event.
 template <int D>
 struct ParticleChange {
   std::uint32_t particle = 0;
   Flight<D> before;                  ///< flight that ends here
-  Vec<D> position = Vec<D>::Zero();  ///< centre, in the frame of that flight
+  Vec<D> position = Vec<D>::Zero();  ///< centre, in the flight's frame
   Vec<D> velocity = Vec<D>::Zero();  ///< just before
-  Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 where none are carried
+  Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 without spins
   Impulse<D> gain;                   ///< of momentum and of spin
-  double energy = 0.0;               ///< kinetic energy that it gains, of motion and of spin
+  double energy = 0.0;               ///< gain in kinetic energy, of motion and of spin
 };
 
 /// A collision of two particles, the lower number first.
@@ -27,9 +27,9 @@ template <int D>
 struct PairCollision {
   double time = 0.0;  ///< on the moving base
   std::array<ParticleChange<D>, 2> particles;
-  Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 at the image that touches
-  bool elasticised = false;            ///< whether the TC model took the dissipation away
-  double undissipated = 0.0;           ///< energy that it would have dissipated otherwise
+  Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 of the periodic images in contact
+  bool elasticised = false;            ///< whether the TC model made the collision elastic
+  double undissipated = 0.0;           ///< energy that the TC model saved from dissipation
 };
 
 /// A collision of a particle with a wall.
@@ -40,25 +40,25 @@ struct WallCollision {
   ParticleChange<D> particle;
 };
 
-/// Bulk driving's kick of one particle; all particles are kicked at the same time, one after the
-/// other.
+/// A kick of bulk driving on one particle. All particles are kicked at the same time; each kick is
+/// reported in turn.
 template <int D>
 struct Kick {
   double time = 0.0;  ///< on the moving base
   ParticleChange<D> particle;
 };
 
-/// Something that watches the events of a run; it cannot change it. A particle's flights follow
-/// each other without gaps, so what is integrated along them is exact.
+/// Receives the events of a run and cannot change the run. A particle's flights follow each other
+/// without gaps, so integrals along them are exact.
 template <int D>
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// Two particles have collided; the simulation still holds the flights before.
+  /// Two particles have collided. The simulation still holds their flights before the collision.
   virtual void on_collision(const PairCollision<D>&) {}
-  /// A particle has hit a wall; likewise.
+  /// A particle has hit a wall. The simulation still holds its flight before the hit.
   virtual void on_wall(const WallCollision<D>&) {}
-  /// A particle has been kicked; likewise.
+  /// A particle has been kicked. The simulation still holds its flight before the kick.
   virtual void on_kick(const Kick<D>&) {}
   /// All times on the moving base have become smaller by `shift`.
   virtual void on_base_moved(double /*shift*/) {}

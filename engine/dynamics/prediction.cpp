@@ -1,4 +1,5 @@
-// What takes or returns vectors is inlined, so how they would be passed does not matter.
+// Functions with vector arguments or results are inlined, so their calling convention does not
+// matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #include "engine/dynamics/prediction.h"
@@ -12,7 +13,7 @@
 
 namespace clatter {
 
-// Particles are what contact kernels read as rows of doubles.
+// Whether the layout of Particle matches the rows of doubles that contact kernels read.
 template <int D>
 constexpr bool are_rows() {
   return sizeof(Particle<D>) == kRowLength<D> * sizeof(double) &&
@@ -31,14 +32,14 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       grid_(grid),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
       planners_(model.has_gravity() ? widest_planners<true>() : widest_planners<false>()) {
-  // Farther than the wall comes, so that rounding at a cell's border does not matter.
+  // Slightly farther than the wall moves in, so that rounding at a cell's border does not matter.
   for (int side = 0; side < 2 * D; ++side) {
     reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
   }
 }
 
-// Whether the pair's image comes first where one pair touches through two images at once; the same
-// from either side.
+// Order of two periodic images through which one pair touches at the same time. The order is the
+// same from either particle.
 template <int D>
 static bool image_before(const IntVec<D>& a, const IntVec<D>& b, bool swap) {
   const IntVec<D> u = swap ? IntVec<D>(-a) : a;
@@ -62,7 +63,7 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
   plan.image = image;
 }
 
-// Box lengths to add to a particle's r minus a candidate's.
+// Periodic image of a pair: box lengths to add to the particle's r minus the candidate's.
 template <int D>
 Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i) const {
   Vec<D> image = particles_[near.particles[i]].image - particles_[particle].image;
@@ -72,8 +73,8 @@ Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near
   return image;
 }
 
-// The contact with one candidate, at its known time, or at one still to be found if that is
-// kTouching.
+// Offers the contact with one candidate. If `time` is kTouching, contact_time() determines the
+// time.
 template <int D>
 void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& near, int i,
                                    double time, Plan<D>& plan) const {
@@ -92,7 +93,7 @@ void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near
   for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
 }
 
-// Tells apart the numbers of those on a list and their ways round the periodic borders.
+// Separates the particle numbers of a list from their wraps.
 template <int D>
 static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
   for (int i = 0; i < near.size; ++i) {
@@ -101,7 +102,7 @@ static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) 
   }
 }
 
-// Takes a whole list, for how many are on it cannot be foreseen.
+// Copies a whole list, because its length is unpredictable.
 template <int D>
 [[gnu::always_inline]] static inline void take(const typename CellGrid<D>::List& list,
                                                Candidates<D>& near) {
@@ -121,9 +122,9 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
                                                model_.gravity.data());
 }
 
-// Lists are plain where nothing continues them, none of those near lies round a periodic border or
-// has crossed one in its flight, and who comes first is told apart: mostly. Otherwise returns
-// false.
+// The fast path, which fits most events. It requires that a list has no continuation, and that the
+// first contact is unique. None of its particles may have a wrap, or have crossed a periodic border
+// in its flight. Returns false for other lists; the plans are then invalid.
 template <int D>
 template <bool kFalling, std::size_t kParticles>
 bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
@@ -139,7 +140,8 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
   bool unique = true;
   for (std::size_t k = 0; k < kParticles; ++k) {
     Plan<D>& plan = *requests[k].plan;
-    // Whether there is a contact cannot be foreseen: without one, what is set says so all the same.
+    // Whether there is a contact is unpredictable. Without a contact the time is kNever, and the
+    // other members have no effect.
     plan.time = first[k].time;
     plan.partner = near[k].particles[first[k].candidate];
     plan.partner_flight = particles_[plan.partner].flight.number;
@@ -180,8 +182,8 @@ void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& p
   }
 }
 
-// The partner of a contact at the same time stays. A time that is not a number is less than none,
-// and std::min then returns its first.
+// A contact at the same time keeps precedence. A NaN compares as false, and std::min then returns
+// its first argument.
 template <int D>
 void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& plan) const {
   const std::uint32_t border = kCellBorder + static_cast<std::uint32_t>(2 * axis + upper);
@@ -189,8 +191,9 @@ void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& pla
   plan.time = std::min(plan.time, time);
 }
 
-// A particle on a parabola may leave through the border by which it came. It is looked at from
-// where it is now: a crossing, unlike a contact, need not be a function of the stored state alone.
+// A particle on a parabola may leave through the border by which it entered. The calculation starts
+// at the current position: unlike a contact time, a crossing time need not be a function of the
+// stored state alone.
 template <int D>
 void Prediction<D>::look_at_border_falling(std::uint32_t particle, double now, int axis,
                                            Plan<D>& plan) const {
@@ -204,14 +207,13 @@ void Prediction<D>::look_at_border_falling(std::uint32_t particle, double now, i
   const double upper = grid_.border(axis, plan.cell[axis], true);
   const WayOut out = exit_time(r - lower, upper - r, v, a);
   double time = now + out.time;
-  // Who turns just beyond a border returns later, be it by the least time that there is.
+  // A particle that turns just beyond a border returns later, at least by the smallest time step.
   if (time == now && (v < 0.0) == out.upper) [[unlikely]]
     time = std::nextafter(now, kNever);
   offer_border(time, axis, out.upper, plan);
 }
 
-// Written without branches, for neither the signs of the velocity nor what comes first can be
-// foreseen.
+// Branch-free, because the signs of the velocity and the first event are unpredictable.
 template <int D>
 template <bool kFalling>
 void Prediction<D>::look_at_borders(std::uint32_t particle, double now, Plan<D>& plan) const {
@@ -223,7 +225,7 @@ void Prediction<D>::look_at_borders(std::uint32_t particle, double now, Plan<D>&
     place[axis] = grid_.border(axis, plan.cell[axis], upper[axis]);
   }
   const Vec<D> way = place + self.image.cwiseProduct(model_.box) - self.flight.r;
-  // v + 0.0 is no negative zero: a particle at rest comes to the border above it at infinity.
+  // v + 0.0 turns -0 into +0: a particle at rest reaches its upper border at time infinity.
   const Vec<D> time = self.flight.time + way.array() / (self.flight.v.array() + 0.0);
   for (int axis = 0; axis < D; ++axis) {
     if (kFalling && model_.gravity[axis] != 0.0) {

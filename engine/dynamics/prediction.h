@@ -17,36 +17,37 @@ template <int D>
 struct Candidates;
 struct FirstContact;
 
-/// What a particle in its cell will do next: its first contact there, or leave the cell.
+/// The next event of a particle: its first contact near its cell, or its exit from the cell.
 template <int D>
 struct Plan {
-  double time = kNever;              ///< kNever: it rests, and nothing comes near
-  std::uint32_t partner = 0;         ///< as in an Event
-  std::uint32_t partner_flight = 0;  ///< number of the partner's flight that the contact is with
+  double time = kNever;              ///< kNever: no event, for a particle at rest
+  std::uint32_t partner = 0;         ///< as Event::partner
+  std::uint32_t partner_flight = 0;  ///< number of the partner's flight at the prediction
   IntVec<D> image =
       IntVec<D>::Zero();  ///< box lengths to add to this particle's r minus the partner's
   IntVec<D> cell = IntVec<D>::Zero();
 };
 
-/// Finds what a particle will do next, from stored states alone; the same to the bit whatever
-/// instructions the processor has.
+/// Predicts the next event of a particle from stored states alone. The result has the same bits
+/// with any instruction set of the processor.
 template <int D>
 class Prediction {
  public:
-  /// A particle to be planned anew, and the plan, whose cell is that of the particle.
+  /// A particle to be planned, and its plan, whose `cell` is already the particle's cell.
   struct Request {
     std::uint32_t particle;
     Plan<D>* plan;
   };
 
-  /// Looks at the model, the walls, the particles and the grid of a simulation, which outlive it.
+  /// Keeps references to the model, walls, particles and grid of a simulation, which must outlive
+  /// this object.
   Prediction(const Model<D>& model, const Boundary<D>& boundary,
              const LargeArray<Particle<D>>& particles, const CellGrid<D>& grid);
 
-  /// The first contact with any particle or wall about the particle's cell, or its way out of the
+  /// Plans the first contact with a particle or wall near the particle's cell, or the exit from the
   /// cell.
   void plan(const Request& request, double now) const { planners_.one(*this, {request}, now); }
-  /// The same for two particles, neither of which waits for what the other looks at.
+  /// The same for two particles. Their cache misses overlap.
   void plan(const Request& a, const Request& b, double now) const {
     planners_.two(*this, {a, b}, now);
   }
@@ -56,7 +57,7 @@ class Prediction {
   using Requests = std::array<Request, kParticles>;
   template <std::size_t kParticles>
   using Planner = void(const Prediction&, const Requests<kParticles>&, double now);
-  // With the widest vectors that the processor has.
+  // Functions that use the widest vectors of the processor.
   struct Planners {
     Planner<1>* one;
     Planner<2>* two;
@@ -64,8 +65,8 @@ class Prediction {
   };
   template <bool kFalling>
   static Planners widest_planners();
-  // Attributes of templates count only where these are declared. No compiler option in their place:
-  // Eigen's layouts would follow it.
+  // Attributes of templates take effect only at their declaration. A compiler option instead would
+  // change Eigen's layouts.
   template <bool kFalling, bool kPlain, std::size_t kParticles>
   static void plan_baseline(const Prediction&, const Requests<kParticles>&, double now);
 #if defined(__x86_64__)
@@ -108,7 +109,7 @@ class Prediction {
   const CellGrid<D>& grid_;
   bool walled_;  // whether there are walls
   Planners planners_;
-  std::array<double, 2 * D> reach_;  // from the box's edge: where the side's wall can be touched
+  std::array<double, 2 * D> reach_;  // range of each side's wall, from the box's edge
 };
 
 extern template class Prediction<2>;

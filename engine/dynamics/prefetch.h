@@ -2,8 +2,8 @@
 
 namespace clatter {
 
-/// Asks for the cache line that holds an object. In assembly, because GCC takes a function that
-/// holds nothing but __builtin_prefetch for one without effect and drops the call.
+/// Prefetches the cache line of an object. The code is assembly, because GCC drops the call of a
+/// function that contains only __builtin_prefetch.
 template <typename T>
 inline void prefetch(const T& object) {
 #if defined(__x86_64__)

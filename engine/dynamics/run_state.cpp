@@ -7,7 +7,7 @@ namespace clatter {
 
 template <int D>
 static bool is_flight(const Flight<D>& flight, double now, const Vec<D>& gravity) {
-  // Farther and faster than any box and speed of a scene.
+  // Larger than any box and any speed of a scene.
   constexpr double kFar = 1e15, kFast = 1e150;
   return flight.r.cwiseAbs().maxCoeff() < kFar && flight.v.cwiseAbs().maxCoeff() < kFast &&
          flight.time <= now && flight.at(now, gravity).cwiseAbs().maxCoeff() < kFar &&

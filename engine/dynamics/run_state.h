@@ -15,38 +15,38 @@ namespace clatter {
 /// A number of events that no run reaches.
 inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
-/// How many events of each kind have happened.
+/// Number of events of each kind since the start.
 struct EventCounts {
   std::uint64_t pair_collisions = 0;
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
-  std::uint64_t elasticised = 0;       ///< disk-disk collisions that the TC model made elastic
+  std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
   std::uint64_t cell_crossings = 0;
-  std::uint64_t stale = 0;  ///< predictions found out of date because the partner met another first
+  std::uint64_t stale = 0;  ///< predictions whose partner collided with another particle before
 
   /// Collisions with particles and with walls.
   std::uint64_t collisions() const { return pair_collisions + wall_collisions; }
-  /// All that takes the loop some work.
+  /// All events that the loop processes.
   std::uint64_t steps() const { return collisions() + kicks + cell_crossings + stale; }
 };
 
-/// What a run checks of itself at every event.
+/// Extremes of the checks that a run makes at every event.
 struct RunChecks {
-  /// Of colliding particles at contact, or of a particle and the wall it hits, as a share of the
+  /// Deepest overlap at contact of two particles, or of a particle and a wall, as a share of the
   /// diameter.
   double deepest_overlap = 0.0;
-  /// Largest time by which an event came before the one processed last: 0 but for the rounding with
-  /// which a move of the base may exchange events that coincide.
+  /// Largest time by which an event was earlier than the event processed before it. It is 0 except
+  /// for rounding: a move of the base may exchange simultaneous events.
   double clock_steps_back = 0.0;
 };
 
-/// A run between two events: with its model, all that its future depends on. It may go on under
-/// other laws, too.
+/// State of a run between two events. With the model it determines the future of the run. A run may
+/// also continue from it under other laws.
 template <int D>
 struct RunState {
   Vec<D> gravity = Vec<D>::Zero();  ///< of the flights
-  /// Of the walls that the flights are under way between; phases at simulation time 0.
+  /// Motions of the walls during the flights; phases at simulation time 0.
   std::array<WallMotion, 2 * D> wall_motions;
   LongTime base;                        ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
@@ -64,17 +64,17 @@ struct RunState {
   RunChecks checks;
 };
 
-/// Whether a run could be in this state: all numbers are finite, lists have the same length, no
-/// flight begins later than now, and no kick is overdue.
+/// Whether a run can have this state: numbers are finite, lists have the same length, no flight
+/// begins later than now, and no kick is overdue.
 template <int D>
 bool makes_sense(const RunState<D>& state);
 
 /// A run of disks or of spheres.
 using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 
-// What checkpoints keep of all this, see engine/checkpoint/archive.h.
+// The functions below list the members that checkpoints keep, see engine/checkpoint/archive.h.
 
-/// Passes over all members, in order.
+/// Visits all members, in order.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
   auto& [pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings,
@@ -82,21 +82,21 @@ void visit(Archive& io, EventCounts& counts) {
   io(pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings, stale);
 }
 
-/// Likewise.
+/// Visits all members, in order.
 template <class Archive>
 void visit(Archive& io, RunChecks& checks) {
   auto& [deepest_overlap, clock_steps_back] = checks;
   io(deepest_overlap, clock_steps_back);
 }
 
-/// Likewise: both parts, so that nothing is rounded.
+/// Visits both parts, so that nothing is rounded.
 template <class Archive>
 void visit(Archive& io, LongTime& time) {
   auto& [high, low] = time;
   io(high, low);
 }
 
-/// Likewise, the path as whether it is a saw-tooth.
+/// Visits all members, in order. The path is stored as a flag: whether it is a saw-tooth.
 template <class Archive>
 void visit(Archive& io, WallMotion& motion) {
   auto& [path, stroke, frequency, phase] = motion;
@@ -105,14 +105,14 @@ void visit(Archive& io, WallMotion& motion) {
   path = ramps ? WallPath::Sawtooth : WallPath::Sinusoidal;
 }
 
-/// Likewise.
+/// Visits all members, in order.
 template <class Archive, int D>
 void visit(Archive& io, Flight<D>& flight) {
   auto& [r, v, time, number] = flight;
   io(r, v, time, number);
 }
 
-/// Likewise.
+/// Visits all members, in order, and requires that the state makes sense.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
   auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, remainders,

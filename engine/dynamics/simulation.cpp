@@ -13,22 +13,22 @@
 
 namespace clatter {
 
-// The base moves after this many physical events per particle: rarely enough to cost little (each
-// move plans every particle anew), often enough that times stay below some ten mean free times. See
-// also renew_flight().
+// The base moves after this many physical events per particle. Each move predicts the events of all
+// particles again, so moves must be rare. They are frequent enough that times on the base stay
+// below a few ten mean free times. See also renew_flight().
 static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kMinEventsPerBase = 64;
-// Measured best from phi = 0.1 to 0.7: more cells make shorter lists, and more crossings.
+// Measured best from phi = 0.1 to 0.7. More cells make shorter lists but more crossings.
 static constexpr double kCellsPerParticle = 1.0;
-// Measured, from how many particles on it pays to prefetch ahead: the next plans, for all no longer
-// fits the second cache of 1 MB; lists too; and the many particles on these, which can be waited
-// for all at once.
+// Measured numbers of particles from which prefetching pays: of the next plans, once the data no
+// longer fit an L2 cache of 1 MB; of cell lists; and of the particles on these lists, whose many
+// cache misses then overlap.
 static constexpr std::size_t kPrefetchPlansFrom = 4000;
 static constexpr std::size_t kPrefetchListsFrom = 16000;
 static constexpr std::size_t kPrefetchNeighboursFrom = 40000;
 
-// Whether collisions can take energy from the gas, walls give it ever more, or particles come to
-// rest on walls: where time may come to a standstill.
+// Whether the run may collapse or diverge: collisions can dissipate energy, walls can add energy
+// without limit, or particles can come to rest on walls.
 template <int D>
 static bool may_collapse(const Model<D>& model) {
   bool may = model.dissipates();
@@ -41,7 +41,7 @@ static bool may_collapse(const Model<D>& model) {
   return may;
 }
 
-// 0 where there are no kicks.
+// Interval of kicks; 0 without bulk driving.
 template <int D>
 static double kick_interval(const Model<D>& model) {
   return model.bulk_drive ? model.bulk_drive->interval : 0.0;
@@ -62,7 +62,7 @@ static RunState<D> fresh(const Model<D>& model, State<D> state, double start_tim
     saved.start_speed = std::max(saved.start_speed, state.velocities[i].norm());
   }
   saved.spins = std::move(state.spins);
-  state = {};  // what is taken over leaves room for what is made of it
+  state = {};  // frees the memory before the simulation allocates its own
   return saved;
 }
 
@@ -102,7 +102,7 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
     kick_origin_ = time();
     kicks_since_origin_ = 0;
   }
-  // What is sought along a flight begins at its start: not before other laws hold.
+  // Predictions along a flight begin at its start. Under changed laws flights must start now.
   const bool restart_flights =
       saved.gravity != model_.gravity || saved.wall_motions != wall_motions<D>(model_);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -115,7 +115,7 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
   saved.flights = {};
   fill_cells();
   fit_cells();
-  // What a run bore at contacts, it bears when it goes on.
+  // Overlaps that the run has already accepted at contacts are accepted at a restart too.
   const double borne = kStartRounding + checks_.deepest_overlap;
   if (const double overlap = deepest_overlap(); overlap > borne) {
     char text[32];
@@ -127,7 +127,8 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
   plan_all();
 }
 
-// A wall that swings goes out of the box by less than its side; farther out there are no cells.
+// A sinusoidal wall moves out of the box by less than the box side. Positions farther out are
+// errors, and have no cells.
 template <int D>
 static bool is_inside(const Model<D>& model, const Vec<D>& r) {
   for (int axis = 0; axis < D; ++axis) {
@@ -151,13 +152,13 @@ void Simulation<D>::fill_cells() {
   }
 }
 
-// Cells made for the mean density have long lists where particles lie in clusters: there they
-// become finer, up to so many for each particle that memory allows. Where particles are found does
-// not depend on it.
+// Chooses the number of cells. Cells for the mean density have long lists in clusters; finer cells
+// shorten these lists, up to kMax cells per particle, a limit of memory. The events do not depend
+// on the number of cells.
 template <int D>
 void Simulation<D>::fit_cells() {
-  // Others near a particle, over the cells about it; 1 where points are evenly spread. Between even
-  // and crowded, cells stay.
+  // Thresholds of the crowding: other particles near a particle per neighbouring cell. It is 1 for
+  // evenly spread points. Between kEven and kCrowded the cells stay as they are (hysteresis).
   constexpr double kCellsAbout = D == 2 ? 9.0 : 27.0;
   constexpr double kEven = 9.5 / 9.0, kCrowded = 10.5 / 9.0, kWanted = 5.5 / 9.0;
   constexpr double kMax = 4.0;          // cells for each particle
@@ -192,8 +193,8 @@ void Simulation<D>::plan_all() {
   queue_.rebuild(events);
 }
 
-// Planning anew, rather than shifting what was planned, keeps every contact time a function of the
-// two stored states alone.
+// Predictions are repeated, not shifted. So every contact time remains a function of the two stored
+// states alone.
 template <int D>
 void Simulation<D>::move_base() {
   const double shift = now_;
@@ -241,7 +242,7 @@ typename Simulation<D>::Halt Simulation<D>::advance(double stop, std::uint64_t c
   return Halt::Limit;
 }
 
-// After an event at a wall, where alone speeds grow without bound.
+// Called after wall events, because only walls make speeds grow without bound.
 template <int D>
 bool Simulation<D>::is_too_fast(std::uint32_t number) const {
   return fastest_ < kNever && particles_[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
@@ -362,7 +363,7 @@ State<D> Simulation<D>::state() const {
     Vec<D> r = particle.flight.at(now_, model_.gravity);
     r -= model_.image_index(r).cwiseProduct(model_.box);
     for (int axis = 0; axis < D; ++axis) {
-      // What lies a rounding error below 0 comes out at the far end, which is 0 again.
+      // A position a rounding error below 0 wraps to the far end of the box, which is position 0.
       if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
     }
     state.positions.push_back(r);
@@ -421,9 +422,10 @@ double Simulation<D>::deepest_overlap() const {
   return deepest;
 }
 
-// The plans of the events that come next, or in a larger gas looks farther ahead, each of which
-// finds in the cache what the one before fetched: the particles and their plans, then the lists
-// that they will look at or move between, then, in a yet larger one, the particles on these.
+// Prefetches data of coming events in stages. A small gas fetches the plans of the next bucket
+// only. A larger gas first fetches particles and plans, and one bucket later the cell lists that
+// the events read or change. The largest gases then fetch the particles on these lists. Each stage
+// finds in the cache the data that the stage before fetched.
 template <int D>
 void Simulation<D>::prefetch_ahead() {
   prefetched_bucket_ = queue_.bucket();
@@ -460,7 +462,7 @@ void Simulation<D>::prefetch_ahead() {
   });
 }
 
-// The cells from which the particles of an event will look for partners.
+// Visits the cells whose lists the particles of an event search for partners.
 template <int D>
 template <typename Visit>
 void Simulation<D>::visit_cells_needed(const Event& event, const Visit& visit) const {

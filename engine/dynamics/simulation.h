@@ -20,36 +20,36 @@
 
 namespace clatter {
 
-/// Particles in a box, moved from collision to collision. A particle's stored state changes only in
-/// its own physical events, and every contact time is a function of two stored states; so the same
-/// model and start give the same bits however often and by whom the run is watched or halted.
+/// Event-driven simulation of particles in a box. A particle's stored state changes only in its own
+/// physical events, and every contact time is a function of two stored states. So the same model
+/// and start give the same bits, independent of observers and halts.
 template <int D>
 class Simulation {
  public:
-  /// Starts at simulation time `start_time`. Throws PhysicalStop where particles of the state
-  /// overlap each other or a wall.
+  /// Starts at simulation time `start_time`. Throws PhysicalStop if particles of the state overlap
+  /// each other or a wall, or are outside of the walls.
   Simulation(const Model<D>& model, State<D> state, double start_time = 0.0);
-  /// Goes on from where a run was saved, under the model's laws: bit for bit as that run would
-  /// have, if they are the same; kicks at another interval are counted from now. Throws
-  /// PhysicalStop where a wall now lies within a particle.
+  /// Continues a saved run under the laws of `model`. Under the same laws the result has the same
+  /// bits as the uninterrupted run. If the interval of kicks differs, kicks are counted from now.
+  /// Throws PhysicalStop if a wall now overlaps a particle.
   Simulation(const Model<D>& model, RunState<D> saved);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Processes every event up to and at a simulation time, timers included, and returns true; or
-  /// halts before, once `collisions` with particles and walls have happened since the start, or
-  /// `steps` of any kind (EventCounts::steps), and returns false. Throws PhysicalStop where time
-  /// stands still, or speeds diverge; the state is then sound, that of the last collision.
+  /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
+  /// earlier and returns false once the run has had `collisions` with particles and walls, or
+  /// `steps` of any kind (EventCounts::steps), since its start. Throws PhysicalStop at inelastic
+  /// collapse or if speeds diverge; the state then is valid, at the last collision.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
 
-  /// Calls action(time) at start, start + interval, start + 2 interval, ... once run_until() gets
-  /// there, after the physical events of the same time, kicks included. interval = 0: once. A run
-  /// that goes on leaves out the first `done` times.
+  /// Calls action(time) at start, start + interval, start + 2 interval, ... when run_until()
+  /// reaches these times, after the physical events and kicks of the same time. interval = 0: once.
+  /// A continued run skips the first `done` times.
   void every(double start, double interval, std::function<void(double)> action,
              std::uint64_t done = 0);
-  /// All that the run's future depends on, beside the model and the timers.
+  /// The state that determines the run's future, together with the model and the timers.
   RunState<D> save() const;
-  /// Tells an observer, which outlives the simulation, of every event from now on.
+  /// Reports every event from now on to an observer, which must outlive the simulation.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
 
   /// Simulation time up to which events have been processed.
@@ -62,25 +62,26 @@ class Simulation {
   std::uint64_t state_hash() const;
   /// Kinetic energy of all particles' centres at time().
   double kinetic_energy() const;
-  /// T = (m/DN) sum v^2 at time(); 0 where there are no particles.
+  /// T = (m/DN) sum v^2 at time(); 0 without particles.
   double temperature() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
-  /// Where a wall is at time(), relative to its resting place, along its inward normal.
+  /// Displacement, velocity and acceleration of a wall at time(), from its resting place along its
+  /// inward normal.
   WallState wall(int side) const { return boundary_.wall(side, now_); }
-  /// Deepest overlap of any two particles or of a particle and a wall at time(), as a share of the
-  /// diameter; 0: none. Looks at all of them.
+  /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the
+  /// diameter; 0: none. Checks all particles.
   double deepest_overlap() const;
 
   /// The laws of the run.
   const Model<D>& model() const { return model_; }
   /// [N] stored states, in original order; each since the particle's last physical event.
   const LargeArray<Particle<D>>& particles() const { return particles_; }
-  /// [N] angular velocities, in original order; empty where the model carries none.
+  /// [N] angular velocities, in original order; empty without spins.
   const LargeArray<Spin<D>>& spins() const { return spins_; }
   /// Events since the start.
   const EventCounts& counts() const { return counts_; }
-  /// What the run has checked of itself since the start.
+  /// Extremes of the run's checks since the start.
   const RunChecks& checks() const { return checks_; }
 
  private:
@@ -96,7 +97,7 @@ class Simulation {
     Vec<D> v;
   };
 
-  /// Why advance() came back.
+  /// Reason why advance() returned.
   enum class Halt { Time, Limit, BaseMoved };
 
   Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
@@ -136,20 +137,20 @@ class Simulation {
   double now_ = 0.0;  // on the clock's base
   LargeArray<Particle<D>> particles_;
   LargeArray<Spin<D>> spins_;           // [N], or empty
-  LargeArray<double> last_collisions_;  // [N] times on the base, where there is a t_c; else empty
-  LargeArray<Vec<D>> remainders_;       // [N] of rounded positions, in long boxes; else empty
+  LargeArray<double> last_collisions_;  // [N] times on the base; empty without a t_c
+  LargeArray<Vec<D>> remainders_;  // [N] rounding errors of positions in long boxes; else empty
   LargeArray<Plan<D>> plans_;
-  double cells_per_particle_;  // asked of the grid
+  double cells_per_particle_;  // requested of the grid
   CellGrid<D> grid_;
   Prediction<D> prediction_;
   EventQueue queue_;
   std::uint64_t until_base_moves_;    // physical events left
   double start_speed_;                // of the fastest particle at the start
-  double fastest_;                    // beyond it speeds diverge; kNever: they cannot
-  std::optional<Watchdog> watchdog_;  // where something dissipates or diverges
+  double fastest_;                    // speed limit, see fastest_speed()
+  std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
   std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
-  std::deque<Timer> timers_;  // stay where they are while an action adds others
+  std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   double kick_origin_;        // simulation time from which kicks are counted
   std::uint64_t kicks_since_origin_;
   EventCounts counts_;

@@ -7,7 +7,7 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/physics/random.h"
 
-// What events do to particles; simulation.cpp has the loop that makes them happen.
+// The effects of events on particles; simulation.cpp has the event loop.
 
 namespace clatter {
 
@@ -24,7 +24,8 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
   schedule(number);
 }
 
-// At an event of the particle. Most gases do not fall, and then less must be waited for.
+// Position and velocity of a particle at its event. The case without gravity comes first, because
+// its result is ready sooner.
 template <int D>
 typename Simulation<D>::Motion Simulation<D>::motion_now(std::uint32_t number) {
   const Flight<D>& flight = particles_[number].flight;
@@ -36,8 +37,8 @@ typename Simulation<D>::Motion Simulation<D>::motion_now(std::uint32_t number) {
   return motion;
 }
 
-// Compensated summation of flights: adds what the roundings of the positions have left out by now,
-// this one included.
+// Compensated summation of flights: adds the accumulated rounding errors of the positions,
+// including the current one.
 template <int D>
 void Simulation<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
   const Flight<D>& flight = particles_[number].flight;
@@ -49,8 +50,9 @@ void Simulation<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
   position = rounded;
 }
 
-// Where a particle becomes fast late after the base, say one of a cold gas at a driven wall, it
-// would fly noticeably within the rounding of the times there: then the base moves at once.
+// Begins a new flight at an event. A particle may become fast long after the base, for example in a
+// cold gas at a driven wall. It then would move noticeably within the rounding of times. In this
+// case the base moves at once.
 template <int D>
 void Simulation<D>::renew_flight(Particle<D>& particle, const Vec<D>& position,
                                  const Vec<D>& velocity) {
@@ -77,7 +79,7 @@ bool Simulation<D>::within_contact_time(std::uint32_t number) const {
   return !last_collisions_.empty() && now_ - last_collisions_[number] < *model_.contact_time;
 }
 
-// What observers are told of one particle.
+// The record of one particle's change for observers.
 template <int D>
 ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
                                            const Vec<D>& velocity, const Impulse<D>& gain) const {
@@ -92,8 +94,8 @@ ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& p
 
 template <int D>
 void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
-  // They come while the collision is worked out, beyond which the processor does not look by
-  // itself.
+  // The lists arrive while the collision is computed; the processor would not load them this early
+  // by itself.
   for (const std::uint32_t particle : {first, second}) prefetch(grid_.near(plans_[particle].cell));
   Particle<D>& a = particles_[first];
   Particle<D>& b = particles_[second];
@@ -106,8 +108,8 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   if (x.squaredNorm() < least * least) {
     checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
   }
-  // Particles that graze may recede at contact by rounding: then nothing passes between them, but
-  // the event counts, so that it is not predicted again from the same states.
+  // Grazing particles may recede at contact by rounding. Then no momentum passes between them. The
+  // event still counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
   if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
     outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution);
@@ -149,8 +151,8 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   const double place = boundary_.touching_place(side, now_);
   const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
-  // A particle at a wall that stays where it is lies there to the last bit, so that a grain which
-  // comes to rest does not sink by rounding.
+  // At a fixed wall the position is set to the exact touching coordinate. Otherwise a grain at rest
+  // would sink into the wall by rounding.
   if (!model_.walls[side]->moves()) {
     r[axis] = place;
     if (!remainders_.empty()) remainders_[number][axis] = 0.0;

@@ -6,8 +6,8 @@
 
 namespace clatter {
 
-/// 64 bits over the positions, velocities and spins in order, -0 taken as 0: a chain of
-/// SplitMix64's finaliser, in which every bit of every number matters.
+/// 64-bit hash of the positions, velocities and spins in order, with -0 as 0. It chains
+/// SplitMix64's finaliser, so that every bit of every number counts.
 template <int D>
 std::uint64_t state_hash(const State<D>& state);
 

@@ -7,8 +7,9 @@ namespace clatter {
 static constexpr double kCollapseSpan = 1e-6;  // mean collision times
 static constexpr std::uint64_t kMaxPerParticle = 1000;
 static constexpr std::uint64_t kMaxPerPair = 10'000;
-static constexpr std::uint64_t kFirstLook = 64;  // collisions; the next ones come at twice that
-static constexpr std::size_t kWindows = 10;      // whose longest mean time counts
+static constexpr std::uint64_t kFirstLook = 64;  // collisions; later intervals double
+static constexpr std::size_t kWindows =
+    10;  // number of windows kept; their longest mean time counts
 
 Watchdog::Watchdog(std::size_t particles, double time, double mean_collision_time)
     : particles_(static_cast<double>(particles)),
@@ -34,11 +35,11 @@ double Watchdog::longest_known_mean() const {
   return means_.empty() ? longest_early_ : std::ranges::max(means_);
 }
 
-// Looks come close together at first: what stands still soon after the start must not count into
-// the mean time before.
+// The first checks follow each other closely, so that a collapse soon after the start does not
+// enter the mean time.
 //
-// Pairs are counted only once time seems to stand still, so that a run that moves on pays for one
-// look every 10^4 collisions.
+// Pairs are counted only after a first suspicion. A normal run then pays for one check every 10^4
+// collisions.
 bool Watchdog::look(double time) {
   const std::uint64_t seen = look_interval_;
   look_interval_ = std::min(2 * seen, longest_interval_);

@@ -10,19 +10,17 @@
 
 namespace clatter {
 
-/// Sees where collisions go on while time stands still: inelastic collapse, grains that come to
-/// rest, speeds that diverge. It compares the time that collisions take with the mean time between
-/// a particle's collisions, so it needs no unit; and it only looks on, so a run is the same with
-/// it.
+/// Detects runs in which collisions continue but time does not advance: inelastic collapse, grains
+/// that come to rest, speeds that diverge. It compares the time of many collisions with the mean
+/// time between a particle's collisions, so it needs no unit. It does not change the run.
 class Watchdog {
  public:
-  /// Watches a run of so many particles from a time on the moving base; of one that goes on, the
-  /// mean collision time so far is known.
+  /// Watches a run of so many particles from a time on the moving base. A continued run passes its
+  /// known mean collision time.
   Watchdog(std::size_t particles, double time, double mean_collision_time = 0.0);
 
-  /// Takes note of a particle's collision with a partner, a particle or kWall + side; true where
-  /// time has stood still: 1000 N collisions, or 10^4 of one pair, within 10^-6 mean collision
-  /// times.
+  /// Records a particle's collision with a partner: a particle or kWall + side. Returns true at a
+  /// collapse: 1000 N collisions, or 10^4 of one pair, within 10^-6 mean collision times.
   bool sees_collapse(double time, std::uint32_t particle, std::uint32_t partner) {
     participations_ += partner < kWall ? 2 : 1;
     if (suspicious_) ++pairs_[{particle, partner}];
@@ -32,10 +30,10 @@ class Watchdog {
   /// All times on the base have become smaller by `shift`.
   void on_base_moved(double shift);
 
-  /// The two that met most often while time stood still, as in sees_collapse.
+  /// The pair with the most collisions during the collapse, as in sees_collapse.
   std::pair<std::uint32_t, std::uint32_t> busiest_pair() const;
-  /// Mean time between a particle's collisions, with particles and walls, while time moved on: the
-  /// longest of late; 0: none known yet.
+  /// Mean time between a particle's collisions with particles and walls, outside of a collapse. The
+  /// longest mean of recent windows; 0: not known yet.
   double mean_collision_time() const { return suspicious_ ? still_mean_ : longest_known_mean(); }
 
  private:
@@ -46,19 +44,19 @@ class Watchdog {
 
   double particles_;
   std::uint64_t window_;            // collisions over which a mean time is taken
-  std::uint64_t longest_interval_;  // collisions between looks, but for the first ones
-  std::uint64_t look_interval_;     // before the next look
+  std::uint64_t longest_interval_;  // collisions between later checks
+  std::uint64_t look_interval_;     // collisions between this check and the next
   std::uint64_t until_look_;
   double look_start_;
 
-  // The window under way, and the mean times of those before.
+  // The current window, and the mean times of earlier windows.
   double window_start_;
   std::uint64_t collisions_ = 0;
-  std::uint64_t participations_ = 0;  // each collision of two particles counts for both
-  double longest_early_ = 0.0;        // mean times up to the looks of the first window
+  std::uint64_t participations_ = 0;  // a pair collision counts twice
+  double longest_early_ = 0.0;        // longest mean time at the checks of the first window
   std::deque<double> means_;
 
-  // While time may stand still: since when, and what happened in it.
+  // The suspected collapse: its start, and the collisions in it.
   bool suspicious_ = false;
   double still_since_ = 0.0;
   double still_mean_ = 0.0;

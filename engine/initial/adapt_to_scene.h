@@ -6,10 +6,10 @@
 
 namespace clatter {
 
-/// A start state for a scene from that of another: as many of its particles as the scene has and
-/// its box has room for keep their places, velocities and spins; others come in at random places,
-/// with Gaussian velocities of the same temperature and without spin. Where no room is found for
-/// them it is start_state().
+/// Makes a start state for `scene` from the state of another scene. Particles keep their positions,
+/// velocities and spins, as many as the scene has and its box has room for. Further particles get
+/// random positions, Gaussian velocities of the same temperature, and no spin. Without room for
+/// them the result is start_state().
 template <int D>
 State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed);
 

@@ -11,11 +11,11 @@ namespace clatter {
 
 namespace {
 
-// The room cut into cells that hold one centre at most, for their diagonal is one diameter at most,
-// and the open voxels: parts of cells in which a centre may still find room. Tries go to open
-// voxels only; after as many tries as there are voxels, each is split into 2^D and those that one
-// particle covers are dropped, so that tries keep succeeding up to the density at which the process
-// jams.
+// Random insertion with voxels. The room is cut into cells with a diagonal of at most one diameter,
+// so that each holds at most one centre. Open voxels are the parts of cells that may still have
+// room for a centre; tries use only these. After as many tries as there are voxels, each voxel is
+// split into 2^D, and those that one particle covers are dropped. So tries continue to succeed up
+// to the jamming density.
 template <int D>
 class Insertion {
  public:
@@ -38,7 +38,7 @@ class Insertion {
         Voxel::Zero(), counts_ - Voxel::Ones(), [](const Voxel&) { return false; }, open_);
   }
 
-  // Places particles until there are `count`, or no voxel is open or can be split any more.
+  // Places particles until there are `count`, no voxel is open, or voxels cannot be split further.
   void place(std::size_t count, Random& random) {
     placed_.reserve(count);
     for (int level = 0; level < kLevels && !open_.empty(); ++level) {
@@ -51,7 +51,7 @@ class Insertion {
     }
   }
 
-  // Places a particle at a point, where there is room; before any of the others.
+  // Places a particle at a point if there is room. To be called before place().
   bool place_first(const Vec<D>& point) {
     Voxel voxel;
     for (int axis = 0; axis < D; ++axis) {
@@ -67,9 +67,9 @@ class Insertion {
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
   static constexpr int kLevels = 12;
-  using Voxel = IntVec<D>;  // its number along each axis at the present level
+  using Voxel = IntVec<D>;  // number along each axis, at the current level
 
-  // Whether is(voxel) for any from `first` to `last`, asked along x first.
+  // Whether is(voxel) holds for any voxel from `first` to `last`, x fastest.
   template <typename Predicate>
   static bool any_of(const Voxel& first, const Voxel& last, const Predicate& is) {
     Voxel at = first;
@@ -80,7 +80,7 @@ class Insertion {
     return false;
   }
 
-  // Puts the voxels from `first` to `last` that nothing `covers` at the end of `open`.
+  // Appends to `open` the voxels from `first` to `last` for which covers(voxel) is false.
   template <typename Predicate>
   static void collect(const Voxel& first, const Voxel& last, const Predicate& covers,
                       std::vector<Voxel>& open) {
@@ -114,7 +114,7 @@ class Insertion {
       const Vec<D> half = 0.5 * widths_;
       Vec<D> middle;
       for (int k = 0; k < D; ++k) middle[k] = low_[k] + (voxel[k] + 0.5) * widths_[k];
-      // The corner that is farthest from a centre says whether that particle covers the voxel.
+      // A particle covers the voxel if it covers the corner farthest from its centre.
       return any_particle_within(voxel, [&](const Vec<D>& centre) -> Vec<D> {
         return (centre - middle).cwiseAbs() + half;
       });
@@ -125,8 +125,7 @@ class Insertion {
     open_ = std::move(split);
   }
 
-  // Whether a particle about the voxel lies less than a diameter off, by the given offset of its
-  // centre.
+  // Whether a particle near the voxel is closer than a diameter, by the given offset of its centre.
   template <typename Offset>
   bool any_particle_within(const Voxel& voxel, const Offset& offset) const {
     const double closest = room_.diameter * room_.diameter;
@@ -155,8 +154,8 @@ class Insertion {
     return index(cell);
   }
 
-  // Brings a cell into the room round its periodic axes, and adds the box lengths to `wrap`; false
-  // beyond a wall.
+  // Maps a cell to its periodic image in the room and sets `wrap` to the displacement. Returns
+  // false beyond a wall.
   bool wrap_into_room(IntVec<D>& cell, Vec<D>& wrap) const {
     for (int k = 0; k < D; ++k) {
       const int count = counts_[k];
@@ -172,7 +171,7 @@ class Insertion {
   Room<D> room_;
   Vec<D> low_;
   IntVec<D> counts_;
-  IntVec<D> reach_;  // cells on either side that a particle of the own one overlaps at most
+  IntVec<D> reach_;  // number of cells on either side within a diameter
   Vec<D> widths_;    // of a voxel
   int level_ = 0;    // voxels are 2^-level_ of a cell
   std::vector<Vec<D>> placed_;
@@ -180,8 +179,8 @@ class Insertion {
   std::vector<Voxel> open_;
 };
 
-// The same for a few particles in a large room, where almost every try succeeds: memory follows the
-// particles and not the room.
+// Random insertion for few particles in a large room, where almost every try succeeds. Memory grows
+// with the particles, not with the room.
 template <int D>
 class SparseInsertion {
  public:
@@ -239,7 +238,8 @@ class SparseInsertion {
   std::vector<Vec<D>> placed_;
 };
 
-// As many of `wanted` as fit, then random places; empty where there is none for one.
+// Uses as many positions of `wanted` as fit, then random positions. Empty if a particle finds no
+// room.
 template <int D, class Places>
 std::vector<Vec<D>> filled(Places places, int count, Random& random,
                            const std::vector<Vec<D>>& wanted, std::vector<std::size_t>& kept) {
@@ -263,7 +263,7 @@ template <int D>
 std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
                                      const std::vector<Vec<D>>& wanted,
                                      std::vector<std::size_t>& kept) {
-  constexpr double kSparse = 50.0;  // volumes of the diameter's cube for each particle
+  constexpr double kSparse = 50.0;  // room per particle, in cubed (2D: squared) diameters
   const double cube =
       D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
   if (room.box.prod() > kSparse * cube * count) {

@@ -8,14 +8,14 @@
 
 namespace clatter {
 
-/// `count` centres placed one after the other, each uniformly where it overlaps none before; empty
-/// where no place was found for one. The process itself jams at a packing fraction of 0.547 for
-/// disks (Feder 1980) and 0.384 for spheres (Torquato, Uche & Stillinger 2006).
+/// Random sequential insertion of `count` centres, each uniform over the free room. Empty if a
+/// particle finds no room. The process jams at a packing fraction of 0.547 for disks (Feder 1980)
+/// and 0.384 for spheres (Torquato, Uche & Stillinger 2006).
 template <int D>
 std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random);
 
-/// The same, after as many of `wanted` as fit into the room and overlap none before; `kept` holds
-/// the indices of these.
+/// The same, after the insertion of those positions of `wanted`, in order, that fit without
+/// overlap. `kept` gets their indices.
 template <int D>
 std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
                                      const std::vector<Vec<D>>& wanted,

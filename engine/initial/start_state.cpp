@@ -18,8 +18,8 @@ namespace clatter {
 // and 0.384 for spheres (Torquato, Uche & Stillinger 2006).
 template <int D>
 static constexpr double kInsertionFraction = D == 2 ? 0.54 : 0.37;
-// Above, there is no fluid: that of disks ends at 0.700 (Bernard & Krauth 2011), that of spheres
-// crystallises by itself.
+// Above these packing fractions there is no fluid: the fluid of disks ends at 0.700 (Bernard &
+// Krauth 2011), and spheres crystallise spontaneously.
 template <int D>
 static constexpr double kFluidFraction = D == 2 ? 0.7 : 0.54;
 
@@ -44,8 +44,7 @@ static std::vector<Vec<D>> gaussian_velocities(std::size_t count, double tempera
   return velocities;
 }
 
-// With the mean that they happen to have: spins have no law of conservation that a mean could
-// break.
+// The mean is not removed, because spins have no conservation law.
 template <int D>
 static std::vector<Spin<D>> gaussian_spins(std::size_t count, double temperature, double inertia,
                                            std::uint64_t seed) {
@@ -72,7 +71,7 @@ static void choose(std::vector<Vec<D>>& sites, std::size_t count, Random& random
   sites.resize(count);
 }
 
-// exp(i m theta) of the direction theta of x, as a vector: a power of the unit vector.
+// exp(i m theta) as a vector, where theta is the direction of x: a power of the unit vector.
 static Vec2 direction_power(const Vec2& x, int m) {
   const Vec2 unit = x / x.norm();
   Vec2 power = unit;
@@ -106,8 +105,8 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   return bonds > 0.0 ? sum.norm() / bonds : 0.0;
 }
 
-// Whether elastic motion from lattice sites has made a fluid. Of disks, the bond order of the
-// square and of the triangular lattice tells; spheres have left their sites by a diameter.
+// Whether the lattice has melted. For disks the criterion is the bond order of the square and the
+// triangular lattice. For spheres it is a root mean square displacement of one diameter.
 static bool is_fluid(const Model<2>& model, const State<2>& state, const std::vector<Vec<2>>&) {
   const double finite = 3.0 / std::sqrt(static_cast<double>(state.positions.size()));
   return bond_order(model, state, 4) < std::max(0.1, finite) &&
@@ -127,13 +126,14 @@ static bool is_fluid(const Model<3>& model, const State<3>& state,
   return squares > static_cast<double>(sites.size()) * model.diameter * model.diameter;
 }
 
-// Elastic motion from lattice sites until there is a fluid, or for long enough that there would be.
+// Melts a lattice by elastic motion, until is_fluid() or for at most kRounds rounds.
 template <int D>
 static std::vector<Vec<D>> melt(const Room<D>& room, const std::vector<Vec<D>>& sites,
                                 std::uint64_t seed) {
   constexpr int kRounds = 10;
   constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
-  // At T = 1 in a dense gas these take less than 10; a lone particle never has them.
+  // Longest time of a round. At T = 1 in a dense gas a round takes less than 10; a lone particle
+  // never collides.
   constexpr double kLongestRound = 100.0;
   Model<D> elastic;
   elastic.box = room.box;
@@ -161,8 +161,9 @@ static std::vector<Vec<D>> random_positions(const Room<D>& room, int count, std:
   const bool primitive = !sites.empty();
   if (!primitive) sites = face_centred_lattice(room, count);
   choose<D>(sites, static_cast<std::size_t>(count), random);
-  // A square lattice fits wherever disks are fluid, but in narrow rooms, where they keep their
-  // sites. A cubic one of spheres often does not: it fills 0.52 at most.
+  // A square lattice fits at every density of the fluid of disks, except in narrow rooms; there
+  // disks stay on their sites. A cubic lattice of spheres often does not fit, because it fills at
+  // most 0.52.
   const bool melts = primitive || D == 3;
   if (!melts || fraction > kFluidFraction<D>) return sites;
   return melt(room, sites, seed);
@@ -177,8 +178,8 @@ static std::vector<Vec<D>> lattice_positions(const Room<D>& room, int count, std
   return sites;
 }
 
-// Numbers particles along rows, and rows one above the other: particles that are near each other
-// then lie near each other in memory too, which speeds large gases up by a quarter.
+// Numbers particles along rows, and rows from bottom to top. Near particles are then near in memory
+// too, which makes large gases faster by a quarter.
 template <int D>
 static void number_by_rows(std::vector<Vec<D>>& positions) {
   constexpr double kRowHeight = 1.3;  // diameters: about that of the engine's cells

@@ -20,7 +20,7 @@ static void add(Booked<D>& booked, const Conserved<D>& amount) {
   booked.size += amount.cwiseAbs();
 }
 
-// What an event gives to a particle.
+// Change of a particle's conserved quantities in an event.
 template <int D>
 static Conserved<D> given(const ParticleChange<D>& change) {
   return conserved<D>(0.0, change.gain.momentum, change.energy);
@@ -67,8 +67,8 @@ Conserved<D> Balance<D>::carried(const Vec<D>& velocity, const Spin<D>& spin) co
                       0.5 * velocity.squaredNorm() + half_inertia() * spin.squaredNorm());
 }
 
-// What a particle that stays in its cell has gained since the window's start, without the rounding
-// of a difference of squares.
+// Gain, since the window's start, of a particle that is in its first cell. Avoids the rounding of a
+// difference of squares.
 template <int D>
 Conserved<D> Balance<D>::gained(const Tracked& particle, const Vec<D>& velocity,
                                 const Spin<D>& spin) const {
@@ -95,8 +95,8 @@ void Balance<D>::follow(std::uint32_t particle, const Flight<D>& flight, double 
       });
 }
 
-// A share of the momentum and energy of a particle whose motion changes: beside it the rounding of
-// the change is 1e-7, however little friction or gravity gives.
+// A weight for rounding: 1e-9 of the momentum and energy of a particle whose motion changes.
+// Relative to it the rounding of the change is 1e-7, even if friction or gravity give very little.
 template <int D>
 Conserved<D> Balance<D>::rounding(const Vec<D>& velocity, const Spin<D>& spin) const {
   constexpr double kShare = 1e-9;
@@ -105,7 +105,7 @@ Conserved<D> Balance<D>::rounding(const Vec<D>& velocity, const Spin<D>& spin) c
   return weight;
 }
 
-// Gravity's force and its work on a particle, the integrals of g and of g.v.
+// Books the momentum and work of gravity on a particle: the integrals of g and of g.v.
 template <int D>
 void Balance<D>::fall(std::uint32_t particle, const Cell& cell, const Flight<D>& flight,
                       double begin, double end) {
@@ -125,7 +125,8 @@ void Balance<D>::arise(const Cell& cell, const Conserved<D>& amount) {
   add<D>(booked_.sources[grid_.index_of(cell)], amount);
 }
 
-// What leaves for the same cell, beyond a wall or round a box of one cell, passes no face.
+// A crossing into the same cell, beyond a wall or across a periodic box of one cell, passes no
+// face.
 template <int D>
 void Balance<D>::pass(const Cell& cell, int axis, int step, const Conserved<D>& amount) {
   Cell next = cell;
@@ -144,7 +145,8 @@ void Balance<D>::transport(const Vec<D>& start, const Vec<D>& branch, const Cell
       [&](const Cell& cell, int axis, int step) { pass(cell, axis, step, amount); });
 }
 
-// Energies in full, p.v and p^2/2: at a wall that takes none they cancel.
+// The terms p.v and p^2/2 enter with their magnitudes, because they cancel at a wall that conserves
+// energy.
 template <int D>
 void Balance<D>::weigh(const ParticleChange<D>& change) {
   const Vec<D>& p = change.gain.momentum;
@@ -153,8 +155,8 @@ void Balance<D>::weigh(const ParticleChange<D>& change) {
       rounding(change.velocity, spin(change.particle));
 }
 
-// Each partner changes in its own cell. What one gains from the other comes along the branch, of
-// the energy (1/2)(dE_0 - dE_1) (theory 8.7); the rest arises at both ends (theory 8.6).
+// Each partner changes in its own cell. Momentum and the energy (1/2)(dE_0 - dE_1) pass along the
+// branch vector (theory 8.7). The rest of the energy is a source at both ends (theory 8.6).
 template <int D>
 void Balance<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [first, second] = collision.particles;
@@ -171,8 +173,8 @@ void Balance<D>::on_collision(const PairCollision<D>& collision) {
   arise(from, source);
 }
 
-// What the wall gives comes in whole where it touches the particle, and from there along the
-// branch.
+// The wall's whole contribution is a source at the contact point. From there it passes along the
+// branch vector.
 template <int D>
 void Balance<D>::on_wall(const WallCollision<D>& collision) {
   const ParticleChange<D>& particle = collision.particle;
@@ -201,7 +203,8 @@ void Balance<D>::on_base_moved(double shift) {
   window_start_ -= shift;
 }
 
-// What the cells gained, from the particles' states, from which the next window starts.
+// Change of the cells' contents, from the particles' states at the window's ends. Starts the next
+// window.
 template <int D>
 Imbalances<D> Balance<D>::take_changes(double now) {
   const Vec<D>& gravity = simulation_.model().gravity;
@@ -212,8 +215,8 @@ Imbalances<D> Balance<D>::take_changes(double now) {
     const Flight<D>& flight = simulation_.particles()[i].flight;
     const Vec<D> v = flight.velocity_at(now, gravity);
     Tracked& particle = particles_[i];
-    // The cell to which it was followed decides where rounding would; a particle that is elsewhere
-    // was followed wrongly, which must show.
+    // Near a border, rounding is ambiguous and the tracked cell decides. A particle far from its
+    // tracked cell is an error of tracking, and must show as a residual.
     const Vec<D> r = flight.at(now, gravity);
     particle.cell = grid_.image_at(particle.cell, r);
     if (!grid_.contains(particle.cell, r)) particle.cell = grid_.cell_at(r);
@@ -229,8 +232,8 @@ Imbalances<D> Balance<D>::take_changes(double now) {
   return taken;
 }
 
-// The lower faces of a cell are the upper ones of the cells below; the lowest cell between walls
-// has none.
+// A cell's lower face is the upper face of the cell below it. The lowest cell between walls has no
+// lower face.
 template <int D>
 Booked<D> Balance<D>::booked_at(std::size_t index) const {
   Booked<D> booked = booked_.sources[index];

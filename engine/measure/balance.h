@@ -10,8 +10,8 @@
 
 namespace clatter {
 
-/// What the balance equations account for: mass, the D components of momentum, and energy, of
-/// motion and of spin.
+/// The conserved quantities of the balance equations: mass, D components of momentum, and energy of
+/// motion and spin.
 template <int D>
 using Conserved = Eigen::Matrix<double, D + 2, 1>;
 
@@ -19,72 +19,72 @@ using Conserved = Eigen::Matrix<double, D + 2, 1>;
 template <int D>
 struct Booked {
   Conserved<D> net = Conserved<D>::Zero();
-  Conserved<D> size = Conserved<D>::Zero();  ///< sum of what was booked, each without its sign
+  Conserved<D> size = Conserved<D>::Zero();  ///< sum of the bookings' magnitudes
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Booked<D>& sum) {
   auto& [net, size] = sum;
   io(net, size);
 }
 
-/// All that was booked in one window of time; [cells] each, cell (i, j) at i + j cells.x().
+/// The bookings of one window of time. Each list has [cells] elements, cell (i, j) at i + j
+/// cells.x().
 template <int D>
 struct Bookings {
-  /// What passed in the direction of each axis through the cells' upper faces across it: particles,
-  /// and what collisions carry along their branch.
+  /// Flux along each axis through the cells' upper faces: particles, and transfers of collisions
+  /// along their branch vectors.
   std::array<std::vector<Booked<D>>, D> faces;
-  /// What arose in the cells: dissipation, gravity, kicks, and what came in through walls.
+  /// Sources in the cells: dissipation, gravity, kicks, and contributions of walls.
   std::vector<Booked<D>> sources;
-  /// Sizes of what changed the motion of the particles inside, in events and by gravity: what the
-  /// faces and sources brought, before any of it cancelled, and 1e-9 of the momentum and energy of
-  /// each particle that changed, which are known to rounding.
+  /// Magnitudes of the changes of the particles in the cell, by events and gravity, before
+  /// cancellation. For each change they also contain 1e-9 of the particle's momentum and energy,
+  /// for rounding.
   std::vector<Conserved<D>> weights;
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Bookings<D>& bookings) {
   auto& [faces, sources, weights] = bookings;
   io(faces, sources, weights);
 }
 
-/// What the balance equations (theory 9.1-9.3) leave open over some time; [cells] each, cell (i, j)
-/// at i + j cells.x().
+/// Imbalances of the balance equations (theory 9.1-9.3) over some time. Each list has [cells]
+/// elements, cell (i, j) at i + j cells.x().
 template <int D>
 struct Imbalances {
-  std::vector<Conserved<D>> gaps;  ///< change of what the cell holds - booked
-  /// Sum of the sizes of all that was booked at the cell: through its faces, as its sources, and
-  /// the weights.
+  std::vector<Conserved<D>> gaps;  ///< change of the cell's content - bookings
+  /// Sum of the magnitudes of all bookings at the cell: faces, sources and weights.
   std::vector<Conserved<D>> sizes;
 
-  /// A cell's gaps over their sizes, of either sign. Where there is no gap, 0; where nothing was
-  /// booked and the cell changed all the same, 1 or -1; where that is no number, infinite.
+  /// A cell's residuals: gaps divided by sizes, with sign. 0 without a gap; 1 or -1 for a gap
+  /// without bookings; infinite if the quotient is NaN.
   Conserved<D> residual(std::size_t cell) const;
   /// The largest magnitude of each equation's residuals.
   Conserved<D> largest() const;
-  /// Adds those of another time, of the same cells.
+  /// Adds the imbalances of the same cells over another time.
   Imbalances& operator+=(const Imbalances& other);
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, Imbalances<D>& imbalances) {
   auto& [gaps, sizes] = imbalances;
   io(gaps, sizes);
 }
 
-/// How the balance equations close in one window of time.
+/// The balance equations in one window of time.
 template <int D>
 struct BalanceWindow {
   Imbalances<D> imbalances;
-  Bookings<D> booked;  ///< what the cells' changes were compared with
+  Bookings<D> booked;  ///< compared with the cells' changes
 };
 
-/// Closes the balance equations (theory 9.4) on a grid of equal cells over the whole box: what the
-/// cells hold, from the particles' states at a window's two ends, against what was booked at faces
-/// and as sources in between.
+/// Closes the balance equations (theory 9.4) on a grid of equal cells over the whole box. It
+/// compares the change of the cells' contents, from the particles' states at a window's two ends,
+/// with the bookings at faces and as sources.
 template <int D>
 class Balance : public Observer<D> {
  public:
@@ -102,7 +102,7 @@ class Balance : public Observer<D> {
   /// Number of cells along each axis.
   const IntVec<D>& cells() const { return grid_.cells(); }
 
-  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
     auto& [simulation, grid, particles, window_start, booked] = *this;
@@ -115,7 +115,7 @@ class Balance : public Observer<D> {
  private:
   using Cell = typename FieldGrid<D>::Cell;
 
-  /// A particle as far as it has been followed, and what it was at the window's start.
+  /// A particle's tracked cell, and its state at the window's start.
   struct Tracked {
     Cell cell;
     std::uint64_t first_cell;  // index

@@ -65,9 +65,9 @@ void CellIntegrals<D>::spread(const Vec<D>& from, const Vec<D>& along, Visit&& v
   grid_.cut(from, along, visit);
 }
 
-// What a particle adds to the kinetic sums per time, averaged over a time in which its velocity
-// changes by `change` at a constant rate and is `v` half-way: then the mean of v_k v_l is that of
-// the middle plus change_k change_l / 12, and that of three factors follows in the same way.
+// A particle's contribution to the kinetic sums per time. It is averaged over a time in which the
+// velocity changes uniformly by `change` and is `v` half-way. The mean of v_k v_l then is v_k v_l +
+// change_k change_l / 12; products of three factors follow in the same way.
 template <int D>
 typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Vec<D>& v, const Vec<D>& change,
                                                             const Spin<D>& spin) const {
@@ -137,7 +137,7 @@ void CellIntegrals<D>::end_flight(const ParticleChange<D>& particle, double time
   if (estimator_ == Estimator::Exact) add_flight(particle.before, particle.spin, time);
 }
 
-// Momentum and energy that go over a branch vector (theory 8.4, 8.7).
+// Transfer of momentum and energy along a branch vector (theory 8.4, 8.7).
 template <int D>
 void CellIntegrals<D>::add_transfer(const Vec<D>& from, const Vec<D>& branch,
                                     const Vec<D>& momentum, double energy) {
@@ -169,10 +169,10 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [a, b] = collision.particles;
   end_flight(a, collision.time);
   end_flight(b, collision.time);
-  // The partner at the image that touches.
+  // The periodic image of the partner in contact.
   const Vec<D> partner = a.position - collision.separation;
   add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy - b.energy));
-  // Where nothing is lost, zeta is 0 and not the rounding of energies that cancel.
+  // Without dissipation zeta is exactly 0, not the rounding of energies that cancel.
   if (layout_.dissipation >= 0 && dissipates_ && !collision.elasticised) {
     const double lost = 0.5 * (a.energy + b.energy);
     add_dissipation(a.position, lost);
@@ -180,8 +180,8 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   }
 }
 
-// The contact point on the wall is the partner. What a wall takes belongs to its power, not to the
-// dissipation.
+// The contact point on the wall is the partner. Energy that a wall absorbs belongs to its power,
+// not to the dissipation.
 template <int D>
 void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
   const ParticleChange<D>& particle = collision.particle;

@@ -12,12 +12,12 @@
 
 namespace clatter {
 
-/// What a grid has summed up over a window of time (theory 8.1-8.7) before the division by time
-/// and area. With box cells a kinetic sum of particles in a cell is an integral over time, and one
-/// over events has the share of the branch vector that lies in the cell as its weight.
+/// Sums of a grid over a window of time (theory 8.1-8.7), before the division by time and area.
+/// With box cells, kinetic sums are integrals over the time that particles spend in a cell. Sums
+/// over events are weighted with the share of the branch vector in the cell.
 struct CellSums {
-  double time = 0.0;  ///< the window's length, by which sums over events are to be divided
-  /// What kinetic sums are to be divided by: that length too, or the number of samples.
+  double time = 0.0;  ///< the window's length, the divisor of sums over events
+  /// Divisor of kinetic sums: the window's length, or the number of samples.
   double kinetic_weight = 0.0;
   std::vector<double> rows;  ///< [cells][MomentLayout::size]
 
@@ -25,39 +25,40 @@ struct CellSums {
   CellSums& operator+=(const CellSums& other);
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, CellSums& sums) {
   auto& [time, kinetic_weight, rows] = sums;
   io(time, kinetic_weight, rows);
 }
 
-/// Number of blocks of `block` cells along each axis; the last along an axis may have fewer cells.
+/// Number of blocks of `block` cells along each axis. The last block of an axis may have fewer
+/// cells.
 template <int D>
 IntVec<D> block_counts(const FieldGrid<D>& grid, const IntVec<D>& block) {
   return (grid.cells().array() + block.array() - 1) / block.array();
 }
 
-/// The sums of a grid's cells, added up over these blocks; the rows of the blocks, x fastest.
+/// The sums of a grid's cells added over these blocks, one row per block, x fastest.
 template <int D>
 CellSums block_sums(const CellSums& cells, const FieldGrid<D>& grid, const IntVec<D>& block);
 
-/// How particles and collisions are spread over cells.
+/// Coarse-graining: estimator and kernel.
 struct Coarsening {
   Estimator estimator = Estimator::Exact;
   std::optional<double> gaussian_width;  ///< absent: box cells
 };
 
-/// Sums up what fields need on a grid of equal cells over the whole box. Exact: each free flight is
-/// cut at the cell borders and counts the time spent in each cell, times 1, v_k, v_k v_l and so on
-/// (the track-length estimator). Snapshot: particles count where they are whenever sample() is
-/// called. Collisions count at once, along the branch vector from particle 2, or from the contact
-/// point on a wall, to particle 1.
+/// Accumulates the sums for fields on a grid of equal cells over the whole box. The exact estimator
+/// (track-length estimator) cuts each free flight at the cell borders. It adds the time spent in
+/// each cell, times 1, v_k, v_k v_l and so on. The snapshot estimator adds the particles at their
+/// positions whenever sample() is called. Collisions add to the cells along the branch vector. It
+/// points from particle 2, or from the contact point on a wall, to particle 1.
 template <int D>
 class CellIntegrals : public Observer<D> {
  public:
   /// Watches a simulation from now on with the given number of cells along each axis. A Gaussian
-  /// is for the snapshot estimator only.
+  /// requires the snapshot estimator.
   CellIntegrals(const Simulation<D>& simulation, const IntVec<D>& cells,
                 const MomentLayout<D>& layout, const Coarsening& coarsening = {});
 
@@ -66,7 +67,7 @@ class CellIntegrals : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
-  /// Counts every particle where it is at the simulation's time; of the snapshot estimator.
+  /// Takes a sample of all particles at the simulation's time (snapshot estimator).
   void sample();
 
   /// The sums since the last call, or since the start.
@@ -74,10 +75,10 @@ class CellIntegrals : public Observer<D> {
 
   /// The cells.
   const FieldGrid<D>& grid() const { return grid_; }
-  /// Which sums stand where.
+  /// The layout of a row of sums.
   const MomentLayout<D>& layout() const { return layout_; }
 
-  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
     auto& [simulation, grid, layout, estimator, dissipates, gaussian, window_start, sums] = *this;
@@ -85,7 +86,7 @@ class CellIntegrals : public Observer<D> {
   }
 
  private:
-  /// A row of kinetic sums, per particle.
+  /// Kinetic sums of one particle, per time.
   using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + kSpinSize<D>>;
 
   Rates rates_of(const Vec<D>& v, const Vec<D>& change, const Spin<D>& spin) const;
@@ -105,7 +106,7 @@ class CellIntegrals : public Observer<D> {
   FieldGrid<D> grid_;
   MomentLayout<D> layout_;
   Estimator estimator_;
-  bool dissipates_;  // whether collisions of particles do
+  bool dissipates_;  // whether collisions between particles dissipate
   std::optional<GaussianKernel<D>> gaussian_;
   double window_start_;
   CellSums sums_;

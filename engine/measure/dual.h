@@ -2,14 +2,15 @@
 
 namespace clatter {
 
-/// A number and its derivative in some direction: arithmetic that carries both to rounding.
+/// Dual number: a value and its derivative along one variable. Arithmetic computes both (automatic
+/// differentiation).
 struct Dual {
   double value = 0.0;
   double slope = 0.0;
 
   /// A constant.
   constexpr Dual(double constant = 0.0) : value(constant) {}
-  /// A variable.
+  /// A variable, or a value with a known derivative.
   constexpr Dual(double value, double slope) : value(value), slope(slope) {}
 };
 
@@ -30,7 +31,7 @@ constexpr Dual operator/(Dual a, Dual b) {
   return {ratio, (a.slope - ratio * b.slope) / b.value};
 }
 
-/// The number itself.
+/// The value without the derivative.
 constexpr double value_of(Dual a) {
   return a.value;
 }

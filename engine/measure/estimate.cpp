@@ -21,8 +21,7 @@ Estimate independent_estimate(std::span<const double> values) {
   return {mean, std::sqrt(squares / (count * (count - 1.0)))};
 }
 
-// The errors that values would have, were they independent, and those of blocks of 2, 4, ...
-// values.
+// Standard errors of blocks of 1, 2, 4, ... values, calculated as if the blocks were independent.
 static std::vector<double> error_levels(std::vector<double> series) {
   std::vector<double> errors;
   while (series.size() >= 2 && (errors.empty() || series.size() >= kMinBlocks)) {
@@ -51,7 +50,7 @@ double blocked_error(std::vector<double> series) {
 }
 
 static double drift_of(double mean, const std::vector<double>& series) {
-  constexpr double kRounding = 1e-9;  // of the mean: no scatter, but digits that are lost
+  constexpr double kRounding = 1e-9;  // relative to the mean; a smaller difference is rounding
   constexpr std::size_t kMinValues = 512;
   if (series.size() < kMinValues) return 0.0;
   const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);

@@ -12,13 +12,13 @@
 
 namespace clatter {
 
-/// Equal cells over the whole box. Along each axis cells are numbered from 0 at the box's low end
-/// on, without end to either side; folding brings such a number into the box: periodically, or,
-/// between walls, into the edge cell, which takes what lies beyond.
+/// Equal cells over the whole box. Along each axis cell 0 is at the low end of the box; the
+/// numbering continues beyond the box on both sides. Folding maps a number into the box:
+/// periodically, or, between walls, to the nearest edge cell.
 ///
-/// On which side of a border a place lies is a matter of rounding. Who must not count a particle
-/// twice, or not at all, therefore carries its cell from border to border: walks start, and lines
-/// end, in the cells that are given.
+/// The side of a border on which a position is depends on rounding. To count each particle exactly
+/// once, callers therefore track its cell from border to border: walks start, and lines end, in the
+/// given cells.
 template <int D>
 class FieldGrid {
  public:
@@ -37,19 +37,19 @@ class FieldGrid {
   const IntVec<D>& cells() const { return cells_; }
   /// Number of cells.
   std::size_t size() const { return static_cast<std::size_t>(cells_.prod()); }
-  /// Whether a cell is of the box or of one of its images that particles come to.
+  /// Whether a cell is in the box or in a periodic image that particles can reach.
   bool is_near(const Cell& cell) const {
     constexpr long kFarthest = 1L << 40;
     return std::ranges::all_of(cell, [](long k) { return -kFarthest < k && k < kFarthest; });
   }
-  /// Edges of a cell.
+  /// Edge lengths of a cell.
   const Vec<D>& widths() const { return widths_; }
-  /// Area of a cell; its volume in space.
+  /// Area of a cell in 2D, volume in 3D.
   double cell_measure() const { return widths_.prod(); }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return periodic_[axis]; }
 
-  /// The cell in which a place lies; a cell holds its lower borders.
+  /// The cell of a position, not folded. A cell contains its lower borders.
   [[gnu::always_inline]] Cell cell_at(const Vec<D>& r) const {
     Cell cell;
     for (int axis = 0; axis < D; ++axis) {
@@ -58,7 +58,7 @@ class FieldGrid {
     return cell;
   }
 
-  /// The middle of a cell, not folded.
+  /// The centre of a cell, not folded.
   Vec<D> centre_of(const Cell& cell) const {
     Vec<D> centre;
     for (int axis = 0; axis < D; ++axis) {
@@ -67,7 +67,7 @@ class FieldGrid {
     return centre;
   }
 
-  /// The image of a cell that lies at a place in it: periodic axes shift it by whole boxes.
+  /// The periodic image of a cell that contains `place`, a position in some image of the cell.
   Cell image_at(Cell cell, const Vec<D>& place) const {
     const Vec<D> ahead = place - centre_of(cell);
     for (int axis = 0; axis < D; ++axis) {
@@ -77,15 +77,15 @@ class FieldGrid {
     return cell;
   }
 
-  /// Whether a place lies in a cell, not folded, to within rounding: more than what long flights
-  /// gather, less than any cell.
+  /// Whether a position is in a cell, not folded. The tolerance is larger than the rounding of long
+  /// flights and smaller than any cell.
   bool contains(const Cell& cell, const Vec<D>& place) const {
     constexpr double kRounding = 1e-9;  // in box lengths
     const Vec<D> ahead = place - centre_of(cell);
     return (ahead.cwiseAbs().array() <= 0.5 * widths_.array() + kRounding * box_.array()).all();
   }
 
-  /// The cell in the box that has an index.
+  /// The cell in the box with this index.
   Cell cell_of(std::size_t index) const {
     Cell cell;
     for (int axis = 0; axis < D; ++axis) {
@@ -96,7 +96,7 @@ class FieldGrid {
     return cell;
   }
 
-  /// Index of a cell, folded: in the plane (i, j) has i + j cells().x().
+  /// Index of a cell after folding: in 2D i + j cells().x() for (i, j).
   std::size_t index_of(const Cell& cell) const {
     std::size_t index = 0;
     for (int axis = D - 1; axis >= 0; --axis) {
@@ -105,9 +105,9 @@ class FieldGrid {
     return index;
   }
 
-  /// Cuts the line from `from` to `from + along` at every border of cells and calls visit(index,
-  /// share) for each piece, from first to last, with its share of the length; a point is one piece
-  /// of share 1. Without the attributes, fields take 4 % more time (`clatter bench fields`).
+  /// Cuts the line from `from` to `from + along` at every cell border. Calls visit(index, share)
+  /// for each piece in order, with its share of the length. A point is one piece of share 1.
+  /// Without the attributes, fields take 4 % more time (`clatter bench fields`).
   template <class Visit>
   [[gnu::noinline]] void cut(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
     walk(
@@ -117,9 +117,9 @@ class FieldGrid {
   }
 
   /// Walks along the line from `from` in `cell` to `from + along` in `last`. Calls piece(cell,
-  /// share) for each piece, and cross(cell, axis, step) where the line leaves a cell, along an axis
-  /// by a step of 1 or -1. How many borders it crosses follows from the two cells, only their order
-  /// from the places.
+  /// share) for each piece. Calls cross(cell, axis, step) when the line leaves a cell along an axis
+  /// by a step of 1 or -1. The two cells determine the number of crossings; the positions determine
+  /// only their order.
   template <class Piece, class Cross>
   void walk(const Vec<D>& from, const Vec<D>& along, Cell cell, const Cell& last, Piece&& piece,
             Cross&& cross) const {
@@ -142,7 +142,7 @@ class FieldGrid {
       for (int k = 1; k < D; ++k) {
         if (borders[k].next < borders[axis].next) axis = k;
       }
-      // Rounding must not let a piece be negative.
+      // Rounding must not make a piece negative.
       const double next = std::clamp(borders[axis].next, done, 1.0);
       piece(cell, next - done);
       cross(cell, axis, borders[axis].step);
@@ -153,18 +153,18 @@ class FieldGrid {
     piece(cell, 1.0 - done);
   }
 
-  /// Walks along a flight, which is in `cell` at `begin`, to the cell where it is at `end`. Calls
-  /// piece(cell, begin, end) for the time spent in each cell, and cross(cell, time, axis, step)
-  /// where it leaves one. A border that it reaches at the very end is not crossed: what comes then
-  /// may turn the particle back.
+  /// Walks along a flight, which is in `cell` at `begin`, to its cell at `end`. Calls piece(cell,
+  /// begin, end) for the time spent in each cell. Calls cross(cell, time, axis, step) when the
+  /// flight leaves a cell. A border reached exactly at `end` is not crossed, because the event at
+  /// `end` may turn the particle back.
   template <class Piece, class Cross>
   void walk(const Flight<D>& flight, const Vec<D>& gravity, Cell& cell, double begin, double end,
             Piece&& piece, Cross&& cross) const {
     Crossing last;
     for (double time = begin;;) {
       Crossing next = next_crossing(flight, gravity, cell, time);
-      // The top of a parabola on a border may fall back within less than a time's rounding, and
-      // would cross to and fro at one time for ever.
+      // A parabola with its top on a border may return within the rounding of the time. Without
+      // this it would cross back and forth at one time without end.
       if (next.axis == last.axis && next.step == -last.step) {
         next.time = std::max(next.time, std::nextafter(time, kNever));
       }
@@ -185,19 +185,19 @@ class FieldGrid {
   struct Borders {
     int step = 0;
     double per_length = 0.0;                                ///< 1 / the line's extent
-    double next = std::numeric_limits<double>::infinity();  ///< share of the line up to the next
+    double next = std::numeric_limits<double>::infinity();  ///< next border, as share of the line
   };
 
-  /// A flight's way out of a cell.
+  /// The exit of a flight from a cell.
   struct Crossing {
     double time = kNever;
     int axis = 0;
     int step = 0;
   };
 
-  // Along each axis a straight flight has one border ahead, a parabola may return to the one
-  // behind. A particle beyond a border by rounding crosses it at once if it flies outwards, and not
-  // if it flies back.
+  // Along each axis a straight flight has one border ahead; a parabola may also return to the
+  // border behind. A particle beyond a border by rounding crosses it at once if it moves outwards,
+  // and not if it moves back.
   Crossing next_crossing(const Flight<D>& flight, const Vec<D>& gravity, const Cell& cell,
                          double time) const {
     const Vec<D> r = flight.at(time, gravity);

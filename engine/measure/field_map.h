@@ -10,9 +10,9 @@ namespace clatter {
 struct FieldMap {
   Field field;
   std::vector<int> cells;      ///< [D] along each axis
-  std::vector<double> values;  ///< [cells_y][cells_x], in space [cells_z][cells_y][cells_x]; NaN:
+  std::vector<double> values;  ///< [cells_y][cells_x], in 3D [cells_z][cells_y][cells_x]; NaN:
                                ///< never visited
-  bool whole_window = false;   ///< averaged over the whole window, not less for want of time
+  bool whole_window = false;   ///< whether the average covers the whole window
 };
 
 }  // namespace clatter

@@ -17,35 +17,36 @@ struct FieldMaps {
   double begin = 0.0;  ///< simulation times
   double end = 0.0;
   std::vector<double> cell;    ///< [D] edges of a cell
-  std::vector<FieldMap> maps;  ///< one of each field asked for
+  std::vector<FieldMap> maps;  ///< one per requested field
 };
 
-/// The map of a field that a grid's sums give, NaN where it has no value (see field_value).
+/// The map of a field from a grid's sums; NaN without a value (see field_value).
 template <int D>
 FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<D>& grid,
                    const MomentLayout<D>& layout);
 
-/// A run's sums as a series of parts, whose number stays bounded however long the run goes on:
-/// whenever there are as many as may be, each two neighbours become one, and parts are twice as
-/// long from there on.
+/// A run's sums as a series of parts in time. The number of parts stays bounded for any length of
+/// the run: when it reaches the maximum, neighbouring parts are merged in pairs, and later parts
+/// are twice as long.
 class PartSums {
  public:
-  /// Parts there are at most; fewer, but at least 2, where they would take more than kMaxBytes.
+  /// Maximum number of parts. If these took more than kMaxBytes, the maximum is lower, but at least
+  /// 2.
   static constexpr std::size_t kMaxParts = 64;
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
-  /// How many there may be where each takes so many bytes; even, so that all have a neighbour.
+  /// Maximum number of parts of `bytes` each. It is even, so that each part has a neighbour.
   static std::size_t max_parts(std::size_t bytes);
 
-  /// Adds a window of time; all have the same length and grid.
+  /// Adds a window of time. All windows have the same length and grid.
   void add(CellSums window);
 
   /// The parts in order of time; the last may be shorter than the others.
   const std::vector<CellSums>& parts() const { return parts_; }
-  /// The windows in each part but perhaps the last.
+  /// The number of windows per part; the last part may have fewer.
   std::uint64_t windows_per_part() const { return windows_per_part_; }
 
-  /// What a checkpoint keeps.
+  /// Visits all members, for checkpoints.
   template <class Archive>
   void visit(Archive& io) {
     auto& [parts, windows_per_part, windows] = *this;

@@ -11,15 +11,15 @@ namespace {
 template <int D, class S>
 using Cell = CellAverages<D, S>;
 
-// Particles at a wall whose centres come to a cell's border to the bit seem to visit the cell for
-// as long as rounding has it: V would be a ratio of roundings.
+// Whether particles were in the cell. The centres of particles at a wall may reach a cell's border
+// exactly; the cell then gets a time of rounding errors, and V would be a ratio of these.
 template <int D, class S>
 bool visited(const Cell<D, S>& cell) {
   constexpr double kRounding = 1e-12;  // particles per a^2
   return value_of(cell.density) > kRounding;
 }
 
-// V = p/(m rho). Where no particle ever was nothing flows.
+// V = p/(m rho); 0 without particles.
 template <int D, class S>
 S velocity(const Cell<D, S>& cell, int k) {
   return visited(cell) ? cell.momentum[k] / cell.density : S(0.0);
@@ -43,7 +43,7 @@ S collisional_stress(const Cell<D, S>& cell, int k, int l) {
   return -cell.transfer[k][l];
 }
 
-// (theory 8.8), multiplied out: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
+// (theory 8.8), expanded: sum (m/2) v^2 v_k Phi - E V_k + (sigma_kin.V)_k.
 template <int D, class S>
 S kinetic_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_flux[k] - cell.energy() * velocity(cell, k);
@@ -51,7 +51,7 @@ S kinetic_heat_flux(const Cell<D, S>& cell, int k) {
   return flux;
 }
 
-// What (theory 8.9) adds to it: q^o (theory 8.7), about the mean velocity.
+// The term of (theory 8.9): q^o (theory 8.7), relative to the mean velocity.
 template <int D, class S>
 S collisional_heat_flux(const Cell<D, S>& cell, int k) {
   S flux = cell.energy_transfer[k];
@@ -64,13 +64,13 @@ S no_value() {
   return S(std::numeric_limits<double>::quiet_NaN());
 }
 
-// What particles that come by carry: unknown where none does.
+// A value that particles carry: NaN in a cell that no particle visited.
 template <int D, class S>
 S of_visitors(const Cell<D, S>& cell, S value) {
   return visited(cell) ? value : no_value<S>();
 }
 
-// The whole of what particles and collisions carry is all collisional where no particle comes by.
+// In a cell without particles the total is the collisional part alone.
 template <int D, class S>
 S part_of(Part part, const Cell<D, S>& cell, S kinetic, S collisional) {
   switch (part) {
@@ -92,12 +92,12 @@ S mean_temperature(const Cell<D, S>& cell) {
   return (1.0 / D) * sum;
 }
 
-// How a quantity follows from what a cell holds.
+// Derivation of a quantity from the averages of a cell.
 template <int D, class S>
 struct Derivation {
   Quantity quantity;
-  Needs kinetic;      // the sums of its kinetic part, or of all of it
-  Needs collisional;  // those of its collisional part
+  Needs kinetic;      // sums for its kinetic part, or for all of it
+  Needs collisional;  // sums for its collisional part
   S (*value)(Field field, const Cell<D, S>& cell);
 };
 
@@ -119,7 +119,7 @@ constexpr std::array<Derivation<D, S>, kQuantities.size()> kDerivations = {{
        return part_of(field.part, cell, kinetic_stress(cell, field.i, field.j),
                       collisional_stress(cell, field.i, field.j));
      }},
-    // (theory 8.8), multiplied out, has the energy and every component of the kinetic stress.
+    // The expanded (theory 8.8) contains the energy and every component of the kinetic stress.
     {Quantity::HeatFlux,
      sum::kVelocity | sum::kSquares | sum::kShears | sum::kEnergyFlux | sum::kSpinEnergy,
      sum::kVelocity | sum::kTransfer | sum::kEnergyTransfer,

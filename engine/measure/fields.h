@@ -9,8 +9,8 @@
 
 namespace clatter {
 
-/// What a cell holds per area, in space per volume, averaged over time; S is a number, or a Dual.
-/// Sums that are not kept are 0.
+/// Time averages of a cell per area, in 3D per volume. S is double or Dual. Sums that the layout
+/// does not keep are 0.
 template <int D, class S>
 struct CellAverages {
   using Vector = std::array<S, D>;
@@ -24,7 +24,7 @@ struct CellAverages {
   S spin_energy{};                     ///< sum I omega^2 / 2
   Tensor transfer{};                   ///< of momentum l along k in collisions, per time
   Vector energy_transfer{};  ///< energy transfer of collisions, sum of branch vector times energy
-  S dissipation{};           ///< energy that collisions of particles gave, per time
+  S dissipation{};           ///< <= 0, energy gain in collisions between particles, per time
 
   /// E = sum (v^2 + I omega^2)/2.
   S energy() const {
@@ -34,21 +34,21 @@ struct CellAverages {
   }
 };
 
-/// The averages that a cell's row of sums, divided by time and area, stands for.
+/// The averages from a cell's row of sums, divided by time and area.
 template <int D, class S>
 CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row);
 
-/// Those of a cell of this area or volume, from the sums of a window.
+/// The averages of a cell from the sums of a window. `measure` is the cell's area or volume.
 template <int D>
 CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
                                     std::size_t cell, double measure);
 
-/// The sums from which a field follows.
+/// The sums that a field needs.
 Needs needs_of(Field field);
 
-/// Value of a field (theory 8); NaN where it has none: velocities, temperatures, spins and the
-/// kinetic parts of stress and heat flux where no particle ever was, and the whole stress and heat
-/// flux where no collision passed anything on either. Residuals follow from no averages.
+/// Value of a field (theory 8). In a cell without particles, velocity, temperatures, spins and the
+/// kinetic parts of stress and heat flux are NaN. The total stress and heat flux are NaN if the
+/// collisional part is 0 too. Residuals are always NaN, because they do not follow from averages.
 template <int D, class S>
 S field_value(Field field, const CellAverages<D, S>& cell);
 

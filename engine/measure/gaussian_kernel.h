@@ -8,12 +8,13 @@
 namespace clatter {
 
 /// The smooth coarse-graining function Phi(r) = exp(-r^2/2w^2)/(2 pi w^2)^(D/2), evaluated at the
-/// centres of a grid's cells and multiplied by their measure. It reaches through periodic borders;
-/// at walls it ends as it is. Beyond 6 w, where 1.5e-8 of it lies in the plane, it is left out.
+/// centres of a grid's cells and multiplied by their measure. It continues across periodic borders;
+/// at walls it is cut off without renormalisation. Values beyond 6 w are neglected; in 2D they are
+/// 1.5e-8 of the integral.
 template <int D>
 class GaussianKernel {
  public:
-  /// Of width w on these cells.
+  /// Kernel of width w on the cells of `grid`.
   GaussianKernel(const FieldGrid<D>& grid, double width) : grid_(grid), width_(width) {}
 
   /// Calls visit(index, weight) with Phi(r - place) for every cell in reach.
@@ -25,8 +26,8 @@ class GaussianKernel {
     });
   }
 
-  /// Likewise with the mean of Phi over the line from `from` to `from + along`, B in closed
-  /// form (theory 8.12).
+  /// The same with the mean of Phi over the line from `from` to `from + along`, which is B in
+  /// closed form (theory 8.12).
   template <class Visit>
   void along(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
     const double length = along.norm();
@@ -49,7 +50,8 @@ class GaussianKernel {
            std::pow(2.0 * std::numbers::pi * width_ * width_, -0.5 * static_cast<double>(D));
   }
 
-  /// Calls visit(centre, index) for the cells within reach of any place between two corners.
+  /// Calls visit(centre, index) for the cells within reach of the rectangle (in 3D cuboid) between
+  /// two corners.
   template <class Visit>
   void in_reach(const Vec<D>& a, const Vec<D>& b, Visit&& visit) const {
     const Vec<D> reach = Vec<D>::Constant(kReach * width_);

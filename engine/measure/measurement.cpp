@@ -6,12 +6,11 @@
 
 namespace clatter {
 
-// Enough windows for the blocking to see correlations; more where the scene asks for a finer
-// series.
+// Number of windows: enough for blocking to resolve correlations, and more for a finer series.
 static constexpr double kMinWindows = 512.0;
 static constexpr double kMaxWindows = 8192.0;
-// Balances close over longer ones: beside what little a weak gravity books in a short time, the
-// rounding of what a particle carries would show.
+// Balances are closed over longer windows. In a short time a weak gravity books so little that the
+// rounding of the particles' energies would dominate.
 static constexpr std::size_t kWindowsPerBalance = 32;
 
 static double windows_in(double span, double series_interval) {
@@ -35,12 +34,12 @@ double cells_memory(const Measure& measure, bool spins) {
         static_cast<double>(PartSums::max_parts(static_cast<std::size_t>(cells * row)));
     const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
     const int columns = measure.cells[static_cast<std::size_t>(measure.profile_axis)];
-    // Beside the parts the window under way and the one that is closed, or the parts' sum.
+    // Besides the parts: the current window, and the closed window or the sum of the parts.
     bytes += cells * ((parts + 2.0) * row + maps) +
              windows_in(measure.duration, measure.series_interval) * columns * row;
   }
   if (balanced) {
-    // Likewise two windows.
+    // The current and the closed window.
     constexpr std::size_t kBookings = (D + 1) * sizeof(Booked<D>) + sizeof(Conserved<D>);
     constexpr std::size_t kResidual = 4 * (D + 2) * sizeof(double);
     bytes += cells * static_cast<double>(2 * kBookings + kResidual);
@@ -70,7 +69,7 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
       totals_(simulation) {
   visit(saved);
   saved.finish();
-  // Where other laws have brought or taken spins: there were none, or there are none.
+  // A change of laws may have added or removed spins: adds zeros, or removes the series.
   series_spin_temperature_.resize(simulation.spins().empty() ? 0 : series_time_.size());
   observe();
 }
@@ -102,7 +101,8 @@ void Measurement<D>::observe() {
   simulation_.every(
       series_start_, measure_.series_interval, [this](double time) { sample(time); },
       series_time_.size());
-  // Before the windows, so that a sample at the end of one belongs to it.
+  // Timers of samples come before timers of windows, so that a sample at a window's end belongs to
+  // it.
   if (measure_.estimator == Estimator::Snapshot && !measure_.fields.empty()) {
     simulation_.every(
         averages_start_ + measure_.interval, measure_.interval,
@@ -202,7 +202,7 @@ void Measurement<D>::add_maps(Measured& measured) const {
   }
 }
 
-// A quantity that each window has.
+// The series of a quantity over the windows.
 template <typename Window, typename Quantity>
 static std::vector<double> series_of(const std::vector<Window>& windows, const Quantity& quantity) {
   std::vector<double> series;
@@ -285,7 +285,7 @@ Measured Measurement<D>::means() const {
   }
   const bool walled = std::ranges::any_of(model.walls, [](const auto& wall) { return !!wall; });
   if (!walled && count >= 2.0) {
-    // All momenta are conserved, so D(N - 1) degrees of freedom carry the temperature.
+    // The total momentum is conserved, so D(N - 1) degrees of freedom carry the temperature.
     const auto virial = series_of(windows_, [](const auto& w) { return w.virial / D; });
     const auto thermal = series_of(windows_, [&](const auto& w) {
       return count * (w.temperature.mean() * count / (count - 1.0)) * w.duration;
@@ -298,7 +298,7 @@ Measured Measurement<D>::means() const {
 
 template <int D>
 Measured Measurement<D>::result() {
-  // The last window ends with the run, perhaps a rounding error before its time.
+  // The last window ends with the run, possibly a rounding error early.
   const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
   if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
   Measured measured = means();

@@ -10,16 +10,15 @@ namespace clatter {
 /// Flags of sums that fields need.
 using Needs = unsigned;
 
-/// Each sum's flag, see the members of MomentLayout.
+/// The flags of the sums, see the members of MomentLayout.
 namespace sum {
 inline constexpr Needs kVelocity = 1, kSquares = 2, kShears = 4, kEnergyFlux = 8, kSpin = 16,
                        kSpinEnergy = 32, kTransfer = 64, kEnergyTransfer = 128, kDissipation = 256;
 }  // namespace sum
 
-/// Which sums (theory 8) a grid keeps, and where each stands in the row of numbers that a cell
-/// has: what the fields asked for do not need is not stored. In rising order come the kinetic sums,
-/// over particles and time; the sums over events that spread along a branch vector; and the one
-/// that stays at its ends.
+/// Layout of a cell's row of sums (theory 8): the index of each sum, or kAbsent. Only the sums that
+/// the requested fields need are stored. The order is: kinetic sums, over particles and time; sums
+/// over events, spread along a branch vector; and the sum at the ends of a branch vector.
 template <int D>
 struct MomentLayout {
   static constexpr int kAbsent = -1;
@@ -31,15 +30,15 @@ struct MomentLayout {
   int energy_flux = kAbsent;      ///< D: sum (v^2 + I omega^2)/2 v_k
   int spin = kAbsent;             ///< of Spin<D>: sum omega
   int spin_energy = kAbsent;      ///< 1: sum I omega^2 / 2
-  int kinetic = 1;                ///< numbers up to here are kinetic
+  int kinetic = 1;                ///< end of the kinetic sums
   int transfer = kAbsent;         ///< D^2, [k][l]: sum r_12,k dp_1,l
   int energy_transfer = kAbsent;  ///< D: sum (dE_1 - dE_2)/2 r_12,k; at walls dE_1 (r_1 - r_w)_k
-  int along_branch = 1;           ///< from `kinetic` up to here numbers spread along branch vectors
+  int along_branch = 1;           ///< end of the sums spread along branch vectors
   int dissipation = kAbsent;      ///< 1: sum (dE_1 + dE_2)/2, at either end
   int size = 1;                   ///< numbers in a row
 };
 
-/// The sums that these fields need; `spins`: whether the particles spin, and so carry energy.
+/// The layout for these fields. `spins`: whether the particles spin, and so carry energy of spin.
 template <int D>
 MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins);
 

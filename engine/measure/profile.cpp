@@ -11,7 +11,7 @@ namespace clatter {
 
 namespace {
 
-// The windows' sums in one column, and how a field follows from their totals.
+// The windows' sums in one column, and the estimate of a field from them.
 template <int D>
 class Column {
  public:
@@ -29,8 +29,8 @@ class Column {
     }
   }
 
-  // Windows are blocked by what each adds to the field, which is that of all of them, linear in
-  // their sums: a window's sum k less the share that its length has in the total.
+  // The mean is the field of the windows' totals. The error comes from blocking of the windows'
+  // contributions, linearised in their sums: a window's sum k minus the average times its length.
   Estimate estimate(Field field) const {
     const double mean = field_value(field, averages_of<D, Dual>(layout_, along(-1).data())).value;
     if (std::isnan(mean)) return {mean, 0.0};
@@ -67,8 +67,8 @@ class Column {
 
   std::span<const CellSums> windows_;
   const MomentLayout<D>& layout_;
-  std::size_t begin_;  // of the column's rows
-  double measure_;     // area of the column, in space its volume
+  std::size_t begin_;  // index of the column's row
+  double measure_;     // area of the column, in 3D its volume
   double time_ = 0.0;
   double kinetic_weight_ = 0.0;
   std::vector<double> totals_;

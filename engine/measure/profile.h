@@ -9,24 +9,24 @@
 
 namespace clatter {
 
-/// Fields along one axis, averaged over the others and over time, with standard errors by blocking.
-/// Where a field has no value (see field_value) its mean is NaN.
+/// Fields along one axis, averaged over the other axes and over time, with standard errors by
+/// blocking. A field without a value (see field_value) has the mean NaN.
 struct Profile {
   int dimension = 2;  ///< of the box
   Axis axis = Axis::X;
   std::vector<double> edges;                  ///< [columns + 1] along the axis
-  std::vector<Field> fields;                  ///< those asked for
+  std::vector<Field> fields;                  ///< the requested fields
   std::vector<std::vector<Estimate>> values;  ///< [fields][columns]
 
-  /// The values of a field that was asked for; throws std::out_of_range for another.
+  /// The values of a requested field; throws std::out_of_range for another field.
   const std::vector<Estimate>& at(Field field) const;
 };
 
-/// A window's sums on a grid added up across an axis: the rows of `grid.cells()[axis]` columns.
+/// A window's sums added over all cells of each column across an axis: `grid.cells()[axis]` rows.
 template <int D>
 CellSums columns_of(const CellSums& cells, const FieldGrid<D>& grid, Axis axis);
 
-/// The profile that windows of time give, each with the rows of all columns, from columns_of().
+/// The profile from windows of time, each a result of columns_of().
 template <int D>
 Profile profile_of(std::span<const CellSums> windows, const FieldGrid<D>& grid,
                    const MomentLayout<D>& layout, std::span<const Field> fields, Axis axis);

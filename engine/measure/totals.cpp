@@ -13,8 +13,8 @@ Totals<D>::Totals(const Simulation<D>& simulation)
   take_stock();
 }
 
-// Kinetic energy that the particles had at the start of their flights: it changes by events only,
-// the work of gravity on a flight being booked when that ends.
+// Kinetic energy at the starts of the particles' current flights, and energy of spins. It changes
+// only by events; the work of gravity on a flight is booked at the flight's end.
 template <int D>
 double Totals<D>::energy_of_starts() const {
   double twice = 0.0;
@@ -36,7 +36,7 @@ void Totals<D>::take_stock() {
   for (const Spin<D>& spin : simulation_.spins()) spin_squares_ += spin.squaredNorm();
 }
 
-// Between events sum v_k^2 is a parabola in time, for all particles share the acceleration.
+// Between events sum v_k^2 is a parabola in time, because all particles have the same acceleration.
 template <int D>
 void Totals<D>::integrate_to(double time) {
   const double dt = time - integrated_to_;
@@ -125,7 +125,7 @@ WindowTotals<D> Totals<D>::close_window() {
   window_ = {};
   integral_.setZero();
   spin_integral_ = 0.0;
-  take_stock();  // sheds the rounding of the increments
+  take_stock();  // removes the accumulated rounding
   window_start_ = now;
   return closed;
 }

@@ -9,26 +9,26 @@
 
 namespace clatter {
 
-/// What happened to the whole gas during one window of time.
+/// Sums and averages of the whole gas over one window of time.
 template <int D>
 struct WindowTotals {
   double duration = 0.0;
-  Vec<D> temperature = Vec<D>::Zero();    ///< T_k: exact time averages of m <v_k^2>
-  Vec<D> second_moment = Vec<D>::Zero();  ///< <v_k^2> over the particles at the window's end
-  Vec<D> fourth_moment = Vec<D>::Zero();  ///< <v_k^4> there
-  double collisions = 0.0;                ///< disk-disk
-  double elasticised = 0.0;               ///< of these, made elastic by the TC model
-  double spin_temperature = 0.0;          ///< exact time average of I <omega^2> per component
-  double walls_in = 0.0;                  ///< energy that the walls gave
-  double bulk_in = 0.0;                   ///< energy that kicks gave
-  double gravity_in = 0.0;                ///< work of gravity on the flights that ended
-  double dissipated = 0.0;                ///< energy lost between particles, > 0
-  double undissipated = 0.0;              ///< energy that the TC model kept from dissipating
-  double virial = 0.0;                    ///< sum of impulse.separation over disk-disk collisions
-  std::array<double, 2 * D> wall_impulse{};  ///< momentum that each wall took up, along its normal
+  Vec<D> temperature = Vec<D>::Zero();       ///< T_k: exact time averages of m <v_k^2>
+  Vec<D> second_moment = Vec<D>::Zero();     ///< <v_k^2> over the particles at the window's end
+  Vec<D> fourth_moment = Vec<D>::Zero();     ///< <v_k^4> at the window's end
+  double collisions = 0.0;                   ///< between particles
+  double elasticised = 0.0;                  ///< of these, made elastic by the TC model
+  double spin_temperature = 0.0;             ///< exact time average of I <omega^2> per component
+  double walls_in = 0.0;                     ///< energy input of the walls
+  double bulk_in = 0.0;                      ///< energy input of kicks
+  double gravity_in = 0.0;                   ///< work of gravity on the flights that ended
+  double dissipated = 0.0;                   ///< energy lost between particles, > 0
+  double undissipated = 0.0;                 ///< energy that the TC model saved from dissipation
+  double virial = 0.0;                       ///< sum of impulse.separation over pair collisions
+  std::array<double, 2 * D> wall_impulse{};  ///< momentum transfer to each wall, along its normal
 };
 
-/// Passes over all members, in order, for checkpoints.
+/// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
@@ -43,7 +43,7 @@ void visit(Archive& io, WindowTotals<D>& window) {
 template <int D>
 class Totals : public Observer<D> {
  public:
-  /// Watches a simulation from now on; both must outlive each other's use.
+  /// Watches a simulation from now on. Neither may be used after the other is destroyed.
   explicit Totals(const Simulation<D>& simulation);
 
   void on_collision(const PairCollision<D>& collision) override;
@@ -51,14 +51,14 @@ class Totals : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
-  /// What happened since the last call, or since the start.
+  /// The totals since the last call, or since the start.
   WindowTotals<D> close_window();
 
-  /// What the kinetic energy, of motion and spin, differs by from that at the start plus all
-  /// bookings, relative to the energy plus the sum of all bookings' sizes.
+  /// Residual of the energy balance: the kinetic energy minus its start value and all bookings,
+  /// divided by the energy plus the magnitudes of all bookings.
   double ledger_residual() const;
 
-  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io);
 
@@ -71,12 +71,12 @@ class Totals : public Observer<D> {
 
   const Simulation<D>& simulation_;
   double energy_at_start_;
-  double booked_ = 0.0;        // energy gained since the start, by flights and events that ended
-  double booked_sizes_ = 0.0;  // sum of |bookings|
+  double booked_ = 0.0;               // energy gain since the start, by events and ended flights
+  double booked_sizes_ = 0.0;         // sum of |bookings|
   Vec<D> squares_ = Vec<D>::Zero();   // sum of v_k^2 at integrated_to_
-  Vec<D> momentum_ = Vec<D>::Zero();  // sum of v_k there
+  Vec<D> momentum_ = Vec<D>::Zero();  // sum of v_k at integrated_to_
   double spin_squares_ = 0.0;         // sum of omega^2
-  double integrated_to_;              // time on the base up to which the integrals reach
+  double integrated_to_;              // upper limit of the integrals, on the base
   double window_start_;
   Vec<D> integral_ = Vec<D>::Zero();  // of squares_ over time, in this window
   double spin_integral_ = 0.0;        // of spin_squares_
@@ -93,7 +93,7 @@ void Totals<D>::visit(Archive& io) {
   io(energy, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares, integrated_to,
      window_start, integral, spin_integral, window);
   if (energy != energy_here) {
-    // Other laws have brought or taken spins.
+    // A change of laws has added or removed spins.
     energy_at_start += energy_here - energy;
     take_stock();
   }

@@ -7,8 +7,8 @@ namespace clatter {
 
 /// Momentum that particle 1 gains in a collision of smooth particles (theory 3.2) with beta = -1:
 /// -(1 + alpha)/2 (n.g) n, for x = r_1 - r_2 at contact and g = v_1 - v_2; particle 2 gains its
-/// negative. Dividing by x.x instead of a^2 keeps elastic collisions elastic to rounding whatever
-/// the rounding of x.
+/// negative. The division by x.x instead of a^2 keeps elastic collisions elastic to rounding, for
+/// any rounding of x.
 template <int D>
 Vec<D> collision_impulse(const Vec<D>& x, const Vec<D>& g, double restitution) {
   return x * (-0.5 * (1.0 + restitution) * x.dot(g) / x.squaredNorm());
@@ -22,17 +22,17 @@ double dissipated_energy(const Vec<D>& x, const Vec<D>& g, double restitution) {
   return 0.25 * (1.0 - restitution * restitution) * approach * approach / x.squaredNorm();
 }
 
-/// What the surfaces of two partners do to each other, Walton's model (theory 3).
+/// Contact law of two surfaces, Walton's model (theory 3).
 struct ContactLaw {
   double restitution = 1.0;              ///< alpha, of the normal velocity
   double friction = 0.0;                 ///< mu >= 0, Coulomb's; may be infinite
   double tangential_restitution = -1.0;  ///< beta_0, -1 (smooth) .. 1 (perfectly rough)
 
-  /// Whether a touch can change a spin.
+  /// Whether a contact can change a spin.
   bool rough() const { return friction > 0.0 && tangential_restitution > -1.0; }
 };
 
-/// What a particle gains in a touch.
+/// Gain of a particle in a contact.
 template <int D>
 struct Impulse {
   Vec<D> momentum = Vec<D>::Zero();  ///< of a particle of mass 1; its partner gains the negative
@@ -41,13 +41,14 @@ struct Impulse {
 
 /// 1 + beta with the beta in force (theory 3.5): min(1 + beta_0, mu ((1+q)/q) |g_n' - g_n|/|g_t|),
 /// where `normal_change` = |g_n' - g_n| is (1 + alpha)|g_n| of two particles and |v_n' - v_n| of a
-/// particle at a wall, and `slip` = |g_t|. The sum keeps the digits that beta near -1 has lost.
+/// particle at a wall, and `slip` = |g_t|. The result is 1 + beta, because beta near -1 would lose
+/// digits.
 inline double slip_reversal(const ContactLaw& law, double inertia, double normal_change,
                             double slip) {
   const double full = 1.0 + law.tangential_restitution;
   const double coulomb = law.friction * (1.0 + inertia) * normal_change;
-  // Compared before the division, which slip 0 forbids. Infinite friction holds even where nothing
-  // presses and coulomb is no number.
+  // The comparison comes before the division, because the slip may be 0. Infinite friction gives
+  // `full` even without normal force, when coulomb is NaN.
   return coulomb < full * inertia * slip ? coulomb / (inertia * slip) : full;
 }
 
@@ -60,9 +61,9 @@ Vec<D> surface_slip(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spin, doubl
   return g - n.dot(g) * n;
 }
 
-/// What friction gives to particle 1 of two (theory 3.2, 3.3): the momentum -eta g_t and the spin
-/// (2 eta/(q a)) n x g_t with eta = q (1 + beta)/(2 (1 + q)); a wall, of infinite mass, gives twice
-/// that. Arguments as in surface_slip and slip_reversal.
+/// Gain of particle 1 of two by friction (theory 3.2, 3.3): the momentum -eta g_t and the spin (2
+/// eta/(q a)) n x g_t with eta = q (1 + beta)/(2 (1 + q)). A wall, of infinite mass, gives twice
+/// these values. Arguments as in surface_slip and slip_reversal.
 template <int D>
 Impulse<D> friction_impulse(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spin,
                             double normal_change, const ContactLaw& law, double inertia,
@@ -73,9 +74,9 @@ Impulse<D> friction_impulse(const Vec<D>& n, const Vec<D>& v, const Spin<D>& spi
   return {-0.5 * inertia * share * g_t, share / diameter * cross<D>(n, g_t)};
 }
 
-/// What particle 1 gains in a collision of rough particles (theory 3.2, 3.3), for x = r_1 - r_2
-/// at contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a.
-/// The normal part, and all of it where the law is not rough, has the bits of collision_impulse.
+/// Gain of particle 1 in a collision of rough particles (theory 3.2, 3.3), for x = r_1 - r_2 at
+/// contact, v = v_1 - v_2, spin = omega_1 + omega_2, inertia q = 4I/(m a^2) and diameter a. The
+/// normal part has the bits of collision_impulse. A law that is not rough has no other part.
 template <int D>
 Impulse<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& spin,
                          const ContactLaw& law, double inertia, double diameter) {

@@ -8,14 +8,14 @@
 
 namespace clatter {
 
-/// Velocities below this share of the partners' speeds are rounding: the error of one collision's
-/// velocities, a few units in the last place of each.
+/// Relative velocities below this share of the partners' speeds count as rounding. One collision's
+/// velocities have an error of a few units in the last place.
 inline constexpr double kApproachRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// Time at which the particles of two flights touch, or kNever; see pair_contact_time. `shift` is
-/// added to a.r - b.r and selects the periodic image. Particles that touch already collide at once,
-/// but only if they approach faster than the rounding of their velocities: otherwise the rounding
-/// left by a collision would be another one, for ever.
+/// added to a.r - b.r and selects the periodic image. Particles that already touch collide at once,
+/// but only if they approach faster than the rounding of their velocities. Otherwise the rounding
+/// of a collision would cause further collisions without end.
 template <int D>
 double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double diameter,
                     const Vec<D>& gravity) {
@@ -31,9 +31,10 @@ double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift,
   return x.dot(v_a - v_b) < -rounding ? start : kNever;
 }
 
-/// Time at which a flight reaches the plane at `plane` along `axis`, where `inward` (+1 or -1) is
-/// the direction of the wall's normal into the box, or kNever. A particle that already touches the
-/// wall hits it at once if it moves outwards, or rests there and gravity pulls it outwards.
+/// Time at which a flight reaches the plane at coordinate `plane` along `axis`, or kNever. `inward`
+/// (+1 or -1) is the direction of the wall's normal into the box. A particle that already touches
+/// the wall hits it at once if it moves outwards, or if it is at rest and gravity pulls it
+/// outwards.
 template <int D>
 double plane_contact_time(const Flight<D>& flight, int axis, double plane, double inward,
                           const Vec<D>& gravity) {

@@ -10,35 +10,35 @@
 
 namespace clatter {
 
-/// Doubles from one particle to the next in an array that contact kernels read: whole cache lines.
+/// Doubles per particle in the array that contact kernels read: whole cache lines.
 template <int D>
 inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
 
-/// Particles that one particle may meet. A particle is a row of kRowLength doubles: D of position,
-/// D of velocity, the time of both, one that is not read, and D whole box lengths by which the
-/// row's frame lies off the box.
+/// Possible partners of one particle. A particle is a row of kRowLength doubles: D of position, D
+/// of velocity, the time of both, one that is not read, and D of the periodic image of the row's
+/// frame, in box lengths.
 template <int D>
 struct Candidates {
   static constexpr int kCapacity = D == 2 ? 16 : 32;
 
-  /// Numbers of the rows, and behind the last of them room for kMargin more to be read and written.
+  /// Numbers of the rows. kMargin further elements may be read and written.
   static constexpr int kMargin = 4;
   std::uint32_t particles[kCapacity + kMargin];
-  double wraps[D][kCapacity + kMargin];  ///< box lengths to subtract from each one's; if `wrapped`
+  double wraps[D][kCapacity + kMargin];  ///< box lengths to subtract from each image; if `wrapped`
   int size = 0;
   bool wrapped = false;
 };
 
-/// Which of its candidates a particle touches first.
+/// The first contact of a particle with its candidates.
 struct FirstContact {
-  double time;    ///< kNever: none, kTouching: at least one touches already
-  int candidate;  ///< whose time this is; 0 where there is none
-  bool unique;    ///< false: others may share the time, or touch too, and must be asked; or see
-                  ///< first_contacts
+  double time;    ///< kNever: none; kTouching: at least one already touches
+  int candidate;  ///< candidate of this time; 0 without a contact
+  bool unique;    ///< false: others may have the same time or touch too, and each needs a check;
+                  ///< see also first_contacts
 };
 
-/// Vectors of four numbers, in one register or in two, as the function has it for whose instruction
-/// set all this is inlined.
+/// Vectors of four numbers. The instruction set of the calling function determines whether they
+/// fill one register or two.
 namespace lanes {
 
 inline constexpr int kCount = 4;
@@ -55,7 +55,7 @@ using Bits = std::int64_t __attribute__((vector_size(8 * kCount)));
   return Doubles{number, number, number, number};
 }
 
-// Numbers first ... first + 3 of four rows, number by number.
+// Transposes the numbers first ... first + 3 of four rows.
 [[gnu::always_inline]] inline void transpose(const double* const* row, int first,
                                              Doubles* columns) {
   Doubles in[4];
@@ -90,7 +90,7 @@ struct Groups {
   Bits frames;  // all bits of rows' box lengths in the last D lanes
 };
 
-// How all candidates approach a particle, see first_contacts.
+// Calculates the approaches of all candidates to a particle, see first_contacts.
 template <int D, bool kFalling, bool kShifted>
 [[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t particle,
                                             Candidates<D>& candidates, const double* box,
@@ -133,7 +133,7 @@ template <int D, bool kFalling, bool kShifted>
   }
 }
 
-// Who touches first, given the least of all times in every lane.
+// The first contact; `earliest` has the least time in every lane.
 template <int D, bool kShifted>
 [[gnu::always_inline]] inline FirstContact first_of(const Groups<D>& groups,
                                                     const Doubles& earliest) {
@@ -156,13 +156,12 @@ template <int D, bool kShifted>
 
 }  // namespace lanes
 
-/// For each of some particles, given by their rows, the first pair_contact_time with its
-/// candidates. The particle itself may be among these: it never meets itself. `rows` holds all
-/// particles, `box` are its D edge lengths; `gravity` is not read unless particles are falling. The
-/// same bits with any instruction set.
+/// For each particle, the first pair_contact_time with its candidates. A particle may be its own
+/// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `gravity` is
+/// read only with kFalling. The result has the same bits with any instruction set.
 ///
-/// Without kShifted, no candidate may be wrapped, and all rows are taken to lie in the frame of the
-/// box: where one does not, nobody is told apart, and the rest of the answer means nothing.
+/// Without kShifted, no candidate may be wrapped, and all rows must be in the frame of the box. If
+/// a row is in another frame, `unique` is false and the other results are invalid.
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
     const double* rows, const std::array<std::uint32_t, kParticles>& particles,
@@ -174,7 +173,7 @@ template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
     approach<D, kFalling, kShifted>(rows, particles[k], candidates[k], box, diameter, gravity,
                                     groups[k]);
   }
-  // Apart from the above, so that the roots and quotients of all groups are under way at once.
+  // A separate loop, so that the roots and quotients of all groups overlap in the pipeline.
   Doubles earliest[kParticles];
   for (std::size_t k = 0; k < kParticles; ++k) {
     earliest[k] = broadcast(kNever);

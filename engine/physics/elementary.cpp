@@ -11,10 +11,10 @@ namespace clatter {
 namespace {
 
 // The coefficients are minimax fits by Remez's algorithm, in decimal arithmetic of 70 digits. They
-// were rounded to double one after the other, the lowest power first; after each rounding the
-// higher powers were fitted again.
+// were rounded to double in order, the lowest power first. After each rounding the higher powers
+// were fitted again.
 
-// c[0] + c[1] x + c[2] x^2 + ... Even and odd powers are summed apart: two short chains of
+// c[0] + c[1] x + c[2] x^2 + ... Even and odd powers are summed separately: two short chains of
 // operations take less time than a long one.
 template <std::size_t N>
 double polynomial(const double (&c)[N], double x) {
@@ -93,13 +93,14 @@ SineCosine sin_cos_2pi(double phase) {
   const double cosine =
       parabola.high +
       (parabola.low + (square * square * polynomial(kCosine, square) - theta.high * theta.low));
-  // The parts of so small a product would be subnormal. Its sine is 2 pi r.
+  // The parts of a very small product would be subnormal. The sine then is 2 pi r.
   const bool tiny = std::fabs(r) < 0x1p-900;
   const double sine =
       tiny ? kTwoPi * r
            : theta.high + (r * square * polynomial(kSine, square) + theta.low * parabola.high);
 
-  // Odd quarters exchange the two. There are no branches: the processor could not predict them.
+  // Odd quarters exchange the two. The code is branch-free, because branches would be
+  // unpredictable.
   const std::uint64_t exchange =
       (std::bit_cast<std::uint64_t>(sine) ^ std::bit_cast<std::uint64_t>(cosine)) & -(quarters & 1);
   const std::uint64_t sine_sign = (quarters & 2) << 62;
@@ -129,7 +130,7 @@ double acos_turns(double x) {
 }
 
 double natural_log(double x) {
-  // x = 2^exponent (1 + f), where 1 + f lies between the roots of 1/2 and 2.
+  // x = 2^exponent (1 + f), with 1 + f between the square roots of 1/2 and 2.
   constexpr std::uint64_t kRootOfHalf = std::bit_cast<std::uint64_t>(0.5 * std::numbers::sqrt2);
   const bool subnormal = x < 0x1p-1022;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(subnormal ? x * 0x1p54 : x);

@@ -2,9 +2,9 @@
 
 namespace clatter {
 
-// Elementary functions with the same bits on every machine. Those of the C library differ in the
-// last digit between libraries, and between processors where a library has code for several. These
-// use + - * / and sqrt of doubles only. Every result is within 1 ulp of the exact value.
+// Elementary functions with the same bits on every machine. Functions of C libraries differ in the
+// last digit between libraries, and may differ between processors. The functions here use only + -
+// * / and sqrt of doubles. Every result is within 1 ulp of the exact value.
 
 /// Sine and cosine of one angle.
 struct SineCosine {

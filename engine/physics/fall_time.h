@@ -8,10 +8,10 @@
 namespace clatter {
 
 /// Time from now at which gap + speed t + acceleration t^2/2 first passes zero downwards, or
-/// kNever. A gap below zero is taken as rounding, that is as zero; with no acceleration the result
+/// kNever. A gap below zero counts as rounding and is set to zero. Without acceleration the result
 /// has the bits of gap / -speed.
 ///
-/// Of the two forms of the root each is used where it adds numbers of one sign.
+/// The form of the root is the one that adds numbers of one sign.
 inline double fall_time(double gap, double speed, double acceleration) {
   if (speed >= 0.0 && acceleration >= 0.0) return kNever;
   if (!(gap > 0.0)) gap = 0.0;
@@ -22,18 +22,17 @@ inline double fall_time(double gap, double speed, double acceleration) {
   return discriminant > 0.0 ? 2.0 * gap / (std::sqrt(discriminant) - speed) : kNever;
 }
 
-/// The way out from between two planes.
+/// The exit from the region between two planes.
 struct WayOut {
-  double time;  ///< from now; infinite, or not a number, where there is no plane to fall to
-  bool upper;   ///< through which plane
+  double time;  ///< from now; infinite or NaN if no plane is reached
+  bool upper;   ///< whether the exit is through the upper plane
 };
 
-/// The first way out of a body `above` the lower and `below` the upper of two planes; these are
-/// distances, of which those below zero are taken as rounding, that is as zero. The acceleration is
-/// not zero.
+/// The first exit of a body at the distance `above` from the lower and `below` from the upper
+/// plane. Distances below zero count as rounding and are set to zero. The acceleration must not be
+/// zero.
 ///
-/// As fall_time(), but without branches, for neither the speed's sign nor the plane can be
-/// foreseen.
+/// As fall_time(), but branch-free, because the speed's sign and the plane are unpredictable.
 inline WayOut exit_time(double above, double below, double speed, double acceleration) {
   const bool upwards = acceleration > 0.0;
   const double a = std::fabs(acceleration);

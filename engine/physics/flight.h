@@ -6,11 +6,10 @@
 
 namespace clatter {
 
-/// Free flight of a particle: a parabola through `r` at `time`, under the gravity that all
-/// particles share.
+/// Free flight of a particle: a parabola through `r` at `time`, under the common gravity.
 template <int D>
 struct Flight {
-  Vec<D> r = Vec<D>::Zero();  ///< centre at `time`; may lie whole box lengths outside the box
+  Vec<D> r = Vec<D>::Zero();  ///< centre at `time`; may be in another periodic image
   Vec<D> v = Vec<D>::Zero();  ///< velocity at `time`
   double time = 0.0;          ///< on the simulation's moving base
   std::uint32_t number = 0;  ///< physical events that the particle had before; predictions made for

@@ -11,31 +11,32 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// A grid of points over the room. A primitive lattice takes them all. A face-centred one takes
-/// every second, those whose numbers along the axes have an even sum, like the black fields of a
-/// chess board: stretched one way or the other, the board in the plane has its close-packed rows
-/// along x or along y, and the board of cubes in space is the fcc lattice.
+/// A grid of points over the room. A primitive lattice has a site at every point. A face-centred
+/// lattice has sites at the points whose indices have an even sum, like the black squares of a
+/// chess board. In 2D the stretched board is a triangular lattice with close-packed rows along x or
+/// y; in 3D it is the fcc lattice.
 template <int D>
 struct Grid {
   bool centred = false;
   std::array<std::int64_t, D> points{};  ///< along each axis
 };
 
-/// Where centres may lie along an axis: all of a periodic axis, or the part between the walls.
+/// Length available to centres along an axis: all of a periodic axis, or the part between the
+/// walls.
 template <int D>
 double span(const Room<D>& room, int axis) {
   return room.box[axis] - (room.walled[axis] ? room.diameter : 0.0);
 }
 
-/// Spacing of n points spread evenly along an axis; a single one between walls has no neighbour.
+/// Spacing of n evenly spread points along an axis; unlimited for a single point between walls.
 template <int D>
 double spacing(const Room<D>& room, int axis, std::int64_t n) {
   const std::int64_t gaps = room.walled[axis] ? n - 1 : n;
   return gaps > 0 ? span(room, axis) / static_cast<double>(gaps) : kUnlimited;
 }
 
-/// Distance of two neighbouring sites in a row along an axis of n points. In a face-centred lattice
-/// the next site is two points on; between walls that takes three points.
+/// Distance of neighbouring sites in a row along an axis of n points. In a face-centred lattice the
+/// next site is two points away; between walls this needs three points.
 template <int D>
 double distance_in_row(const Room<D>& room, bool centred, int axis, std::int64_t n) {
   if (!centred) return spacing(room, axis, n);
@@ -57,8 +58,8 @@ double least_distance(const Room<D>& room, const Grid<D>& grid) {
 }
 
 /// The distance that sites must keep so that their rounded coordinates do not overlap: a coordinate
-/// is off by at most 2 epsilon of the box, and the minimal image of a difference by another one.
-/// So a lattice whose particles would touch exactly does not count as fitting.
+/// is off by at most 2 epsilon of the box, and the minimal image of a difference by another one. So
+/// a lattice with exactly touching particles does not fit.
 template <int D>
 double reach(const Room<D>& room) {
   return room.diameter + 16.0 * std::numeric_limits<double>::epsilon() * room.box.maxCoeff();
@@ -76,14 +77,14 @@ std::int64_t site_count(const Grid<D>& grid) {
   return grid.centred ? (points + 1) / 2 : points;
 }
 
-/// Points along an axis come in multiples of this: around a periodic axis a chess board closes only
-/// with an even number of fields.
+/// The number of points along an axis is a multiple of this. On a periodic axis a chess board
+/// closes only with an even number of squares.
 template <int D>
 std::int64_t multiple(const Room<D>& room, bool centred, int axis) {
   return centred && !room.walled[axis] ? 2 : 1;
 }
 
-/// A multiple that no grid exceeds whose points along the axis keep this spacing.
+/// Upper bound, a multiple(), of the number of points with this spacing along an axis.
 template <int D>
 std::int64_t bound_on_points(const Room<D>& room, bool centred, int axis, double spacing) {
   constexpr double kMax = 1LL << 32;  // more than any count of particles
@@ -91,14 +92,14 @@ std::int64_t bound_on_points(const Room<D>& room, bool centred, int axis, double
   return points - points % multiple(room, centred, axis);
 }
 
-/// A multiple that the points along an axis of a grid that fits do not exceed.
+/// Upper bound, a multiple(), of the number of points along an axis of a grid that fits.
 template <int D>
 std::int64_t bound_along(const Room<D>& room, bool centred, int axis) {
   return bound_on_points(room, centred, axis, room.diameter * (centred ? 0.5 : 1.0));
 }
 
-/// The axes, that of the shortest edge first: searches try every number of points along all axes
-/// but the last, which then follows.
+/// The axes in order of edge length, the shortest first. Searches try all numbers of points along
+/// all axes except the last; the number along the last axis follows.
 template <int D>
 using Axes = std::array<int, D>;
 template <int D>
@@ -110,7 +111,7 @@ Axes<D> by_length(const Room<D>& room) {
   return axes;
 }
 
-/// Looks for the lattice that primitive_lattice and face_centred_lattice give.
+/// Search for the lattice of primitive_lattice and face_centred_lattice.
 template <int D>
 class WidestGrid {
  public:
@@ -122,11 +123,11 @@ class WidestGrid {
     search({.centred = centred}, 0, 1);
   }
 
-  /// No points where there is none.
+  /// The grid found; 0 points if no grid fits.
   const Grid<D>& grid() const { return widest_; }
 
  private:
-  // The axes before axes_[k] have their points, `product` of them.
+  // The numbers of points of the axes before axes_[k] are set; `product` is their product.
   void search(Grid<D> grid, int k, std::int64_t product) {
     const int axis = axes_[k];
     const std::int64_t unit = multiple(room_, grid.centred, axis);
@@ -141,20 +142,20 @@ class WidestGrid {
     const std::int64_t last =
         std::min(bound_along(room_, grid.centred, axis), needed_ / product + unit);
     for (points = unit; points <= last; points += unit) {
-      // With more points, sites lie only closer along this axis.
+      // With more points, sites are only closer along this axis.
       if (distance_in_row(room_, grid.centred, axis, points) <= distance_) return;
       search(grid, k + 1, product * points);
     }
   }
 
   const Room<D>& room_;
-  std::int64_t needed_;  // points, taken or not
+  std::int64_t needed_;  // points, with or without a site
   Axes<D> axes_;
   Grid<D> widest_;
   double distance_ = 0.0;
 };
 
-/// The most sites of a grid whose points along all axes but axes[D - 1] are given; 0 where none
+/// Largest number of sites of a grid with given points along all axes except axes[D - 1]; 0 if none
 /// fits.
 template <int D>
 std::int64_t most_sites(const Room<D>& room, const Axes<D>& axes, Grid<D> grid) {
@@ -173,7 +174,7 @@ std::int64_t most_sites(const Room<D>& room, const Axes<D>& axes, Grid<D> grid) 
   return site_count(grid);
 }
 
-/// The most sites of any such grid, the axes before axes[k] having their points; at most the
+/// Largest number of sites of a grid with given points along the axes before axes[k]; at most the
 /// largest int.
 template <int D>
 std::int64_t capacity(const Room<D>& room, const Axes<D>& axes, Grid<D> grid, int k) {

@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-/// The room for particle centres: a walled axis keeps centres half a diameter off each wall, a
-/// periodic one wraps.
+/// The room for particle centres. Along a walled axis centres keep half a diameter from each wall.
+/// A periodic axis wraps.
 template <int D>
 struct Room {
   Vec<D> box = Vec<D>::Zero();   ///< edge lengths in the unit of the diameter
@@ -16,17 +16,16 @@ struct Room {
   double diameter = 1.0;
 };
 
-/// Sites of the rectangular lattice with at least `count` sites whose closest sites lie farthest
-/// apart, spread evenly over the room; empty where none holds `count` without overlap.
+/// Sites of the rectangular lattice with at least `count` sites and the largest distance between
+/// nearest sites, spread evenly over the room. Empty if no lattice holds `count` without overlap.
 template <int D>
 std::vector<Vec<D>> primitive_lattice(const Room<D>& room, int count);
 
-/// The same for face-centred lattices: triangular ones in the plane, rows along x or along y, and
-/// fcc in space.
+/// The same for face-centred lattices: triangular in 2D, with rows along x or y, and fcc in 3D.
 template <int D>
 std::vector<Vec<D>> face_centred_lattice(const Room<D>& room, int count);
 
-/// The largest count that any of these lattices holds.
+/// Largest number of sites of these lattices.
 template <int D>
 int lattice_capacity(const Room<D>& room);
 

@@ -8,10 +8,10 @@
 namespace clatter {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Stands for the contact time of particles that touch already; what they do depends on rounding.
+/// Replaces the contact time of particles that already touch; their contact depends on rounding.
 inline constexpr double kTouching = -std::numeric_limits<double>::infinity();
 
-/// The square root of a number, or of each of a vector's.
+/// The square root of a number, or of each component of a vector.
 template <class Number>
 [[gnu::always_inline]] inline Number root_of(const Number& x) {
   if constexpr (std::is_same_v<Number, double>) {
@@ -34,20 +34,20 @@ template <int D, class Number>
   return sum;
 }
 
-/// How two particles approach each other: what their contact time follows from, see
-/// pair_contact_time. Number is double, or a vector of doubles for as many pairs.
+/// Approach of two particles, which determines their contact time, see pair_contact_time. Number is
+/// double, or a vector of doubles with one pair per component.
 template <class Number>
 struct PairApproach {
   Number start;         ///< of the later flight
-  Number gap;           ///< |x|^2 - a^2 there
+  Number gap;           ///< |x|^2 - a^2 at the start
   Number rate;          ///< x.g
   Number discriminant;  ///< g^2 a^2 - |x ^ g|^2
 };
 
-/// The approach of two flights. A null `shift` is none. Without kFalling, `gravity` is not read.
+/// The approach of two flights. A null `shift` means 0. Without kFalling, `gravity` is not read.
 ///
-/// Particles share the acceleration of gravity, so seen from each other they move on straight
-/// lines; it enters only where they are at the later flight's start.
+/// Gravity accelerates all particles equally, so relative motion is along a straight line. Gravity
+/// enters only through the positions and velocities at the later flight's start.
 template <int D, bool kFalling, class Number>
 [[gnu::always_inline]] inline PairApproach<Number> approach_of(const Number* r_a, const Number* v_a,
                                                                const Number& time_a,
@@ -73,7 +73,7 @@ template <int D, bool kFalling, class Number>
   for (int k = 0; k < D; ++k) {
     for (int l = k + 1; l < D; ++l) {
       const Number area = x[k] * g[l] - x[l] * g[k];
-      // The first is not added to a zero, which no compiler may leave out.
+      // The first term is assigned: a compiler may not omit an addition to zero.
       wedge_squared = k == 0 && l == 1 ? area * area : wedge_squared + area * area;
     }
   }
@@ -81,11 +81,13 @@ template <int D, bool kFalling, class Number>
           dot<D>(g, g) * (diameter * diameter) - wedge_squared};
 }
 
-/// Time at which the particles of two flights touch, kNever, or kTouching. Exchanging the flights
-/// and negating the shift gives the same bits, so it does not matter who asks or when.
+/// Time at which the particles of two flights touch, kNever, or kTouching. Exchange of the flights
+/// with a negated shift gives the same bits. So the result does not depend on the particle and the
+/// time of the prediction.
 ///
-/// Contact is the first root of |x + g t| = a. Its discriminant is taken as g^2 a^2 - |x ^ g|^2,
-/// which unlike (x.g)^2 - g^2 (x^2 - a^2) loses nothing when the particles start far apart.
+/// Contact is the first root of |x + g t| = a. Its discriminant is calculated as g^2 a^2 - |x ^
+/// g|^2. Unlike (x.g)^2 - g^2 (x^2 - a^2), this form has no cancellation for particles that start
+/// far apart.
 template <class Number>
 [[gnu::always_inline]] inline Number pair_contact_time(const PairApproach<Number>& a) {
   const Number zero{};

@@ -52,7 +52,7 @@ double Random::normal() {
 }
 
 std::uint64_t Random::below(std::uint64_t n) {
-  // Rejecting the incomplete last span keeps every value equally likely.
+  // Rejection of the incomplete span makes every value equally probable.
   const std::uint64_t reject = (0 - n) % n;
   for (;;) {
     const std::uint64_t word = bits();

@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-/// What a random number is for; streams of different purposes never share numbers.
+/// Purpose of a random number. Streams of different purposes never share numbers.
 enum class Stream : std::uint32_t { Placement, Velocity, ThermalWall, Kick, StartSpin };
 
 /// Counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four random words of 32
@@ -13,11 +13,11 @@ enum class Stream : std::uint32_t { Placement, Velocity, ThermalWall, Kick, Star
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
-/// The random numbers that belong to one thing (say the n-th wall hit of a particle): the same
-/// whatever was drawn for others before, so that results do not depend on the order of the work.
+/// The random numbers of one item, for example the n-th wall hit of a particle. They do not depend
+/// on numbers drawn for other items, so results do not depend on the order of calculation.
 class Random {
  public:
-  /// Numbers number `item` of `owner` (a particle) in a stream of the run with this seed.
+  /// The numbers of item `item` of `owner` (a particle) in a stream of the run with this seed.
   Random(std::uint64_t seed, Stream stream, std::uint32_t owner, std::uint32_t item);
 
   /// Uniform in the open interval (0,1), 52 bits.

@@ -6,11 +6,11 @@
 
 namespace clatter {
 
-/// Angular velocity in D dimensions: one number in the plane, a vector in space.
+/// Angular velocity: one number in 2D, a vector in 3D.
 template <int D>
 using Spin = Eigen::Matrix<double, D*(D - 1) / 2, 1>;
 
-/// How many numbers that is.
+/// Number of components of a spin.
 template <int D>
 inline constexpr int kSpinSize = D*(D - 1) / 2;
 
@@ -19,7 +19,7 @@ inline double moment_of_inertia(double inertia, double diameter) {
   return 0.25 * inertia * diameter * diameter;
 }
 
-/// n x omega: a spin of omega moves the point at -n from the centre with this velocity.
+/// n x omega: the velocity, due to a spin omega, of the point at -n from the centre.
 template <int D>
 Vec<D> cross_spin(const Vec<D>& n, const Spin<D>& spin) {
   static_assert(D == 2 || D == 3);
@@ -30,8 +30,8 @@ Vec<D> cross_spin(const Vec<D>& n, const Spin<D>& spin) {
   }
 }
 
-/// n x g: what a momentum -g, given at the point -n from the centre, adds to the angular momentum
-/// about the centre.
+/// n x g: the gain in angular momentum about the centre by a momentum -g at the point -n from the
+/// centre.
 template <int D>
 Spin<D> cross(const Vec<D>& n, const Vec<D>& g) {
   static_assert(D == 2 || D == 3);

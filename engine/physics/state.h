@@ -14,7 +14,7 @@ template <int D>
 struct State {
   std::vector<Vec<D>> positions;    ///< [N] centres inside the box
   std::vector<Vec<D>> velocities;   ///< [N]
-  std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty where none are carried
+  std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty without spins
 
   bool operator==(const State&) const = default;
 };
@@ -27,13 +27,12 @@ inline std::size_t particle_count(const AnyState& state) {
   return std::visit([](const auto& any) { return any.positions.size(); }, state);
 }
 
-/// Most particles that there can be: cell lists keep two bits a dimension beside a particle's
-/// number.
+/// Maximum number of particles: cell lists store two bits per dimension beside a particle's number.
 template <int D>
 inline constexpr std::uint32_t kMaxParticles = (std::uint32_t{1} << (32 - 2 * D)) - 1;
 
-/// Overlaps up to this, in diameters, are the rounding of a start state's positions: runs begin
-/// with them.
+/// Largest overlap, in diameters, that counts as rounding of a start state's positions and is
+/// accepted.
 inline constexpr double kStartRounding = 1e-12;
 
 }  // namespace clatter

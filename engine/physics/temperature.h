@@ -4,7 +4,7 @@
 
 namespace clatter {
 
-/// T = (m/DN) sum v^2 of a state; 0 where there are no particles.
+/// T = (m/DN) sum v^2 of a state; 0 without particles.
 template <int D>
 double temperature_of(const State<D>& state);
 

@@ -57,7 +57,7 @@ double VibratedGas::temperature_simple() const {
   return s * s * drive_speed * drive_speed;
 }
 
-// (theory 7.11); `loss` stands for eps_eff psi.
+// (theory 7.11), with `loss` in place of eps_eff psi.
 static double stationary_refined(double loss, double wall_restitution, double drive_speed) {
   if (!(loss > 0.0)) return std::numeric_limits<double>::infinity();
   const double alpha_w = wall_restitution;
@@ -159,7 +159,7 @@ double RoughGas::driven_ratio() const {
 }
 
 double RoughGas::driven_temperature(double packing_fraction, double power) const {
-  // B^2/C is B times the ratio R = B/C, which smooth particles have too.
+  // B^2/C is calculated as B times R = B/C, because R exists for smooth particles too.
   const double loss = translational_loss() - exchange() * driven_ratio();
   const double rate = enskog_rate(packing_fraction, 1.0, dimension);
   return std::pow(power / ((dimension - 1) * rate * loss), 2.0 / 3.0);

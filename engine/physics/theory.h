@@ -3,8 +3,9 @@
 namespace clatter {
 
 /// The kinetic theory of a gas of smooth particles between two vibrated walls (theory 7). Masses,
-/// diameters and Boltzmann's constant are 1. "Simple" averages over all particles, "refined" over
-/// those that collide, "corrected" is refined and counts how much denser the gas is at the walls.
+/// diameters and Boltzmann's constant are 1. The simple theory averages over all particles, the
+/// refined theory over particles that collide. The corrected theory is the refined theory with the
+/// higher density at the walls.
 struct VibratedGas {
   double count = 0.0;             ///< N
   double length = 0.0;            ///< Lx, between the walls
@@ -21,37 +22,37 @@ struct VibratedGas {
   double psi() const;
   /// eps_eff = (1 - alpha^2) + (2/pi) (1 - alpha_w^2) / psi (theory 7.6).
   double epsilon_effective() const;
-  /// Stationary temperature of the simple theory (theory 7.10); infinite where particles and walls
-  /// do not dissipate, eps_eff <= 0. So are the other two.
+  /// Stationary temperature of the simple theory (theory 7.10). This and the two temperatures below
+  /// are infinite without dissipation, for eps_eff <= 0.
   double temperature_simple() const;
   /// Stationary temperature of the refined theory (theory 7.11): averages over the particles
   /// that collide.
   double temperature_refined() const;
-  /// Stationary temperature of the refined theory where the walls are hit wall_layer_factor() times
-  /// as often (theory 7.14); good near the elastic limit.
+  /// Stationary temperature of the refined theory with the wall hit rate multiplied by
+  /// wall_layer_factor() (theory 7.14); accurate near the elastic limit.
   double temperature_corrected() const;
 
-  /// kappa = Z Lx/(Lx - a) (theory 7.13), with the compressibility Z of the elastic gas: how many
-  /// times more often than (theory 7.2) says the walls are hit.
+  /// kappa = Z Lx/(Lx - a) (theory 7.13), with the compressibility Z of the elastic gas: the ratio
+  /// of the wall hit rate to (theory 7.2).
   double wall_layer_factor() const;
   /// f_pw, hits of one wall per time in the simple theory (theory 7.2).
   double wall_hit_rate(double temperature) const;
   /// f_pp, collisions of all particles per time (theory 7.4).
   double collision_rate(double temperature) const;
-  /// dE_pw, energy that a hit of a wall brings in the simple theory (theory 7.1).
+  /// dE_pw, mean energy gain per wall hit in the simple theory (theory 7.1).
   double energy_per_wall_hit(double temperature) const;
-  /// dE_pp <= 0, energy that a collision of particles brings in the simple theory (theory 7.3).
+  /// dE_pp <= 0, mean energy gain per collision of particles in the simple theory (theory 7.3).
   double energy_per_collision(double temperature) const;
   /// dT/dt in the simple theory (theory 7.7).
   double temperature_change_simple(double temperature) const;
   /// dT/dt in the refined theory (theory 7.8), with averages over the particles that collide.
   double temperature_change_refined(double temperature) const;
 
-  /// k of haff_temperature in the simple theory (theory 7.12), where nothing drives; per time.
+  /// k of haff_temperature in the simple theory (theory 7.12), without drive; per time.
   double haff_rate_simple(double initial_temperature) const;
   /// k in the refined theory, twice the simple one.
   double haff_rate_refined(double initial_temperature) const;
-  /// k in the refined theory where the walls are hit wall_layer_factor() times as often.
+  /// k in the refined theory with the wall hit rate multiplied by wall_layer_factor().
   double haff_rate_corrected(double initial_temperature) const;
 };
 
@@ -73,17 +74,16 @@ struct RoughGas {
   /// C = (eta/q) (1 - eta/q): the rotational temperature loses C T_rot and gains B T_tr, times
   /// 2(D-1)/D times 2/(D-1), the ratio of the degrees of freedom, per collision of a particle.
   double rotational_loss() const;
-  /// R = T_rot/T_tr that free cooling tends to; beta > -1.
+  /// Limit of R = T_rot/T_tr in free cooling; beta > -1.
   double cooling_ratio() const;
-  /// R = T_rot/T_tr where kicks drive the translation only.
+  /// R = T_rot/T_tr with kicks of the translation only.
   double driven_ratio() const;
-  /// T_tr where kicks drive the translation only, with `power` H per particle; see
-  /// bulk_drive_power.
+  /// T_tr with kicks of the translation only, of `power` H per particle; see bulk_drive_power.
   double driven_temperature(double packing_fraction, double power) const;
 };
 
-/// phi, the share of space that particles of unit diameter fill: pi/4 times their number per area
-/// of disks, pi/6 times their number per volume of spheres.
+/// phi, the packing fraction of particles of unit diameter: pi/4 times the number of disks per
+/// area, pi/6 times the number of spheres per volume.
 double packing_fraction(int dimension, double density);
 
 /// chi, pair correlation at contact: of hard disks (1 - 7 phi/16) / (1 - phi)^2 (theory 6.1)
@@ -106,8 +106,8 @@ double haff_temperature(double initial_temperature, double rate, double time);
 double haff_rate_periodic(double packing_fraction, double restitution, double initial_temperature,
                           int dimension = 2);
 
-/// t* = 1/|k|, when the temperature of Haff's law with k < 0 diverges (alpha_w > 1, theory 7.16);
-/// infinite for k >= 0.
+/// t* = 1/|k|, time of the divergence of Haff's law with k < 0 (alpha_w > 1, theory 7.16); infinite
+/// for k >= 0.
 double divergence_time(double rate);
 
 /// H = (D/2) m s^2 (1 - 1/N)/dt, power per particle of kicks with standard deviation s per

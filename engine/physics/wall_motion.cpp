@@ -28,8 +28,8 @@ double peak_acceleration(const WallMotion& motion) {
   return 0.5 * motion.stroke * angular_frequency * angular_frequency;
 }
 
-// A particle that nears a wall, both as functions of the time t since the start. "Crests" are the
-// times at which the wall is innermost; the saw-tooth's are the ends of its ramps.
+// A particle that approaches a moving wall, as functions of the time t since the start. "Crests"
+// are the times at which the wall is innermost; for the saw-tooth these are the ends of its ramps.
 struct Approach {
   WallMotion motion;    // with the phase at t = 0
   double gap;           // between particle and wall at t = 0, >= 0
@@ -40,17 +40,17 @@ struct Approach {
   double velocity(double t) const { return speed + acceleration * t; }
   double rise(double t) const { return speed * t + 0.5 * acceleration * t * t; }
 
-  // When the particle falls to a plane; 0 if it is beyond already.
+  // Time at which the particle reaches a plane; 0 if it is already beyond.
   double time_to(double plane) const {
     return height < plane ? 0.0 : fall_time(height - plane, speed, acceleration);
   }
 };
 
-// Gaps are summed from the one at t = 0 and the changes since. So their error is that of speeds
-// times t, and just after a hit a gap is as precise as the velocities, however small it is.
+// A gap is the gap at t = 0 plus the changes since. Its error is the error of the speeds times t.
+// Just after a hit even a very small gap thus has the relative precision of the velocities.
 
-// The gap to the saw-tooth's ramp `number`, 0 being the one at t = 0: they are one line, set back
-// by a stroke each time.
+// The gap to ramp `number` of the saw-tooth; ramp 0 contains t = 0. All ramps are the same line,
+// each shifted back by one stroke.
 double gap_to_ramp(const Approach& particle, double number, double t) {
   const double ramp_rise = particle.motion.stroke * particle.motion.frequency * t;
   return particle.gap + (particle.rise(t) - (ramp_rise - number * particle.motion.stroke));
@@ -69,14 +69,14 @@ double gap_rate(const Approach& particle, double t) {
          wall_velocity(particle.motion, particle.motion.phase + particle.motion.frequency * t);
 }
 
-// Newton's method on a convex or concave gap never oversteps a root that it nears from the side
-// where gap and curvature have one sign: the tangent meets zero first. Each step there divides
-// gap * rate by four at least (convexity bounds the sum of the factors of gap and rate by one),
-// even where the wall is grazed. Both searches end where the gap has changed its sign or the step
-// is lost in rounding; after so many steps nothing else is left.
+// Newton's method starts on the side of the root where gap and curvature have the same sign. On a
+// convex or concave gap it then never passes the root, because the tangent reaches zero first. Each
+// step divides gap * rate by at least four, even for grazing contacts: by convexity the factors of
+// gap and rate have a sum of at most one. Both searches end when the gap changes its sign or the
+// step is lost in rounding. kMaxSteps steps suffice for this.
 constexpr int kMaxSteps = 200;
 
-// The first root of a gap that is convex and not negative at `left`: approached from there.
+// The first root of a gap that is convex and not negative at `left`; the search starts at `left`.
 double convex_contact(const Approach& particle, double left, double right) {
   double t = left;
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -91,8 +91,8 @@ double convex_contact(const Approach& particle, double left, double right) {
   return t;
 }
 
-// The root of a gap that is concave and not negative at `left`: there is one if the gap is negative
-// at `right`, and it is approached from there.
+// The root of a gap that is concave and not negative at `left`. It exists if the gap is negative at
+// `right`; the search starts at `right`.
 double concave_contact(const Approach& particle, double left, double right) {
   double t = right;
   double gap = gap_to_wave(particle, t);
@@ -108,10 +108,10 @@ double concave_contact(const Approach& particle, double left, double right) {
 }
 
 // The first contact with the sinusoidal wall between t and the next crest. The gap's curvature,
-// acceleration + peak_acceleration sin(2 pi phase), is positive about the crests and negative
-// between them (or has one sign always), so that there are three pieces at most.
+// acceleration + peak_acceleration sin(2 pi phase), is positive near the crests and negative
+// between them, or has one sign always. So there are at most three pieces.
 double contact_with_wave(const Approach& particle, double t, double crest) {
-  const double lowest = particle.time_to(-1.5 * particle.motion.stroke);  // It is hit before that.
+  const double lowest = particle.time_to(-1.5 * particle.motion.stroke);  // A hit is earlier.
   const double cosine =
       std::clamp(-particle.acceleration / peak_acceleration(particle.motion), -1.0, 1.0);
   const double period = 1.0 / particle.motion.frequency;
@@ -130,26 +130,26 @@ double contact_with_wave(const Approach& particle, double t, double crest) {
   return t < lowest ? kNever : lowest;
 }
 
-// The contact with the saw-tooth's ramp, or the line that prolongs it: a parabola has one at most.
+// The contact with a ramp of the saw-tooth or its extended line; a parabola has at most one.
 double contact_with_ramp(const Approach& particle, double number) {
   return fall_time(particle.gap + number * particle.motion.stroke, gap_rate(particle, 0.0),
                    particle.acceleration);
 }
 
-// The search begins when the particle gets near the places where the wall goes, and proceeds from
-// crest to crest. A particle that a crest finds behind the wall has been hit; one that it leaves in
-// front can be hit only after it has fallen to the crest's height, and the search continues there.
-// If it stays below for a period it is hit, and a parabola comes down to a height twice at most, so
-// there are few crests to look at.
+// The search begins when the particle comes near the range of the wall, and proceeds from crest to
+// crest. A particle behind the wall at a crest has been hit. A particle in front of the wall at a
+// crest can be hit only after it has fallen to the crest's height; the search continues there. A
+// particle that stays below this height for a period is hit. A parabola falls to a height at most
+// twice, so the search visits few crests.
 //
-// Near means a stroke away from the wall's extreme places: the rounding of the height at the start
-// must not decide about particles that touch the wall there.
+// "Near" means one stroke from the wall's extreme positions: the rounding of the initial height
+// must not affect particles that touch the wall there.
 //
-// The search ends for every input. Times after kMaxPeriods periods are too coarse to tell one
-// period from the next, and the wall passes its innermost place between any two of them: the
-// contact is the particle's arrival there. Before that, each crest is later than the last one. A
-// particle that kMaxCrests crests leave in front has come down to their height each time, and only
-// rounding keeps it there.
+// The search ends for every input. Times after kMaxPeriods periods are too coarse to resolve a
+// period, and the wall passes its innermost position between any two of them. The contact then is
+// the particle's arrival at this position. Before that time, each crest is later than the previous
+// one. A particle still in front after kMaxCrests crests has fallen to their height each time, and
+// only rounding keeps it there.
 double contact_with_moving(const Approach& particle) {
   constexpr double kMaxPeriods = 0x1p51;
   constexpr int kMaxCrests = 1000;
@@ -198,7 +198,7 @@ double moving_wall_contact(const WallMotion& motion, double start, double distan
     const double rounding = kApproachRounding * (std::fabs(speed) + std::fabs(wall.velocity));
     const bool pressed = acceleration < wall.acceleration;
     if (recession < -rounding || (recession <= rounding && pressed)) return start;
-    // What is left of overlap and approach is rounding: off with it.
+    // The remaining overlap and approach are rounding; remove them.
     distance = wall.displacement;
     speed = std::max(speed, wall.velocity);
   }
@@ -207,7 +207,7 @@ double moving_wall_contact(const WallMotion& motion, double start, double distan
   const bool at_rest = motion.stroke * motion.frequency == 0.0;
   const double contact = start + (at_rest ? fall_time(particle.gap, speed, acceleration)
                                           : contact_with_moving(particle));
-  // A particle that recedes approaches only later, be it by the least time that there is.
+  // A particle that recedes has its next contact later, at least by the smallest time step.
   return touching && contact == start
              ? std::nextafter(start, std::numeric_limits<double>::infinity())
              : contact;

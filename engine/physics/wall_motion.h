@@ -2,7 +2,7 @@
 
 namespace clatter {
 
-/// How a wall moves along its normal (theory 4.3).
+/// Motion of a wall along its normal (theory 4.3).
 enum class WallPath {
   Sawtooth,    ///< inwards at constant speed, jumping back at the end of each period
   Sinusoidal,  ///< harmonically about its resting place
@@ -11,35 +11,36 @@ enum class WallPath {
 /// The periodic motion of a wall; lengths are displacements from its resting place into the box.
 struct WallMotion {
   WallPath path = WallPath::Sawtooth;
-  double stroke = 0.0;     ///< length between the wall's extreme places, >= 0; 0 keeps it at rest
-  double frequency = 0.0;  ///< periods per time, >= 0; 0 keeps it at rest
-  double phase = 0.0;      ///< periods done at time 0 of the engine's moving base, in [0,1)
+  double stroke = 0.0;     ///< distance of the wall's extreme positions, >= 0; 0: at rest
+  double frequency = 0.0;  ///< periods per time, >= 0; 0: at rest
+  double phase = 0.0;      ///< in periods, at time 0 of the moving base, in [0,1)
 
   friend bool operator==(const WallMotion&, const WallMotion&) = default;
 };
 
-/// Place and motion of a wall at an instant, along its normal into the box.
+/// Position and motion of a wall at an instant, along its normal into the box.
 struct WallState {
   double displacement = 0.0;  ///< from the resting place
   double velocity = 0.0;
   double acceleration = 0.0;  ///< without the saw-tooth's jumps
 };
 
-/// The wall at a time on the moving base (theory 4.3): the saw-tooth lies at stroke frac(x), the
-/// sinusoidal wall at (stroke/2) sin(2 pi x), x = frequency time + phase.
+/// The wall at a time on the moving base (theory 4.3). With x = frequency time + phase, the
+/// displacement of the saw-tooth is stroke frac(x), and of the sinusoidal wall (stroke/2) sin(2 pi
+/// x).
 WallState wall_state(const WallMotion& motion, double time);
 
-/// The largest displacement of the wall: how far it reaches into the box.
+/// The largest displacement of the wall into the box.
 double innermost_travel(const WallMotion& motion);
 
-/// First time >= `start` at which a particle meets the moving wall, or kNever. Its touching point
-/// lies distance + speed t + acceleration t^2/2 inwards of the wall's resting place, t = time -
-/// start.
+/// First time >= `start` at which a particle meets the moving wall, or kNever. The distance of its
+/// contact point from the wall's resting place, inwards, is distance + speed t + acceleration t^2/2
+/// with t = time - start.
 ///
-/// A particle that touches the wall at `start` (or lies behind it by rounding) hits it at once if
-/// it approaches faster than the rounding of the speeds, or if it neither approaches nor recedes
-/// and the accelerations press the two together; otherwise its next contact is sought, which is
-/// later than `start`. The saw-tooth's jump back meets nothing.
+/// A particle may touch the wall at `start`, or be behind it by rounding. It then hits the wall at
+/// once if it approaches faster than the rounding of the speeds. It also does so without relative
+/// speed if the accelerations press it against the wall. Otherwise the result is its next contact,
+/// later than `start`. The jump back of the saw-tooth hits no particle.
 double moving_wall_contact(const WallMotion& motion, double start, double distance, double speed,
                            double acceleration);
 

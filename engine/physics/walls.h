@@ -10,7 +10,8 @@
 namespace clatter {
 
 /// Velocity after a static or driven wall (theory 4.1): v_n' = alpha_w |v_n| + v_dr along the
-/// wall's normal, which points into the box along +-`axis` (`inward` = +1 or -1); the rest stays.
+/// wall's normal, which points into the box along +-`axis` (`inward` = +1 or -1). The other
+/// components stay.
 template <int D>
 Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double drive_speed) {
   v[axis] = inward * (restitution * std::fabs(v[axis]) + drive_speed);
@@ -18,18 +19,17 @@ Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double dri
 }
 
 /// Velocity after a wall that moves (theory 4.2): v_n' = -alpha_w v_n + (1 + alpha_w) u, the
-/// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A
-/// particle that the wall catches up with (0 < v_n < u) is hit from behind.
+/// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A wall
+/// that overtakes a particle (0 < v_n < u) hits it from behind.
 template <int D>
 Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, double wall_velocity) {
   v[axis] = inward * (1.0 + restitution) * wall_velocity - restitution * v[axis];
   return v;
 }
 
-/// What friction at a wall adds to a particle's momentum and spin (theory 4.5): the momentum -2
-/// eta_w g_t and the spin (4 eta_w/(q a)) n x g_t, with g_t of the velocity and spin before.
-/// `after` is the velocity that the smooth wall leaves: Coulomb's bound holds for the true normal
-/// impulse |v_n' - v_n| of every kind of wall.
+/// Gain of a particle by friction at a wall (theory 4.5): the momentum -2 eta_w g_t and the spin (4
+/// eta_w/(q a)) n x g_t, with g_t from the velocity and spin before. `after` is the velocity after
+/// a smooth wall: Coulomb's bound uses the true normal impulse |v_n' - v_n| of every kind of wall.
 template <int D>
 Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin, int axis,
                          double inward, const ContactLaw& law, double inertia, double diameter) {
@@ -42,7 +42,7 @@ Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D
 
 /// Velocity after a thermal wall of temperature T_w (theory 4.7): the normal component has the
 /// flux-weighted density (v/T_w) exp(-v^2/2T_w), v = sqrt(-2 T_w ln U), the others are Gaussian of
-/// variance T_w. `uniform` lies in (0,1), `normals` holds D - 1 standard normal variates.
+/// variance T_w. `uniform` is in (0,1); `normals` holds D - 1 standard normal variates.
 template <int D>
 Vec<D> emit(int axis, double inward, double temperature, double uniform, const double* normals) {
   Vec<D> v;

@@ -33,7 +33,7 @@ const std::optional<ParticleCollision>& CollisionLookahead<D>::next_after(
   if (passed()) watch_.watch(particle_);
   try {
     while (!ended_ && !watch_.last() && counts.steps() < last_step) {
-      // It arrives at the end of time where nothing is to happen any more.
+      // run_until(kNever) returns true only if no event is left.
       ended_ = ahead_.run_until(kNever, counts.collisions() + 1, last_step);
       if (passed()) watch_.watch(particle_);
     }

@@ -7,23 +7,23 @@
 
 namespace clatter {
 
-/// A collision of a particle, with another or with a wall.
+/// A collision of a particle with another particle or with a wall.
 struct ParticleCollision {
   double time = 0.0;                     ///< simulation time
   std::optional<std::uint32_t> partner;  ///< the other particle; absent: a wall
-  int side = 0;                          ///< the Side, of a wall
+  int side = 0;                          ///< Side of the wall, if there is no partner
 };
 
-/// Keeps the last collision of one particle.
+/// Observer that keeps the last collision of one particle.
 template <int D>
 class CollisionWatch : public Observer<D> {
  public:
-  /// Of a simulation, which outlives it; it still is to be made an observer of that. Absent: of no
-  /// particle.
+  /// `simulation` must outlive this object; the caller adds this object to its observers. An absent
+  /// particle: watches none.
   CollisionWatch(const Simulation<D>& simulation, std::optional<std::uint32_t> particle)
       : simulation_(simulation), particle_(particle) {}
 
-  /// Of another particle from now on.
+  /// Watches another particle from now on, without a last collision.
   void watch(std::optional<std::uint32_t> particle) {
     particle_ = particle;
     last_.reset();
@@ -32,7 +32,7 @@ class CollisionWatch : public Observer<D> {
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
 
-  /// Absent: none so far.
+  /// The last collision; absent: none so far.
   const std::optional<ParticleCollision>& last() const { return last_; }
 
  private:
@@ -41,25 +41,25 @@ class CollisionWatch : public Observer<D> {
   std::optional<ParticleCollision> last_;
 };
 
-/// A copy of a run that goes ahead of it, under the laws in force, to see what a particle meets
-/// next. Where both go on it has as much work as the run itself.
+/// A copy of a run that runs ahead of it under the current laws, to find a particle's next
+/// collision. While the run continues, the copy costs as much work as the run itself.
 template <int D>
 class CollisionLookahead {
  public:
-  /// Sets out from where the simulation is.
+  /// Starts from the simulation's current state.
   CollisionLookahead(const Simulation<D>& simulation, std::uint32_t particle);
   CollisionLookahead(const CollisionLookahead&) = delete;
   CollisionLookahead& operator=(const CollisionLookahead&) = delete;
 
-  /// The particle's first collision after a time, no earlier than the last that was asked for;
-  /// absent where it is not within so many steps more, or where there is none.
+  /// The particle's first collision after `time`; times of successive calls must not decrease.
+  /// Absent if the next `most_steps` steps do not reach it, or if there is none.
   const std::optional<ParticleCollision>& next_after(double time, std::uint64_t most_steps);
 
  private:
   Simulation<D> ahead_;
   std::uint32_t particle_;
   CollisionWatch<D> watch_;
-  bool ended_ = false;  // time stands still before another
+  bool ended_ = false;  // no further collision: no event is left, or a PhysicalStop
 };
 
 }  // namespace clatter

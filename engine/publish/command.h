@@ -10,51 +10,51 @@
 
 namespace clatter {
 
-/// What a frame may have a profile of, along x.
+/// Content of the profile along x that a frame carries.
 enum class Profiled { Nothing, Fields, Balances };
 
-/// What a person asks of a gas that runs.
+/// Commands of the user to a running gas.
 namespace command {
 
-/// Lets simulation time go on, up to a time where it halts of itself; or halts it now.
+/// Plays the run, up to a time at which it halts automatically; or halts it now.
 struct Play {
   bool on = true;
   double until = std::numeric_limits<double>::infinity();  ///< simulation time
 };
-/// Goes on by a time and halts there.
+/// Runs for a duration and halts.
 struct Step {
   double duration = 0.0;
 };
-/// Goes on to the next collision of particles and halts there.
+/// Runs to the next collision of particles and halts.
 struct StepCollision {};
-/// Simulation time per second of real time, > 0.
+/// Sets the simulation time per second of real time, > 0.
 struct SetSpeed {
   double speed = 1.0;
 };
-/// Laws that hold from now on, see Schedule.
+/// Changes laws from now on, see Schedule.
 struct SetLaws {
   std::vector<Override> laws;
 };
-/// Shows the view's field from now on.
+/// Shows the averages, flights and spins of this view from now on.
 struct Show {
   View view;
 };
-/// What frames have profiles of from now on.
+/// Selects the profile of frames from now on.
 struct ShowProfile {
   Profiled what = Profiled::Fields;
 };
-/// Frames tell the collisions of this particle from now on; absent: of none.
+/// Selects the particle whose collisions frames contain from now on; absent: none.
 struct Pick {
   std::optional<std::uint32_t> particle;
 };
-/// Starts a scene, and plays it or halts there: from its beginning, or from as much of the gas
-/// that there is as fits, see adapt_to_scene(); a gas of another dimension is not kept.
+/// Opens a scene, playing or halted. The gas starts as the scene describes, or keeps as many
+/// current particles as fit, see adapt_to_scene(). A gas of another dimension is not kept.
 struct Open {
   Scene scene;
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
-  VecX shift = {};  ///< of the particles that are kept; empty: none
+  VecX shift = {};  ///< displacement of the kept particles; empty: none
 };
 
 }  // namespace command

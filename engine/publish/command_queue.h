@@ -8,13 +8,13 @@
 
 namespace clatter {
 
-/// What one thread asks of another, in order. Who waits sleeps.
+/// Queue of commands from one thread to another, in order. A waiting thread sleeps.
 template <class T>
 class CommandQueue {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Asks for something; after close() nothing is taken any more.
+  /// Adds a command.
   void push(T command) {
     {
       const std::lock_guard lock(mutex_);
@@ -22,7 +22,7 @@ class CommandQueue {
     }
     changed_.notify_one();
   }
-  /// Whoever waits comes back, now and from now on.
+  /// Ends all waits, now and from now on.
   void close() {
     {
       const std::lock_guard lock(mutex_);
@@ -31,12 +31,12 @@ class CommandQueue {
     changed_.notify_one();
   }
 
-  /// All that has been asked for since the last call.
+  /// Removes and returns the commands since the last call.
   std::vector<T> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(commands_, {});
   }
-  /// Whether something has been asked for, or nothing will be any more.
+  /// Whether there are commands, or the queue is closed.
   bool pending() {
     const std::lock_guard lock(mutex_);
     return is_pending();
@@ -46,7 +46,7 @@ class CommandQueue {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return is_pending(); });
   }
-  /// Waits until pending(), but no longer than to a time.
+  /// Waits until pending(), at most until `time`.
   void wait_until(Clock::time_point time) {
     std::unique_lock lock(mutex_);
     changed_.wait_until(lock, time, [this] { return is_pending(); });

@@ -11,7 +11,7 @@ FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span)
   simulation.add_observer(*this);
 }
 
-// Other laws may begin flights without an event.
+// A change of laws may begin new flights without an event; the old flights then end here.
 template <int D>
 FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before)
     : simulation_(simulation),
@@ -86,7 +86,7 @@ void FlightRecorder<D>::end_flight(const ParticleChange<D>& change, double time)
   ended_.push_back({change.particle, change.before, time, simulation_.model().gravity});
 }
 
-// Now and then only, so that each flight costs little.
+// Removes old flights. Called rarely, so that the cost per flight is small.
 template <int D>
 void FlightRecorder<D>::forget() {
   constexpr std::size_t kMin = 1024;

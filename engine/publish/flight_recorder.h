@@ -8,14 +8,15 @@
 
 namespace clatter {
 
-/// Keeps the particles' flights of the last while, for pictures that show more than an instant.
+/// Observer that keeps the particles' recent flights, for exposures and trails.
 template <int D>
 class FlightRecorder : public Observer<D> {
  public:
-  /// Watches a simulation from now on; its flights of a time `span` > 0 are kept.
+  /// Watches a simulation from now on and keeps the flights of the last `span` > 0 of simulation
+  /// time.
   FlightRecorder(Simulation<D>& simulation, double span);
-  /// Goes on with what that of the simulation before has kept: this one has its particles at its
-  /// time, maybe under other laws.
+  /// Continues with the flights of the recorder `before`. The new simulation has the same particles
+  /// at the same time, possibly under other laws.
   FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before);
 
   void on_collision(const PairCollision<D>& collision) override;
@@ -23,12 +24,12 @@ class FlightRecorder : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
-  /// For how long it has watched, at most its span.
+  /// Time covered by the kept flights, at most the span.
   double reach() const;
-  /// The flights of the last reach(): first those that have ended, then each particle's own.
+  /// The flights of the last reach(): first the ended flights, then each particle's current flight.
   std::vector<FlightPiece> pieces() const;
 
-  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
     io(since_, ended_);
@@ -55,7 +56,7 @@ class FlightRecorder : public Observer<D> {
   double span_;
   double since_;  // on the moving base
   std::vector<Ended> ended_;
-  std::size_t forget_at_ = 0;  // how many flights there are when those too old are left out
+  std::size_t forget_at_ = 0;  // number of flights at which old ones are removed
 };
 
 }  // namespace clatter

@@ -13,53 +13,53 @@
 
 namespace clatter {
 
-/// Sums since a run's start: the difference between two frames tells what happened between them,
-/// however many frames were left out.
+/// Sums since a run's start. The difference of two frames gives the sums between them, even if
+/// frames between were dropped.
 struct Tally {
-  double time = 0.0;              ///< that the sums stand for
-  VecX temperature_integral;      ///< of T_x, T_y and, of spheres, T_z over time
-  double walls_in = 0.0;          ///< energy that the walls gave
-  double bulk_in = 0.0;           ///< energy that kicks gave
+  double time = 0.0;              ///< covered by the sums
+  VecX temperature_integral;      ///< time integrals of T_x, T_y and, for spheres, T_z
+  double walls_in = 0.0;          ///< energy input of the walls
+  double bulk_in = 0.0;           ///< energy input of kicks
   double gravity_in = 0.0;        ///< work of gravity
   double dissipated = 0.0;        ///< energy lost between particles, > 0
-  double undissipated = 0.0;      ///< what they would have lost more without t_c
-  std::uint64_t collisions = 0;   ///< of particles with particles
-  std::uint64_t elasticised = 0;  ///< of these, by t_c
+  double undissipated = 0.0;      ///< additional loss without t_c
+  std::uint64_t collisions = 0;   ///< between particles
+  std::uint64_t elasticised = 0;  ///< of these, made elastic by t_c
 };
 
-/// The error that t_c makes: what it took away, over what happened.
+/// Estimate of the error due to t_c: the elasticised share of dissipation and collisions.
 struct ContactTimeError {
-  double undissipated = 0.0;  ///< share of the energy that collisions of particles dissipated
-  double elasticised = 0.0;   ///< share of these collisions
+  double undissipated = 0.0;  ///< energy saved by t_c / energy dissipated between particles
+  double elasticised = 0.0;   ///< elasticised share of the collisions between particles
 };
 
-/// What the engine's thread tells at one time: the gas, and how its run goes.
+/// A message of the engine's thread: the gas at one time, and the state of its run.
 struct Frame {
-  std::uint64_t run = 0;      ///< how many runs have been opened; 0: none yet, nothing else holds
-  std::uint64_t handled = 0;  ///< how many commands have been done, or refused
+  std::uint64_t run = 0;      ///< number of runs opened; 0: none, and all else is undefined
+  std::uint64_t handled = 0;  ///< number of commands done or refused
   Snapshot snapshot;
   Tally tally;
-  std::shared_ptr<const Scene> scene;  ///< with the laws in force, and all changes
+  std::shared_ptr<const Scene> scene;  ///< with the current laws, and all changes
   std::shared_ptr<const Scene>
-      started;                     ///< as the run was started; a start state may be in no file
-  std::optional<Profile> profile;  ///< since it was asked for, or laws, averages or trails changed;
-                                   ///< absent: not asked for
-  std::optional<ResidualProfile> residuals;         ///< likewise
+      started;                     ///< at the run's start; its start state may exist in no file
+  std::optional<Profile> profile;  ///< since its request or the last change of laws, averages or
+                                   ///< trails; absent: not requested
+  std::optional<ResidualProfile> residuals;         ///< as for `profile`
   std::optional<ParticleCollision> last_collision;  ///< of the picked particle, since it was picked
-  std::optional<ParticleCollision> next_collision;  ///< likewise, as far as it has been looked for
+  std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
   std::uint64_t seed = 1;
   bool plays = false;
-  double speed = 1.0;              ///< asked for, simulation time per second
-  double held = 1.0;               ///< share of the speed that the engine holds, at most 1
-  double events_per_second = 0.0;  ///< collisions, real time
+  double speed = 1.0;              ///< requested simulation time per second
+  double held = 1.0;               ///< share of the speed that the engine reaches, at most 1
+  double events_per_second = 0.0;  ///< collisions per second of real time
   std::optional<ContactTimeError> contact_time_error;  ///< since laws last changed; absent: no t_c,
                                                        ///< or nothing dissipated
-  double ledger_residual = 0.0;                        ///< see Totals, since then
-  double deepest_overlap = 0.0;                        ///< see RunChecks
-  std::optional<std::uint64_t> state_hash;             ///< where the run halts
-  std::optional<std::array<std::uint32_t, 2>> partners;  ///< of a collision just stepped to
-  std::string message;         ///< the last thing to tell: what was refused, why the run stopped
-  std::uint64_t messages = 0;  ///< how many there were
+  double ledger_residual = 0.0;             ///< see Totals; since the last change of laws
+  double deepest_overlap = 0.0;             ///< see RunChecks
+  std::optional<std::uint64_t> state_hash;  ///< if the run is halted
+  std::optional<std::array<std::uint32_t, 2>> partners;  ///< of the collision of StepCollision
+  std::string message;         ///< last message: a refused command, or why the run stopped
+  std::uint64_t messages = 0;  ///< number of messages so far
 };
 
 }  // namespace clatter

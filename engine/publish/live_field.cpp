@@ -110,7 +110,7 @@ template <int D>
 void LiveField<D>::watch(Simulation<D>& simulation, const View& view) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);
-  // Before the parts, so that a sample at the end of one belongs to it.
+  // Timers of samples come before timers of parts, so that a sample at a part's end belongs to it.
   if (averages_ && view.estimator == Estimator::Snapshot) {
     const auto sample = [this](double) {
       ++samples_;
@@ -133,7 +133,7 @@ void LiveField<D>::look() {
   if (closure_) closure_->sums.add(closure_->observer.close_window().imbalances);
 }
 
-// Where nothing was booked nothing was tried.
+// NaN in cells without bookings: no balance was tested there.
 template <int D>
 FieldMap LiveField<D>::Closure::map(Field field) const {
   const Imbalances<D> sum = sums.sum();
@@ -148,8 +148,8 @@ FieldMap LiveField<D>::Closure::map(Field field) const {
   return map;
 }
 
-// Blocks of cells have an arrow each, so that few enough are left to be told apart. Sums add up
-// over cells: an arrow is the field of its block as if that were one cell.
+// One arrow per block of cells, so that arrows remain distinguishable. Sums are additive over
+// cells, so an arrow is the field of its block as one large cell.
 template <int D>
 static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid<D>& grid,
                           const MomentLayout<D>& layout) {

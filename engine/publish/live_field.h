@@ -11,29 +11,30 @@
 
 namespace clatter {
 
-/// Fields over the last window of time, as the view shows them while a run goes on: averages, or
-/// how balance equations close.
+/// Fields of the view during a run, over the last window of time: averages, or residuals of the
+/// balance equations.
 template <int D>
 class LiveField {
  public:
-  /// Watches the simulation through `view.field` and `view.arrows`, of which the view must have
-  /// one, on cells of about one diameter (at most 512 along an axis, of three 64); the window
-  /// reaches back by view.window, or by up to an eighth more.
+  /// Watches the simulation for `view.field` and `view.arrows`; the view must have at least one of
+  /// them. Cells are about one diameter wide, at most 512 along an axis in 2D and 64 in 3D. The
+  /// window has the length view.window, or up to an eighth more.
   LiveField(Simulation<D>& simulation, const View& view);
-  /// Goes on where that of the simulation before ended: this one has its particles at its time,
-  /// under other laws.
+  /// Continues the field `before`. The new simulation has the same particles at the same time,
+  /// possibly under other laws.
   LiveField(Simulation<D>& simulation, const View& view, LiveField&& before);
-  /// Goes on where one that was saved ended: the simulation is at that time, under those laws.
-  /// Throws UserError where the view is another one.
+  /// Continues a saved field. The simulation must be at the same time under the same laws. Throws
+  /// UserError if the view is another one.
   LiveField(Simulation<D>& simulation, const View& view, ArchiveReader saved);
   LiveField(const LiveField&) = delete;
   LiveField& operator=(const LiveField&) = delete;
 
-  /// All that the averages to come depend on, beside simulation and view. Nothing changes by it.
+  /// The state that determines later averages, together with simulation and view. Saving does not
+  /// change the averages.
   std::string save();
 
-  /// Puts into the snapshot what the view shows, over the window up to the simulation's time, or
-  /// since the start where that is less.
+  /// Writes the field and arrows of the view into the snapshot. They are averages over the window
+  /// up to the simulation's time, or since the start if that is shorter.
   void publish(Snapshot& snapshot);
 
  private:
@@ -57,12 +58,12 @@ class LiveField {
 
   std::optional<Field> field_;
   std::optional<Quantity> arrows_;
-  std::optional<Averages> averages_;  // where there are arrows, or the field is an average
-  std::optional<Closure> closure_;    // where the field is a residual
+  std::optional<Averages> averages_;  // present with arrows, or if the field is an average
+  std::optional<Closure> closure_;    // present if the field is a residual
   double start_;                      // simulation time at which the first part closes
-  std::uint64_t closed_ = 0;          // parts since then
-  double sampled_from_;               // simulation time of the first sample, of snapshots
-  std::uint64_t samples_ = 0;         // since then
+  std::uint64_t closed_ = 0;          // parts closed since then
+  double sampled_from_;               // simulation time of the first sample (snapshot estimator)
+  std::uint64_t samples_ = 0;         // samples since then
 };
 
 }  // namespace clatter

@@ -19,13 +19,13 @@ inline constexpr std::array<Field, 5> kProfiledFields = {
 template <int D>
 class LiveProfile {
  public:
-  /// Watches the simulation in windows of that length of time, whose spread tells standard errors,
-  /// in columns of about one diameter, at most 40.
+  /// Averages over windows of length `window` (simulation time); their scatter gives the standard
+  /// errors. Columns are about one diameter wide, at most 40 columns.
   LiveProfile(Simulation<D>& simulation, double window);
   LiveProfile(const LiveProfile&) = delete;
   LiveProfile& operator=(const LiveProfile&) = delete;
 
-  /// The averages over the windows that are whole; no values before the first two are.
+  /// The averages over all complete windows; empty before two windows are complete.
   Profile profile() const;
 
  private:
@@ -33,23 +33,23 @@ class LiveProfile {
   PartSums sums_;
 };
 
-/// How the balance equations close in columns along x.
+/// Residuals of the balance equations in columns along x.
 struct ResidualProfile {
   double width = 0.0;   ///< of a column
-  Residuals residuals;  ///< [columns]; empty: no window is whole yet
+  Residuals residuals;  ///< [columns]; empty: no complete window yet
 };
 
-/// Closes the balance equations of a run that goes on in the columns of its LiveProfile, from when
-/// it is made.
+/// Closes the balance equations of a running simulation, in the same columns as LiveProfile, since
+/// this observer was made.
 template <int D>
 class LiveResiduals {
  public:
-  /// Watches the simulation in windows of that length of time.
+  /// Closes the balances over windows of length `window` (simulation time).
   LiveResiduals(Simulation<D>& simulation, double window);
   LiveResiduals(const LiveResiduals&) = delete;
   LiveResiduals& operator=(const LiveResiduals&) = delete;
 
-  /// The residuals of the windows that are whole.
+  /// The residuals of the complete windows.
   const ResidualProfile& profile() const { return profile_; }
 
  private:

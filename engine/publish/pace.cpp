@@ -34,7 +34,7 @@ void Pace::observe(Clock::time_point now, double time) {
   constexpr double kLong = 0.5;  // seconds
   const double seconds = std::chrono::duration<double>(now - observed_since_).count();
   if (seconds < kLong) return;
-  // A late start of the last frame is no sign of slowness.
+  // Without one frame's time: a late start of the last frame does not mean that the engine is slow.
   const double frame = std::chrono::duration<double>(frame_).count();
   held_ = std::min(1.0, (time - time_then_) / (speed_ * std::max(kLong, seconds - frame)));
   observed_since_ = now;

@@ -4,8 +4,8 @@
 
 namespace clatter {
 
-/// Paces simulation time against real time: says when each frame is due and of which simulation
-/// time it is. What the engine cannot hold is given up, not made up for.
+/// Couples simulation time to real time: gives for each frame the real time at which it is due and
+/// its simulation time. A delay is dropped and not caught up later.
 class Pace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -20,16 +20,16 @@ class Pace {
       : frame_(std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1.0 / frames_per_second))) {}
 
-  /// Simulation time per second, > 0.
+  /// Sets the simulation time per second, > 0.
   void set_speed(double speed);
-  /// As set_speed() said; 1 before.
+  /// The speed of set_speed(), initially 1.
   double speed() const { return speed_; }
-  /// The frame after the one before, when it is `now` and simulation time has got to `time`.
+  /// The next frame, at the real time `now` and the simulation time `time`.
   Goal next(Clock::time_point now, double time);
-  /// After a halt: nothing is due.
+  /// To be called after a halt: the next frame starts a new sequence.
   void restart();
 
-  /// What share of the speed was held over the last half second; at most 1.
+  /// Share of the speed that was reached over the last half second; at most 1.
   double held() const { return held_; }
 
  private:

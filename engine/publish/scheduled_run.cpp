@@ -44,7 +44,7 @@ void ScheduledRun<D>::settle() {
   try {
     run_until(simulation_->time() * (1.0 + kRoundings));
   } catch (const PhysicalStop&) {
-    // Who only halts has no use for it, and other laws may let time go on.
+    // A halt needs no report of the stop, and other laws may let the run continue.
   }
 }
 
@@ -64,7 +64,8 @@ void ScheduledRun<D>::change_laws(Schedule changed) {
   schedule_ = std::move(changed);
 }
 
-// All that watches is handed over to another simulation with the particles where they are.
+// Replaces the simulation by `next`, which has the same particles at the same time, and hands all
+// observers over.
 template <int D>
 void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next) {
   if (on_change) on_change(*next);
@@ -77,7 +78,8 @@ void ScheduledRun<D>::renew() {
   go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), simulation_->save()));
 }
 
-// Observers stay with their simulation, so that those of another view need another one.
+// A simulation keeps its observers for ever, so the observers of another view need a new
+// simulation.
 template <int D>
 void ScheduledRun<D>::show(const View& view, double exposure) {
   view_ = view;

@@ -13,58 +13,59 @@
 
 namespace clatter {
 
-/// The simulation that a scene and a seed ask for, at time 0. Throws UserError where the machine
-/// has not enough memory for it.
+/// The simulation of a scene and a seed, at time 0. Throws UserError if the machine has not enough
+/// memory.
 template <int D>
 std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed);
 
-/// A simulation whose laws change as its scene says, and what is seen of it. At a change the
-/// simulation is put aside and goes on under the new laws, so that all that watches it must be
-/// handed over.
+/// A simulation with the changes of its scene, and the observers of its view. At a change a new
+/// simulation continues the run under the new laws. All observers must then be handed over, see
+/// on_change.
 template <int D>
 class ScheduledRun {
  public:
-  /// From the start that the scene describes.
+  /// Starts a run as the scene describes.
   ScheduledRun(const Scene& scene, std::uint64_t seed);
-  /// Goes on from where a run was saved; the scene's changes up to then are in force.
+  /// Continues a saved run. The scene's changes up to its time are in force.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved);
 
-  /// The simulation, until laws change.
+  /// The current simulation; a change of laws replaces it.
   Simulation<D>& simulation() { return *simulation_; }
-  const Simulation<D>& simulation() const { return *simulation_; }  ///< likewise
-  /// The scene with the laws in force, without its changes.
+  const Simulation<D>& simulation() const { return *simulation_; }  ///< the same
+  /// The scene with the current laws, without its changes.
   const Scene& laws() const { return schedule_.laws(); }
-  /// The scene with the laws in force, and all its changes.
+  /// The scene with the current laws, and all its changes.
   Scene scene() const { return schedule_.scene(); }
-  /// Of every random number of the run.
+  /// Seed of every random number of the run.
   std::uint64_t seed() const { return seed_; }
 
-  /// As Simulation::run_until: changes of that time are made. Throws PhysicalStop also where no gas
-  /// can go on under new laws; the old ones then hold.
+  /// As Simulation::run_until, with the scene's changes up to and at `time`. Throws PhysicalStop
+  /// also if the gas cannot continue under new laws; the old laws then remain.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
-  /// Goes on by a few roundings of its time: however a run was halted before, one that runs until
-  /// simulation().time() now has come through the same events. Where time stands still it stays
-  /// there, and tells nothing: run_until throws.
+  /// Runs for a few rounding errors of the time. Afterwards all events up to simulation().time()
+  /// are processed, independent of the way in which the run was halted. At a PhysicalStop it halts
+  /// silently; the next run_until() throws it.
   void settle();
-  /// Laws that hold from the simulation's time on, where it settles first, and are among the
-  /// scene's changes. Throws UserError or PhysicalStop where they cannot; the old ones then hold.
+  /// Settles, then changes laws at the simulation's time and adds the change to the scene's
+  /// changes. Throws UserError or PhysicalStop if the change is impossible; the old laws then
+  /// remain.
   void change(const std::vector<Override>& laws);
 
-  /// From now on snapshots have all that the view shows, in pictures of a time `exposure` >= 0
-  /// each: averages, flights, the angles by which particles have turned.
+  /// Adds to later snapshots the averages, flights and angles that the view needs. `exposure` >= 0
+  /// is the exposure time of a picture, in simulation time.
   void show(const View& view, double exposure = 0.0);
-  /// Likewise, going on from what save_shown() gave at this time of a run with the same scene, view
-  /// and exposure; empty: anew.
+  /// The same, continued from the result of save_shown() at this time of a run with the same scene,
+  /// view and exposure. An empty `saved` starts new averages.
   void show(const View& view, const std::string& saved, double exposure = 0.0);
-  /// What snapshots have of the time before, as it is now; empty: nothing.
+  /// Current state of the view's observers, for a checkpoint; empty: none.
   std::string save_shown() const;
-  /// Goes on, to the bit, with another simulation, which only those watch whom on_change hands
-  /// over: a simulation forgets no observer.
+  /// Continues with a new simulation, with the same bits and only the observers that on_change
+  /// hands over. This is the only way to remove observers.
   void renew();
   /// The gas at the simulation's time.
   Snapshot snapshot();
 
-  /// Called with the simulation to come while the one before still is simulation().
+  /// Called with the next simulation; simulation() still returns the previous one.
   std::function<void(Simulation<D>& next)> on_change;
 
  private:
@@ -76,7 +77,7 @@ class ScheduledRun {
   std::unique_ptr<Simulation<D>> simulation_;
   View view_;
   double exposure_ = 0.0;
-  std::unique_ptr<ViewObservers<D>> shown_;  // absent: nothing asked for
+  std::unique_ptr<ViewObservers<D>> shown_;  // absent: no view
 };
 
 }  // namespace clatter

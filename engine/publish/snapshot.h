@@ -14,33 +14,33 @@ namespace clatter {
 
 /// A vector field on a coarser grid.
 struct ArrowMap {
-  /// A value and the centre of the cell that it stands for.
+  /// A value and the centre of its cell.
   struct Arrow {
     VecX place;
     VecX value;
   };
 
-  Quantity quantity = Quantity::Velocity;  ///< what the values are
-  VecX cell;                  ///< extent of the cells, but that the last of a row may be smaller
+  Quantity quantity = Quantity::Velocity;  ///< quantity of the values
+  VecX cell;                  ///< extent of the cells; the last of a row may be smaller
   std::vector<Arrow> arrows;  ///< of the cells that have a value, row by row
 };
 
 /// A part of a particle's flight, between two of its events.
 struct FlightPiece {
   std::uint32_t particle = 0;
-  double from = 0.0, to = 0.0;  ///< times after the snapshot's, from < to <= 0
+  double from = 0.0, to = 0.0;  ///< times relative to the snapshot's time, from < to <= 0
   VecX position;                ///< centre at `from`, wrapped into the box
   VecX velocity;                ///< at `from`
   VecX acceleration;            ///< of gravity
 
-  /// The centre at a time; may lie outside a periodic box.
+  /// The centre at a time; may be outside a periodic box.
   VecX at(double time) const {
     const double dt = time - from;
     return position + (velocity + 0.5 * dt * acceleration) * dt;
   }
 };
 
-/// The gas at one instant, evaluated exactly: all that the renderer knows of the engine. As in a
+/// The gas at one instant, evaluated exactly. The renderer has no other data of the engine. As in a
 /// Scene, the dimension D is the number of components of the box.
 struct Snapshot {
   double time = 0.0;                          ///< simulation time
@@ -51,13 +51,13 @@ struct Snapshot {
   Vectors positions;           ///< [D][N] centres, wrapped into the box, in original order
   Vectors velocities;          ///< [D][N]
   Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
-  std::vector<double> angles;  ///< [N] by which disks have turned, -pi..pi; empty: not observed
-  double exposure = 0.0;       ///< time up to this one that the picture shows; 0: the instant
-  std::vector<FlightPiece> flights;  ///< of that time, and of trails; empty: not observed
-  std::optional<FieldMap> field;     ///< averaged over the view's window; absent: not asked for
-  std::optional<ArrowMap> arrows;    ///< likewise
+  std::vector<double> angles;  ///< [N] rotation angles of disks, -pi..pi; empty: not observed
+  double exposure = 0.0;       ///< exposure time, which ends at `time`; 0: an instant
+  std::vector<FlightPiece> flights;  ///< of the exposure and of trails; empty: not observed
+  std::optional<FieldMap> field;     ///< averaged over the view's window; absent: not requested
+  std::optional<ArrowMap> arrows;    ///< averaged over the view's window; absent: not requested
   double temperature = 0.0;          ///< granular temperature T = (m/DN) sum v^2
-  std::uint64_t collisions = 0;      ///< of particles with particles since time 0
+  std::uint64_t collisions = 0;      ///< between particles, since time 0
 
   /// The number N of particles.
   std::size_t count() const { return static_cast<std::size_t>(positions.cols()); }

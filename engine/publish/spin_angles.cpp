@@ -12,7 +12,7 @@ SpinAngles::SpinAngles(Simulation<2>& simulation)
   simulation.add_observer(*this);
 }
 
-// Other laws leave the spins there are, but for those that bring or take all of them.
+// A change of laws keeps the spins, unless it adds or removes all of them.
 SpinAngles::SpinAngles(Simulation<2>& simulation, SpinAngles&& before)
     : simulation_(simulation), turned_(std::move(before.turned_)) {
   simulation.add_observer(*this);

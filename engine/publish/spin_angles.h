@@ -7,13 +7,13 @@
 
 namespace clatter {
 
-/// By how much the particles have turned since it watches. A spin changes in the particle's own
-/// events only, so that the angle is exact: the sum of spin times duration over its flights.
+/// Rotation angles of the disks since this observer was made. A spin changes only in the particle's
+/// own events. So the angle is exact: the sum of spin times duration over its flights.
 class SpinAngles : public Observer<2> {
  public:
-  /// Watches a simulation that carries spins from now on.
+  /// Watches a simulation with spins from now on.
   explicit SpinAngles(Simulation<2>& simulation);
-  /// Goes on where that of the simulation before ended: this one has its particles at its time.
+  /// Continues the angles of `before`. The new simulation has the same particles at the same time.
   SpinAngles(Simulation<2>& simulation, SpinAngles&& before);
 
   void on_collision(const PairCollision<2>& collision) override;
@@ -24,7 +24,7 @@ class SpinAngles : public Observer<2> {
   /// [N] angles at the simulation's time, counterclockwise, without whole turns: -pi..pi.
   std::vector<double> angles() const;
 
-  /// What a checkpoint keeps, of a simulation that goes on at the same time.
+  /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
     io(turned_);
@@ -33,7 +33,7 @@ class SpinAngles : public Observer<2> {
  private:
   struct Turned {
     double angle = 0.0;
-    double time = 0.0;  // at which it was that, on the moving base
+    double time = 0.0;  // of `angle`, on the moving base
 
     template <class Archive>
     void visit(Archive& io) {

@@ -5,30 +5,30 @@
 
 namespace clatter {
 
-/// Hands the newest value from one thread to another; neither ever waits. Of three slots one is the
-/// writer's, one the reader's, and the third holds what was published last.
+/// Passes the newest value from one thread to another; neither thread ever waits. Of three slots
+/// one belongs to the writer and one to the reader; the third holds the last published value.
 template <class T>
 class TripleBuffer {
  public:
-  /// The writer's slot, to be filled anew before each publish(): it holds some older value.
+  /// The writer's slot. It holds an older value and must be filled before each publish().
   T& back() { return slots_[back_]; }
-  /// Hands over what the writer's slot holds.
+  /// Publishes the content of the writer's slot.
   void publish() { back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & ~kFresh; }
 
-  /// Takes what was published last; whether it is new to the reader.
+  /// Takes the last published value; returns whether it is new to the reader.
   bool update() {
     if (!(middle_.load(std::memory_order_relaxed) & kFresh)) return false;
     front_ = middle_.exchange(front_, std::memory_order_acq_rel) & ~kFresh;
     return true;
   }
-  /// The reader's slot: what update() took, or T() before.
+  /// The reader's slot: the value of update(), initially T().
   const T& front() const { return slots_[front_]; }
 
  private:
   static constexpr unsigned kFresh = 4;
 
   std::array<T, 3> slots_{};
-  std::atomic<unsigned> middle_ = 1;  // index of the slot between them, and whether it is news
+  std::atomic<unsigned> middle_ = 1;  // index of the third slot, and whether it is new
   alignas(64) unsigned back_ = 0;     // the writer's
   alignas(64) unsigned front_ = 2;    // the reader's
 };

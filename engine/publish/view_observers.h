@@ -10,25 +10,25 @@
 
 namespace clatter {
 
-/// What watches a simulation so that pictures can show more than its state at an instant; no more
-/// of it than they do show.
+/// The observers of a simulation that pictures need beside its state at an instant. Only the
+/// observers that the view needs exist.
 template <int D>
 class ViewObservers {
  public:
-  /// Watches for `view`, in pictures that each show a time `exposure` >= 0; from now on, or going
-  /// on with all that those `before` have of it, whose simulation had its particles there at its
-  /// time.
+  /// Watches a simulation for `view`, with an exposure time `exposure` >= 0 per picture. With
+  /// `before` it continues the data of those observers. The new simulation then has the same
+  /// particles at the same time.
   ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                 ViewObservers* before = nullptr);
-  /// Goes on where those that were saved ended: the simulation is at that time, under those laws.
-  /// Throws UserError where they watched for another view.
+  /// Continues saved observers. The simulation must be at the same time under the same laws. Throws
+  /// UserError if they belong to another view.
   ViewObservers(Simulation<D>& simulation, const View& view, double exposure, ArchiveReader saved);
   ViewObservers(const ViewObservers&) = delete;
   ViewObservers& operator=(const ViewObservers&) = delete;
 
-  /// All that pictures to come depend on, beside simulation and view; empty: nothing.
+  /// The state that determines later pictures, together with simulation and view; empty: none.
   std::string save();
-  /// Puts into the snapshot what the view shows at the simulation's time.
+  /// Writes the data of the view at the simulation's time into the snapshot.
   void publish(Snapshot& snapshot);
 
  private:
@@ -40,7 +40,7 @@ class ViewObservers {
   double exposure_;
   std::optional<LiveField<D>> field_;
   std::optional<FlightRecorder<D>> flights_;
-  std::optional<SpinAngles> angles_;  // where disks spin
+  std::optional<SpinAngles> angles_;  // present if disks spin
 };
 
 }  // namespace clatter

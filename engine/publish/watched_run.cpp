@@ -52,15 +52,15 @@ class RunOf : public WatchedRun {
   std::optional<Totals<D>> totals_;
   LastCollision last_;
   std::optional<std::uint32_t> picked_;
-  std::optional<CollisionWatch<D>> picked_collisions_;  // of that particle
-  std::optional<ParticleCollision> last_collision_;     // its last before laws changed
-  std::optional<CollisionLookahead<D>> lookahead_;  // of that particle, once frames have shown it
-  std::uint64_t steps_told_ = 0;                    // of the run, by the last frame
+  std::optional<CollisionWatch<D>> picked_collisions_;  // of the picked particle
+  std::optional<ParticleCollision> last_collision_;  // its last collision before a change of laws
+  std::optional<CollisionLookahead<D>> lookahead_;   // of the picked particle, from its first frame
+  std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
   Profiled profiled_ = Profiled::Nothing;
-  std::optional<LiveProfile<D>> profile_;  // of that
+  std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
   std::optional<LiveResiduals<D>> residuals_;
   Tally tally_;
-  Tally tally_at_laws_;  // when those in force came
+  Tally tally_at_laws_;  // at the last change of laws
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // of the last frame
 };
@@ -136,8 +136,8 @@ std::optional<ContactTimeError> RunOf<D>::contact_time_error() const {
   return ContactTimeError{undissipated / dissipated, elastic / collisions};
 }
 
-// While the run goes on the scout takes about as many steps as it does; where it halts there is
-// time for more, for most particles collide while all the others do so a few times.
+// While the run plays, the lookahead takes about as many steps as the run. While it is halted,
+// there is time for more steps: most particles collide within a few collisions per particle.
 template <int D>
 std::optional<ParticleCollision> RunOf<D>::next_collision(bool halted) {
   constexpr std::uint64_t kHeadStart = 5000;

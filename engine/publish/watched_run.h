@@ -13,8 +13,8 @@
 
 namespace clatter {
 
-/// A run of disks or of spheres, and the frames that show it. Its frames, like its scene, are the
-/// same types in two dimensions and in three.
+/// A run of disks or spheres, and its frames. Frames and scene have the same types in two and three
+/// dimensions.
 class WatchedRun {
  public:
   virtual ~WatchedRun() = default;
@@ -35,17 +35,18 @@ class WatchedRun {
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;
 
-  /// The profile of frames from now on.
+  /// Selects the profile of frames from now on.
   virtual void show_profile(Profiled what) = 0;
-  /// Frames have the collisions of this particle from now on; absent, or no particle: of none.
+  /// Selects the particle whose collisions frames contain from now on. Absent, or a number that is
+  /// too large: none.
   virtual void pick(std::optional<std::uint32_t> particle) = 0;
-  /// Fills in the frame's snapshot, sums and scene; also the hash of the state where `halted`.
+  /// Fills in the frame's snapshot, sums and scene; with `halted` also the state hash.
   virtual void tell(Frame& frame, bool halted) = 0;
   /// The particles that collided last, if any have.
   virtual const std::optional<std::array<std::uint32_t, 2>>& partners() const = 0;
 };
 
-/// The run that a scene and a seed ask for, at time 0. Throws UserError as ScheduledRun does.
+/// The run of a scene and a seed, at time 0. Throws UserError if the machine has not enough memory.
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed);
 
 }  // namespace clatter

@@ -18,8 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Whether two commands set the same laws, so that only the later one counts: a slider may be
-// dragged faster than a large gas can change its laws.
+// Whether two commands set the same laws, so that only the later one counts. The user may drag a
+// slider faster than a large gas can change its laws.
 bool supersedes(const Command& later, const Command& earlier) {
   const auto* a = std::get_if<command::SetLaws>(&later);
   const auto* b = std::get_if<command::SetLaws>(&earlier);
@@ -74,8 +74,8 @@ class Work {
     pace_.restart();
   }
 
-  // Whether it went well. A person's mistake, a physical stop, a lack of memory: told, and the gas
-  // before stands.
+  // Returns whether `act` succeeded. On an error (user error, physical stop, lack of memory) the
+  // frame gets a message, and the gas remains as before.
   template <class Act>
   bool attempt(const Act& act) {
     try {
@@ -133,7 +133,7 @@ class Work {
     rate_since_ = {};
   }
 
-  // Makes of a gas the start of another scene.
+  // Makes the current gas the start state of another scene.
   template <int D>
   static void start_from(State<D> state, const command::Open& asked, Scene& scene) {
     if (scene.dimension() != D) return;
@@ -146,7 +146,8 @@ class Work {
         .layout = Layout::File, .file = "", .state = std::move(state), .temperature = temperature};
   }
 
-  // Runs up to a time, or as far as it gets until `due`, or until something is asked for.
+  // Runs up to `time`, but at most until the real time `due` or the next command. Returns whether
+  // it reached `time`.
   bool advance(double time, std::uint64_t collisions, Clock::time_point due) {
     bool arrived = false;
     if (!attempt([&] { arrived = run_slices(time, collisions, due); })) halt();
@@ -176,7 +177,7 @@ class Work {
     if (arrived && plays_) commands_.wait_until(goal.due);
   }
 
-  // As fast as it goes, but with a frame now and then.
+  // Runs at full speed, with a frame at intervals.
   void step() {
     const auto due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(frame_seconds_));
@@ -243,11 +244,11 @@ class Work {
   std::unique_ptr<WatchedRun> watched_;
   Profiled profiled_ = Profiled::Nothing;
   bool plays_ = false;
-  double until_ = std::numeric_limits<double>::infinity();  // where it halts of itself
+  double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
   std::optional<double> step_to_;
-  std::optional<std::uint64_t> to_collision_;  // number of the collision of particles to halt at
+  std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt
   std::optional<std::array<std::uint32_t, 2>> partners_;
-  std::uint64_t slice_ = 256;  // steps in a row, found while running
+  std::uint64_t slice_ = 256;  // steps per slice, adapted while running
   std::uint64_t runs_ = 0;
   std::uint64_t handled_ = 0;
   std::string message_;

@@ -13,24 +13,24 @@
 
 namespace clatter {
 
-/// The engine's thread: runs a gas at its speed, does what it is asked for, publishes frames. It
-/// sleeps where it has nothing to do; what goes wrong becomes a frame's message.
+/// The engine's thread: runs a gas at its speed, executes commands and publishes frames. It sleeps
+/// when it has nothing to do. Errors become messages in frames.
 class Worker {
  public:
-  /// Publishes so many frames per second while a gas plays, and one after each command; then calls
-  /// `on_publish`, on its thread.
+  /// Publishes `frames_per_second` frames while a gas plays, and one after each batch of commands.
+  /// After each frame the thread calls `on_publish`.
   explicit Worker(
       double frames_per_second, std::function<void()> on_publish = [] {});
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
-  /// Ends the thread once the engine has done what it is at.
+  /// Ends the thread after its current task.
   ~Worker();
 
-  /// Asks for something; at once, and done soon: between two slices of the run.
+  /// Sends a command and returns at once. The engine executes it between two slices of the run.
   void send(Command command) { commands_.push(std::move(command)); }
   /// The frames, to be read by one thread.
   TripleBuffer<Frame>& frames() { return frames_; }
-  /// Asks the thread to end, and tells whether it has within a time.
+  /// Asks the thread to end; returns whether it has ended within `time`.
   bool stop_within(std::chrono::milliseconds time);
 
  private:
@@ -41,7 +41,7 @@ class Worker {
   std::mutex mutex_;
   std::condition_variable ended_changed_;
   bool ended_ = false;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last member: it uses the others
 };
 
 }  // namespace clatter

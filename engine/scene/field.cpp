@@ -108,8 +108,8 @@ std::vector<NamedField> field_names(int dimension) {
   return names;
 }
 
-// A temperature's whole comes after its components, so that one of these alone is written by its
-// own name.
+// The mean temperature comes after its components, so that a single component keeps its own name
+// when written.
 std::vector<NamedField> measured_names(int dimension) {
   std::vector<NamedField> names;
   for (const QuantityTraits& traits : kQuantities) {

@@ -8,22 +8,23 @@
 
 namespace clatter {
 
-/// What fields give of the gas at a place (theory 8).
+/// Quantities of the gas that fields show (theory 8).
 enum class Quantity : std::uint8_t {
-  Density,          ///< rho, particles per area; in space per volume, as all that is per area
+  Density,          ///< rho, particles per area; in 3D per volume, as all densities
   Velocity,         ///< V, their mean velocity
-  Temperature,      ///< T_k = m <(v_k - V_k)^2>, and T, the mean of these over the axes
-  Stress,           ///< sigma, minus the pressure tensor; xy: of momentum along y, through x
-  HeatFlux,         ///< q, about V
-  Dissipation,      ///< zeta <= 0, energy per time and area that collisions of particles give
+  Temperature,      ///< T_k = m <(v_k - V_k)^2>, and T, the mean of T_k over the axes
+  Stress,           ///< sigma, minus the pressure tensor; xy: y momentum through a face normal to x
+  HeatFlux,         ///< q, relative to V
+  Dissipation,      ///< zeta <= 0, energy gain in collisions of particles per time and area
   Spin,             ///< mean angular velocity
   SpinTemperature,  ///< T_rot = I <omega^2>, the mean over the components of omega
-  BalanceMass,      ///< what the balances (theory 9.1-9.3) leave open, relative to what was booked
+  BalanceMass,      ///< residual of a balance (theory 9.1-9.3), relative to the bookings
   BalanceMomentum,
   BalanceEnergy
 };
 
-/// What carries a stress or a heat flux: particles, collisions along their branch vectors, or both.
+/// Contribution to a stress or a heat flux: by particles, by collisions along their branch vectors,
+/// or both.
 enum class Part : std::uint8_t { Total, Kinetic, Collisional };
 
 /// A field over the box: a component of a quantity, or of a part of it.
@@ -31,7 +32,7 @@ struct Field {
   static constexpr std::int8_t kNone = -1;
 
   Quantity quantity = Quantity::Density;
-  std::int8_t i = kNone;  ///< axis of the component; none of scalars and of the whole temperature
+  std::int8_t i = kNone;  ///< axis of the component; kNone for scalars and the mean temperature
   std::int8_t j = kNone;  ///< second axis of a tensor's component, i <= j
   Part part = Part::Total;
 
@@ -46,19 +47,19 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
-/// Which components a quantity has.
+/// Components of a quantity.
 enum class Rank : std::uint8_t {
   Scalar,
   Vector,         ///< one along each axis
   Tensor,         ///< a symmetric one: xx, yy (, zz), then xy (, xz, yz)
-  MeanAndShares,  ///< the mean over the axes, then what each axis has
-  AxialVector     ///< one in the plane, which has no axis; in space one about each axis
+  MeanAndShares,  ///< the mean over the axes, then one component per axis
+  AxialVector     ///< in 2D one component without an axis; in 3D one about each axis
 };
 
-/// Which signs the values of a field have.
+/// Signs of the values of a field.
 enum class Sign : std::uint8_t { Positive, Negative, Either };
 
-/// What a quantity is known from.
+/// Source of a quantity's values.
 enum class Kind : std::uint8_t {
   Average,      ///< over particles and collisions
   SpinAverage,  ///< over particles that spin
@@ -68,24 +69,24 @@ enum class Kind : std::uint8_t {
 /// A unit as powers of mass, length and time.
 struct Unit {
   int mass = 0, length = 0, time = 0;
-  bool per_volume = false;  ///< divided by an area in the plane, by a volume in space
+  bool per_volume = false;  ///< divided by an area in 2D, by a volume in 3D
 };
 
-/// All that scenes, files and pictures need to know of a quantity.
+/// Properties of a quantity for scenes, files and pictures.
 struct QuantityTraits {
   Quantity quantity;
   const char* name;            ///< in scenes and files
   const char* title;           ///< in pictures; ends with the symbol, if any: "stress σ"
-  const char* subscript = "";  ///< of the symbol, before those of components
+  const char* subscript = "";  ///< of the symbol, before subscripts of components
   Unit unit = {};
-  Sign sign = Sign::Positive;  ///< of a tensor that of its diagonal; what is off it has either
+  Sign sign = Sign::Positive;  ///< of a tensor's diagonal; other components have either sign
   Rank rank = Rank::Scalar;
   bool has_parts = false;  ///< whether it is the sum of a kinetic and a collisional part
   Kind kind = Kind::Average;
 };
 
-/// The quantities, in the order of Quantity, which is that of files too. Particles repel each
-/// other, so that pressure is positive and normal stress negative.
+/// The quantities in the order of Quantity, which is also the order in files. Particles repel each
+/// other, so pressure is positive and normal stress negative.
 inline constexpr std::array<QuantityTraits, 11> kQuantities = {{
     {.quantity = Quantity::Density,
      .name = "density",
@@ -152,12 +153,12 @@ inline constexpr std::array<QuantityTraits, 11> kQuantities = {{
      .kind = Kind::Residual},
 }};
 
-/// The row of a quantity.
+/// The properties of a quantity.
 constexpr const QuantityTraits& traits_of(Quantity quantity) {
   return kQuantities[static_cast<std::size_t>(quantity)];
 }
 
-/// Whether a row for each quantity stands in its place.
+/// Whether there is one row per quantity, in the order of Quantity.
 constexpr bool in_order(const auto& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].quantity != static_cast<Quantity>(k)) return false;
@@ -166,28 +167,28 @@ constexpr bool in_order(const auto& rows) {
 }
 static_assert(in_order(kQuantities));
 
-/// Whether a field is what a balance equation leaves open, and no average.
+/// Whether a field is a residual of a balance equation, not an average.
 constexpr bool is_residual(Field field) {
   return traits_of(field.quantity).kind == Kind::Residual;
 }
 
-/// Whether a field is an average that only particles with spins have.
+/// Whether a field is an average over spins.
 constexpr bool of_spins(Field field) {
   return traits_of(field.quantity).kind == Kind::SpinAverage;
 }
 
-/// Which signs the values of a field have.
+/// Signs of the values of a field.
 Sign sign_of(Field field);
 
-/// The axes of a field's component, such as "xy"; empty where it has none.
+/// The axes of a field's component, for example "xy"; empty without axes.
 std::string axes_of(Field field);
 
-/// What the letters in units stand for.
+/// Meaning of the letters in units.
 inline constexpr const char* kUnits =
     "a: particle diameter, m: particle mass, t: time unit of the scene";
 
-/// The unit of a quantity in D dimensions in terms of these, in plain text such as "m a^2/t^2"; "1"
-/// of bare numbers.
+/// The unit of a quantity in D dimensions in the letters of kUnits, for example "m a^2/t^2"; "1"
+/// for dimensionless quantities.
 std::string unit_of(Quantity quantity, int dimension);
 
 /// A field and its name in scenes and files.
@@ -196,27 +197,27 @@ using NamedField = std::pair<std::string, Field>;
 /// The name of a field in files: "stress_xy_kinetic".
 std::string name_of(Field field);
 
-/// The name that all components of a field have together: "stress_kinetic" of each of its
-/// components. Those of temperatures and residuals stand alone.
+/// The common name of all components of a field: "stress_kinetic" for each component of the kinetic
+/// stress. Components of temperatures and residuals have only their own names.
 std::string joint_name_of(Field field);
 
-/// All components of a quantity in D dimensions, and those of its parts, in the order of files.
+/// All components of a quantity and of its parts in D dimensions, in the order of files.
 std::vector<Field> fields_of(Quantity quantity, int dimension);
 
-/// All fields that a gas in D dimensions may have, in the order of files.
+/// All fields of a gas in D dimensions, in the order of files.
 std::vector<Field> all_fields(int dimension);
 
 /// The residuals, in the order of Conserved<D>.
 std::vector<Field> residual_fields(int dimension);
 
-/// All fields one by one, with their names.
+/// All fields with their names.
 std::vector<NamedField> field_names(int dimension);
 
-/// The names by which fields are asked for in measurements, once for each field that they stand
-/// for; the first name of a field is that which scenes are written with.
+/// The names of fields in measure.fields, one entry per field. A name may stand for several fields.
+/// Scenes are written with the first name of a field.
 std::vector<NamedField> measured_names(int dimension);
 
-/// How particles come to count in fields: their flights exactly, or where they are now and then.
+/// Estimator of fields: integrates flights exactly, or takes snapshots of positions.
 enum class Estimator { Exact, Snapshot };
 
 }  // namespace clatter

@@ -16,18 +16,17 @@ namespace clatter {
 
 namespace {
 
-/// A state of one key on which the presence of other keys may depend.
+/// A state of a key. The presence of other keys may depend on it.
 struct Setting {
   std::string path;
-  std::optional<std::size_t>
-      choice;        // of a name; any number gives other keys a value; none: absent
-  std::string text;  // `kind = "driven"`
+  std::optional<std::size_t> choice;  // index of the name, or 0 for a number; absent: no value
+  std::string text;                   // `kind = "driven"`
 };
 
 /// Visitor that collects the documentation of the keys and their presence.
 class KeyDescriber {
  public:
-  /// `setting` is given to its key instead of the default.
+  /// The key of `setting` has this state instead of its default.
   explicit KeyDescriber(Setting setting = {}) : setting_(std::move(setting)) {}
 
   template <class T>
@@ -88,7 +87,7 @@ class KeyDescriber {
 
   std::vector<KeyDoc> docs;
   std::map<std::string, Presence> presences;  // by path
-  std::vector<Setting> offers;                // all states of keys that have several
+  std::vector<Setting> offers;                // all states of keys with several states
 
  private:
   KeyDoc& add(const Key& key, const std::string& initial, Presence presence) {
@@ -103,7 +102,7 @@ class KeyDescriber {
     offers.push_back({docs.back().path(), choice, "`" + std::string(key.name) + quoted + "`"});
   }
 
-  /// The setting of the key that was added last.
+  /// The state in `setting_`, if it is of the key that was added last.
   std::optional<std::size_t> setting() const {
     return docs.back().path() == setting_.path ? setting_.choice : std::nullopt;
   }
@@ -132,7 +131,7 @@ KeyDescriber describe(int dimension, bool spins = true, Setting setting = {}) {
   return describer;
 }
 
-/// The states of one key, by what they make of another one.
+/// The states of one key, by the presence of another key.
 struct States {
   std::vector<Setting> required, optional, forbidden;
 
@@ -170,7 +169,7 @@ std::string condition(const States& states) {
                                              : " Allowed " + with(optional) + " only.";
 }
 
-/// Adds where the keys are required or forbidden.
+/// Adds the conditions under which keys are required or forbidden.
 void add_conditions(std::vector<KeyDoc>& docs) {
   std::map<std::string, std::map<std::string, States>> states;  // by key and deciding key
   for (const Setting& setting : describe(2).offers) {
@@ -194,7 +193,7 @@ void add_conditions(std::vector<KeyDoc>& docs) {
   }
 }
 
-/// Adds the keys of spheres, and the differences of those that disks have too.
+/// Adds the keys that only spheres have, and the differences of common keys for spheres.
 void add_spheres(std::vector<KeyDoc>& docs) {
   const std::vector<KeyDoc> spheres = describe(3).docs;
   auto next = docs.end();  // the key that follows in a file
@@ -214,7 +213,7 @@ void add_spheres(std::vector<KeyDoc>& docs) {
   }
 }
 
-/// Leaves one wall of all.
+/// Keeps the keys of one wall, as the table walls.SIDE.
 void join_walls(std::vector<KeyDoc>& docs) {
   const std::string first = std::string("walls.") + kSideNames[0];
   std::erase_if(docs, [&](const KeyDoc& doc) {

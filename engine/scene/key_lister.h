@@ -9,8 +9,7 @@
 
 namespace clatter {
 
-/// Visitor that lists the keys which a scene file may have, tables among them, each with its whole
-/// dotted path.
+/// Visitor that lists the keys and tables that a scene file may have, with their full dotted paths.
 class KeyLister {
  public:
   template <class... Rest>
@@ -43,7 +42,7 @@ class KeyLister {
     table(key, std::optional<T>(), visit);
   }
 
-  /// The keys in such a table are no keys of the scene file's own.
+  /// Lists only the table, because its keys are paths of other keys.
   void settings(std::string_view key, const std::vector<Override>&) { value(key); }
 
   const std::vector<std::string>& keys() const { return keys_; }

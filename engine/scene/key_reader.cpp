@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-/// The value as a person would write it; a date by its type only.
+/// The value as in a scene file; for a date only "a date".
 static std::string value_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) {
     const std::string text = number_text(number->get());
@@ -33,7 +33,7 @@ static std::string value_text(const toml::node& node) {
   return '{' + list + '}';
 }
 
-/// The value as a message quotes it.
+/// The value for a message; long values are abbreviated.
 static std::string shown(const toml::node& node) {
   if (node.is_table()) return "this table";
   constexpr std::size_t kLongest = 40;
@@ -106,7 +106,7 @@ void KeyReader::refuse_name(std::string_view key, const toml::node& node,
   refuse(key, node, (names.size() > 1 ? "one of " : "") + wanted);
 }
 
-/// Whole numbers count as numbers: a person writes 20 for 20.0.
+/// Accepts integers too, because users write 20 for 20.0.
 static std::optional<double> number_in(const toml::node& node, Limits limits) {
   double number = 0.0;
   if (const auto* whole = node.as_integer()) {
@@ -119,7 +119,7 @@ static std::optional<double> number_in(const toml::node& node, Limits limits) {
   return limits.allow(number) ? std::optional(number) : std::nullopt;
 }
 
-/// The numbers of an array of `size`; absent where it is anything else.
+/// The numbers of an array of `size`; absent for any other node.
 static std::optional<VecX> numbers_in(const toml::node& node, Limits limits, Eigen::Index size) {
   const toml::array* array = node.as_array();
   if (!array || static_cast<Eigen::Index>(array->size()) != size) return std::nullopt;
@@ -164,7 +164,7 @@ bool KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
   return true;
 }
 
-// As many numbers as the default has, which are the dimensions of the scene.
+// Requires as many numbers as the default has: the dimension of the scene.
 bool KeyReader::read(const toml::node& node, Limits limits, VecX& value) {
   const auto numbers = numbers_in(node, limits, value.size());
   if (!numbers) return false;

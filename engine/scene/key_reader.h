@@ -16,11 +16,12 @@
 
 namespace clatter {
 
-/// Visitor that reads every key of a parsed scene file into its variable, which keeps its default
-/// where the key is absent. Throws UserError at what is missing, of the wrong type or out of range.
+/// Visitor that reads every key of a parsed scene file into its variable. The variable of an absent
+/// key keeps its default. Throws UserError for a key that is missing, has the wrong type or is out
+/// of range.
 class KeyReader {
  public:
-  /// `file` is the name that errors about missing keys carry.
+  /// `file` is the name in errors about missing keys.
   KeyReader(const toml::table& root, std::string file)
       : root_(root), table_(&root), file_(std::move(file)), otherwise_{file_, 0, 0} {}
 
@@ -94,12 +95,12 @@ class KeyReader {
     }
   }
 
-  /// Tables within are taken apart, unless they are inline.
+  /// Nested tables become dotted keys, unless they are inline.
   void settings(std::string_view key, std::vector<Override>& settings);
 
  private:
   bool has(std::string_view key) const { return table_ && table_->contains(key); }
-  /// The key's value; nullptr where it is absent and may be.
+  /// The key's value; nullptr if an optional key is absent.
   const toml::node* find(std::string_view key, Presence presence) const;
   std::string path(std::string_view key) const { return list_ + prefix_ + std::string(key); }
   Place place(std::string_view key) const;
@@ -109,7 +110,7 @@ class KeyReader {
   [[noreturn]] void refuse_name(std::string_view key, const toml::node& node,
                                 const std::vector<std::string>& names) const;
 
-  /// The values that a name stands for, at least one.
+  /// The values of a name, at least one.
   template <class E, class Names>
   std::vector<E> named(std::string_view key, const toml::node& node, const Names& names) const {
     std::vector<E> values;
@@ -122,8 +123,8 @@ class KeyReader {
     return values;
   }
 
-  // Each reads a node of its type that lies within the limits, and returns nothing, or else what
-  // the node should be.
+  // Each overload reads a node of its type within the limits; returns false if the node does not
+  // fit.
   static bool read(const toml::node& node, Limits limits, double& value);
   static bool read(const toml::node& node, Limits limits, int& value);
   static bool read(const toml::node& node, Limits limits, bool& value);
@@ -135,11 +136,11 @@ class KeyReader {
   static bool read(const toml::node& node, Limits limits, Rgb& colour);
 
   const toml::table& root_;
-  const toml::table* table_;  // the one being visited; nullptr: absent, all defaults
-  std::string list_;          // path of the list that the root is an item of, and a dot; or empty
+  const toml::table* table_;  // the current table; nullptr: absent, all defaults
+  std::string list_;          // path of the list that contains the root, and a dot; or empty
   std::string prefix_;        // path of the table from the root, and a dot; empty at the root
   std::string file_;
-  Place otherwise_;  // of what stands nowhere
+  Place otherwise_;  // place for keys that are not in the file
 };
 
 }  // namespace clatter

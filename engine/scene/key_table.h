@@ -9,9 +9,9 @@ namespace clatter {
 /// A key of the scene file with its documentation.
 struct Key {
   std::string_view name;
-  std::string_view unit;     ///< in the letters of kUnits; "1": a bare number; empty: no number
+  std::string_view unit;     ///< in the letters of kUnits; "1": dimensionless; empty: no number
   std::string_view meaning;  ///< in sentences
-  std::string_view commands = {};  ///< that read it, between blanks; empty: those of the table
+  std::string_view commands = {};  ///< that read it, separated by blanks; empty: as the table
 
   constexpr operator std::string_view() const { return name; }
 };
@@ -19,7 +19,7 @@ struct Key {
 /// The documentation of all keys of one table of the scene file.
 template <std::size_t N>
 struct KeyTable {
-  std::string_view commands;  ///< that read the keys, between blanks
+  std::string_view commands;  ///< that read the keys, separated by blanks
   std::array<Key, N> keys;
 
   /// The row of a key. A key without a row does not compile.
@@ -34,7 +34,7 @@ struct KeyTable {
   }
 };
 
-/// Makes a table from the commands that read its keys and from its rows.
+/// Makes a table from the commands and the rows.
 template <std::size_t N>
 consteval KeyTable<N> key_table(std::string_view commands, const Key (&rows)[N]) {
   return {commands, std::to_array(rows)};

@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-// "numbers between 0 and 1", "a number greater than 0": what the limits allow.
+// The limits in words: "numbers between 0 and 1", "a number greater than 0".
 static std::string within(const std::string& what, Limits limits) {
   if (limits.lowest == limits.highest) return number_text(limits.lowest);
   if (limits.above) {
@@ -24,7 +24,7 @@ static std::string within(const std::string& what, Limits limits) {
                                          : what;
 }
 
-// How many of them there are to be, and along which axes.
+// The number of values and their axes in words.
 static std::string count_and_axes(const std::string& numbers, Limits limits, std::size_t size) {
   return (size == 2 ? "two " : "three ") + numbers + within("", limits) +
          (size == 2 ? ", along x and y" : ", along x, y and z");

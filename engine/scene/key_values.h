@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-// The values that a key allows, in words: "a number between 0 and 1". The first argument is a value
-// of the key. An array must have as many numbers as this one.
+// The allowed values of a key in words: "a number between 0 and 1". The first argument is a value
+// of the key. It sets the type and the length of an array.
 std::string allowed_values(double number, Limits limits);
 std::string allowed_values(int number, Limits limits);
 std::string allowed_values(bool flag, Limits limits);

@@ -11,7 +11,7 @@ namespace clatter {
 std::string value_text(double number) {
   const std::string text = number_text(number);
   if (std::isinf(number)) return text;
-  // Without a point a large number would read as an integer, and TOML's end at 2^63.
+  // Without a point a large number would be an integer, and TOML limits integers to 2^63.
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 

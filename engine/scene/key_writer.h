@@ -11,18 +11,18 @@
 
 namespace clatter {
 
-/// A value as TOML writes it, and JSON too but for infinity.
-std::string value_text(double number);  ///< the shortest that reads back to the same bits
+/// A value in TOML; JSON is the same except for infinity.
+std::string value_text(double number);  ///< shortest text that reads back to the same bits
 std::string value_text(int number);
 std::string value_text(bool flag);
-std::string value_text(const std::string& text);          ///< quoted, what is special escaped
+std::string value_text(const std::string& text);          ///< quoted, special characters escaped
 std::string value_text(const Vec2& vector);               ///< as an array
 std::string value_text(const VecX& vector);               ///< as an array
 std::string value_text(const std::vector<int>& numbers);  ///< as an array
-std::string value_text(const ColourRange& range);         ///< as the scene file has it
+std::string value_text(const ColourRange& range);         ///< as in the scene file
 std::string value_text(const Rgb& colour);                ///< "#rrggbb", quoted
 
-/// Visitor that writes every key which a scene has; the subclasses know the syntax around them.
+/// Visitor that writes every key of a scene. The subclasses define the syntax.
 class KeyWriter {
  public:
   template <class T>
@@ -102,7 +102,7 @@ class KeyWriter {
 /// Writes a scene file.
 class TomlWriter final : public KeyWriter {
  public:
-  /// All that has been written.
+  /// The text written so far.
   const std::string& text() const { return text_; }
   void settings(std::string_view key, const std::vector<Override>& settings) override;
 
@@ -117,16 +117,16 @@ class TomlWriter final : public KeyWriter {
   std::string path() const;
 
   std::string text_;
-  std::vector<std::string> path_;  // of the table being written
-  bool header_due_ = false;        // a table without values of its own gets no header
+  std::vector<std::string> path_;  // of the current table
+  bool header_due_ = false;        // a table without own values gets no header
 };
 
 /// Writes a JSON object.
 class JsonWriter final : public KeyWriter {
  public:
-  /// All that has been written.
+  /// The text written so far.
   std::string text() const { return '{' + text_ + '}'; }
-  /// Values stand as texts, in TOML.
+  /// Writes values as strings in TOML syntax.
   void settings(std::string_view key, const std::vector<Override>& settings) override;
 
  private:
@@ -140,7 +140,7 @@ class JsonWriter final : public KeyWriter {
   void begin(std::string_view key);
 
   std::string text_;
-  std::vector<std::size_t> starts_;  // of the objects being written; one without keys is left out
+  std::vector<std::size_t> starts_;  // of the open objects; one without keys is removed
 };
 
 }  // namespace clatter

@@ -17,7 +17,7 @@ static std::string wall_path(int side) {
   return std::string("walls.") + kSideNames[side];
 }
 
-/// Throws where a wall stands without the one opposite.
+/// Throws if a wall has no opposite wall.
 static void check_pairs(const Scene& scene, const toml::table& root, const std::string& file) {
   for (int side = 0; side < 2 * scene.dimension(); ++side) {
     if (!scene.walls[side] || scene.walls[side ^ 1]) continue;
@@ -27,7 +27,7 @@ static void check_pairs(const Scene& scene, const toml::table& root, const std::
   }
 }
 
-/// The greatest speed of a wall's motion.
+/// Largest speed of a wall's motion.
 static double top_speed(const Wall& wall) {
   const double speed = wall.stroke * wall.frequency;
   return wall.kind == WallKind::Sinusoidal ? std::numbers::pi * speed : speed;
@@ -44,7 +44,7 @@ static void check_speeds(const Scene& scene, const toml::table& root, const std:
   }
 }
 
-/// Throws where moving walls leave no room for a particle between them.
+/// Throws if moving walls leave no room for a particle between them.
 static void check_room(const Scene& scene, const toml::table& root, const std::string& file) {
   for (int axis = 0; axis < scene.dimension(); ++axis) {
     const double room = scene.clear_box()[axis];
@@ -67,7 +67,7 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
                   "choose another, or make the particles or a wall rough");
 }
 
-/// Throws where a field of spins is asked for and nothing spins.
+/// Throws if a field of spins is requested and no particle spins.
 static void check_fields(const Scene& scene, const toml::table& root, const std::string& file) {
   if (scene.spins()) return;
   const auto refuse = [&](const char* path) {
@@ -79,14 +79,13 @@ static void check_fields(const Scene& scene, const toml::table& root, const std:
   if (scene.view.field && of_spins(*scene.view.field)) refuse("view.field");
 }
 
-/// Throws where a Gaussian stands with flights, which it cannot spread, or is so narrow that the
-/// cells' centres miss it.
+/// Throws if a Gaussian kernel is used with the exact estimator, or is too narrow for the cells.
 static void check_kernel(const Scene& scene, const toml::table& root, const std::string& file) {
   const Measure& measure = scene.measure;
   if (measure.kernel == Kernel::Box) return;
   if (measure.estimator == Estimator::Exact) {
     throw UserError(place_of(root, "measure.kernel", file),
-                    "a Gaussian spreads particles where they are now and then, not flights",
+                    "the Gaussian kernel has no meaning for the exact estimator",
                     "set measure.estimator = \"snapshot\" and measure.interval, or remove it");
   }
   for (int axis = 0; axis < scene.dimension(); ++axis) {
@@ -98,7 +97,7 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
   }
 }
 
-/// Throws where the camera's times do not follow each other.
+/// Throws unless the camera's times increase.
 static void check_camera(const Scene& scene, const toml::table& root, const std::string& file) {
   const std::vector<CameraKey>& keys = scene.view.camera;
   for (std::size_t k = 1; k < keys.size(); ++k) {
@@ -110,7 +109,7 @@ static void check_camera(const Scene& scene, const toml::table& root, const std:
   }
 }
 
-/// Throws where profiles go along an axis that the box does not have.
+/// Throws if the box does not have the axis of the profiles.
 static void check_axis(const Scene& scene, const toml::table& root, const std::string& file) {
   if (static_cast<int>(scene.measure.profile_axis) < scene.dimension()) return;
   throw UserError(place_of(root, "measure.profile_axis", file),
@@ -139,7 +138,7 @@ void check_followed(const Scene& scene, const toml::table& root, const std::stri
   }
 }
 
-/// The number of particles that a scene's two keys ask for; nothing where there is neither.
+/// The number of particles from either of the scene's two keys; absent without both.
 static std::optional<double> asked_count(const SceneInput& input) {
   if (input.count) return *input.count;
   if (!input.packing_fraction) return std::nullopt;

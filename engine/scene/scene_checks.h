@@ -8,19 +8,19 @@
 
 namespace clatter {
 
-/// Throws UserError where keys that are each allowed make no scene together: walls without one
-/// opposite, too fast or with no room between them, a colour or a field for spins where nothing
-/// spins, a Gaussian that has nothing to spread or misses the cells, a camera whose times do not
-/// follow each other. `root` is what the input was
-/// read from, and `file` the name that errors carry.
+/// Throws UserError if keys that are allowed individually contradict each other. The checks are:
+/// opposite walls, speed of walls and room between them; an axis that the box lacks; a colour or
+/// field of spins without spins; a Gaussian kernel with the exact estimator or too narrow for the
+/// cells; increasing times of the camera. `root` is the document of the input, and `file` the name
+/// for errors.
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// Throws UserError where the camera follows a particle that the scene, whose count is known, has
-/// not.
+/// Throws UserError if the camera follows a particle that does not exist. The scene's count must be
+/// known.
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// The number of particles that the input asks for; throws UserError where it asks twice, not at
-/// all, for more than any lattice holds, or for others than a start state has.
+/// The number of particles of the input. Throws UserError if both keys or none are given, if no
+/// lattice holds that many, or if the start state has another number.
 int resolve_count(const SceneInput& input, const toml::table& root, const std::string& file);
 
 }  // namespace clatter

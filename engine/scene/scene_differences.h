@@ -6,15 +6,15 @@
 
 namespace clatter {
 
-/// A key that two scenes give different values, or that one of them lacks.
+/// A key with different values in two scenes, or absent in one of them.
 struct KeyDifference {
   std::string key;     ///< dotted: "walls.left.kind"
   std::string before;  ///< the value as TOML; empty: the scene has no such key
-  std::string now;     ///< likewise
+  std::string now;     ///< the value in the second scene; empty: no such key
 };
 
-/// All keys in which two scenes differ, given as scene files, sorted. Throws UserError where one is
-/// no TOML; `file` names the one before.
+/// All keys in which two scenes, given as texts of scene files, differ; sorted. Throws UserError if
+/// a text is not TOML; `file` is the name of the first scene.
 std::vector<KeyDifference> differences(std::string_view before, std::string_view now,
                                        const std::string& file);
 

@@ -7,10 +7,11 @@
 
 namespace clatter {
 
-constexpr std::string_view kOverrideFile = "--set ";  // and the key: the "file" of an override
+constexpr std::string_view kOverrideFile =
+    "--set ";  // followed by the key: the "file" of an override
 
-/// Index of the last byte of the string that opens at `start`, or of the line where it is left
-/// open.
+/// Index of the last byte of the string that opens at `start`; of an unclosed string, the end of
+/// the line.
 static std::size_t end_of_string(std::string_view text, std::size_t start) {
   const char quote = text[start];
   const std::string triple(3, quote);
@@ -30,8 +31,8 @@ static std::size_t end_of_string(std::string_view text, std::size_t start) {
   return text.size();
 }
 
-/// Throws at a dotted key of absurdly many parts. The parser limits the depth of arrays and inline
-/// tables but not of these, and frees the nested tables recursively, as deep as the stack lasts.
+/// Throws at a dotted key with too many parts. The parser limits the depth of arrays and inline
+/// tables, but not of dotted keys. It frees nested tables recursively and could overflow the stack.
 static void refuse_deep_keys(std::string_view text, const std::string& file) {
   constexpr int kMaxDots = 16;
   int dots = 0;
@@ -64,8 +65,8 @@ toml::table parse_document(std::string_view text, const std::string& file) {
   }
 }
 
-/// The override as a document of its own. What is no TOML value is a string, so that a shell user
-/// need not quote twice.
+/// The override as a separate document. A value that is not TOML becomes a string, so that a shell
+/// user need not quote twice.
 static toml::table parse_override(const Override& change) {
   const std::string file = std::string(kOverrideFile) + change.key;
   const bool bare = std::ranges::all_of(change.key, [](unsigned char c) {
@@ -76,7 +77,7 @@ static toml::table parse_override(const Override& change) {
       try {
         return parse_document(change.key + " = " + value, file);
       } catch (const UserError&) {
-        // Another try as a string; a key at fault fails both.
+        // Tries again with the value as a string; an invalid key fails both times.
       }
     }
   }
@@ -91,7 +92,7 @@ static void replace(toml::table& into, toml::table& changes) {
     if (inner && change && !change->is_inline()) {
       replace(*inner, *change);
     } else {
-      into.erase(key);  // the key too, for it carries the place
+      into.erase(key);  // with its key, which has the place
       value.visit([&into, &key = key](auto& node) { into.insert(key, std::move(node)); });
     }
   }
@@ -99,7 +100,7 @@ static void replace(toml::table& into, toml::table& changes) {
 
 void apply_override(toml::table& root, const Override& change) {
   toml::table changes = parse_override(change);
-  // Either resolves the number of particles, so each displaces the other.
+  // Either key sets the number of particles, so each replaces the other.
   if (toml::table* particles = root["particles"].as_table()) {
     if (changes.at_path("particles.count")) particles->erase("area_fraction");
     if (changes.at_path("particles.area_fraction")) particles->erase("count");
@@ -111,7 +112,7 @@ bool from_override(const Place& place) {
   return place.file.starts_with(kOverrideFile);
 }
 
-/// Where a key stands, or a table's header.
+/// Place of a key, or of a table's header.
 static Place place_of(const toml::key& key, const toml::node& value) {
   const toml::source_region& source = value.is_table() ? value.source() : key.source();
   const std::string file = source.path ? *source.path : "";
@@ -124,7 +125,7 @@ Place place_of(const toml::node& node, const std::string& file) {
   return {file, static_cast<int>(at.line), static_cast<int>(at.column)};
 }
 
-/// What to do about an unknown key, given its path and the length of its table's part of it.
+/// Advice for an unknown key. `prefix` is the length of its table's part of the path.
 static std::string advice_on(std::string_view path, std::size_t prefix,
                              const std::vector<std::string>& known) {
   if (path == "disks") return "it is called 'particles' now: write particles in place of disks";
@@ -150,7 +151,7 @@ static std::string advice_on(std::string_view path, std::size_t prefix,
 static void refuse_unknown_keys(const toml::table& table, const std::string& prefix,
                                 const std::vector<std::string>& known);
 
-// Looks into tables and lists of them, but not into those that may have any key.
+// Checks tables and lists of tables, except tables that may have any key.
 static void refuse_unknown_keys_within(const toml::node& node, const std::string& prefix,
                                        const std::vector<std::string>& known) {
   const auto listed = [&](const std::string& key) { return key.starts_with(prefix); };

@@ -11,24 +11,24 @@
 
 namespace clatter {
 
-/// Parses TOML; throws UserError where it is malformed, `file` being the name that errors carry.
+/// Parses TOML. Throws UserError if it is malformed; `file` is the name for errors.
 toml::table parse_document(std::string_view text, const std::string& file);
 
-/// Replaces or adds the value that a `--set` names.
+/// Sets the value of an override in the document.
 void apply_override(toml::table& root, const Override& change);
 
-/// Throws UserError at a key that is not among `known`, which are dotted paths, and names the
-/// known one that may have been meant.
+/// Throws UserError at a key that is not among `known`, a list of dotted paths. The error suggests
+/// a similar known key.
 void refuse_unknown_keys(const toml::table& root, const std::vector<std::string>& known);
 
-/// Whether an override gave what stands there.
+/// Whether the value at a place comes from an override.
 bool from_override(const Place& place);
 
-/// Where the key of this dotted path stands, or a table's header, or else the innermost table on
-/// the way to it that the document has; an override has no line.
+/// Place of the key or table header with this dotted path; if it is absent, of its innermost
+/// existing table. An override has no line.
 Place place_of(const toml::table& root, std::string_view path, const std::string& file);
 
-/// Where a value stands.
+/// Place of a value.
 Place place_of(const toml::node& node, const std::string& file);
 
 }  // namespace clatter

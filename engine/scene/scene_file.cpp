@@ -24,7 +24,7 @@ namespace clatter {
 
 namespace {
 
-/// Where the files lie that a scene names.
+/// Location of the files that a scene names.
 enum class Origin { Folder, Gallery };
 
 constexpr std::size_t kLargestState = 4'000'000'000;
@@ -35,7 +35,7 @@ const EmbeddedFile* find_embedded(std::span<const EmbeddedFile> files, std::stri
 }
 
 bool is_file(const std::filesystem::path& path) {
-  std::error_code ignored;  // what cannot be looked at counts as absent
+  std::error_code ignored;  // an inaccessible file counts as absent
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
 }
@@ -53,20 +53,20 @@ bool is_file(const std::filesystem::path& path) {
                                : "did you mean '" + near + "'?");
 }
 
-/// Reads the state that the scene starts from, and makes the name of its file one that is found
-/// from the working directory.
+/// Reads the scene's start state, and changes the name of its file to be relative to the working
+/// directory.
 void load_start_state(Scene& scene, const toml::table& root, const std::string& file,
                       Origin origin) {
   Start& start = scene.particles.start;
   const Place place = place_of(root, "particles.start.file", file);
-  // What a person types is relative to where they are, and not to the scene.
+  // A name in an override is relative to the working directory, not to the scene.
   const bool typed = from_override(place);
   std::filesystem::path path = start.file;
   if (!typed && origin == Origin::Folder) path = std::filesystem::path(file).parent_path() / path;
   const EmbeddedFile* embedded = find_embedded(embedded_start_states(), start.file);
   if ((typed || origin == Origin::Folder) && is_file(path)) {
     start.file = path.string();
-    const std::string csv = read_file(start.file, kLargestState, "a line is enough for a particle");
+    const std::string csv = read_file(start.file, kLargestState, "write one line per particle");
     start.state = parse_state(csv, start.file, scene);
   } else if (embedded) {
     start.state = parse_state(embedded->bytes, start.file, scene);
@@ -77,7 +77,7 @@ void load_start_state(Scene& scene, const toml::table& root, const std::string& 
       std::visit([](const auto& state) { return temperature_of(state); }, start.state);
 }
 
-/// The dimension that a document's box has: 3 where its size has three numbers.
+/// Dimension of a document's box: 3 if its size has three numbers, otherwise 2.
 int dimension_of(const toml::table& root) {
   const toml::array* size = root.at_path("box.size").as_array();
   return size && size->size() == 3 ? 3 : 2;
@@ -101,8 +101,8 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
   return input;
 }
 
-/// The validated scene of a document; `load_state` gives it the start state of its file, where that
-/// is read.
+/// The validated scene of a document. `load_state` reads the start state of layout File, unless
+/// `start_file` is Skip.
 Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
                  const std::function<void(Scene&)>& load_state) {
   check_dimension(root, file);
@@ -113,7 +113,8 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   refuse_unknown_keys(root, lister.keys());
 
   SceneInput input = read_keys(root, file, true);
-  // Only the whole scene tells whether there are spins; where not, their keys are refused.
+  // The existence of spins is known only after all keys are read. Without spins a second pass
+  // rejects their keys.
   if (!input.scene.spins()) input = read_keys(root, file, false);
   Scene& scene = input.scene;
   check_scene(scene, root, file);
@@ -128,7 +129,7 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   return scene;
 }
 
-/// Throws where a change of the scene makes no scene, or cannot be made while it runs.
+/// Throws if a change of the scene results in an invalid scene, or is impossible during a run.
 void check_changes(const Scene& scene, const toml::table& root, const std::string& file) {
   for (Schedule schedule(scene); schedule.next() < std::numeric_limits<double>::infinity();) {
     const std::size_t change = schedule.next_change();
@@ -170,7 +171,7 @@ Scene parse_scene(std::string_view text, const std::string& file,
   return parse(text, file, overrides, Origin::Folder, start_file);
 }
 
-// A scene as a file has it, with the keys of spins or without them.
+// The text of a scene, with or without the keys of spins.
 template <class Writer>
 static std::string written(const Scene& scene, bool spins) {
   SceneInput input{
@@ -187,7 +188,7 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
     for (const Override& setting : settings) apply_override(root, setting);
     return root;
   };
-  // Where nothing spins, the keys of spins cannot stand, but their numbers stay for when it does.
+  // Without spins the keys of spins are forbidden, but the scene keeps their numbers for later.
   toml::table root = document(scene.spins());
   const bool spins = read_keys(root, "", true).scene.spins();
   if (spins != scene.spins()) root = document(spins);

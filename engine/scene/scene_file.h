@@ -10,29 +10,29 @@
 
 namespace clatter {
 
-/// Whether the file of a start state is read. A run that goes on has its particles already: without
-/// the file the scene has no start state and, unless a key gives their number, no particles.
+/// Whether the file of a start state is read. A resumed run already has its particles. Without the
+/// file the scene has no start state and, unless a key gives their number, no particles.
 enum class StartFile { Read, Skip };
 
 /// Reads the scene at a path, or the gallery scene of that name, applies the overrides, and
-/// validates the whole. Throws UserError with file, line, column, what is wrong and what to do.
+/// validates the scene. Throws UserError with file, line, column, problem and fix.
 Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {},
                  StartFile start_file = StartFile::Read);
 
-/// Most bytes that the text of a scene may have.
+/// Maximum size of the text of a scene, in bytes.
 inline constexpr std::size_t kLargestScene = 1'000'000;
 
-/// Like load_scene, of a scene in the gallery.
+/// As load_scene, for a scene of the gallery.
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides = {});
 
-/// Like load_scene, from text; `file` is the name that errors carry, beside which the files lie
-/// that the scene names.
+/// As load_scene, from text. `file` is the name for errors; files that the scene names are relative
+/// to its folder.
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides = {},
                   StartFile start_file = StartFile::Read);
 
-/// The scene with keys set anew, and the same start state. Throws UserError where that makes no
-/// scene.
+/// The scene with new values of some keys, and the same start state. Throws UserError if the result
+/// is invalid.
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings);
 
 /// The scene as a file that parses back to the same scene, every default written out.

@@ -9,33 +9,33 @@
 #include "engine/scene/scene.h"
 
 // The keys of the scene file, each defined once, in the order of the file. A table before each
-// block has their units and meanings. A visitor passes over the keys to list, read, write or
-// document them (key_lister.h, key_reader.h, key_writer.h, key_docs.cpp). It has
+// block has their units and meanings. A visitor visits the keys to list, read, write or document
+// them (key_lister.h, key_reader.h, key_writer.h, key_docs.cpp). It has the members
 //   value(key, variable, limits, presence)   for numbers, flags, text and arrays of numbers,
 //   value(key, optional, limits, presence)   for a number that may be absent,
 //   choice(key, variable, names, presence)   for enumerations and fields, optional ones, and lists
 //                                            of them,
-//   table(key, function)                     for a table whose keys the function passes over,
-//   table(key, optional, function)           for one that may be absent,
+//   table(key, function)                     for a table whose keys the function visits,
+//   table(key, optional, function)           for a table that may be absent,
 //   list(key, items, function)               for an array of tables,
 //   settings(key, overrides)                 for a table of any keys.
 
 namespace clatter {
 
-/// The numbers that a key allows, from `lowest` (itself excluded where `above` is set) to
-/// `highest`, which may be infinite.
+/// The allowed numbers of a key, from `lowest` to `highest`, which may be infinite. `above`
+/// excludes `lowest` itself.
 struct Limits {
   double lowest = -std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::max();
   bool above = false;
 
-  /// Whether the number lies within; NaN never does.
+  /// Whether a number is within the limits; false for NaN.
   bool allow(double number) const {
     return (above ? number > lowest : number >= lowest) && number <= highest;
   }
 };
 
-/// Numbers from `lowest` to `highest`, both among them.
+/// Numbers from `lowest` to `highest`, both included.
 constexpr Limits between(double lowest, double highest) {
   return {.lowest = lowest, .highest = highest};
 }
@@ -47,15 +47,15 @@ constexpr Limits at_least(double lowest) {
 constexpr Limits above(double lowest) {
   return {.lowest = lowest, .above = true};
 }
-/// Numbers from `lowest` on, infinity among them.
+/// Numbers from `lowest` on, infinity included.
 constexpr Limits at_least_or_infinite(double lowest) {
   return {.lowest = lowest, .highest = std::numeric_limits<double>::infinity()};
 }
 
-/// Speeds and temperatures stop where their squares and the times between collisions still are
-/// ordinary numbers; box sides where a position still has a rounding error of 1e-10 diameters; a
-/// wall's phase where it is as precise in its period; inertia where spins are not faster than
-/// speeds by more than they have room for.
+/// Limits of values. Squares of speeds, temperatures and times between collisions must not overflow
+/// or underflow. Positions in the largest box have a rounding error of 1e-10 diameters, and phases
+/// of walls have the same precision in periods. The smallest inertia limits the ratio of spins to
+/// speeds.
 inline constexpr double kMaxSpeed = 1e15;
 inline constexpr double kMaxTemperature = 1e30;
 inline constexpr double kMaxAcceleration = 1e15;
@@ -63,25 +63,24 @@ inline constexpr double kMaxLength = 1e6;
 inline constexpr double kMaxFrequency = 1e15;
 inline constexpr double kMaxPhase = 1e6;
 inline constexpr double kMinInertia = 1e-9;
-/// Limits of the times of [view] and of its speed: so many of one fit into another, and the clock
-/// can count them.
+/// Limits of the times and the speed of [view]: the clock can count their multiples.
 inline constexpr double kMinViewTime = 1e-30;
 inline constexpr double kMaxViewTime = 1e30;
-/// Most samples of the snapshot estimator that an averaging window holds.
+/// Maximum number of snapshots in an averaging window.
 inline constexpr double kMaxWindowSamples = 1e6;
-/// Limits of the camera: a picture as wide as a thousandth of a particle or a thousand boxes, and
-/// as far away.
+/// Limits of the width of pictures, and of the camera's distance from the origin: a thousandth of a
+/// particle, and a thousand of the largest boxes.
 inline constexpr double kMinCameraWidth = 1e-3;
 inline constexpr double kMaxCameraWidth = 1e9;
-/// A wall that gives more than it gets (theory 4.1) has a restitution above 1.
+/// A wall that adds energy (theory 4.1) has a restitution above 1.
 inline constexpr double kMaxWallRestitution = 10.0;
 
 /// Whether a table must, may or must not have a key.
 struct Presence {
   enum Kind { Required, Optional, Forbidden };
   Kind kind = Optional;
-  const char* reason = "";  ///< where forbidden: "has no meaning ..."
-  const char* advice = "";  ///< what to do then
+  const char* reason = "";  ///< if forbidden: "has no meaning ..."
+  const char* advice = "";  ///< the fix
 };
 inline constexpr Presence kRequired = {Presence::Required};
 inline constexpr Presence kOptional = {Presence::Optional};
@@ -110,15 +109,15 @@ inline constexpr Presence kNotOfBox = {Presence::Forbidden,
 inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
                                               "remove one of the two"};
 
-/// What an enumerator is called in scene files.
+/// Name of an enumerator in scene files.
 template <class E>
 struct Named {
   std::string_view name;
   E value;
 };
 
-/// The first name of an enumerator or field in a list of pairs of name and value; empty where it
-/// has none.
+/// The first name of an enumerator or field in a list of pairs of name and value; empty without a
+/// name.
 template <class E, class Names>
 constexpr std::string_view name_of(E chosen, const Names& names) {
   for (const auto& [name, value] : names) {
@@ -146,7 +145,7 @@ inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourB
 inline constexpr std::array<Named<Palette>, 3> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
 
-/// What arrows may show.
+/// Quantities that arrows can show.
 inline constexpr std::array<Named<Quantity>, 2> kArrows = {
     {{traits_of(Quantity::Velocity).name, Quantity::Velocity},
      {traits_of(Quantity::HeatFlux).name, Quantity::HeatFlux}}};
@@ -165,10 +164,10 @@ inline constexpr std::array<Named<Kernel>, 2> kKernels = {
 
 inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
 
-/// What a scene file says: the scene, and the keys that are resolved when it is read.
+/// Content of a scene file: the scene, and the keys that are resolved when it is read.
 struct SceneInput {
   int schema = 1;            ///< version of the format
-  std::optional<int> count;  ///< the number of particles, given by exactly one of these two
+  std::optional<int> count;  ///< number of particles; not together with the fraction
   std::optional<double>
       packing_fraction;  ///< phi: area_fraction of disks, volume_fraction of spheres
   bool spins = true;     ///< whether the keys of spins are allowed
@@ -178,7 +177,7 @@ struct SceneInput {
   std::string_view packing_key() const {
     return scene.dimension() == 2 ? "particles.area_fraction" : "particles.volume_fraction";
   }
-  /// Of a key that spins give its meaning.
+  /// Presence of keys that only spins need.
   Presence spin_key() const { return spins ? kOptional : kNotWithoutSpins; }
 };
 
@@ -195,7 +194,7 @@ inline constexpr auto kRoughnessKeys = key_table(
       "sign. -1 is smooth, 1 is perfectly rough. Without a value it is 1 beside `friction`, and "
       "-1 otherwise."}});
 
-/// The keys of rough partners, particles or walls.
+/// The keys of roughness, of particles or walls.
 template <class Visitor>
 void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
   io.value(kRoughnessKeys.at("friction"), roughness.friction, at_least_or_infinite(0.0), presence);
@@ -217,7 +216,7 @@ inline constexpr auto kWallKeys = key_table(
      {"frequency", "1/t", "Periods of the motion per time unit."},
      {"phase", "1", "Phase of the motion at time 0, in periods."}});
 
-/// The keys of one wall; which of them it may have depends on its kind.
+/// The keys of one wall. Its kind determines which of them are allowed.
 template <class Visitor>
 void visit_wall(Visitor& io, Wall& wall) {
   io.choice(kWallKeys.at("kind"), wall.kind, kWallKinds, kRequired);
@@ -240,13 +239,13 @@ void visit_wall(Visitor& io, Wall& wall) {
 
 inline constexpr auto kStartKeys = key_table(
     kRunCommands,
-    {{"layout", "", "Positions at time 0: random, on a lattice, or those of a file."},
+    {{"layout", "", "Positions at time 0: random, on a lattice, or from a file."},
      {"file", "", "Name of the CSV file with the state at time 0, relative to the scene file."},
      {"temperature", "m a^2/t^2",
       "Temperature at time 0. Velocities are Gaussian, without a mean, and scaled to this value."},
      {"spin_temperature", "m a^2/t^2", "Temperature of the spins at time 0."}});
 
-/// The keys of [particles.start]; which of them it may have depends on its layout.
+/// The keys of [particles.start]. The layout determines which of them are allowed.
 template <class Visitor>
 void visit_start(Visitor& io, Start& start, Presence spin_key) {
   io.choice(kStartKeys.at("layout"), start.layout, kLayouts);
@@ -262,16 +261,18 @@ inline constexpr auto kParticleKeys = key_table(
     kRunCommands,
     {{"count", "1", "Number of particles. A scene has either this key or a fraction."},
      {"area_fraction", "1",
-      "Share of the box that the disks fill. The number of disks is the nearest one."},
+      "Share of the box that the disks fill. The number of disks is rounded to the nearest "
+      "integer."},
      {"volume_fraction", "1",
-      "Share of the box that the spheres fill. The number of spheres is the nearest one."},
+      "Share of the box that the spheres fill. The number of spheres is rounded to the nearest "
+      "integer."},
      {"restitution", "1",
       "Ratio of the normal relative velocities after and before a collision of two particles. 1 is "
       "elastic."},
      {"inertia", "1",
       "Moment of inertia, as q = 4I/(m a^2). A uniform disk has 0.5, a uniform sphere 0.4."}});
 
-/// The keys of [particles]; count and packing fraction are resolved when the whole scene is known.
+/// The keys of [particles]. Count and packing fraction are resolved after the whole scene is read.
 template <class Visitor>
 void visit_particles(Visitor& io, SceneInput& input) {
   constexpr double kLargestCount = std::numeric_limits<int>::max();
@@ -294,7 +295,7 @@ inline constexpr auto kBulkDriveKeys = key_table(
       "Standard deviation of a kick, per component of the velocity. The mean kick is removed."},
      {"kick_spin", "1/t", "Standard deviation of the kick of a spin."}});
 
-/// The keys of [bulk_drive], where there is one.
+/// The keys of [bulk_drive], if the table exists.
 template <class Visitor>
 void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
   io.value(kBulkDriveKeys.at("interval"), drive.interval, above(0.0), kRequired);
@@ -318,8 +319,8 @@ inline constexpr auto kMeasureKeys = key_table(
       "snapshots."},
      {"width", "a", "Standard deviation of the Gaussian, per axis. At least half a cell."}});
 
-/// The keys of [measure] in a box of so many dimensions; those of snapshots and of the Gaussian
-/// only with these.
+/// The keys of [measure] in a box of this dimension. Keys of snapshots and of the Gaussian kernel
+/// require these.
 template <class Visitor>
 void visit_measure(Visitor& io, Measure& measure, int dimension) {
   io.value(kMeasureKeys.at("burn_in"), measure.burn_in, at_least(0.0));
@@ -342,10 +343,10 @@ inline constexpr auto kCameraKeys = key_table(
     {{"time", "t", "Simulation time at which the camera has this position. Times increase."},
      {"follow", "1", "Number of the particle in the middle of the picture, from 0."},
      {"centre", "a",
-      "Point in the middle of the picture. Without a value it is that of the whole box."},
+      "Point in the middle of the picture. Without a value it is the centre of the box."},
      {"width", "a", "Width of the picture. Without a value the whole box is visible."}});
 
-/// The keys of one of [[view.camera]].
+/// The keys of one item of [[view.camera]].
 template <class Visitor>
 void visit_camera(Visitor& io, CameraKey& key) {
   io.value(kCameraKeys.at("time"), key.time, at_least(0.0));
@@ -362,26 +363,26 @@ inline constexpr auto kViewKeys = key_table(
      {"window", "t", "Averaging time of the heatmap and the arrows."},
      {"estimator", "", "Estimator of the heatmap and the arrows, as in `measure`."},
      {"interval", "t",
-      "Time between snapshots. Its range follows the `window`. The values shown are those of the "
-      "default."},
+      "Time between snapshots. Its range follows the `window`. The values shown are for the "
+      "default window."},
      {"speed", "t/s", "Simulation time per second of film or window."},
      {"palette", "", "Colours of the particles. Quantities with a sign are blue and red."},
      {"range", "",
       "Range of the particles' colours. auto follows the picture, locked keeps the first range."},
-     {"field_palette", "", "Colours of the heatmap. Without a value they are those of `palette`."},
+     {"field_palette", "", "Colours of the heatmap. Without a value `palette` applies."},
      {"field_range", "",
       "Range of the heatmap's colours. locked keeps the range of the first whole window."},
      {"arrows", "", "Field of the arrows. Without a value there are none."},
      {"theme", "", "Colours of background, letters, walls and lines."},
-     {"background", "", "Colour of the background. Without a value it is that of the theme."},
+     {"background", "", "Colour of the background. Without a value the theme sets it."},
      {"grid", "", "Lines over the box, as far apart as the scale bar is long."},
      {"overlay", "", "Title, time, colour bar and scale bar."},
-     {"trails", "t", "Time that the paths of the particles reach back. Without a value: none."},
+     {"trails", "t", "Duration of the particles' trails. Without a value: none."},
      {"card", "s", "Time of title and caption at the start of a film. Without a value: none.",
       "render"}});
 
-/// The keys of [view] in a box of so many dimensions; the list comes last, because in a file it
-/// stands below the other keys.
+/// The keys of [view] in a box of this dimension. The list comes last, because a file has it below
+/// the other keys.
 template <class Visitor>
 void visit_view(Visitor& io, View& view, int dimension) {
   io.choice(kViewKeys.at("colour_by"), view.colour_by, kColourings);
@@ -415,7 +416,7 @@ inline constexpr auto kChangeKeys = key_table(
      {"ramp", "", "Course of numbers to their new values. Without a value they jump."},
      {"until", "t", "Simulation time at which the ramp ends. It is later than `time`."}});
 
-/// The keys of one of [[change]].
+/// The keys of one item of [[change]].
 template <class Visitor>
 void visit_change(Visitor& io, Change& change) {
   io.value(kChangeKeys.at("time"), change.time, at_least(0.0), kRequired);
@@ -428,7 +429,7 @@ void visit_change(Visitor& io, Change& change) {
 inline constexpr auto kSceneKeys = key_table(
     kRunCommands, {{"schema", "1", "Version of the format."},
                    {"title", "", "Title in pictures, in the gallery and in results."},
-                   {"caption", "", "A line on what to watch."},
+                   {"caption", "", "One line about the effect to watch."},
                    {"goal", "", "The aim of the scene as a lesson.", "view"},
                    {"try_this", "", "Proposal for an experiment in the window.", "view"}});
 inline constexpr auto kBoxKeys = key_table(
@@ -450,8 +451,8 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.value(kSceneKeys.at("caption"), scene.caption);
   io.value(kSceneKeys.at("goal"), scene.goal);
   io.value(kSceneKeys.at("try_this"), scene.try_this);
-  // A side of one diameter leaves a particle between walls no room to move, and across a periodic
-  // side the particle touches its own image.
+  // Sides must exceed one diameter: a particle between walls needs room to move, and a particle
+  // must not touch its own periodic image.
   io.table("box", [&](auto& io) {
     io.value(kBoxKeys.at("size"), scene.box,
              Limits{.lowest = 1.0, .highest = kMaxLength, .above = true});

@@ -34,11 +34,11 @@ static void require_live(const std::vector<Override>& settings) {
 static void require_same_sides(const Scene& before, const Scene& now) {
   for (int axis = 0; axis < before.dimension(); ++axis) {
     if (before.periodic(axis) == now.periodic(axis)) continue;
-    throw UserError({}, "walls come or go", "change what the walls do, not which there are");
+    throw UserError({}, "walls are added or removed", "change only keys of existing walls");
   }
 }
 
-// The numbers of a ramp, a share of the way from those in force to those given.
+// The numbers of a ramp after a share of the way from the current values to the targets.
 static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Override>& targets,
                                         double share) {
   const toml::table now = parse_document(scene_to_toml(laws), "");
@@ -111,7 +111,7 @@ void Schedule::advance() {
   const int part = step.part + 1;
   const double share = static_cast<double>(part) / kRampSteps;
   put({change.time + share * (change.until - change.time), step.change, part});
-  // Of what is left to go, so that the last step arrives.
+  // The share refers to the remaining way, so that the last step reaches the target.
   change_to(on_the_way(laws_, change.set, 1.0 / (kRampSteps - step.part + 1)));
 }
 

@@ -9,35 +9,35 @@
 
 namespace clatter {
 
-/// Whether a key is of a law that may change while a run goes on: of collisions, of the walls there
-/// are, of gravity, of bulk driving, of the contact time.
+/// Whether a key may change during a run: keys of collisions, existing walls, gravity, bulk driving
+/// and the contact time.
 bool may_change_live(std::string_view key);
 
-/// A scene whose laws change in time as its `changes` say. A ramp goes in equal steps, so that
-/// whoever plays it changes the same laws at the same times.
+/// The laws of a scene in time, from its `changes`. A ramp has equal steps, so that all commands
+/// and the window change the same laws at the same times.
 class Schedule {
  public:
-  /// At the scene's start: no change has come into force.
+  /// At the scene's start, before all changes.
   explicit Schedule(const Scene& scene);
 
-  /// The scene with the laws now in force, without its changes.
+  /// The scene with the current laws, without its changes.
   const Scene& laws() const { return laws_; }
-  /// The scene with the laws now in force, and with all its changes.
+  /// The scene with the current laws and all its changes.
   Scene scene() const;
-  /// Simulation time at which other laws come into force; infinite: never.
+  /// Simulation time of the next change of laws; infinite: never.
   double next() const;
-  /// Brings the laws of that time into force. Throws UserError where they make no scene, or need
-  /// another gas or box.
+  /// Makes the next change of laws. Throws UserError if the result is invalid, or needs another gas
+  /// or box.
   void advance();
-  /// All laws up to and at a simulation time come into force.
+  /// Makes all changes up to and at a simulation time.
   void skip_to(double time);
-  /// One more change, of now or later.
+  /// Adds a change at the current time or later.
   void add(const Change& change);
 
-  /// Which of the scene's changes the next laws are of.
+  /// Index of the next step's change.
   std::size_t next_change() const { return steps_.front().change; }
 
-  /// In how many steps a ramp goes.
+  /// Number of steps of a ramp.
   static constexpr int kRampSteps = 64;
 
  private:
@@ -46,7 +46,7 @@ class Schedule {
     std::size_t change;
     int part;  // of kRampSteps
 
-    // Changes of one time come in their order.
+    // Changes of the same time apply in their order.
     bool operator<(const Step& other) const {
       return time != other.time ? time > other.time : change > other.change;
     }
@@ -57,8 +57,8 @@ class Schedule {
   void change_to(const std::vector<Override>& settings);
 
   Scene laws_;
-  std::shared_ptr<const std::vector<Change>> changes_;  // shared by copies, which are made per law
-  std::vector<Step> steps_;                             // to come, a heap with the soonest in front
+  std::shared_ptr<const std::vector<Change>> changes_;  // shared by the copies of each change
+  std::vector<Step> steps_;  // future steps, a heap with the earliest in front
 };
 
 }  // namespace clatter

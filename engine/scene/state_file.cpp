@@ -31,7 +31,7 @@ template <>
 constexpr std::array<std::string_view, kColumns<3>> kNames<3> = {
     "x", "y", "z", "vx", "vy", "vz", "omega_x", "omega_y", "omega_z"};
 
-// The names of the columns from `begin` to before `end`, one after the other.
+// The names of the columns from `begin` to before `end`, joined.
 template <int D>
 std::string names_of(int begin, int end, const char* between = ", ") {
   std::string names;
@@ -53,7 +53,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
 }
 
-/// The number as far as a message needs it.
+/// The number with three digits, for a message.
 std::string three_digits(double number) {
   std::array<char, 32> digits;
   const auto [end, error] =
@@ -61,13 +61,13 @@ std::string three_digits(double number) {
   return std::string(digits.begin(), end);
 }
 
-/// What stands between two commas, without the blanks about it.
+/// Text between two commas, without surrounding blanks.
 struct Cell {
   std::string_view text;
-  int column = 1;  // of its first letter in the line
+  int column = 1;  // of its first character in the line
 };
 
-/// Reads the text from top to bottom.
+/// Parser of a CSV text.
 template <int D>
 class Reader {
  public:
@@ -105,11 +105,11 @@ class Reader {
   const Scene& scene_;
   const std::string& file_;
   int number_ = 0;                   // of line_, from 1
-  std::vector<int> columns_;         // as they stand in the file
-  std::vector<int> particle_lines_;  // [N] of each particle
+  std::vector<int> columns_;         // in the order of the file
+  std::vector<int> particle_lines_;  // [N] line of each particle
 };
 
-/// Moves to the next line that counts; false at the end.
+/// Moves to the next line that is neither blank nor a comment; false at the end.
 template <int D>
 bool Reader<D>::next_line() {
   while (!rest_.empty()) {
@@ -195,8 +195,8 @@ void Reader<D>::check_number(const Cell& cell, int column, double number) const 
   }
 }
 
-/// A centre lies in the box along a periodic axis, and else between the walls as they are at time
-/// 0, one of which may then have gone out of the box.
+/// Throws unless a centre is in the box along a periodic axis, or between the walls at their
+/// positions of time 0. A moving wall may then be outside of the box.
 template <int D>
 void Reader<D>::check_place(const Cell& cell, int axis, double centre) const {
   const std::string name(kNames<D>[axis]);
@@ -215,9 +215,9 @@ void Reader<D>::check_place(const Cell& cell, int axis, double centre) const {
   const bool moves = scene_.walls[side]->moves();
   throw UserError(place_of(cell),
                   "at " + name + " = " + number_text(centre) + " the particle overlaps the " +
-                      kSideNames[side] + " wall" + (moves ? ", as that is at time 0" : ""),
+                      kSideNames[side] + " wall" + (moves ? " at time 0" : ""),
                   "give a number between " + number_text(low) + " and " + number_text(high) +
-                      (moves ? ", or the wall the phase that it had" : ""));
+                      (moves ? ", or change the phase of the wall" : ""));
 }
 
 template <int D>
@@ -254,8 +254,8 @@ void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double distance) const
                   "move them apart, or remove one");
 }
 
-/// Particles sorted by cells a little wider than a diameter, so that particles that overlap lie in
-/// one cell or in neighbours; memory follows the particles and not the box.
+/// Particles sorted by cells slightly wider than a diameter. Particles that overlap are in the same
+/// cell or in neighbouring cells. Memory grows with the particles, not with the box.
 template <int D>
 class Neighbours {
  public:
@@ -270,7 +270,7 @@ class Neighbours {
     std::ranges::sort(sorted_);
   }
 
-  /// Calls visit(other) for the particles about a centre, some of them more than once.
+  /// Calls visit(other) for the particles near a centre, possibly more than once.
   template <class Visit>
   void visit(const Vec<D>& centre, const Visit& visit) const {
     const Position own = cell_at(centre);

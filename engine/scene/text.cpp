@@ -37,7 +37,7 @@ std::string in_words(std::string_view name) {
 
 /// Levenshtein's distance: the fewest letters inserted, removed or replaced.
 static std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);  // distances of a's first letters to each start of b
+  std::vector<std::size_t> row(b.size() + 1);  // distances of a's first letters to each prefix of b
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = row[0]++;
@@ -52,7 +52,7 @@ static std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates) {
   std::string_view nearest;
-  std::size_t least = word.size() / 3 + 2;  // more letters than this apart is another word
+  std::size_t least = word.size() / 3 + 2;  // a larger distance means another word
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least && distance < candidate.size()) {

@@ -12,10 +12,10 @@ std::string number_text(double number);
 /// The text between double quotes, escaped so that both TOML and JSON read it back.
 std::string in_quotes(std::string_view text);
 
-/// A name from scenes and files in the spelling of sentences: "heat flux x" for "heat_flux_x".
+/// A name of scenes and files for use in sentences: "heat flux x" for "heat_flux_x".
 std::string in_words(std::string_view name);
 
-/// The candidate that `word` most likely misspells; empty where none is near.
+/// The candidate nearest to a misspelled `word`; empty if none is near.
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace clatter

@@ -10,13 +10,13 @@
 
 namespace clatter {
 
-/// What a particle's colour shows.
+/// Quantity that a particle's colour shows.
 enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
 
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno, Cividis };
 
-/// The colours of all that does not show a value.
+/// The colours of background, letters, walls and lines.
 enum class Theme { Dark, Light, Projector };
 
 /// A colour in sRGB.
@@ -28,11 +28,11 @@ struct Rgb {
   bool operator==(const Rgb&) const = default;
 };
 
-/// From which value to which a colour scale reaches.
+/// Range of values of a colour scale.
 struct ColourRange {
   enum Kind {
-    Auto,    ///< follows what is shown, in round steps
-    Locked,  ///< as it finds it first, and so from then on: a heatmap after its first whole window
+    Auto,    ///< follows the shown values, in round steps
+    Locked,  ///< keeps its first range; of a heatmap that of the first whole window
     Given    ///< the ends
   };
   /// Largest magnitude of an end, and least distance between both ends.
@@ -44,39 +44,38 @@ struct ColourRange {
   bool operator==(const ColourRange&) const = default;
 };
 
-/// What the camera is aimed at from a time on; between two of these it goes from one to the other.
+/// A key of the camera's path. Between two keys the camera is interpolated.
 struct CameraKey {
   double time = 0.0;            ///< simulation time, >= 0
-  std::optional<Vec2> centre;   ///< world point in the middle; absent: that of the whole picture
-  std::optional<int> follow;    ///< number of the particle in the middle, in place of a centre
-  std::optional<double> width;  ///< world units across, > 0; absent: as the whole picture has
+  std::optional<Vec2> centre;   ///< world point in the middle; absent: centre of the box
+  std::optional<int> follow;    ///< number of the particle in the middle, instead of a centre
+  std::optional<double> width;  ///< width in world units, > 0; absent: the whole box is visible
 };
 
-/// What is drawn.
+/// Settings of pictures.
 struct View {
   ColourBy colour_by = ColourBy::Speed;
-  std::optional<Field>
-      field;            ///< the heatmap below the particles; absent: none, and nothing is averaged
-  double window = 5.0;  ///< averaging time of the live field, > 0
+  std::optional<Field> field;              ///< the heatmap below the particles; absent: none
+  double window = 5.0;                     ///< averaging time of the live field, > 0
   Estimator estimator = Estimator::Exact;  ///< of the live field
   double interval = 0.1;  ///< between samples of the snapshot estimator, > 0 and at most the window
   double speed = 1.0;     ///< simulation time per second of film, > 0
   Palette palette = Palette::Viridis;    ///< of the particles' magnitudes
-  ColourRange range;                     ///< of the particles' colours; locked: as first shown
+  ColourRange range;                     ///< of the particles' colours
   std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
   ColourRange field_range;               ///< of the heatmap's colours
   std::optional<Quantity> arrows;        ///< one of kArrows, averaged as the heatmap; absent: none
   Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
-  std::optional<Rgb> background;         ///< absent: that of the theme
-  bool grid = false;              ///< lines over the box, as far apart as the scale bar is long
-  bool overlay = true;            ///< time, title, colour bar, scale bar
-  std::optional<double> trails;   ///< time that particles' paths reach back, > 0; absent: none
-  std::optional<double> card;     ///< seconds of film that begin with the title, > 0; absent: none
-  std::vector<CameraKey> camera;  ///< in order of time; empty: the whole box, always
+  std::optional<Rgb> background;         ///< absent: as the theme
+  bool grid = false;             ///< lines over the box, as far apart as the scale bar is long
+  bool overlay = true;           ///< time, title, colour bar, scale bar
+  std::optional<double> trails;  ///< duration of the particles' trails, > 0; absent: none
+  std::optional<double> card;    ///< seconds of the title card at a film's start, > 0; absent: none
+  std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
-  /// Whether it shows what has to be averaged over time.
+  /// Whether it shows time averages: a heatmap or arrows.
   bool shows_averages() const { return field || arrows; }
-  /// Whether another view averages the same in the same way.
+  /// Whether another view needs the same averages.
   bool averages_like(const View& other) const {
     return field == other.field && arrows == other.arrows && window == other.window &&
            estimator == other.estimator && interval == other.interval;

@@ -10,7 +10,7 @@ namespace clatter {
 /// CRC-32 of bytes, as in PNG files.
 std::uint32_t checksum(std::string_view bytes);
 
-/// CRC-32 of a file's content; absent where it cannot be read.
+/// CRC-32 of a file's content; absent if it cannot be read.
 std::optional<std::uint32_t> checksum_of_file(const std::filesystem::path& file);
 
 }  // namespace clatter

@@ -18,7 +18,7 @@ namespace clatter {
 
 namespace {
 
-// posix_spawn's two descriptions of what differs in the child.
+// Settings of the child for posix_spawn.
 struct SpawnSetup {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
@@ -72,7 +72,7 @@ ChildProcess::~ChildProcess() {
   kill();
 }
 
-// Takes note of its end, where that has come or is to be waited for.
+// Records the end of the process, as waitpid() with these options; false if it still runs.
 bool ChildProcess::take_end(int options) {
   pid_t ended = -1;
   do {
@@ -104,7 +104,7 @@ void ChildProcess::kill() {
   take_end(0);
 }
 
-// At most `size` bytes of a file, from `begin` on.
+// At most `size` bytes of a file from `begin`.
 static std::string read_at(const FileDescriptor& file, off_t begin, off_t size) {
   std::string text(static_cast<std::size_t>(size), '\0');
   const ssize_t got = pread(file.get(), text.data(), text.size(), begin);

@@ -24,7 +24,7 @@ class FileDescriptor {
   explicit operator bool() const { return descriptor_ >= 0; }
   int get() const { return descriptor_; }
 
-  /// Writes every byte; false, with errno set, where that fails.
+  /// Writes all bytes; false with errno on failure.
   bool write_all(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
@@ -34,11 +34,11 @@ class FileDescriptor {
     return true;
   }
 
-  /// Waits until the disk has the file or folder; false, with errno set, where that fails. A file
-  /// system that cannot do this counts as done.
+  /// Waits until the file or folder is on the disk; false with errno on failure. A file system
+  /// without sync counts as success.
   bool sync() { return fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOSYS; }
 
-  /// Closes it; false, with errno set, where the system reports late that a write failed.
+  /// Closes it; false with errno if the system reports a late write error.
   bool close() {
     const int descriptor = std::exchange(descriptor_, -1);
     return descriptor < 0 || ::close(descriptor) == 0;

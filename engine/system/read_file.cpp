@@ -10,7 +10,7 @@ namespace clatter {
 std::string read_file(const std::string& path, std::size_t largest, const std::string& wanted) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes;
-  // In growing pieces: the size that a pipe or a device tells is none.
+  // Reads in growing pieces, because pipes and devices have no size.
   for (std::size_t piece = 1 << 16; file && bytes.size() <= largest; piece *= 2) {
     const std::size_t before = bytes.size();
     bytes.resize(std::min(before + piece, largest + 1));

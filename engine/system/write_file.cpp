@@ -19,7 +19,7 @@ namespace {
   throw RunError("cannot write " + path.string() + ": " + std::strerror(error));
 }
 
-// A device or a pipe is not synced: it may have no disk to wait for.
+// Devices and pipes are written without sync, because they may not support it.
 bool write_into(const std::filesystem::path& path, std::string_view bytes, bool sync) {
   FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   return file && file.write_all(std::as_bytes(std::span(bytes))) && (!sync || file.sync()) &&
@@ -31,7 +31,7 @@ bool sync_file(const std::filesystem::path& path) {
   return file && file.sync();
 }
 
-// A folder may let its files be changed and not be read: then nothing is to be done.
+// A folder may be writable but not readable. It then cannot be synced, and this counts as success.
 bool sync_folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   FileDescriptor file(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -42,8 +42,8 @@ bool rename_file(const std::filesystem::path& from, const std::filesystem::path&
   return std::rename(from.c_str(), to.c_str()) == 0;
 }
 
-// The number of the open file that a name such as /dev/stdout or /dev/fd/3 stands for. It may be a
-// regular file, which is then written on where it is.
+// The descriptor behind a name such as /dev/stdout or /dev/fd/3. It may be a regular file; writing
+// then continues at its current position.
 std::optional<int> own_descriptor(std::filesystem::path path) {
   std::error_code error;
   const std::filesystem::path open_files = std::filesystem::canonical("/proc/self/fd", error);
@@ -58,7 +58,7 @@ std::optional<int> own_descriptor(std::filesystem::path path) {
   return std::nullopt;
 }
 
-// Where a link leads, so that the link stays.
+// The target of a link, so that the link itself is not replaced.
 std::filesystem::path place_of(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_symlink(path, error)) return path;

@@ -5,18 +5,17 @@
 
 namespace clatter {
 
-/// Whether a path is a device, a pipe, or an open file of ours such as /dev/stdout: written into,
-/// never replaced.
+/// Whether a path is a device, a pipe, or an open file of this process such as /dev/stdout. These
+/// are written into and never replaced.
 bool is_special(const std::filesystem::path& path);
 
-/// Writes a file that appears whole or not at all, even if the machine stops: it is written as
-/// FILE.part beside its place, synced and renamed. The file that had the name before is renamed to
-/// `previous` where that is given. A link is followed; a special file is written into. Throws
-/// RunError, and then leaves no part.
+/// Writes a file atomically, even if the machine stops: writes FILE.part in the same folder, syncs
+/// it and renames it. An existing file is renamed to `previous`, if given. A link is followed; a
+/// special file is written into. Throws RunError, and then removes FILE.part.
 void write_file(const std::filesystem::path& path, std::string_view bytes,
                 const std::filesystem::path& previous = {});
 
-/// Gives a file that another program has written its name, once the disk has it; throws RunError.
+/// Syncs a file that another program has written, then renames it. Throws RunError.
 void rename_synced(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace clatter

@@ -215,7 +215,7 @@ TEST_CASE("Checkpoint: a file with any byte changed, cut off or added is refused
     CHECK(says(refusal(folder / "a"), "a: "));
   }
   write_bytes(folder / "a", sound + '\0');
-  CHECK(says(refusal(folder / "a"), "follows its end"));
+  CHECK(says(refusal(folder / "a"), "extra bytes follow its end"));
   write_bytes(folder / "a", sound);
   CHECK(refusal(folder / "a").empty());
 }
@@ -242,7 +242,7 @@ TEST_CASE("Checkpoint: a refusal says what is wrong, and where the previous one 
   CHECK(says(refusal_of(version, 2), "checksum"));
   CHECK(says(refusal_of(version + 5, 0xff), "cut short"));
   CHECK(says(refusal_of(version + 30, 1), "checksum"));
-  CHECK(says(refusal_of(version + 30, 1), "the one before is "));
+  CHECK(says(refusal_of(version + 30, 1), "the previous checkpoint is "));
   std::filesystem::remove(folder / "a");
   CHECK(says(refusal(folder / "a"), "a.previous"));
 }

@@ -130,7 +130,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
       {kParticles + "[measure]\nwidth = 1.0\n",
        "s.toml:4:1: 'measure.width' has no meaning for the box kernel"},
       {kParticles + "[measure]\nkernel = \"gaussian\"\nwidth = 2.0\n",
-       "s.toml:4:1: a Gaussian spreads particles where they are now and then, not flights; set "
+       "s.toml:4:1: the Gaussian kernel has no meaning for the exact estimator; set "
        "measure.estimator = \"snapshot\""},
       {kParticles + "[measure]\nestimator = \"snapshot\"\ninterval = 1\nkernel = \"gaussian\"\n",
        "s.toml:3:1: 'measure.width' is missing"},

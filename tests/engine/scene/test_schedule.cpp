@@ -144,5 +144,5 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
   CHECK(says(refusal("change = 3\n" + kBox), "cannot be 3"));
   const std::string walls =
       "'walls.back' = { kind = 'static' }, 'walls.front' = { kind = 'static' }";
-  CHECK(says(refusal(kSpheres + head + "set = { " + walls + " }\n"), "walls come or go"));
+  CHECK(says(refusal(kSpheres + head + "set = { " + walls + " }\n"), "walls are added or removed"));
 }

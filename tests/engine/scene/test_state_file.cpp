@@ -218,8 +218,8 @@ TEST_CASE("State file: mistakes are reported with their place and what to do") {
        "9.5",
        walled_scene()},
       {kHeader + "1.9,2,3,4\n",
-       "a.csv:2:1: at x = 1.9 the particle overlaps the left wall, as that is at time 0; give a "
-       "number between 2 and 9.5, or the wall the phase that it had",
+       "a.csv:2:1: at x = 1.9 the particle overlaps the left wall at time 0; give a "
+       "number between 2 and 9.5, or change the phase of the wall",
        walled_scene()},
       // overlaps
       {kHeader + "1,2,3,4\n\n5,5,0,0\n1.5,2,3,4\n",
@@ -268,8 +268,8 @@ TEST_CASE("State file: mistakes are reported with their place and what to do") {
        "5.5",
        deep_scene()},
       {kSphereHeader + "1,2,1.9,3,4,5\n",
-       "a.csv:2:5: at z = 1.9 the particle overlaps the back wall, as that is at time 0; give a "
-       "number between 2 and 5.5, or the wall the phase that it had",
+       "a.csv:2:5: at z = 1.9 the particle overlaps the back wall at time 0; give a "
+       "number between 2 and 5.5, or change the phase of the wall",
        deep_scene()},
       // their overlaps
       {kSphereHeader + "1,2,3,0,0,0\n\n5,5,3,0,0,0\n1,2,3.75,0,0,0\n",
