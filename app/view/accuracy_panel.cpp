@@ -50,13 +50,13 @@ static void contact_time(Session& session, Controls& controls) {
   }
   show_cost(kContactTimeCost);
   if (!on) return;
-  // Also before there is an error, lest the panel jump at each change of laws.
+  // Shown even without a value, so that the panel keeps its height after a change of laws.
   const auto& error = session.frame().contact_time_error;
   tell_share("Not dissipated", error ? error->undissipated : std::nan(""));
   tell_share("Elastic collisions", error ? error->elasticised : std::nan(""));
 }
 
-// How disks count in the averages.
+// List of estimators; the snapshot estimator adds a slider for its interval.
 static bool choose_estimator(Controls& controls, View& view, const View& usual) {
   std::vector<std::string> words;
   for (const auto& [name, estimator] : kEstimators) {
@@ -83,7 +83,7 @@ static bool choose_estimator(Controls& controls, View& view, const View& usual) 
   return changed;
 }
 
-// The averages of the view: none, of fields, or what balances leave open.
+// Settings and cost of the averages in the view: fields or balance residuals.
 static void averages(Session& session, Controls& controls) {
   View view = session.view();
   const View& usual = session.opened().view;

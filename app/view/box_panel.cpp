@@ -31,7 +31,7 @@ std::string inline_table(const std::array<std::optional<Wall>, 6>& walls) {
   return "{ " + all + " }";
 }
 
-// A wall of another kind, with what the kinds have in common.
+// A wall of another kind, with the parameters that both kinds have.
 Wall wall_of(WallKind kind, const Wall& before) {
   Wall wall{.kind = kind};
   if (kind != WallKind::Thermal && before.kind != WallKind::Thermal) {
@@ -104,7 +104,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
          wall.restitution, usual.restitution);
 }
 
-// What stands at a side: nothing, where the axis is periodic, or a wall of some kind.
+// Kind of wall at a side, or periodic, with its parameters.
 void side_panel(Session& session, Controls& controls, std::size_t side) {
   const Scene& scene = session.scene();
   const std::string path = std::string("walls.") + kSideNames[side];
@@ -176,7 +176,7 @@ void box_panel(Session& session, Controls& controls) {
                        scene.box, axis, usual.box, false);
   }
   for (std::size_t side = 0; side < 4; ++side) {
-    // A periodic axis is told once.
+    // A periodic axis is listed once.
     if (side % 2 == 1 && !scene.walls[side]) continue;
     side_panel(session, controls, side);
   }

@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-// A small window that takes no part in what the mouse does.
+// A small window that ignores the mouse. `wrap` is its largest width; 0: unlimited.
 static void begin_note(const char* name, ImVec2 place, ImVec2 pivot, float wrap = 0.0f) {
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(place, 0, pivot);
@@ -62,7 +62,7 @@ void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place
   const Snapshot& gas = frame.snapshot;
   if (disk >= gas.count()) return;
   const float unit = ImGui::GetFontSize();
-  // Towards the middle, where there is room for it.
+  // The label is on the side of the disk that faces the middle of the area.
   const bool left = place.x > 0.5f * (area.low.x + area.high.x);
   const bool up = place.y > 0.5f * (area.low.y + area.high.y);
   begin_note("disk",

@@ -87,7 +87,7 @@ Health health_of(const Frame& frame) {
   return health;
 }
 
-// Time, events and health, at the right end.
+// Speed, collision rate, time and health at the right end of the bar.
 void figures(const Frame& frame) {
   std::string text;
   if (frame.plays && frame.held < 0.95) text += fmt::format("{:.2g}x   ", frame.held);

@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-// The words for an enumeration's values.
+// The names of an enumeration's values, with spaces.
 template <class E, std::size_t N>
 static std::vector<std::string> words_of(const std::array<Named<E>, N>& names) {
   std::vector<std::string> words;
@@ -24,7 +24,7 @@ static int index_of(E value, const std::array<Named<E>, N>& names) {
   return static_cast<int>(found - names.begin());
 }
 
-// One of an enumeration's values.
+// List of an enumeration's values. Returns true if the choice changed.
 template <class E, std::size_t N>
 static bool choose(Controls& controls, const char* key, const char* name, const char* help,
                    const std::array<Named<E>, N>& names, E& value, E usual) {
@@ -36,7 +36,7 @@ static bool choose(Controls& controls, const char* key, const char* name, const 
   return true;
 }
 
-// One of an enumeration's values, or none of them, in words.
+// List of an enumeration's values, with `none` as its first word.
 template <class E, std::size_t N>
 static bool choose(Controls& controls, const char* key, const char* name, const char* help,
                    const std::array<Named<E>, N>& names, const char* none, std::optional<E>& value,
@@ -84,7 +84,8 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
   return true;
 }
 
-// `end` is the largest of what the colours show; 0: unknown.
+// `end` is the largest magnitude in the picture, or a round number above it; 0: unknown. `signs`:
+// the values have both signs.
 static bool choose_range(Controls& controls, const std::string& key, const char* name,
                          ColourRange& range, const ColourRange& usual, double end, bool signs) {
   int chosen = range.kind;
@@ -109,7 +110,7 @@ static bool choose_range(Controls& controls, const std::string& key, const char*
   return changed;
 }
 
-// A round number that all values of a map are within.
+// A round number at or above all magnitudes of a map; 0: all are zero or missing.
 static double end_of(const FieldMap& map) {
   double most = 0.0;
   for (const double value : map.values) {
