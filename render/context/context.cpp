@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-// EGL first: it finds a GPU where there is one, and is no slower than OSMesa where there is none.
+// EGL first: it uses a GPU if there is one, and is no slower than OSMesa otherwise.
 std::unique_ptr<GlContext> open_first_that_works() {
   std::string reasons;
   for (Backend backend : {Backend::Egl, Backend::Osmesa}) {

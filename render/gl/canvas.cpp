@@ -41,7 +41,7 @@ Image Canvas::read() const {
   gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl_->ReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
 
-  // OpenGL's first row is the lowest.
+  // The first row of OpenGL is the lowest one.
   auto top = image.rgba.begin();
   auto bottom = image.rgba.end() - row;
   for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);

@@ -18,7 +18,7 @@ std::string frame_name(long number) {
   return fmt::format("frame_{:06}.png", number);
 }
 
-// The number of a frame; -1 of any other file.
+// The number of a frame; -1: another file.
 long frame_number(const std::filesystem::directory_entry& entry) {
   constexpr std::string_view kPrefix = "frame_", kSuffix = ".png";
   const std::string name = entry.path().filename();
