@@ -11,11 +11,11 @@ namespace clatter {
 /// constant before the first key and after the last one. `whole` replaces missing values of a key
 /// and the position of a missing disk.
 ///
-/// At the fraction u, 0..1, of the time between two keys 0 and 1, the width is
+/// u, 0..1, is the fraction of the time between two keys 0 and 1. The width is
 ///   w = w_0 (w_1 / w_0)^e with e = u^2 (3 - 2u),
-/// for a smooth zoom. The centre is
+/// which is a smooth zoom. The centre is
 ///   c = c_0 + (c_1 - c_0) (w - w_0) / (w_1 - w_0), or for w_1 = w_0 its limit c_0 + (c_1 - c_0) e,
-/// so that one world point stays fixed on the picture during a zoom. If a key follows a disk, its
+/// which keeps one world point fixed on the picture during a zoom. If a key follows a disk, its
 /// centre is the current position of the disk.
 Camera camera_at(const std::vector<CameraKey>& keys, const Snapshot& snapshot, const Camera& whole);
 

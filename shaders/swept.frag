@@ -21,9 +21,9 @@ float edge(float far, float h, float a, float b) {
   return half_width * (2.0 * far - (5.0 * ends + 8.0 * length(vec2(middle, h))) / 9.0);
 }
 
-// Time average of clamp(radius - d + 1/2, 0, 1), where d = sqrt(s^2 + h^2) is the distance of the
-// pixel from the moving centre. s runs from `from` to `to`. h is the distance of the pixel from the
-// line of motion.
+// Time average of clamp(radius - d + 1/2, 0, 1), with d = sqrt(s^2 + h^2) the distance of a pixel
+// from the moving centre. s runs from `from` to `to`. h is the distance of the pixel from the line
+// of motion.
 float average(float radius, float h, float from, float to) {
   float near = max(radius - 0.5, 0.0), far = radius + 0.5;
   float inner = sqrt(max(near * near - h * h, 0.0));

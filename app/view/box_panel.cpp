@@ -99,7 +99,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
          {.name = "Restitution",
           .symbol = "α_w",
           .help = "Share of the normal velocity that a "
-                  "bounce keeps; above 1 it gives more than it gets",
+                  "bounce keeps; above 1 a bounce adds energy",
           .high = 1.1},
          wall.restitution, usual.restitution);
 }
@@ -115,7 +115,7 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
   int chosen = wall ? static_cast<int>(wall->kind) + 1 : 0;
   const int usual = opened ? static_cast<int>(opened->kind) + 1 : 0;
   if (controls.choice(path.c_str(), kSideTitles[side],
-                      "What stands at this side; periodic goes with the side opposite", words,
+                      "Wall at this side; periodic also applies to the opposite side", words,
                       chosen, usual)) {
     if (wall && chosen > 0) {
       const Wall other =
@@ -143,7 +143,7 @@ void bulk_drive(Session& session, Controls& controls) {
   if (!drive) {
     const std::string kicks = "{ interval = " + value_text(usual.interval) + ", kick_speed = ";
     if (controls.button("bulk_drive", "Kick all disks",
-                        "Homogeneous driving: every disk is kicked again and again")) {
+                        "Homogeneous driving: all disks get random kicks at equal intervals")) {
       controls.set({{"bulk_drive", kicks + "0.0 }"}},
                    {{"bulk_drive", kicks + value_text(usual.kick_speed) + " }"}});
     }
@@ -165,15 +165,16 @@ void box_panel(Session& session, Controls& controls) {
   const Scene& usual = session.opened();
   for (int axis : {0, 1}) {
     const double longest = std::max(100.0, 2.0 * usual.box[axis]);
-    controls.component({.key = "box.size",
-                        .name = axis == 0 ? "Width" : "Height",
-                        .symbol = axis == 0 ? "Lx" : "Ly",
-                        .unit = "a",
-                        .help = "Of the box, in disk diameters; disks that no longer fit go",
-                        .low = 4.0,
-                        .high = longest,
-                        .format = "%.1f"},
-                       scene.box, axis, usual.box, false);
+    controls.component(
+        {.key = "box.size",
+         .name = axis == 0 ? "Width" : "Height",
+         .symbol = axis == 0 ? "Lx" : "Ly",
+         .unit = "a",
+         .help = "Of the box, in disk diameters; disks that no longer fit are removed",
+         .low = 4.0,
+         .high = longest,
+         .format = "%.1f"},
+        scene.box, axis, usual.box, false);
   }
   for (std::size_t side = 0; side < 4; ++side) {
     // A periodic axis is listed once.

@@ -50,7 +50,7 @@ void gas_panel(Session& session, Controls& controls) {
     controls.whole({.key = "particles.count",
                     .name = "Disks",
                     .symbol = "N",
-                    .help = "Particles go, or come at random places where there is room",
+                    .help = "Removes disks, or adds them at random free places",
                     .low = 1.0,
                     .high = static_cast<double>(most),
                     .logarithmic = true,

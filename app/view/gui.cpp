@@ -161,9 +161,9 @@ void Gui::plots_drawer(float top, float width) {
   const ThemeColours theme = panel_theme(shown_view());
   controls_.choice(
       "plots.profile", "Profile along x",
-      "Since the plots were opened, or laws, averages or trails changed: averages, with a band of "
-      "one standard error, or by how much the balances of mass, momentum and energy did not close "
-      "in the worst window, over all that was booked; the engine then has about twice the work",
+      "Averages with a band of one standard error, or the relative residuals of the balances of "
+      "mass, momentum and energy in the worst window. They start when the plots open, or when "
+      "laws, averages or trails change. The engine then does about twice the work",
       profile_names(), profiled_, 0);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));

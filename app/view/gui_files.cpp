@@ -102,7 +102,7 @@ void Gui::copy_command() {
   }
   glfwSetClipboardString(window_, command.c_str());
   log_.event("command", {{"line", command}});
-  session_.tell("In the clipboard: " + command);
+  session_.tell("Copied: " + command);
 }
 
 void Gui::film() {

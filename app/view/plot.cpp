@@ -21,7 +21,7 @@ struct Tick {
   std::string text;
 };
 
-// Round values, or powers of ten.
+// Ticks at round values; on a long logarithmic axis at powers of ten.
 std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
   std::vector<Tick> ticks;
   const auto places = round_ticks(scale.low, scale.high, count);

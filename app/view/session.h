@@ -26,7 +26,7 @@ class Session {
 
   /// Takes the newest frame. Returns true if there was a new one.
   bool update();
-  /// The newest frame; its run is 0 until there is one.
+  /// The newest frame. Its run is 0 before the first frame.
   const Frame& frame() const { return worker_.frames().front(); }
   /// The scene with the latest settings, as the panels show it.
   const Scene& scene() const { return scene_; }

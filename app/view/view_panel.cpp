@@ -57,8 +57,9 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
   const int most = static_cast<int>(colours.size()) - 1;
   int chosen = std::min(index_of(view.colour_by, kColourings), most);
   const int usual = std::min(index_of(session.opened().view.colour_by, kColourings), most);
-  const bool changed = controls.choice("view.colour_by", "Particles coloured by",
-                                       "What a disk's colour shows", colours, chosen, usual);
+  const bool changed =
+      controls.choice("view.colour_by", "Particles coloured by",
+                      "Quantity that the colour of a disk shows", colours, chosen, usual);
   view.colour_by = kColourings[static_cast<std::size_t>(chosen)].value;
   return changed;
 }
@@ -90,8 +91,8 @@ static bool choose_range(Controls& controls, const std::string& key, const char*
                          ColourRange& range, const ColourRange& usual, double end, bool signs) {
   int chosen = range.kind;
   bool changed = controls.choice(key.c_str(), name,
-                                 "auto follows what is shown, locked stays as it was first, given "
-                                 "is from the one number to the other",
+                                 "auto follows the picture, locked keeps the first range, given is "
+                                 "set by two numbers",
                                  {"auto", "locked", "given"}, chosen, usual.kind);
   if (changed) {
     const bool given = chosen == ColourRange::Given;
@@ -124,7 +125,7 @@ static bool choose_heatmap(const Session& session, Controls& controls, View& vie
   bool changed = choose_field(session, controls, view);
   if (!view.field) return changed;
   changed |= choose(controls, "view.field_palette", "Palette of the heatmap",
-                    "Of magnitudes; fields with a sign are blue and red about zero", kPalettes,
+                    "For magnitudes; signed fields are blue below zero and red above", kPalettes,
                     "as the disks", view.field_palette, usual.field_palette);
   const auto& map = session.frame().snapshot.field;
   const bool signs = map && std::ranges::any_of(map->values, [](double v) { return v < 0.0; });
@@ -139,8 +140,7 @@ static bool choose_trails(Controls& controls, std::optional<double>& trails,
   const bool changed = controls.number({.key = "view.trails",
                                         .name = "Trails",
                                         .unit = "t",
-                                        .help = "How far back in time disks' paths are drawn; 0: "
-                                                "none",
+                                        .help = "Time over which the paths are drawn; 0: none",
                                         .high = 5.0,
                                         .format = "%.2f"},
                                        time, usual.value_or(0.0));
@@ -172,10 +172,10 @@ void view_panel(Session& session, Controls& controls) {
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,
                     view.theme, usual.theme);
-  changed |= controls.toggle("view.grid", "Grid", "Lines as far apart as the scale bar is long",
-                             view.grid);
+  changed |=
+      controls.toggle("view.grid", "Grid", "Its spacing is the length of the scale bar", view.grid);
   changed |= controls.toggle("view.overlay", "Title, figures and scales",
-                             "What films write on the picture", view.overlay);
+                             "Text and legends on the picture, as in films", view.overlay);
   controls.show(view, changed);
   ImGui::Spacing();
 }

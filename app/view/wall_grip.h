@@ -25,7 +25,7 @@ class WallGrip {
   void mark(ImDrawList& list, const Viewport& viewport, const Frame& frame, ImVec2 corner,
             float scale) const;
 
-  /// Area where the wall of a side can be grabbed, in window units: a strip just outside the box,
+  /// Area where the wall of a side can be grabbed, in window units. It is just outside the box,
   /// where there are no disks to pick.
   static Area handle(const Viewport& viewport, const Frame& frame, ImVec2 corner, float scale,
                      Side side);

@@ -112,7 +112,7 @@ void show_window(const WindowOptions& options) {
     show(options);
   } catch (const RunError& error) {
     throw RunError(std::string(error.what()) +
-                   "; without a window, `clatter render SCENE --out film.mp4` films it");
+                   "; use `clatter render SCENE --out film.mp4`, which needs no window");
   }
 }
 

@@ -19,7 +19,7 @@ std::unique_ptr<GlContext> open_first_that_works() {
       reasons += std::string("\n  ") + error.what();
     }
   }
-  throw RunError("no way to draw on this machine:" + reasons);
+  throw RunError("cannot draw on this machine:" + reasons);
 }
 
 }  // namespace

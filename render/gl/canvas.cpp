@@ -26,7 +26,7 @@ Canvas::Canvas(const Gl& gl, Size size, GLint format)
   bind();
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw RunError("this OpenGL cannot draw into a picture of its own");
+    throw RunError("this OpenGL cannot draw off screen");
   }
 }
 

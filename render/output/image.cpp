@@ -105,7 +105,7 @@ static std::vector<PngText> texts_of(std::FILE* file, const std::filesystem::pat
   if (error == 0) error = spng_get_text(png.get(), found.data(), &count);
   if (error != 0) {
     throw UserError({path.string()}, std::string("the picture is damaged: ") + spng_strerror(error),
-                    "copy it again from where it was made");
+                    "copy the original again");
   }
   std::vector<PngText> texts;
   for (const spng_text& text : found) texts.push_back({text.keyword, {text.text, text.length}});

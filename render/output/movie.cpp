@@ -33,8 +33,8 @@ std::filesystem::path folder_for(const std::filesystem::path& path) {
 void require_no_pieces(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_empty(folder, ignored) || ignored) return;
-  throw UserError({folder.string()}, "holds what there is of a film that was cut",
-                  "go on with it by --resume, or give --overwrite to film anew");
+  throw UserError({folder.string()}, "holds the pieces of an interrupted film",
+                  "continue it with --resume, or replace it with --overwrite");
 }
 
 FileDescriptor open_new(const std::filesystem::path& path) {
@@ -96,9 +96,9 @@ void Movie::require_earlier_pieces() {
   for (const Piece& piece : earlier) {
     if (std::filesystem::exists(piece.path)) continue;
     throw UserError({path_.string()},
-                    "the film goes on, but its piece " + piece.path.string() + " is not there",
-                    (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
-                        ("name the film that was cut, or begin one by --frames " +
+                    "the piece " + piece.path.string() + " of the film is missing",
+                    (std::filesystem::exists(path_) ? "if the film is not complete yet, " : "") +
+                        ("name the interrupted film, or start one with --frames " +
                          std::to_string(next_) + ":"));
   }
   for (std::size_t i = checksums_.size(); i < earlier.size(); ++i) {
@@ -109,7 +109,7 @@ void Movie::require_earlier_pieces() {
     require_unchanged(earlier);
   } catch (const RunError& error) {
     throw UserError({path_.string()}, error.what(),
-                    "draw the film again: leave --resume out, and give --overwrite");
+                    "draw the film again with --overwrite, without --resume");
   }
 }
 
@@ -292,7 +292,7 @@ void Movie::fail(const std::string& reason) {
 // Text to append to an error.
 std::string Movie::place_of_pieces() const {
   if (!std::filesystem::exists(folder_)) return "";
-  return "; what was filmed before is in " + folder_.string();
+  return "; earlier pictures are in " + folder_.string();
 }
 
 }  // namespace clatter
