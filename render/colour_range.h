@@ -22,7 +22,8 @@ double round_down(double value);
 /// constant over most of a film.
 class SteadyExtent {
  public:
-  /// The end for values of this robust extent. With `hold` the end stays fixed after the first
+  /// The end for values of this robust extent; 1 before the first extent above 0. The end changes
+  /// if the extent is outside 0.5..1.05 times the end. With `hold` it stays fixed after the first
   /// extent above 0.
   double follow(double extent, bool hold = false);
   /// True if the end is fixed while `hold` is set.

@@ -35,7 +35,7 @@ void hint_line(const Area& area) {
 }
 
 bool session_message(const Session& session, const Area& area) {
-  constexpr double kShown = 10.0;  // seconds
+  constexpr double kShown = 10.0;  // duration of a message, seconds
   if (session.message().empty() || session.message_age() > kShown) return false;
   const float unit = ImGui::GetFontSize();
   const float wrap = 0.7f * (area.high.x - area.low.x);

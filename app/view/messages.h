@@ -15,7 +15,7 @@ struct Area {
 
 /// Draws one line with hints at the lower edge of the area.
 void hint_line(const Area& area);
-/// Draws the message of the session for its first seconds. Returns true while it is shown.
+/// Draws the message of the session for 10 seconds. Returns true while it is shown.
 bool session_message(const Session& session, const Area& area);
 /// Draws the state of a disk beside its position `place` in the area.
 void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place, const Area& area);

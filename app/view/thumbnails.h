@@ -18,7 +18,7 @@ namespace clatter {
 /// scene at a time. The calling thread draws the picture.
 class Thumbnails {
  public:
-  static constexpr Size kSize = {192, 144};
+  static constexpr Size kSize = {192, 144};  ///< size of the pictures
 
   /// Calls `on_ready` on the worker thread when a scene is ready to be drawn.
   Thumbnails(const Gl& gl, std::function<void()> on_ready)

@@ -10,8 +10,8 @@
 namespace clatter {
 
 /// A film, encoded by ffmpeg in parallel with the simulation. Pieces of kPiece pictures are encoded
-/// separately in the folder FILE.part, and then joined without encoding them again. A restarted
-/// film is therefore identical to an uninterrupted one, and encoded pieces are safe.
+/// separately in the folder FILE.part, and then joined without encoding them again. So a crash
+/// loses no complete piece, and a restarted film is bit for bit identical to an uninterrupted one.
 class Movie final : public FrameSink {
  public:
   /// Opens a film; the extension of `path` determines its format. `encoder` is a name on the PATH.
