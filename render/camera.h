@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-/// A picture's extent in pixels.
+/// Size of a picture in pixels.
 struct Size {
   int width = 0;
   int height = 0;
@@ -14,10 +14,10 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-/// Passes over all members, in order, for checkpoints.
-/// As people write it: "1280x720".
+/// A size as text, "1280x720".
 std::string size_text(Size size);
 
+/// Passes over all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Size& size) {
   auto& [width, height] = size;
@@ -32,13 +32,13 @@ struct Margins {
   double bottom = 0.0;
 };
 
-/// What part of the world a picture shows.
+/// The part of the world that a picture shows.
 struct Camera {
-  Vec2 centre = {0.0, 0.0};  ///< world point in the middle of the picture
-  double width = 1.0;        ///< world units across the whole picture
+  Vec2 centre = {0.0, 0.0};  ///< world position of the middle of the picture
+  double width = 1.0;        ///< width of the picture in world units
 
-  /// The camera that shows the rectangle from `low` to `high` as large as the margins of a picture
-  /// of `size` allow, in the middle of what they leave.
+  /// The camera that fits the rectangle from `low` to `high` into a picture of `size` without its
+  /// margins, centred and as large as possible.
   static Camera fit(const Vec2& low, const Vec2& high, Size size, const Margins& margins);
 };
 
@@ -49,17 +49,19 @@ void visit(Archive& io, Camera& camera) {
   io(centre, width);
 }
 
-/// From the world to the pixels that are drawn: x to the right, y up, from the lower left corner.
+/// Mapping from world coordinates to drawn pixels: x to the right, y up, origin at the lower left
+/// corner.
 struct Projection {
   Camera camera;
-  Size size;        ///< of the finished picture
-  int samples = 1;  ///< drawn along each axis for one pixel of the finished picture
+  Size size;        ///< size of the finished picture
+  int samples = 1;  ///< drawn pixels per finished pixel, along each axis
 
-  /// The extent of what is drawn.
+  /// Size in drawn pixels.
   Size drawn() const { return {samples * size.width, samples * size.height}; }
-  /// How many pixels a world unit takes.
+  /// Drawn pixels per world unit.
   double scale() const { return drawn().width / camera.width; }
-  /// Exact in double, so that single precision does for the result.
+  /// Drawn pixel of a world position, in double precision. Single precision suffices for the
+  /// result.
   Vec2 pixels(const Vec2& world) const {
     return (world - camera.centre) * scale() + 0.5 * Vec2(drawn().width, drawn().height);
   }

@@ -7,16 +7,16 @@
 
 namespace clatter {
 
-/// The camera at the snapshot's time, of a path given by keys in order of time; before the first of
-/// them it is there already, after the last it stays. `whole` stands for what a key leaves out, and
-/// for a disk that there is not.
+/// The camera of a path at the time of the snapshot. `keys` are in order of time. The camera is
+/// constant before the first key and after the last one. `whole` replaces missing values of a key
+/// and the position of a missing disk.
 ///
-/// A share u in 0..1 of the time from one key to the next, the width is
+/// u, 0..1, is the fraction of the time between two keys 0 and 1. The width is
 ///   w = w_0 (w_1 / w_0)^e with e = u^2 (3 - 2u),
-/// so that zooming begins and ends gently and looks even, and the centre
+/// which is a smooth zoom. The centre is
 ///   c = c_0 + (c_1 - c_0) (w - w_0) / (w_1 - w_0), or for w_1 = w_0 its limit c_0 + (c_1 - c_0) e,
-/// so that a zoom keeps one point of the world where it is on the picture. Where a disk is
-/// followed, c_0 or c_1 is its place at the time.
+/// which keeps one world point fixed on the picture during a zoom. If a key follows a disk, its
+/// centre is the current position of the disk.
 Camera camera_at(const std::vector<CameraKey>& keys, const Snapshot& snapshot, const Camera& whole);
 
 }  // namespace clatter

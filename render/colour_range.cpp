@@ -21,7 +21,7 @@ double round_up(double value) {
   value = std::clamp(value, ColourRange::kLeastWidth, ColourRange::kLargestEnd);
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    // The slack keeps rounding errors from lifting a value that is round already.
+    // The tolerance keeps a round value from the next step despite rounding errors.
     if (value <= step * power * (1.0 + 1e-9)) return step * power;
   }
   return 10.0 * power;
@@ -43,21 +43,20 @@ double SteadyExtent::follow(double extent, bool hold) {
   return current_ > 0.0 ? current_ : 1.0;
 }
 
-// Round values in [low, high], `step` apart.
+// Multiples of `step` in [low, high], at most `most` + 1.
 static std::vector<double> multiples_of(double step, double low, double high, int most) {
   std::vector<double> ticks;
   const double slack = 1e-9 * (high - low);
-  // Counted from the first: of a range of few roundings, tick numbers themselves have no
-  // successors.
+  // Counts from the first tick: far from zero in a narrow range, first + 1 may round to first.
   const double first = std::ceil((low - slack) / step);
   for (int i = 0; (first + i) * step <= high + slack && i <= most; ++i) {
-    ticks.push_back((first + i) * step + 0.0);  // + 0: no -0
+    ticks.push_back((first + i) * step + 0.0);  // + 0 turns -0 into 0
   }
   return ticks;
 }
 
 std::vector<double> round_ticks(double low, double high, int count) {
-  // A finer step finds two ticks wherever two round numbers can be told apart.
+  // Tries finer steps until the range has two distinct ticks.
   constexpr int kFiner = 8;
   for (int parts = count; parts <= count + kFiner; ++parts) {
     const double rough = (high - low) / parts;
@@ -73,14 +72,14 @@ std::vector<double> round_ticks(double low, double high, int count) {
   return {low, high};
 }
 
-// The power of ten of the first digit; the slack is for round numbers that are not exact.
+// The power of ten of the first digit. The tolerance is for inexact powers of ten.
 static double order_of(double value) {
   return std::floor(std::log10(value) + 1e-9);
 }
 
 std::string tick_text(double value, double step) {
   const double magnitude = std::abs(value);
-  const double place = order_of(step);  // of the last digit
+  const double place = order_of(step);  // power of ten of the last digit
   const bool plain = std::abs(place) <= 4.0;
   if (magnitude == 0.0 && !plain) return "0";
   const int digits = static_cast<int>(std::max(0.0, plain ? -place : order_of(magnitude) - place));

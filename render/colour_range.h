@@ -7,37 +7,38 @@
 
 namespace clatter {
 
-/// The 98th percentile of the magnitudes of `values`, without the few that would drown the rest;
-/// what is not finite does not count; 0 where nothing does.
+/// The 98th percentile of the magnitudes of `values`, which ignores a few outliers. Non-finite
+/// values are skipped. Returns 0 without finite values.
 double robust_extent(std::vector<double> values);
 
-/// The next round number at or above `value` > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten.
-/// Values beyond the limits of colour ranges count as these limits.
+/// The smallest round number at or above `value` > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of
+/// ten. `value` is first clamped to ColourRange::kLeastWidth..kLargestEnd.
 double round_up(double value);
 
-/// The last round number at or below `value` > 0: 1, 2 or 5 times a power of ten.
+/// The largest round number at or below `value` > 0: 1, 2 or 5 times a power of ten.
 double round_down(double value);
 
-/// The end of an automatic colour range. It moves in round steps and only when it must, so that
-/// over a film a colour keeps its meaning as long as it can.
+/// The end of an automatic colour range. Hysteresis and round steps keep the meaning of a colour
+/// constant over most of a film.
 class SteadyExtent {
  public:
-  /// The end to use for values of this robust extent; `hold` keeps it from moving after the first
-  /// extent above 0 that comes with it.
+  /// The end for values of this robust extent; 1 before the first extent above 0. The end changes
+  /// if the extent is outside 0.5..1.05 times the end. With `hold` it stays fixed after the first
+  /// extent above 0.
   double follow(double extent, bool hold = false);
-  /// Whether it moves no more as long as it is held.
+  /// True if the end is fixed while `hold` is set.
   bool held() const { return held_; }
 
  private:
-  double current_ = 0.0;  ///< 0: nothing seen yet
+  double current_ = 0.0;  ///< 0: no extent yet
   bool held_ = false;
 };
 
-/// Round values in [low, high], about `count` of them and at least two, in rising order; the two
-/// ends where no two round values lie between them. The width of the range is an ordinary number.
+/// About `count` round values in [low, high], at least two, in rising order. If the range has no
+/// two round values, returns {low, high}. Requires high - low > 0, finite and not subnormal.
 std::vector<double> round_ticks(double low, double high, int count);
 
-/// A tick's value, with as many digits as ticks `step` apart need.
+/// The text of a tick value, with the digits that a spacing of `step` needs.
 std::string tick_text(double value, double step);
 
 }  // namespace clatter

@@ -2,7 +2,7 @@
 
 namespace clatter {
 
-// With raised exponents for "^2" and "^3"; nothing for bare numbers.
+// Superscripts for "^2" and "^3"; empty for the unit "1".
 static std::string typeset(std::string unit) {
   if (unit == "1") return "";
   for (const auto& [plain, raised] : {std::pair("^2", "²"), {"^3", "³"}}) {

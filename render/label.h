@@ -6,19 +6,20 @@
 
 namespace clatter {
 
-/// How a picture says what it shows, whatever the values.
+/// Name, sign and unit of a quantity in a picture.
 struct Label {
-  std::string name;            ///< ends with its symbol, if any: "velocity v"
-  std::string subscript = "";  ///< of that symbol, e.g. "x"; may be empty
+  std::string name;            ///< name and symbol, "velocity v"
+  std::string subscript = "";  ///< subscript of the symbol, e.g. "x"; empty: none
   Sign sign = Sign::Positive;
-  std::string unit = "";  ///< e.g. "a/t"; empty of bare numbers
+  std::string unit = "";  ///< e.g. "a/t"; empty: dimensionless
 
   bool operator==(const Label&) const = default;
 };
 
-/// Of a disk's colour.
+/// Label of the colour of the disks.
 Label label_of(ColourBy colour_by);
-/// Of a heatmap, in so many dimensions; of a quantity as a whole where the field has no component.
+/// Label of a field in `dimension` dimensions. A field without a component gets the label of the
+/// whole quantity.
 Label label_of(Field field, int dimension);
 
 }  // namespace clatter

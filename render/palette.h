@@ -18,13 +18,13 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// The light that a channel of a colour stands for, as a share of the most, IEC 61966-2-1.
+/// Linear light of an sRGB channel, 0..1 (IEC 61966-2-1).
 float linear_light(std::uint8_t channel);
 
-/// The colour a share `t` in 0..1 of the way from `a` to `b`.
+/// Linear interpolation between `a` (t = 0) and `b` (t = 1) in sRGB.
 Colour mix(Colour a, Colour b, double t);
 
-/// Colours at equal steps from the lowest to the highest value; linear between them.
+/// Colours at equal steps from the lowest to the highest value, with linear interpolation.
 using ColourMap = std::span<const Colour>;
 
 /// The map of a palette: viridis, inferno or cividis.
@@ -33,15 +33,15 @@ ColourMap colour_map(Palette palette);
 /// For signed values: blue below zero, grey at zero, red above.
 ColourMap diverging_map();
 
-/// From values to colours.
+/// Mapping from values to colours.
 struct ColourScale {
   ColourMap map;
-  double low = 0.0;            ///< the value at the map's first colour
-  double high = 1.0;           ///< the value at its last, other than low
-  bool about_zero = false;     ///< the map's middle stands for 0, whatever the ends
-  std::uint8_t opacity = 255;  ///< alpha of its colours
+  double low = 0.0;            ///< value of the first colour of the map
+  double high = 1.0;           ///< value of the last colour, other than `low`
+  bool about_zero = false;     ///< 0 maps to the middle of the map, the larger end to its end
+  std::uint8_t opacity = 255;  ///< alpha of all colours
 
-  /// The colour of `value`; beyond the ends, that of the end.
+  /// The colour of `value`, clamped to the ends.
   Colour operator()(double value) const;
 };
 

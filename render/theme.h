@@ -5,24 +5,24 @@
 
 namespace clatter {
 
-/// The colours of letters: of their strokes and of the halo that keeps them legible.
+/// The colours of text: the glyphs, and the halo that keeps them legible.
 struct Ink {
   Colour colour;
   Colour halo;
 };
 
-/// The colours of all that does not show a value.
+/// The colours of everything that does not show a value.
 struct ThemeColours {
   Colour background;
   Colour text;
   Colour faint_text;
-  Colour disk;         ///< where the colour shows nothing
-  Colour static_wall;  ///< also of the periodic border, and of lines
+  Colour disk;         ///< disks with ColourBy::None
+  Colour static_wall;  ///< static walls, periodic borders and lines
   Colour driven_wall;
 
-  /// Of what is to be read first.
+  /// Ink of the main text.
   Ink ink() const { return {text, background}; }
-  /// Of the rest.
+  /// Ink of secondary text.
   Ink faint_ink() const { return {faint_text, background}; }
 };
 
@@ -32,12 +32,12 @@ inline constexpr ThemeColours kDarkTheme = {{0x10, 0x14, 0x18}, {0xe6, 0xea, 0xe
 inline constexpr ThemeColours kLightTheme = {{0xf4, 0xf6, 0xf8}, {0x1c, 0x22, 0x28},
                                              {0x5c, 0x66, 0x70}, {0x6c, 0x7a, 0x88},
                                              {0x74, 0x7e, 0x88}, {0xc8, 0x74, 0x10}};
-/// For pale projectors: nothing fainter than it must be.
+/// High contrast, for dim projectors.
 inline constexpr ThemeColours kProjectorTheme = {{0xff, 0xff, 0xff}, {0x00, 0x00, 0x00},
                                                  {0x24, 0x24, 0x24}, {0x40, 0x48, 0x50},
                                                  {0x30, 0x38, 0x40}, {0xb8, 0x50, 0x00}};
 
-/// The colours of the view's theme, with its background where it has one.
+/// The colours of the view's theme. The background of the view, if set, replaces that of the theme.
 ThemeColours theme_of(const View& view);
 
 }  // namespace clatter

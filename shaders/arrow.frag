@@ -1,7 +1,7 @@
 #version 330 core
-// An arrow with an antialiased edge and a rim that sets it off from what lies below.
+// An arrow with an antialiased edge and a rim that separates it from the picture below.
 
-in vec2 v_place;         // along and across the arrow, from its tail, pixels
+in vec2 v_place;         // coordinates along and across the arrow, from its tail, pixels
 flat in float v_length;  // pixels
 
 uniform float u_shaft;  // half width of the shaft, pixels
@@ -12,11 +12,11 @@ uniform vec4 u_rim_colour;
 
 out vec4 o_colour;
 
-// The share of a pixel that lies inside an edge, at a distance (positive: inside) in pixels.
+// Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
 void main() {
-  // Short arrows keep their shape and shrink.
+  // Short arrows are scaled down.
   float shrink = min(1.0, v_length / (1.5 * u_head.x));
   vec2 head = shrink * u_head;
   float neck = v_length - head.x;
@@ -24,7 +24,7 @@ void main() {
 
   vec2 beyond = vec2(max(-place.x, place.x - neck), place.y - shrink * u_shaft);
   float shaft = -min(max(beyond.x, beyond.y), 0.0) - length(max(beyond, 0.0));
-  // To the slanted side of the head, and to its base.
+  // Signed distance to the slanted side and the base of the head.
   vec2 side = normalize(vec2(u_head.y, u_head.x));
   float tip = min(dot(vec2(v_length, 0.0) - place, side), place.x - neck);
 

@@ -1,13 +1,13 @@
 #version 330 core
-// An arrow, as an instance of a rectangle around it.
+// An arrow, drawn as an instance of a rectangle around it.
 
 layout(location = 0) in vec2 a_tail;  // pixels
 layout(location = 1) in vec2 a_tip;
 
-uniform vec2 u_size;    // of the picture, pixels
-uniform float u_margin; // of the rectangle around the line from tail to tip, pixels
+uniform vec2 u_size;    // size of the picture, pixels
+uniform float u_margin; // margin of the rectangle around the line from tail to tip, pixels
 
-out vec2 v_place;            // along and across the arrow, from its tail, pixels
+out vec2 v_place;            // coordinates along and across the arrow, from its tail, pixels
 flat out float v_length;     // pixels
 
 void main() {

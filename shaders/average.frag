@@ -1,9 +1,9 @@
 #version 330 core
-// A finer picture, averaged over the samples of each pixel in linear light.
+// Average of a supersampled picture over the samples of each pixel, in linear light.
 
-uniform sampler2D u_picture;  // sRGB: what is fetched is linear
-uniform int u_samples;        // along each axis of a pixel
-uniform bool u_transparent;   // whether its colours, as stored, are times their opacity
+uniform sampler2D u_picture;  // sRGB texture: fetches return linear values
+uniform int u_samples;        // samples per pixel along each axis
+uniform bool u_transparent;   // whether the stored sRGB colours are premultiplied by alpha
 
 out vec4 o_colour;
 
@@ -15,7 +15,7 @@ vec3 light_of(vec3 c) {
   return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
 }
 
-// The light of a sample times its opacity, and the opacity.
+// Light times opacity of a sample, and its opacity.
 vec4 sample_at(ivec2 place) {
   vec4 c = texelFetch(u_picture, place, 0);
   if (u_transparent && c.a > 0.0) c.rgb = c.a * light_of(srgb(c.rgb) / c.a);

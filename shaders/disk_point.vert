@@ -1,17 +1,18 @@
 #version 330 core
-// A disk as a point: one vertex, as long as it is no larger than the driver's largest point.
+// A disk, drawn as a point of one vertex. It must not exceed the largest point of the driver.
 
 layout(location = 0) in vec2 a_centre;  // pixels
 layout(location = 1) in vec4 a_colour;  // linear light
-layout(location = 2) in float a_angle;  // by which it has turned
+layout(location = 2) in float a_angle;  // angle of rotation, rad
 
-uniform vec2 u_origin;  // lower left corner and extent of the viewport, pixels; larger than the
-uniform vec2 u_extent;  // picture, because a point whose centre lies outside is not drawn at all
-uniform float u_reach;  // from the centre to the outermost pixel touched
+// The viewport is larger than the picture, because OpenGL drops points with their centre outside.
+uniform vec2 u_origin;  // lower left corner of the viewport, pixels
+uniform vec2 u_extent;  // size of the viewport, pixels
+uniform float u_reach;  // from the centre to the outermost covered pixel, pixels
 
 flat out vec2 v_centre;
 flat out vec4 v_colour;
-flat out vec2 v_axis;  // of the disk's mark, from its centre
+flat out vec2 v_axis;  // direction of the mark from the centre
 
 void main() {
   v_centre = a_centre;

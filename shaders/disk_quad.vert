@@ -1,17 +1,17 @@
 #version 330 core
-// A disk as an instance of a square, for disks larger than the driver's largest point.
+// A disk, drawn as an instance of a square, for disks larger than the largest point of the driver.
 
 layout(location = 0) in vec2 a_centre;  // pixels
 layout(location = 1) in vec4 a_colour;  // linear light
-layout(location = 2) in float a_angle;  // by which it has turned
+layout(location = 2) in float a_angle;  // angle of rotation, rad
 
-uniform vec2 u_origin;  // lower left corner and extent of the viewport, pixels
-uniform vec2 u_extent;
-uniform float u_reach;  // from the centre to the outermost pixel touched
+uniform vec2 u_origin;  // lower left corner of the viewport, pixels
+uniform vec2 u_extent;  // size of the viewport, pixels
+uniform float u_reach;  // from the centre to the outermost covered pixel, pixels
 
 flat out vec2 v_centre;
 flat out vec4 v_colour;
-flat out vec2 v_axis;  // of the disk's mark, from its centre
+flat out vec2 v_axis;  // direction of the mark from the centre
 
 void main() {
   v_centre = a_centre;

@@ -1,11 +1,11 @@
 #version 330 core
-// A field, one colour a cell; cells without a value are hatched, so that they look like no value.
+// A field with one colour per cell. Hatching distinguishes cells without a value from all values.
 
 in vec2 v_place;
 
 uniform sampler2D u_cells;
-uniform vec4 u_gap;      // colour of the lines in cells without a value
-uniform float u_period;  // of these lines, pixels
+uniform vec4 u_gap;      // colour of the hatching
+uniform float u_period;  // horizontal distance of the hatching lines, pixels
 
 out vec4 o_colour;
 

@@ -1,11 +1,11 @@
 #version 330 core
-// The box, as a rectangle in pixels.
+// A rectangle of the picture, such as the box.
 
-uniform vec2 u_size;  // of the picture, pixels
-uniform vec2 u_low;   // corners of the box, pixels
-uniform vec2 u_high;
+uniform vec2 u_size;  // size of the picture, pixels
+uniform vec2 u_low;   // lower left corner of the rectangle, pixels
+uniform vec2 u_high;  // upper right corner of the rectangle, pixels
 
-out vec2 v_place;  // in the box, 0..1
+out vec2 v_place;  // position in the rectangle, 0..1
 
 void main() {
   v_place = vec2(gl_VertexID & 1, gl_VertexID >> 1);

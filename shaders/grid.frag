@@ -1,14 +1,14 @@
 #version 330 core
-// Lines across the box at equal distances, over whatever lies below.
+// A square grid over the box.
 
 uniform vec2 u_low;      // lower left corner of the box, pixels
-uniform float u_square;  // from line to line, pixels
-uniform float u_line;    // width of lines, pixels
+uniform float u_square;  // spacing of the lines, pixels
+uniform float u_line;    // width of the lines, pixels
 uniform vec4 u_colour;
 
 out vec4 o_colour;
 
-// The share of a pixel that lies inside an edge, at a distance (positive: inside) in pixels.
+// Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
 void main() {

@@ -1,5 +1,5 @@
 #version 330 core
-// Dear ImGui's triangles: a colour times a texture, mostly the font.
+// Triangles of Dear ImGui: a colour times a texture, usually the font atlas.
 
 in vec2 v_texture_place;
 in vec4 v_colour;

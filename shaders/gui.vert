@@ -1,12 +1,12 @@
 #version 330 core
-// Dear ImGui's triangles; its pixels count from the upper left corner.
+// Triangles of Dear ImGui. The origin of its coordinates is the upper left corner.
 
 layout(location = 0) in vec2 a_position;
 layout(location = 1) in vec2 a_texture_place;
 layout(location = 2) in vec4 a_colour;
 
-uniform vec2 u_origin;  // of the part of the plane that fills the picture
-uniform vec2 u_size;
+uniform vec2 u_origin;  // upper left corner of the picture, in coordinates of Dear ImGui
+uniform vec2 u_size;    // size of the picture, in coordinates of Dear ImGui
 
 out vec2 v_texture_place;
 out vec4 v_colour;

@@ -1,17 +1,17 @@
 #version 330 core
-// Light laid over a picture.
+// Blends light over a picture.
 
 uniform sampler2D u_light;  // linear light times opacity, and opacity; may exceed 1
-uniform int u_margin;       // of u_light around the picture, pixels
-uniform bool u_encoded;     // whether colours are stored as they are, not as light
+uniform int u_margin;       // margin of u_light around the picture, pixels
+uniform bool u_encoded;     // output sRGB values instead of linear light
 uniform vec2 u_box_low;     // corners between the faces of the walls, pixels
 uniform vec2 u_box_high;
 
 out vec4 o_colour;
 
-const float kGhost = 0.15;  // opacity of what a periodic border shows a second time
+const float kGhost = 0.15;  // opacity outside the faces, for the parts beyond a periodic border
 
-// The share of a pixel that lies inside an edge, at a distance (positive: inside) in pixels.
+// Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
 vec3 srgb(vec3 c) {

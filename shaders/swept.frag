@@ -1,19 +1,19 @@
 #version 330 core
-// The light of a disk that moves evenly and straight on, averaged over the time: that of disk.frag
-// for a disk at rest.
+// Time average of the light of a disk in uniform straight motion. A disk at rest looks as in
+// disk.frag.
 
-flat in vec2 v_start;   // of its centre, pixels
-flat in vec2 v_along;   // direction of motion
-flat in vec2 v_way;     // its length in pixels, and its share of the exposure
+flat in vec2 v_start;   // centre of the disk at the start of the way, pixels
+flat in vec2 v_along;   // direction of motion, a unit vector
+flat in vec2 v_way;     // length of the way in pixels, and its fraction of the exposure time
 flat in vec4 v_colour;  // linear light
 
-uniform float u_radius;   // pixels drawn
-uniform float u_samples;  // pixels drawn for one of the finished picture, along each axis
+uniform float u_radius;   // drawn pixels
+uniform float u_samples;  // drawn pixels per finished pixel, along each axis
 
 out vec4 o_light;
 
-// The integral of a soft edge, far - sqrt(s^2 + h^2), over s from a to b, by Gauss and Legendre's
-// three points: a closed form would lose its digits in differences of squares.
+// Integral of a soft edge, far - sqrt(s^2 + h^2), over s from a to b, by three-point Gauss-Legendre
+// quadrature. The closed form suffers from cancellation.
 float edge(float far, float h, float a, float b) {
   float middle = 0.5 * (a + b), half_width = 0.5 * (b - a);
   float away = 0.7745967 * half_width;
@@ -21,8 +21,9 @@ float edge(float far, float h, float a, float b) {
   return half_width * (2.0 * far - (5.0 * ends + 8.0 * length(vec2(middle, h))) / 9.0);
 }
 
-// The time average of clamp(radius - d + 1/2, 0, 1) where d is the distance from the moving centre,
-// which is at s from `from` to `to` along its way, and passes at h.
+// Time average of clamp(radius - d + 1/2, 0, 1), with d = sqrt(s^2 + h^2) the distance of a pixel
+// from the moving centre. s runs from `from` to `to`. h is the distance of the pixel from the line
+// of motion.
 float average(float radius, float h, float from, float to) {
   float near = max(radius - 0.5, 0.0), far = radius + 0.5;
   float inner = sqrt(max(near * near - h * h, 0.0));
@@ -38,7 +39,7 @@ void main() {
   float from = -dot(place, v_along), to = from + v_way.x;
   float h = abs(dot(place, vec2(-v_along.y, v_along.x)));
 
-  // The soft edge would add a twelfth of pi pixels to the area.
+  // The reduced radius keeps the area: a soft edge adds pi/12 pixels to it.
   float radius = sqrt(u_radius * u_radius - 1.0 / 12.0);
   float alpha = average(radius, h, from, to);
   if (alpha <= 0.0) discard;

@@ -1,13 +1,13 @@
 #version 330 core
-// A disk on its straight way, as an instance of a rectangle around all of it.
+// A disk in straight motion, drawn as an instance of a rectangle around the swept area.
 
-layout(location = 0) in vec2 a_start;  // of its centre, pixels
-layout(location = 1) in vec2 a_along;  // direction of motion
-layout(location = 2) in vec2 a_way;    // its length in pixels, and its share of the exposure
+layout(location = 0) in vec2 a_start;  // centre of the disk at the start of the way, pixels
+layout(location = 1) in vec2 a_along;  // direction of motion, a unit vector
+layout(location = 2) in vec2 a_way;    // length of the way, pixels, and its share of the exposure
 layout(location = 3) in vec4 a_colour;  // linear light
 
-uniform vec2 u_size;     // of the picture, pixels
-uniform float u_radius;  // of the disk, pixels
+uniform vec2 u_size;     // size of the picture, pixels
+uniform float u_radius;  // radius of the disk, pixels
 
 flat out vec2 v_start;
 flat out vec2 v_along;

@@ -1,16 +1,16 @@
 #version 330 core
-// A straight part of a trail, with round ends and a soft edge.
+// A straight segment of a trail, with round ends and a soft edge.
 
-in vec2 v_place;           // along and across, from the start, pixels
+in vec2 v_place;           // coordinates along and across the segment, from its start, pixels
 flat in float v_length;    // pixels
 flat in vec2 v_opacity;    // at the start and at the end
 flat in vec4 v_colour;     // linear light
 
-uniform float u_half;  // half the trail's width, pixels
+uniform float u_half;  // half the width of the trail, pixels
 
 out vec4 o_light;
 
-// The share of a pixel that lies inside an edge, at a distance (positive: inside) in pixels.
+// Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
 void main() {

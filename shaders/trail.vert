@@ -1,15 +1,15 @@
 #version 330 core
-// A straight part of a trail, as an instance of a rectangle around it.
+// A straight segment of a trail, drawn as an instance of a rectangle around it.
 
 layout(location = 0) in vec2 a_start;    // pixels
 layout(location = 1) in vec2 a_end;
 layout(location = 2) in vec2 a_opacity;  // at the start and at the end
 layout(location = 3) in vec4 a_colour;   // linear light
 
-uniform vec2 u_size;   // of the picture, pixels
-uniform float u_half;  // half the trail's width, pixels
+uniform vec2 u_size;   // size of the picture, pixels
+uniform float u_half;  // half the width of the trail, pixels
 
-out vec2 v_place;  // along and across, from the start, pixels
+out vec2 v_place;  // coordinates along and across the segment, from its start, pixels
 flat out float v_length;
 flat out vec2 v_opacity;
 flat out vec4 v_colour;

@@ -1,12 +1,12 @@
 #version 330 core
-// What a wall does, as a pattern on its band.
+// The band of a wall, with a pattern that shows the kind of the wall.
 
-in vec2 v_place;  // along the wall and outward from its face, pixels
+in vec2 v_place;  // coordinates along the wall and outward from its face, pixels
 
 uniform int u_pattern;      // the enum Pattern of wall_layer.cpp
 uniform vec4 u_colour;
-uniform float u_thickness;  // of the band, pixels
-uniform float u_advance;    // how far a driven wall's teeth have moved inward, in periods
+uniform float u_thickness;  // thickness of the band, pixels
+uniform float u_advance;    // inward displacement of a driven wall's teeth, in periods
 uniform float u_line;       // width of lines, pixels
 
 out vec4 o_colour;
@@ -14,23 +14,25 @@ out vec4 o_colour;
 const int kHatch = 0, kTeeth = 1, kWaves = 2, kGlow = 3, kDashes = 4, kPlain = 5;
 const float kTurn = 6.2831853;
 
-// The share of a pixel inside an edge, at a distance (positive: inside) in pixels.
+// Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
-// Stripes that fill half of each period: 1 inside, 0 outside; `softness` is a pixel in periods.
+// Stripes over half of each period: 1 inside, 0 outside. `softness` is the width of their soft edge
+// in periods.
 float stripes(float phase, float softness) {
   float distance = 0.25 - abs(fract(phase) - 0.5);
   return clamp(distance / softness + 0.5, 0.0, 1.0);
 }
 
-// Stripes whose crests, from 0 to 1 high, point into the box; a driven wall's move into it.
+// Stripes along the wall, displaced outward in proportion to `height`, 0..1. u_advance moves them
+// into the box.
 float crests(float height) {
   float period = 0.75 * u_thickness;
   float phase = (v_place.y - 0.6 * u_thickness * height) / period + u_advance;
   return stripes(phase, 1.2 / period);
 }
 
-// How high a saw-tooth or a wave is here.
+// Height of the saw-tooth and wave profiles, 0..1.
 float tooth() { return abs(fract(v_place.x / (2.0 * u_thickness)) - 0.5) * 2.0; }
 float wave() { return 0.5 + 0.5 * cos(kTurn * v_place.x / (2.0 * u_thickness)); }
 

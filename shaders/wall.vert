@@ -1,10 +1,10 @@
 #version 330 core
-// A wall: a band along a side of the box, outside it.
+// A wall, drawn as a band outside a side of the box.
 
 layout(location = 0) in vec2 a_position;  // pixels
 layout(location = 1) in vec2 a_place;     // along the wall and outward from its face, pixels
 
-uniform vec2 u_size;  // of the picture, pixels
+uniform vec2 u_size;  // size of the picture, pixels
 
 out vec2 v_place;
 

@@ -13,7 +13,7 @@ namespace clatter {
 static void show_cost(double price) {
   ImGui::TextDisabled("CPU time %s", cost_text(price).c_str());
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("The engine's with it over that without it, measured for 1000 disks");
+    ImGui::SetTooltip("Relative to the CPU time without it, measured for 1000 disks");
   }
 }
 
@@ -29,19 +29,20 @@ static void contact_time(Session& session, Controls& controls) {
     return t ? "{ contact_time = " + value_text(*t) + " }" : std::string("{}");
   };
   bool on = time.has_value();
-  if (controls.toggle("contact_time", "Contact time",
-                      "Collisions that follow each other within t_c lose nothing: no collapse",
-                      on)) {
+  if (controls.toggle(
+          "contact_time", "Contact time",
+          "Collisions within t_c of the previous one are elastic; prevents inelastic collapse",
+          on)) {
     controls.set({{"collapse", table(time)}},
                  {{"collapse", table(on ? std::optional(kUsual) : std::nullopt)}});
   } else if (on) {
     controls.law({.key = "collapse.contact_time",
-                  .name = "Its length",
+                  .name = "Duration",
                   .symbol = "t_c",
                   .unit = "t",
-                  .help = "Of the TC model; below are its errors since laws last changed: energy "
-                          "that would have been lost over what was, and the share of collisions "
-                          "that lost none",
+                  .help = "Of the TC model. Its errors since the last change of laws are below: "
+                          "undissipated over dissipated energy, and the share of elastic "
+                          "collisions",
                   .low = 1e-9,
                   .high = 0.1,
                   .logarithmic = true,
@@ -50,13 +51,13 @@ static void contact_time(Session& session, Controls& controls) {
   }
   show_cost(kContactTimeCost);
   if (!on) return;
-  // Also before there is an error, lest the panel jump at each change of laws.
+  // Shown even without a value, so that the panel keeps its height after a change of laws.
   const auto& error = session.frame().contact_time_error;
   tell_share("Not dissipated", error ? error->undissipated : std::nan(""));
   tell_share("Elastic collisions", error ? error->elasticised : std::nan(""));
 }
 
-// How disks count in the averages.
+// List of estimators; the snapshot estimator adds a slider for its interval.
 static bool choose_estimator(Controls& controls, View& view, const View& usual) {
   std::vector<std::string> words;
   for (const auto& [name, estimator] : kEstimators) {
@@ -65,16 +66,16 @@ static bool choose_estimator(Controls& controls, View& view, const View& usual) 
   int chosen = static_cast<int>(view.estimator);
   bool changed = controls.choice(
       "view.estimator", "Fields from",
-      "What heatmap and arrows average: whole flights of disks, or where they are now and then; "
-      "with CPU time over that without fields",
+      "Heatmap and arrows average whole flights of disks, or snapshots. The factor is the CPU time "
+      "relative to a run without fields",
       words, chosen, static_cast<int>(usual.estimator));
   view.estimator = static_cast<Estimator>(chosen);
   if (view.estimator == Estimator::Snapshot) {
     changed |= controls.number({.key = "view.interval",
                                 .name = "Snapshots every",
                                 .unit = "t",
-                                .help = "Time between two of them; those far apart are "
-                                        "independent, those close are many",
+                                .help = "Time between two snapshots; long intervals give "
+                                        "independent samples, short intervals more samples",
                                 .low = 0.01,
                                 .high = view.window,
                                 .logarithmic = true},
@@ -83,7 +84,7 @@ static bool choose_estimator(Controls& controls, View& view, const View& usual) 
   return changed;
 }
 
-// The averages of the view: none, of fields, or what balances leave open.
+// Settings and cost of the averages in the view: fields or balance residuals.
 static void averages(Session& session, Controls& controls) {
   View view = session.view();
   const View& usual = session.opened().view;
@@ -100,8 +101,8 @@ static void averages(Session& session, Controls& controls) {
     changed |= controls.number({.key = "view.window",
                                 .name = "Averaged over",
                                 .unit = "t",
-                                .help = "How far back in time heatmap and arrows reach; it costs "
-                                        "no CPU time: a longer one is less noisy, and later",
+                                .help = "Averaging time of heatmap and arrows. A longer time gives "
+                                        "less noise and more delay, at no CPU cost",
                                 .low = 0.1,
                                 .high = 100.0,
                                 .logarithmic = true,

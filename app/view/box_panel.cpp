@@ -31,7 +31,7 @@ std::string inline_table(const std::array<std::optional<Wall>, 6>& walls) {
   return "{ " + all + " }";
 }
 
-// A wall of another kind, with what the kinds have in common.
+// A wall of another kind, with the parameters that both kinds have.
 Wall wall_of(WallKind kind, const Wall& before) {
   Wall wall{.kind = kind};
   if (kind != WallKind::Thermal && before.kind != WallKind::Thermal) {
@@ -99,12 +99,12 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
          {.name = "Restitution",
           .symbol = "α_w",
           .help = "Share of the normal velocity that a "
-                  "bounce keeps; above 1 it gives more than it gets",
+                  "bounce keeps; above 1 a bounce adds energy",
           .high = 1.1},
          wall.restitution, usual.restitution);
 }
 
-// What stands at a side: nothing, where the axis is periodic, or a wall of some kind.
+// Kind of wall at a side, or periodic, with its parameters.
 void side_panel(Session& session, Controls& controls, std::size_t side) {
   const Scene& scene = session.scene();
   const std::string path = std::string("walls.") + kSideNames[side];
@@ -115,7 +115,7 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
   int chosen = wall ? static_cast<int>(wall->kind) + 1 : 0;
   const int usual = opened ? static_cast<int>(opened->kind) + 1 : 0;
   if (controls.choice(path.c_str(), kSideTitles[side],
-                      "What stands at this side; periodic goes with the side opposite", words,
+                      "Wall at this side; periodic also applies to the opposite side", words,
                       chosen, usual)) {
     if (wall && chosen > 0) {
       const Wall other =
@@ -143,7 +143,7 @@ void bulk_drive(Session& session, Controls& controls) {
   if (!drive) {
     const std::string kicks = "{ interval = " + value_text(usual.interval) + ", kick_speed = ";
     if (controls.button("bulk_drive", "Kick all disks",
-                        "Homogeneous driving: every disk is kicked again and again")) {
+                        "Homogeneous driving: all disks get random kicks at equal intervals")) {
       controls.set({{"bulk_drive", kicks + "0.0 }"}},
                    {{"bulk_drive", kicks + value_text(usual.kick_speed) + " }"}});
     }
@@ -165,18 +165,19 @@ void box_panel(Session& session, Controls& controls) {
   const Scene& usual = session.opened();
   for (int axis : {0, 1}) {
     const double longest = std::max(100.0, 2.0 * usual.box[axis]);
-    controls.component({.key = "box.size",
-                        .name = axis == 0 ? "Width" : "Height",
-                        .symbol = axis == 0 ? "Lx" : "Ly",
-                        .unit = "a",
-                        .help = "Of the box, in disk diameters; disks that no longer fit go",
-                        .low = 4.0,
-                        .high = longest,
-                        .format = "%.1f"},
-                       scene.box, axis, usual.box, false);
+    controls.component(
+        {.key = "box.size",
+         .name = axis == 0 ? "Width" : "Height",
+         .symbol = axis == 0 ? "Lx" : "Ly",
+         .unit = "a",
+         .help = "Of the box, in disk diameters; disks that no longer fit are removed",
+         .low = 4.0,
+         .high = longest,
+         .format = "%.1f"},
+        scene.box, axis, usual.box, false);
   }
   for (std::size_t side = 0; side < 4; ++side) {
-    // A periodic axis is told once.
+    // A periodic axis is listed once.
     if (side % 2 == 1 && !scene.walls[side]) continue;
     side_panel(session, controls, side);
   }

@@ -20,9 +20,9 @@ bool group(const char* name) {
   return open;
 }
 
-static constexpr float kTipWidth = 22.0f;  // in sizes of text
+static constexpr float kTipWidth = 22.0f;  // in text sizes
 
-// What the widget above means, while the mouse is on it.
+// Tooltip of the last widget.
 static void tell_help(const char* help) {
   if (!*help || !ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
@@ -45,7 +45,7 @@ static void explain(const Slider& slider, double usual) {
   ImGui::EndTooltip();
 }
 
-// A round arrow at the right end of a line; whether it was clicked.
+// Round arrow at the right end of a line. Returns true if it was clicked.
 static bool reset_button() {
   const float size = ImGui::GetFontSize();
   ImGui::SameLine(ImGui::GetContentRegionMax().x - size);
@@ -65,7 +65,7 @@ static bool reset_button() {
   return clicked;
 }
 
-// Name and symbol at the left of a line, the value at its right, before the arrow's place.
+// Name and symbol at the left of a line, value at its right, with room for the arrow.
 static void headline(const Slider& slider, double value) {
   ImGui::TextUnformatted(slider.name);
   if (*slider.symbol) {
@@ -76,7 +76,7 @@ static void headline(const Slider& slider, double value) {
   const float left = ImGui::GetCursorPosX();
   const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
   const std::string number = fmt::sprintf(slider.format, value);
-  // The unit stands here where there is room for it, and in the tooltip.
+  // The tooltip always has the unit; this line only if there is room.
   const std::string with_unit = number + (*slider.unit ? std::string(" ") + slider.unit : "");
   const bool fits = ImGui::CalcTextSize(with_unit.c_str()).x < right - left;
   const char* text = (fits ? with_unit : number).c_str();
@@ -84,7 +84,7 @@ static void headline(const Slider& slider, double value) {
   ImGui::TextUnformatted(text);
 }
 
-// To three digits, which is as finely as one can drag.
+// Rounds to three digits, the resolution of dragging.
 static double rounded(double value) {
   return std::stod(fmt::format("{:.3g}", value));
 }
@@ -96,7 +96,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   headline(slider, value);
   if (value != usual) moved.reset = reset_button();
 
-  // ImGui types into a slider after a click with Ctrl: here, after a double click too.
+  // ImGui edits a slider as text after Ctrl + click. A double click shall do the same.
   ImGuiIO& io = ImGui::GetIO();
   const bool ctrl = io.KeyCtrl;
   io.KeyCtrl = ctrl || io.MouseDoubleClicked[0];
@@ -105,7 +105,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
                       ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
   if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
   ImGui::SetNextItemWidth(-FLT_MIN);
-  // Its logarithm reaches as far down as the digits of its format.
+  // ImGui takes the smallest magnitude of a logarithmic slider from the digits of its format.
   const char* format = slider.logarithmic ? "%.9g" : slider.format;
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp |
@@ -202,7 +202,7 @@ bool Controls::choice(const char* key, const char* name, const char* help,
         changed = i != chosen;
         chosen = i;
       }
-      // The list finds its place in its first picture.
+      // The position of the list is not final in its first frame.
       if (!ImGui::IsWindowAppearing()) log_place((std::string(key) + '.' + word).c_str());
     }
     ImGui::EndCombo();

@@ -6,60 +6,64 @@
 
 namespace clatter {
 
-/// A number that a slider sets.
+/// Description of a slider: key, texts and range.
 struct Slider {
-  const char* key = "";     ///< of the scene file
-  const char* name = "";    ///< as the panel writes it
-  const char* symbol = "";  ///< as in docs/theory.md
-  const char* unit = "";    ///< behind the value; empty: a bare number
-  const char* help = "";    ///< what it means
-  double low = 0.0;
-  double high = 1.0;
-  bool logarithmic = false;
-  const char* format = "%.3f";
+  const char* key = "";         ///< key of the scene file
+  const char* name = "";        ///< label in the panel
+  const char* symbol = "";      ///< symbol of docs/theory.md; empty: none
+  const char* unit = "";        ///< unit after the value; empty: dimensionless
+  const char* help = "";        ///< text of the tooltip
+  double low = 0.0;             ///< smallest value
+  double high = 1.0;            ///< largest value
+  bool logarithmic = false;     ///< logarithmic scale
+  const char* format = "%.3f";  ///< printf format of the value
 };
 
-/// The sliders and switches of the panels. What is dragged acts at once on the gas, and is one
-/// entry to take back once it is let go.
+/// The widgets of the panels. Dragging a slider changes the gas immediately. Releasing it adds one
+/// entry to the undo history.
 class Controls {
  public:
   Controls(Session& session, ScriptLog& log) : session_(session), log_(log) {}
 
-  /// A slider for a law; `value` is the one in force, `usual` that of the scene as it was opened.
+  /// Slider for a law. `value` is the current value, `usual` the value of the opened scene.
   void law(const Slider& slider, double value, double usual);
-  /// A slider for a whole number, which is set when it is let go: the gas starts anew.
+  /// Slider for an integer. The value is set when the slider is released, and restarts the gas.
   void whole(const Slider& slider, int value, int usual);
-  /// A slider for a component of a pair of numbers under one key.
+  /// Slider for one component of a two-component key. `axis` is 0 or 1. Without `at_once` the value
+  /// is set when the slider is released.
   void component(const Slider& slider, const Vec2& pair, int axis, const Vec2& usual,
                  bool at_once = true);
-  /// A slider for something of the window's own; whether it has changed.
+  /// Slider for a setting of the window. Returns true if the value changed.
   bool number(const Slider& slider, double& value, double usual);
-  /// A list of words under a key of the window's own or of a law, with an arrow back to the `usual`
-  /// one; whether another was chosen.
+  /// List of words. An arrow resets `chosen` to `usual`; both are indices into `words`. Returns
+  /// true if the choice changed.
   bool choice(const char* key, const char* name, const char* help,
               const std::vector<std::string>& words, int& chosen, int usual);
-  /// Two numbers to type, the second greater than the first; whether others were.
+  /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
+  /// entered.
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
-  /// A box to tick; whether it was.
+  /// Check box. Returns true if it was clicked.
   bool toggle(const char* key, const char* name, const char* help, bool& on);
-  /// A button as wide as its label, or so many pixels; whether it was pressed.
+  /// Button of `width` pixels; 0: as wide as its label. Returns true if it was pressed.
   bool button(const char* key, const char* label, const char* help, float width = 0.0f);
 
-  /// A wide area to click on, of so many pixels' height, for what is drawn over it.
+  /// Clickable area of full width and `height` pixels; the caller draws its content. Returns true
+  /// if it was clicked.
   bool card(const char* key, float height);
 
-  /// Draws otherwise where that has `changed`, to be taken back in one once nothing is dragged.
+  /// Sets the view if it has `changed`. All changes up to the end of a drag are one undo entry.
+  /// Call it in every frame.
   void show(const View& view, bool changed);
-  /// Sets keys, to be taken back in one; where that makes another box, its disks move by `shift`.
+  /// Sets keys as one undo entry. If the box changes, `shift` moves its disks.
   void set(const std::vector<Override>& before, const std::vector<Override>& after,
            const Vec2& shift = Vec2::Zero());
 
  private:
   struct Moved {
-    bool changed = false;  // since the last frame
-    bool taken = false;    // the drag begins
-    bool let_go = false;   // it ends with another value
-    bool reset = false;    // the usual value is asked for
+    bool changed = false;  // the value changed since the last frame
+    bool taken = false;    // a drag began
+    bool let_go = false;   // a drag ended with another value
+    bool reset = false;    // the reset arrow was clicked
   };
 
   Moved draw(const Slider& slider, double& value, double usual);
@@ -67,13 +71,13 @@ class Controls {
 
   Session& session_;
   ScriptLog& log_;
-  double before_ = 0.0;               // value when the drag under way began
-  double held_ = 0.0;                 // of a slider that waits to be let go
-  std::string holding_;               // its name
-  std::optional<View> shown_before_;  // before the drag under way changed the view
+  double before_ = 0.0;               // value at the start of the current drag
+  double held_ = 0.0;                 // pending value of a slider that acts on release
+  std::string holding_;               // name of that slider
+  std::optional<View> shown_before_;  // view before the current drag
 };
 
-/// A heading of a group in a panel; whether it is open.
+/// Collapsible heading of a group in a panel. Returns true if the group is open.
 bool group(const char* name);
 
 }  // namespace clatter

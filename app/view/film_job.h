@@ -8,25 +8,26 @@
 
 namespace clatter {
 
-/// `clatter render` in a process of its own, which films while the window goes on.
+/// Runs `clatter render` in a child process, in parallel with the window.
 class FilmJob {
  public:
-  /// Starts this program with the arguments of a film into `file`. Throws RunError where it cannot.
+  /// Starts this program with `arguments`, which write a film to `file`. Throws RunError if the
+  /// process cannot start.
   FilmJob(std::vector<std::string> arguments, std::string file);
   FilmJob(const FilmJob&) = delete;
   FilmJob& operator=(const FilmJob&) = delete;
-  /// Interrupts the film if it is not done, so that what there is of it plays.
+  /// Interrupts an unfinished film. The partial film is playable.
   ~FilmJob();
 
-  /// Takes what the process has told; its exit code once it has ended.
+  /// Reads the output of the process. Returns its exit code after it has ended.
   std::optional<int> poll();
-  /// Asks it to end; what there is of the film plays.
+  /// Interrupts the process. The partial film is playable.
   void interrupt() const { process_.interrupt(); }
-  /// The share of the film that is done, 0..1.
+  /// Completed fraction of the film, 0..1.
   double done() const { return done_; }
-  /// The film.
+  /// Path of the film.
   const std::string& file() const { return file_; }
-  /// The last line that it told and that was no progress: what went wrong.
+  /// Last output line that is not a progress report: the error message, if any.
   const std::string& message() const { return message_; }
 
  private:
@@ -34,7 +35,7 @@ class FilmJob {
 
   std::string file_;
   ChildProcess process_;
-  std::string line_;  // not yet whole
+  std::string line_;  // incomplete last line
   double done_ = 0.0;
   std::string message_;
 };

@@ -26,7 +26,7 @@ static std::string lower(std::string text) {
   return text;
 }
 
-// Its picture, its title, what to watch, to learn and to try.
+// Draws picture, title, caption, goal and suggestion of a scene. Returns true if it was clicked.
 bool Gallery::draw_card(const Entry& entry, Controls& controls) {
   const float unit = ImGui::GetFontSize(), edge = 0.4f * unit;
   const float tall = 5.4f * unit;

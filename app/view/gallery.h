@@ -10,14 +10,14 @@
 
 namespace clatter {
 
-/// The scenes that come with the program, to choose from.
+/// The gallery: a list of the built-in scenes.
 class Gallery {
  public:
   explicit Gallery(const Gl& gl);
 
-  /// Draws it over the window, whose extent is given; the scene that was chosen, null: none.
+  /// Draws the gallery over a window of `width` x `height`. Returns the chosen scene; null: none.
   const EmbeddedFile* draw(Controls& controls, float width, float height);
-  /// The scene `step` places after the one of a title.
+  /// The scene `step` places after the scene with this title; the list is cyclic.
   const EmbeddedFile& neighbour(const std::string& title, int step) const;
 
  private:

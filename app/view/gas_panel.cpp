@@ -8,7 +8,8 @@
 
 namespace clatter {
 
-// Particles start and stop being rough; the coefficients are those of a middling rough disk.
+// Switches roughness on and off. The default coefficients, 0.5, are those of a moderately rough
+// disk.
 static void roughness(Session& session, Controls& controls) {
   const Roughness& rough = session.scene().particles.roughness;
   const Roughness& usual = session.opened().particles.roughness;
@@ -22,7 +23,7 @@ static void roughness(Session& session, Controls& controls) {
     controls.set(keys(!any), keys(any));
   }
   if (!any) return;
-  // An infinite friction cannot be on a slider; from its right end on slides do not matter.
+  // Friction may be infinite, which a slider cannot show. Above this limit sliding is negligible.
   constexpr double kMaxFriction = 2.0;
   controls.law({.key = "particles.friction",
                 .name = "Friction",
@@ -49,7 +50,7 @@ void gas_panel(Session& session, Controls& controls) {
     controls.whole({.key = "particles.count",
                     .name = "Disks",
                     .symbol = "N",
-                    .help = "Particles go, or come at random places where there is room",
+                    .help = "Removes disks, or adds them at random free places",
                     .low = 1.0,
                     .high = static_cast<double>(most),
                     .logarithmic = true,

@@ -19,11 +19,9 @@
 
 namespace clatter {
 
-// In sizes of text, at most the share of the window's width.
-static constexpr float kPanelWidth = 17.0f;
-static constexpr float kPanelShare = 0.175f;
-// In a lecture, how many times as large letters are.
-static constexpr float kLectureLetters = 1.6f;
+static constexpr float kPanelWidth = 17.0f;     // usual width of a panel, in text sizes
+static constexpr float kPanelShare = 0.175f;    // width of a panel over the width of the window
+static constexpr float kLectureLetters = 1.6f;  // scale of the text in lecture mode
 
 Gui::Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, ScriptLog& log)
     : window_(window),
@@ -41,7 +39,7 @@ void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> unt
   if (until) session_.play_until(*until);
 }
 
-// Takes the window's scale and loads fonts for it.
+// Reads the scale of the window and loads the fonts for it.
 void Gui::begin() {
   constexpr float kTextSize = 14.0f;
   float scale = 1.0f;
@@ -96,7 +94,7 @@ void Gui::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
   if (panels_.panels && !panels_.lecture) side_panels();
-  // The gallery has its own.
+  // The gallery shows these texts itself.
   if (panels_.lesson && !panels_.gallery) {
     area_.high.y -= lesson_strip(session_.scene(), area_, controls_, panels_.lesson);
   }
@@ -163,9 +161,9 @@ void Gui::plots_drawer(float top, float width) {
   const ThemeColours theme = panel_theme(shown_view());
   controls_.choice(
       "plots.profile", "Profile along x",
-      "Since the plots were opened, or laws, averages or trails changed: averages, with a band of "
-      "one standard error, or by how much the balances of mass, momentum and energy did not close "
-      "in the worst window, over all that was booked; the engine then has about twice the work",
+      "Averages with a band of one standard error, or the relative residuals of the balances of "
+      "mass, momentum and energy in the worst window. They start when the plots open, or when "
+      "laws, averages or trails change. The engine then does about twice the work",
       profile_names(), profiled_, 0);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
@@ -194,7 +192,7 @@ void Gui::viewport() {
               area_.high.y - area_.low.y);
 }
 
-// What the mouse does on the viewport, and what is marked there.
+// Handles the mouse on the viewport and draws the marks there.
 void Gui::use_viewport() {
   const Frame& frame = session_.frame();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -230,7 +228,7 @@ void Gui::lecture(bool on) {
   viewport_.redraw();
 }
 
-// The view that is on screen: in a lecture it is for a projector, whatever the scene's theme is.
+// The view on screen. Lecture mode always uses the projector theme.
 View Gui::shown_view() const {
   View view = session_.view();
   if (panels_.lecture) view.theme = Theme::Projector;

@@ -20,16 +20,16 @@ struct GLFWwindow;
 
 namespace clatter {
 
-/// What the window shows and does: the viewport, the panels around it, the keys.
+/// Content of the window: viewport, panels, keyboard and mouse.
 class Gui {
  public:
   Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, ScriptLog& log);
 
-  /// Starts a scene, which halts at a time where one is given.
+  /// Starts a scene. With `until` it stops at that simulation time.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
-  /// Takes what the person has done and draws the window's next picture.
+  /// Handles the input and draws the next picture of the window.
   void draw();
-  /// Whether a film is being made, and the next picture does not wait for a person.
+  /// True while a film is being made: the window then redraws without input.
   bool films() const { return film_.has_value(); }
 
  private:
@@ -71,17 +71,17 @@ class Gui {
   WallGrip wall_grip_;
   Gallery gallery_;
   History history_;
-  int profiled_ = 0;  // of profile_names()
+  int profiled_ = 0;  // index into profile_names()
   std::optional<FilmJob> film_;
   GuiLayer gui_;
   PanelVisibility panels_;
-  std::string title_;                 // of the window; empty: the program's
-  std::uint64_t drawn_views_ = 0;     // of Session::views()
-  bool told_gallery_ = false;         // whether the script log knows that it is open
-  float text_size_ = 0.0f;            // of the loaded fonts, pixels; 0: none
-  float scale_ = 1.0f;                // pixels per unit of the window
-  Area area_;                         // of the viewport
-  std::array<int, 4> windowed_ = {};  // place and extent before full screen
+  std::string title_;                 // title of the window; empty: name of the program
+  std::uint64_t drawn_views_ = 0;     // Session::views() at the last picture
+  bool told_gallery_ = false;         // the script log has the opening of the gallery
+  float text_size_ = 0.0f;            // size of the loaded fonts, pixels; 0: none
+  float scale_ = 1.0f;                // pixels per window unit
+  Area area_;                         // area of the viewport
+  std::array<int, 4> windowed_ = {};  // x, y, width and height before full screen
 };
 
 }  // namespace clatter

@@ -14,11 +14,11 @@
 #include "engine/scene/state_file.h"
 #include "engine/system/write_file.h"
 
-// The files that the window reads and writes: scenes, pictures, films.
+// The files of the window: scenes, pictures and films.
 
 namespace clatter {
 
-// A scene file, or one of our pictures with its scene inside.
+// Opens a scene file, or a picture of clatter, which contains its scene.
 void Gui::open_file(const std::string& file) {
   try {
     open(load_any_scene(file), seed_of_picture(file).value_or(session_.frame().seed));
@@ -27,8 +27,8 @@ void Gui::open_file(const std::string& file) {
   }
 }
 
-// The first name that is free: "clatter-1.png", "clatter-2.png", ... A scene may get a start state
-// and a film of its name.
+// The first free name: "clatter-1.png", "clatter-2.png", ... All extensions must be free, because a
+// start state and a film of a scene share its name.
 static std::string free_name(const std::string& extension) {
   for (int number = 1;; ++number) {
     const std::string name = "clatter-" + std::to_string(number);
@@ -39,7 +39,7 @@ static std::string free_name(const std::string& extension) {
   }
 }
 
-// What is on screen as a scene. A start state that is in no file gets one of that name.
+// The scene on screen. A start state without a file is written beside `file`, as .csv.
 Scene Gui::recorded_beside(const std::string& file) const {
   Scene scene = session_.recorded();
   scene.view.theme = shown_view().theme;
@@ -79,7 +79,7 @@ std::string Gui::save_scene() {
   return "";
 }
 
-// Of what is on screen, from time 0 to now.
+// The command line for a film from time 0 to the current time.
 std::vector<std::string> Gui::film_arguments(const std::string& scene) const {
   const Frame& frame = session_.frame();
   return {"clatter",
@@ -102,7 +102,7 @@ void Gui::copy_command() {
   }
   glfwSetClipboardString(window_, command.c_str());
   log_.event("command", {{"line", command}});
-  session_.tell("In the clipboard: " + command);
+  session_.tell("Copied: " + command);
 }
 
 void Gui::film() {

@@ -7,7 +7,7 @@
 #include "app/view/gui.h"
 #include "app/view/panels.h"
 
-// What keys do in the window.
+// The keyboard shortcuts of the window.
 
 namespace clatter {
 
@@ -92,7 +92,7 @@ void Gui::use_control_key(const KeyPress& press) {
   }
 }
 
-// Signs lie elsewhere on each keyboard.
+// Signs are read as characters, because their keys differ between keyboard layouts.
 void Gui::use_signs() {
   for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
     const double speed = session_.frame().speed;
@@ -113,7 +113,8 @@ void Gui::close_something() {
   viewport_.let_go();
 }
 
-// A range of round numbers up to twice the thermal speed, or again one that follows.
+// Switches the colour range of the disks between automatic and a fixed range of round numbers up to
+// twice the thermal speed.
 void Gui::fix_range() {
   View view = session_.view();
   if (view.range.kind != ColourRange::Auto) {

@@ -6,8 +6,7 @@
 namespace clatter {
 
 void VelocityHistogram::add(const Snapshot& snapshot) {
-  // What is older than about this many frames counts little.
-  constexpr double kForgets = 1.0 / 600.0;
+  constexpr double kForgets = 1.0 / 600.0;  // weights decay over 600 frames
   if (snapshot.count() == 0) return;
   for (int axis : {0, 1}) {
     const auto velocities = snapshot.velocities.row(axis);
@@ -60,13 +59,13 @@ void History::add(const Frame& frame) {
   sample.deepest_overlap = frame.deepest_overlap;
   samples_.push_back(sample);
   last_ = frame.tally;
-  // The first few dozen pictures show single collisions: a sample needs some.
+  // At least a tenth of a second on screen: a shorter average would resolve single collisions.
   spacing_ = std::max(spacing_, frame.speed / 10.0);
   constexpr std::size_t kMax = 1200;
   if (samples_.size() > kMax) thin_out();
 }
 
-// Every two become one, and so will those to come.
+// Merges pairs of samples, and doubles the spacing of later ones.
 void History::thin_out() {
   std::vector<Sample> thinned;
   for (std::size_t i = 0; i + 1 < samples_.size(); i += 2) {

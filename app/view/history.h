@@ -7,47 +7,46 @@
 
 namespace clatter {
 
-/// What has become of a gas between two frames, averaged over the time between them.
+/// Time averages of a gas between two frames.
 struct Sample {
-  double time = 0.0;              ///< the middle of the time between
+  double time = 0.0;              ///< middle of the averaging interval
   Vec2 temperature = {0.0, 0.0};  ///< T_x, T_y
-  double walls_in = 0.0;          ///< energy per time
-  double bulk_in = 0.0;
-  double gravity_in = 0.0;
-  double dissipated = 0.0;
-  double ledger_residual = 0.0;  ///< see Totals, its size
-  double deepest_overlap = 0.0;  ///< see RunChecks
+  double walls_in = 0.0;          ///< power of the walls
+  double bulk_in = 0.0;           ///< power of the bulk drive
+  double gravity_in = 0.0;        ///< power of gravity
+  double dissipated = 0.0;        ///< dissipated power
+  double ledger_residual = 0.0;   ///< magnitude of Totals::ledger_residual()
+  double deepest_overlap = 0.0;   ///< see RunChecks
 };
 
-/// How often velocities fall into classes of equal width, over a while that reaches back some
-/// seconds.
+/// Histogram of the velocities over the last seconds, with bins of equal width.
 class VelocityHistogram {
  public:
-  static constexpr int kClasses = 61;
-  static constexpr double kReach = 5.0;  ///< in standard deviations, to either side
+  static constexpr int kClasses = 61;    ///< number of bins
+  static constexpr double kReach = 5.0;  ///< half the range, in standard deviations
 
-  /// Forgets all.
+  /// Removes all counts.
   void clear() { weights_ = {}; }
-  /// Counts all disks of a frame.
+  /// Adds all disks of a frame.
   void add(const Snapshot& snapshot);
-  /// Densities of v_x (0) or v_y (1) over its standard deviation, at the middles of the classes;
-  /// 0 where none fell.
+  /// Probability density of v_x (axis 0) or v_y (axis 1) over its standard deviation, at the middle
+  /// of each bin. Empty bins have density 0.
   std::vector<Vec2> density(int axis) const;
 
  private:
   std::array<std::array<double, kClasses>, 2> weights_ = {};
 };
 
-/// The course of a run as the plots show it: at most some thousand samples, the farther apart the
-/// longer it gets.
+/// Time series for the plots. The number of samples is bounded: their spacing grows with the length
+/// of the run.
 class History {
  public:
-  /// Takes a new frame.
+  /// Adds a frame. A frame of another run clears the history.
   void add(const Frame& frame);
 
-  /// In order of time.
+  /// The samples in order of time.
   const std::vector<Sample>& samples() const { return samples_; }
-  /// Of all disks over the last seconds.
+  /// Histogram of all disks over the last seconds.
   const VelocityHistogram& velocities() const { return velocities_; }
 
  private:
@@ -55,7 +54,7 @@ class History {
 
   std::uint64_t run_ = 0;
   Tally last_;
-  double spacing_ = 0.0;  // least time between samples
+  double spacing_ = 0.0;  // smallest time between samples
   std::vector<Sample> samples_;
   VelocityHistogram velocities_;
 };

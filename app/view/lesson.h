@@ -5,8 +5,8 @@
 
 namespace clatter {
 
-/// Draws what there is to learn from a scene, and to try, along the lower edge of an area, with a
-/// button that closes it. Returns the height that it takes; 0 where the scene says nothing of it.
+/// Draws the goal of a scene and its suggestions along the lower edge of an area, with a button
+/// that closes the strip. Returns the height of the strip; 0 if the scene has neither text.
 float lesson_strip(const Scene& scene, const Area& area, Controls& controls, bool& open);
 
 }  // namespace clatter

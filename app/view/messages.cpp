@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-// A small window that takes no part in what the mouse does.
+// A small window that ignores the mouse. `wrap` is its largest width; 0: unlimited.
 static void begin_note(const char* name, ImVec2 place, ImVec2 pivot, float wrap = 0.0f) {
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(place, 0, pivot);
@@ -35,7 +35,7 @@ void hint_line(const Area& area) {
 }
 
 bool session_message(const Session& session, const Area& area) {
-  constexpr double kShown = 10.0;  // seconds
+  constexpr double kShown = 10.0;  // duration of a message, seconds
   if (session.message().empty() || session.message_age() > kShown) return false;
   const float unit = ImGui::GetFontSize();
   const float wrap = 0.7f * (area.high.x - area.low.x);
@@ -62,7 +62,7 @@ void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place
   const Snapshot& gas = frame.snapshot;
   if (disk >= gas.count()) return;
   const float unit = ImGui::GetFontSize();
-  // Towards the middle, where there is room for it.
+  // The label is on the side of the disk that faces the middle of the area.
   const bool left = place.x > 0.5f * (area.low.x + area.high.x);
   const bool up = place.y > 0.5f * (area.low.y + area.high.y);
   begin_note("disk",
@@ -87,27 +87,27 @@ void help_window(float width, float height) {
       {"Space", "play or pause"},
       {".", "next frame"},
       {"Shift + .", "next collision, with the pair marked"},
-      {"R   Shift + R", "start anew; with a new seed"},
+      {"R   Shift + R", "restart; with a new seed"},
       {"+  −", "faster, slower"},
       {"G", "gallery"},
-      {"[  ]", "scene before, scene after"},
+      {"[  ]", "previous scene, next scene"},
       {"Ctrl + Z   Ctrl + Y", "undo, redo"},
       {"Ctrl + Q", "quit"},
       {"Ctrl + S", "save the scene with its changes"},
       {"F2", "screenshot"},
       {"P", "plots"},
-      {"T", "what there is to learn and to try"},
-      {"M", "fix the colours' range, or let it follow"},
+      {"T", "goal and suggestions of the scene"},
+      {"M", "colour range of the disks: fixed or automatic"},
       {"Tab", "hide the panels"},
       {"L", "lecture: for a projector, large type, no panels"},
       {"F11", "full screen"},
-      {"Esc", "close what is open"},
+      {"Esc", "close the open panel, or deselect the disk"},
       {"Scroll", "zoom about the cursor"},
       {"Right or middle drag", "move the view"},
       {"F", "fit the box into the view"},
       {"Click a disk", "its state; double-click follows it"},
-      {"Drag a wall", "another box for the gas"},
-      {"Drop a file", "opens a scene, or a picture's scene"},
+      {"Drag a wall", "resize the box"},
+      {"Drop a file", "open a scene, or the scene in a picture"},
   }};
   const float unit = ImGui::GetFontSize();
   begin_note("help", ImVec2(0.5f * width, 0.5f * height), ImVec2(0.5f, 0.5f));

@@ -8,18 +8,18 @@
 
 namespace clatter {
 
-/// The part of the window that shows the gas, in units of the window.
+/// A rectangle of the window, in window units.
 struct Area {
-  ImVec2 low, high;
+  ImVec2 low, high;  ///< upper left and lower right corner
 };
 
-/// One line at the area's lower edge, until the person has done something.
+/// Draws one line with hints at the lower edge of the area.
 void hint_line(const Area& area);
-/// What the session has to tell, for some seconds; whether there is something.
+/// Draws the message of the session for 10 seconds. Returns true while it is shown.
 bool session_message(const Session& session, const Area& area);
-/// The state of a disk, beside its place in the area.
+/// Draws the state of a disk beside its position `place` in the area.
 void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place, const Area& area);
-/// All keys and what the mouse does, in the middle of a window of that extent.
+/// Draws the list of keys and mouse actions in the middle of a window of `width` x `height`.
 void help_window(float width, float height);
 
 }  // namespace clatter

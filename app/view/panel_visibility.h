@@ -2,15 +2,15 @@
 
 namespace clatter {
 
-/// What of the window is open.
+/// The open parts of the window.
 struct PanelVisibility {
   bool panels = true;
   bool plots = false;
   bool gallery = false;
   bool help = false;
-  bool lesson = true;    ///< what there is to learn from the scene, and to try
-  bool lecture = false;  ///< the projector's theme, large type, no panels
-  bool hint = true;      ///< until the person has done something
+  bool lesson = true;    ///< strip with the goal of the scene
+  bool lecture = false;  ///< lecture mode: projector theme, large text, no panels
+  bool hint = true;      ///< line with hints, until the first input
 };
 
 }  // namespace clatter

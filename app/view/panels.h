@@ -5,21 +5,22 @@
 
 namespace clatter {
 
-// The groups of the left panel. Each draws into the ImGui window that is open.
+// The groups of the left panel. Each draws into the current ImGui window.
 
-/// The disks: how many, and what their collisions do.
+/// Number of disks and their collision laws.
 void gas_panel(Session& session, Controls& controls);
-/// The box, its sides, gravity, the bulk drive.
+/// Box, walls, gravity and bulk drive.
 void box_panel(Session& session, Controls& controls);
-/// What is drawn.
+/// Colours, heatmap, arrows and other layers of the picture.
 void view_panel(Session& session, Controls& controls);
-/// The dials between speed and accuracy, with what they cost.
+/// Settings that trade accuracy for speed, with their cost.
 void accuracy_panel(Session& session, Controls& controls);
-/// A round end for a range of the disks' colours: twice the thermal speed.
+/// End of the colour range of the disks: a round number at or above twice the thermal speed.
 double disk_colour_end(const Snapshot& snapshot);
-/// What a person asked the record panel for.
+/// Action of the record panel.
 enum class Recording { None, Screenshot, SaveScene, CopyCommand, Film, StopFilm };
-/// Pictures and files of what is on screen; how much of a film is done, where one is made.
+/// Buttons for pictures, scene files and films. `filmed` is the completed fraction of the current
+/// film, 0..1; absent: no film. Returns the chosen action.
 Recording record_panel(Controls& controls, std::optional<double> filmed);
 
 }  // namespace clatter

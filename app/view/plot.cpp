@@ -21,7 +21,7 @@ struct Tick {
   std::string text;
 };
 
-// Round values, or powers of ten.
+// Ticks at round values; on a long logarithmic axis at powers of ten.
 std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
   std::vector<Tick> ticks;
   const auto places = round_ticks(scale.low, scale.high, count);
@@ -39,9 +39,9 @@ std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
   return ticks;
 }
 
-// The area of a plot within its axes, and its scales.
+// The area inside the axes of a plot, and its scales.
 struct PlotFrame {
-  ImVec2 low, high;  // upper left and lower right corner, pixels
+  ImVec2 low, high;  // upper left and lower right corner, window units
   PlotScale x, y;
 
   ImVec2 at(const Vec2& point) const {
@@ -80,7 +80,7 @@ void draw_axes(ImDrawList& list, const PlotFrame& frame, const LivePlot& plot) {
         plot.x_label);
 }
 
-// One standard error to either side.
+// Band of one standard error on each side of a curve.
 void draw_band(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
   const ImU32 ink = (packed(curve.colour) & ~IM_COL32_A_MASK) | (0x48u << IM_COL32_A_SHIFT);
   const auto edge = [&](std::size_t i, double side) {
@@ -117,7 +117,7 @@ void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
     }
   }
   if (!curve.dashed) return stroke();
-  // Dashes of equal length along x suffice for lines as smooth as theory's.
+  // Each segment starts with a dash. This suffices for the smooth curves of the theory.
   const float dash = 0.4f * ImGui::GetFontSize();
   for (std::size_t i = 1; i < run.size(); ++i) {
     const ImVec2 a = run[i - 1], b = run[i];
@@ -171,7 +171,7 @@ double PlotScale::place(double value) const {
   return logarithmic ? std::log10(std::max(value, floor)) : value;
 }
 
-// Room about what is shown, of which the ends are infinite where there is nothing.
+// Adds room around the data. Without data the ends are infinite, and become 0 and 1.
 static void widen(PlotScale& scale, bool from_zero) {
   if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
   if (from_zero && !scale.logarithmic && scale.low > 0.0) scale.low = 0.0;

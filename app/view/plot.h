@@ -9,49 +9,49 @@
 
 namespace clatter {
 
-/// A line, or points, in a plot.
+/// A curve of a plot.
 struct Curve {
-  std::string name;  ///< in the legend; empty: not told
+  std::string name;  ///< name in the legend; empty: no entry
   Colour colour;
   std::vector<Vec2> points;
-  bool dashed = false;              ///< theory's lines are
-  bool as_point = false;            ///< the last point, large, instead of a line
+  bool dashed = false;              ///< dashed line, for theory
+  bool as_point = false;            ///< draws only the last point, as a large dot
   std::vector<double> errors = {};  ///< [points] standard errors, drawn as a band; empty: none
 };
 
-/// Curves over a common axis, of a run that goes on.
+/// Plot of a running simulation: curves over a common x axis.
 struct LivePlot {
   std::string title;
   std::string x_label;
   bool log_x = false;
   bool log_y = false;
   std::vector<Curve> curves;
-  std::string y_label = "";  ///< what it is and its unit
-  double floor = 0.0;  ///< of a logarithmic axis y: what is less, as 0, stands there; 0: nowhere
+  std::string y_label = "";  ///< quantity and unit of the y axis
+  double floor = 0.0;  ///< on a logarithmic y axis smaller values are drawn here; 0: not drawn
 };
 
-/// An axis: from values to shares of its length.
+/// Mapping from values to fractions of the length of an axis.
 struct PlotScale {
-  double low = 0.0;  ///< its ends, < high; of a logarithmic one their logarithms to base 10
-  double high = 1.0;
-  bool logarithmic = false;
-  double floor = 0.0;  ///< of a logarithmic one, see LivePlot
+  double low = 0.0;          ///< lower end, < high; on a logarithmic axis its decimal logarithm
+  double high = 1.0;         ///< upper end, as `low`
+  bool logarithmic = false;  ///< logarithmic scale
+  double floor = 0.0;        ///< see LivePlot; used if logarithmic
 
-  /// Whether a value has a place on it.
+  /// True if the axis can show a value.
   bool shows(double value) const;
-  /// Where, in the unit of its ends.
+  /// Coordinate of a value, in the unit of `low` and `high`.
   double place(double value) const;
-  /// Likewise, as a share of its length.
+  /// Coordinate of a value as a fraction of the length of the axis; 0 at `low`, 1 at `high`.
   double share(double value) const { return (place(value) - low) / (high - low); }
 };
 
-/// The axes x and y of a plot, wide enough for all that they show.
+/// The x and y axes of a plot. Their ranges contain all points that can be shown.
 std::array<PlotScale, 2> scales_of(const LivePlot& plot);
 
-/// Draws a plot of this height over the width of the ImGui window, with its axes and legend.
+/// Draws a plot with axes and legend, `height` pixels high, over the width of the ImGui window.
 void draw_plot(const LivePlot& plot, float height);
 
-/// The numbers of a plot, a table per curve.
+/// The data of a plot as CSV, one table per curve.
 std::string csv_of(const LivePlot& plot);
 
 }  // namespace clatter

@@ -13,7 +13,7 @@ namespace clatter {
 
 namespace {
 
-// Told apart by the colour-blind too (Okabe and Ito 2008).
+// Colours for colour-blind readers (Okabe and Ito 2008).
 constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
                  kGreen = {0x00, 0x9e, 0x73}, kRed = {0xd5, 0x5e, 0x00},
                  kPurple = {0xcc, 0x79, 0xa7};
@@ -57,7 +57,7 @@ LivePlot energy_plot(const std::vector<Sample>& samples, Colour plain) {
   return plot;
 }
 
-// How far the run's books are off: what rounding leaves.
+// Energy residual and deepest overlap; both are rounding errors.
 LivePlot residual_plot(const std::vector<Sample>& samples) {
   LivePlot plot{"Residuals", "time t", false, true, {}, "relative"};
   plot.curves = {
@@ -80,7 +80,7 @@ LivePlot profile_plot(const Profile& profile, std::size_t chosen, int dimension)
   return plot;
 }
 
-// What the balance equations leave open along x: in magnitude, for the sign of rounding is chance.
+// Magnitudes of the balance residuals along x. They are rounding errors, so their signs are random.
 LivePlot balance_plot(const ResidualProfile& profile) {
   constexpr double kBelowRounding = 1e-18;
   LivePlot plot{"Balance", "x in a", false, true, {}, "residual, relative", kBelowRounding};
@@ -111,7 +111,7 @@ LivePlot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
   return plot;
 }
 
-// Mean of the later half: what the gas has settled to, if it has.
+// Mean temperature of the second half of the run: the steady state, once it is reached.
 double settled_temperature(const std::vector<Sample>& samples) {
   double sum = 0.0;
   for (std::size_t i = samples.size() / 2; i < samples.size(); ++i) {
@@ -128,7 +128,7 @@ LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas)
   const double unit = gas.drive_speed * gas.drive_speed;
   VibratedGas other = gas;
   for (double power = 0.0; power <= 4.0; power += 0.1) {
-    // The curves on which it moves with its restitution, from 0 to nearly 1.
+    // Vary the restitution of this gas from 0 to nearly 1.
     const double epsilon = std::pow(10.0, -power);
     other.restitution = std::sqrt(1.0 - epsilon);
     const double x = 1.0 / (epsilon * gas.psi());

@@ -9,17 +9,17 @@
 
 namespace clatter {
 
-/// Names of the fields of which there are profiles, in the order of LiveProfile's, and behind them
-/// what the balance equations leave open.
+/// Names of the available profiles: the fields of LiveProfile in their order, then the balance
+/// residuals.
 std::vector<std::string> profile_names();
 
-/// What a frame must have a profile of for that of a name to be drawn.
+/// Kind of profile that a frame needs for the profile with index `name` in profile_names().
 Profiled profiled_by(std::size_t name);
 
-/// The plots that a run has: the profile that is asked for, one of profile_names(), temperature and
-/// energy over time, the velocities' distribution, between driven walls its place on Fig. 3.1, and
-/// what its books leave open. What is neither one direction nor theory has the colour of the
-/// theme's text.
+/// The plots of a run: the chosen profile, temperature and energy over time, the velocity
+/// distribution, Fig. 3.1 and the residuals. `profiled` is an index into profile_names(). Fig. 3.1
+/// needs driven, elastic walls and inelastic disks. Curves of neither a direction nor a theory have
+/// the text colour of the theme.
 std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
                                const ThemeColours& theme);
 

@@ -13,8 +13,7 @@ Recording record_panel(Controls& controls, std::optional<double> filmed) {
                       width)) {
     asked = Recording::Screenshot;
   }
-  if (controls.button("save", "Save scene",
-                      "The scene as it is set, with all changes so far (Ctrl+S)", width)) {
+  if (controls.button("save", "Save scene", "The scene with all changes so far (Ctrl+S)", width)) {
     asked = Recording::SaveScene;
   }
   if (filmed) {
@@ -23,8 +22,8 @@ Recording record_panel(Controls& controls, std::optional<double> filmed) {
       asked = Recording::StopFilm;
     }
   } else if (controls.button("film", "Film###film",
-                             "Saves the scene with all changes so far, and films it from time 0 up "
-                             "to now, while the gas goes on",
+                             "Saves the scene with all changes so far, and films it from time 0 to "
+                             "now in the background",
                              width)) {
     asked = Recording::Film;
   }

@@ -10,18 +10,18 @@
 
 namespace clatter {
 
-/// Tells what the window does, a JSON object per line, for scripts that drive it. Without a file it
-/// tells nothing.
+/// Log of the window's events, one JSON object per line, for scripts that drive the window. Without
+/// a file it writes nothing.
 class ScriptLog {
  public:
-  /// Throws RunError where the file cannot be written; empty: none.
+  /// Opens `file`; empty: no log. Throws RunError if the file cannot be written.
   explicit ScriptLog(const std::string& file);
 
-  /// Writes an event with its members, and the seconds since the start.
+  /// Writes an event with its members, and the time since the start in seconds.
   void event(const char* name, nlohmann::json members);
-  /// Tells where a widget is, in pixels of the window, whenever that changes.
+  /// Writes the rectangle of a widget, in window units, if it has changed.
   void widget(const std::string& name, float x, float y, float width, float height);
-  /// Whether there is a file.
+  /// True if there is a file.
   bool on() const { return file_ != nullptr; }
 
  private:

@@ -13,7 +13,7 @@
 
 namespace clatter {
 
-// Frames that the engine publishes per second; also how long the next one is, of simulation time.
+// Frames per second that step_frame() assumes, whatever the refresh rate of the display.
 static constexpr double kFramesPerSecond = 60.0;
 
 void Session::send(Command command) {
@@ -54,7 +54,7 @@ bool Session::update() {
     handled_ = now.handled;
     log_.event("handled", {{"command", handled_}});
   }
-  // What the panels show is what was asked for last, until the engine has answered.
+  // The panels show the requested settings until the engine has answered all commands.
   if (now.handled == sent_ && now.run > 0) answered(now);
   constexpr std::chrono::milliseconds kStatus{100};
   if (log_.on() && now.scene && (Clock::now() - logged_ > kStatus || now.state_hash)) {
@@ -64,7 +64,7 @@ bool Session::update() {
   return true;
 }
 
-// Nothing that was refused stays.
+// Takes the state of the engine, which drops refused settings.
 void Session::answered(const Frame& now) {
   plays_ = now.plays;
   speed_ = now.speed;
@@ -102,7 +102,7 @@ Scene Session::recorded() const {
   scene.view = view_;
   scene.view.speed = speed_;
   if (!scene.spins()) {
-    // Spins that came later have no colour at the start.
+    // Roughness was switched on later: the scene at the start has no spins to show.
     if (scene.view.colour_by == ColourBy::Spin) scene.view.colour_by = ColourBy::Speed;
     if (scene.view.field && of_spins(*scene.view.field)) scene.view.field.reset();
   }
@@ -112,7 +112,7 @@ Scene Session::recorded() const {
 void Session::restart() {
   Scene scene = scene_;
   scene.changes = opened_.changes;
-  if (!scene.changes.empty()) scene = opened_;  // they start from its laws
+  if (!scene.changes.empty()) scene = opened_;  // scheduled changes start from the opened laws
   scene.view = view_;
   scene.view.speed = speed_;
   log_.event("reset", {{"seed", seed_}, {"command", sent_ + 1}});

@@ -10,82 +10,83 @@
 
 namespace clatter {
 
-/// What a person changed at once, and can take back at once.
+/// One entry of the undo history.
 struct Edit {
-  std::vector<Override> before = {};
-  std::vector<Override> after = {};
-  Vec2 shift = {0.0, 0.0};  ///< of the disks in the box that `after` makes; back by `before`
-  std::optional<std::array<View, 2>> views = {};  ///< before and after; absent: no other view
+  std::vector<Override> before = {};  ///< keys that undo the change
+  std::vector<Override> after = {};   ///< keys that make the change
+  Vec2 shift = {0.0, 0.0};            ///< shift of the disks with `after`; undo shifts them back
+  std::optional<std::array<View, 2>> views = {};  ///< view before and after; absent: unchanged
 };
 
-/// The gas that a person watches, and what they have done to it. It asks the engine, and never
-/// waits for it.
+/// The simulation in the window: its scene, its view and the undo history. It sends commands to the
+/// engine and never waits for the engine.
 class Session {
  public:
   Session(Worker& worker, ScriptLog& log) : worker_(worker), log_(log) {}
 
-  /// Takes the newest frame; whether there was one.
+  /// Takes the newest frame. Returns true if there was a new one.
   bool update();
-  /// The newest frame; its run is 0 until there is one.
+  /// The newest frame. Its run is 0 before the first frame.
   const Frame& frame() const { return worker_.frames().front(); }
-  /// The scene with the laws as they are being set: what the panels show.
+  /// The scene with the latest settings, as the panels show it.
   const Scene& scene() const { return scene_; }
   /// The scene as it was opened.
   const Scene& opened() const { return opened_; }
-  /// What is drawn.
+  /// The current view.
   const View& view() const { return view_; }
-  /// The scene from which what is on screen can be made again: as the gas was started, with all
-  /// that has changed since, up to the newest frame. There must be a frame.
+  /// The scene that reproduces the picture on screen: the start of the run, with all later changes
+  /// up to the newest frame. Requires a frame.
   Scene recorded() const;
 
-  /// Starts a scene.
+  /// Opens and starts a scene, and clears the undo history. Without `plays` the scene is paused.
   void open(const Scene& scene, std::uint64_t seed, bool plays = true);
-  /// Starts the scene anew with the laws as they are now.
+  /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
+  /// laws it was opened with.
   void restart();
-  /// Likewise with other random numbers.
+  /// Calls restart() with the next seed.
   void restart_with_new_seed();
-  /// Lets the gas go on, or halts it.
+  /// Continues or pauses the simulation.
   void play(bool on);
-  /// Lets the gas go on up to a simulation time, where it halts.
+  /// Continues the simulation up to a simulation time, and pauses it there.
   void play_until(double time);
-  /// Goes on by the time between two frames at its speed, and halts.
+  /// Advances the simulation by one frame at the current speed, and pauses it.
   void step_frame();
-  /// Goes on to the next collision of disks, and halts.
+  /// Advances the simulation to the next collision of two disks, and pauses it.
   void step_collision();
-  /// Simulation time per second.
+  /// Sets the speed, simulation time per second. It is clamped to 1e-4..1e6.
   void set_speed(double speed);
 
-  /// Sets keys: laws on the gas that moves, others by starting anew with what fits of the gas once
-  /// its disks are moved by `shift`. What cannot be is told.
+  /// Sets keys. Laws change in the running simulation. Other keys restart it from the current
+  /// disks, moved by `shift`, without those that no longer fit. An invalid setting becomes a
+  /// message.
   void set(const std::vector<Override>& settings, const Vec2& shift = Vec2::Zero());
-  /// Keeps what has been set, to be taken back; forgets what was taken back before.
+  /// Adds an entry to the undo history, and clears the redo history.
   void remember(Edit edit);
-  /// Takes back what was remembered last.
+  /// Reverts the last entry of the undo history.
   void undo();
-  /// Sets again what was taken back last.
+  /// Applies the last reverted entry again.
   void redo();
 
-  /// Draws otherwise from now on; with another field its averages start anew, with trails the
-  /// engine begins to keep the disks' flights.
+  /// Sets the view. Another field restarts the averages. Trails make the engine record flights.
   void set_view(const View& view);
-  /// What frames have profiles of from now on.
+  /// Sets the kind of profile in later frames.
   void show_profile(Profiled what);
-  /// Frames tell the collisions of this disk from now on.
+  /// Later frames contain the last and next collision of this disk; absent: of none.
   void pick(std::optional<std::size_t> disk);
-  /// How often the view has changed.
+  /// Number of changes of the view.
   std::uint64_t views() const { return views_; }
 
-  /// Something to tell the person, until they have seen it.
+  /// Sets the message of the window.
   void tell(const std::string& message);
-  /// What was told last; empty: nothing yet.
+  /// The last message; empty: none yet.
   const std::string& message() const { return message_; }
-  /// Seconds since it was told.
+  /// Seconds since the last message.
   double message_age() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  // What stays where the engine refuses the scene that is opened.
+  // State to restore if the engine refuses the scene being opened.
   struct Before {
     Scene opened;
     View view;
@@ -111,8 +112,8 @@ class Session {
   std::uint64_t handled_ = 0;
   std::uint64_t views_ = 0;
   std::shared_ptr<const Scene> seen_;
-  bool wishes_ = false;           // whether scene_ has what the engine may refuse
-  std::optional<Before> before_;  // a scene that is being opened
+  bool wishes_ = false;           // scene_ has settings that the engine may refuse
+  std::optional<Before> before_;  // state before the scene being opened; absent: none
   std::uint64_t messages_ = 0;
   std::vector<Edit> done_;
   std::vector<Edit> undone_;

@@ -6,20 +6,20 @@
 
 namespace clatter {
 
-/// How the panels look at a text size in pixels: calm, in a theme's colours, everything in
-/// proportion to the text.
+/// Sets the style of the panels for a text size in pixels and a theme. All lengths scale with the
+/// text size.
 void apply_style(float text_size, const ThemeColours& theme);
 
-/// The colours of the view's theme, whatever background the picture has.
+/// The colours of the view's theme, without the background colour of the view.
 ThemeColours panel_theme(View view);
 
-/// Of panels that stay where they are put.
+/// Flags of panels at a fixed position.
 inline constexpr ImGuiWindowFlags kFixedPanel =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-/// The colour of what is active, on any theme: sliders' grips, what is switched on.
+/// The colour of active widgets in all themes, such as slider grips and check marks.
 Colour accent_colour();
 
 }  // namespace clatter

@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-// The gas of a scene after a few seconds on screen, but no longer than a few thousand events take.
+// The gas of a scene after a few seconds on screen; the number of events is limited.
 static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
   constexpr double kSeconds = 3.0;
   constexpr std::uint64_t kMaxSteps = 20'000;
@@ -43,7 +43,7 @@ void Thumbnails::finish() {
   try {
     draw(scene, snapshot_.get());
   } catch (const std::exception&) {
-    // A scene without a picture may still be opened, and tells there what is wrong with it.
+    // The scene has no picture. Opening it reports the error.
   }
 }
 

@@ -14,17 +14,17 @@
 
 namespace clatter {
 
-/// Small pictures of scenes, each some seconds after its start. They are made one after the other
-/// on a thread of their own, and drawn when they are asked for.
+/// Small pictures of scenes, each a few seconds after the start. A worker thread simulates one
+/// scene at a time. The calling thread draws the picture.
 class Thumbnails {
  public:
-  static constexpr Size kSize = {192, 144};
+  static constexpr Size kSize = {192, 144};  ///< size of the pictures
 
-  /// Calls `on_ready`, on a thread of its own, when there is another to be drawn.
+  /// Calls `on_ready` on the worker thread when a scene is ready to be drawn.
   Thumbnails(const Gl& gl, std::function<void()> on_ready)
       : gl_(&gl), on_ready_(std::move(on_ready)) {}
 
-  /// The texture with the picture of a gallery scene; 0 until there is one.
+  /// The texture with the picture of a gallery scene; 0: not ready, or failed.
   GLuint of(const EmbeddedFile& scene);
 
  private:
@@ -33,8 +33,8 @@ class Thumbnails {
 
   const Gl* gl_;
   std::function<void()> on_ready_;
-  std::map<std::string_view, std::optional<Texture>> textures_;  // absent: could not be made
-  const EmbeddedFile* making_ = nullptr;                         // the one under way; null: none
+  std::map<std::string_view, std::optional<Texture>> textures_;  // absent: failed
+  const EmbeddedFile* making_ = nullptr;                         // scene in the thread; null: none
   std::future<Snapshot> snapshot_;
 };
 

@@ -87,7 +87,7 @@ Health health_of(const Frame& frame) {
   return health;
 }
 
-// Time, events and health, at the right end.
+// Speed, collision rate, time and health at the right end of the bar.
 void figures(const Frame& frame) {
   std::string text;
   if (frame.plays && frame.held < 0.95) text += fmt::format("{:.2g}x   ", frame.held);
@@ -125,13 +125,13 @@ void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
   if (icon_button(controls, "collision", Icon::Collision, "Next collision (Shift + . )")) {
     session.step_collision();
   }
-  if (icon_button(controls, "reset", Icon::Reset, "Start anew (R; Shift+R with a new seed)")) {
+  if (icon_button(controls, "reset", Icon::Reset, "Restart (R; Shift+R with a new seed)")) {
     session.restart();
   }
   speed_field(session, controls);
   if (controls.button("plots", "Plots", "Curves of the run (P)")) shown.plots = !shown.plots;
   ImGui::SameLine();
-  if (controls.button("lesson", "Try this", "What there is to learn and to try (T)")) {
+  if (controls.button("lesson", "Try this", "Goal and suggestions (T)")) {
     shown.lesson = !shown.lesson;
   }
   ImGui::SameLine();

@@ -6,7 +6,8 @@
 
 namespace clatter {
 
-/// The slim bar above all: scene, play and steps, speed, time, health, and what is to be open.
+/// The bar at the top: scene, play and step buttons, speed, time, health, and the buttons that open
+/// and close the parts of the window.
 void top_bar(Session& session, Controls& controls, PanelVisibility& shown);
 
 }  // namespace clatter

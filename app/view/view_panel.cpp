@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-// The words for an enumeration's values.
+// The names of an enumeration's values, with spaces.
 template <class E, std::size_t N>
 static std::vector<std::string> words_of(const std::array<Named<E>, N>& names) {
   std::vector<std::string> words;
@@ -24,7 +24,7 @@ static int index_of(E value, const std::array<Named<E>, N>& names) {
   return static_cast<int>(found - names.begin());
 }
 
-// One of an enumeration's values.
+// List of an enumeration's values. Returns true if the choice changed.
 template <class E, std::size_t N>
 static bool choose(Controls& controls, const char* key, const char* name, const char* help,
                    const std::array<Named<E>, N>& names, E& value, E usual) {
@@ -36,7 +36,7 @@ static bool choose(Controls& controls, const char* key, const char* name, const 
   return true;
 }
 
-// One of an enumeration's values, or none of them, in words.
+// List of an enumeration's values, with `none` as its first word.
 template <class E, std::size_t N>
 static bool choose(Controls& controls, const char* key, const char* name, const char* help,
                    const std::array<Named<E>, N>& names, const char* none, std::optional<E>& value,
@@ -57,8 +57,9 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
   const int most = static_cast<int>(colours.size()) - 1;
   int chosen = std::min(index_of(view.colour_by, kColourings), most);
   const int usual = std::min(index_of(session.opened().view.colour_by, kColourings), most);
-  const bool changed = controls.choice("view.colour_by", "Particles coloured by",
-                                       "What a disk's colour shows", colours, chosen, usual);
+  const bool changed =
+      controls.choice("view.colour_by", "Particles coloured by",
+                      "Quantity that the colour of a disk shows", colours, chosen, usual);
   view.colour_by = kColourings[static_cast<std::size_t>(chosen)].value;
   return changed;
 }
@@ -84,13 +85,14 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
   return true;
 }
 
-// `end` is the largest of what the colours show; 0: unknown.
+// `end` is the largest magnitude in the picture, or a round number above it; 0: unknown. `signs`:
+// the values have both signs.
 static bool choose_range(Controls& controls, const std::string& key, const char* name,
                          ColourRange& range, const ColourRange& usual, double end, bool signs) {
   int chosen = range.kind;
   bool changed = controls.choice(key.c_str(), name,
-                                 "auto follows what is shown, locked stays as it was first, given "
-                                 "is from the one number to the other",
+                                 "auto follows the picture, locked keeps the first range, given is "
+                                 "set by two numbers",
                                  {"auto", "locked", "given"}, chosen, usual.kind);
   if (changed) {
     const bool given = chosen == ColourRange::Given;
@@ -109,7 +111,7 @@ static bool choose_range(Controls& controls, const std::string& key, const char*
   return changed;
 }
 
-// A round number that all values of a map are within.
+// A round number at or above all magnitudes of a map; 0: all are zero or missing.
 static double end_of(const FieldMap& map) {
   double most = 0.0;
   for (const double value : map.values) {
@@ -123,7 +125,7 @@ static bool choose_heatmap(const Session& session, Controls& controls, View& vie
   bool changed = choose_field(session, controls, view);
   if (!view.field) return changed;
   changed |= choose(controls, "view.field_palette", "Palette of the heatmap",
-                    "Of magnitudes; fields with a sign are blue and red about zero", kPalettes,
+                    "For magnitudes; signed fields are blue below zero and red above", kPalettes,
                     "as the disks", view.field_palette, usual.field_palette);
   const auto& map = session.frame().snapshot.field;
   const bool signs = map && std::ranges::any_of(map->values, [](double v) { return v < 0.0; });
@@ -138,8 +140,7 @@ static bool choose_trails(Controls& controls, std::optional<double>& trails,
   const bool changed = controls.number({.key = "view.trails",
                                         .name = "Trails",
                                         .unit = "t",
-                                        .help = "How far back in time disks' paths are drawn; 0: "
-                                                "none",
+                                        .help = "Time over which the paths are drawn; 0: none",
                                         .high = 5.0,
                                         .format = "%.2f"},
                                        time, usual.value_or(0.0));
@@ -171,10 +172,10 @@ void view_panel(Session& session, Controls& controls) {
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,
                     view.theme, usual.theme);
-  changed |= controls.toggle("view.grid", "Grid", "Lines as far apart as the scale bar is long",
-                             view.grid);
+  changed |=
+      controls.toggle("view.grid", "Grid", "Its spacing is the length of the scale bar", view.grid);
   changed |= controls.toggle("view.overlay", "Title, figures and scales",
-                             "What films write on the picture", view.overlay);
+                             "Text and legends on the picture, as in films", view.overlay);
   controls.show(view, changed);
   ImGui::Spacing();
 }

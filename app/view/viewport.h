@@ -10,42 +10,44 @@
 
 namespace clatter {
 
-/// Where the gas is drawn, as films draw it, and what a person does there with the mouse.
+/// The picture of the gas in the window, drawn as in films, and its mouse actions. Arguments
+/// `corner` are the upper left corner of the viewport in window units. Arguments `scale` are the
+/// pixels per window unit.
 class Viewport {
  public:
   explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
 
-  /// Draws a frame into a picture of its own, of `size` pixels, with letters so many times as large
-  /// as in films, if anything has changed.
+  /// Draws a frame off screen at `size` pixels if anything has changed. `letters` scales the text
+  /// relative to films.
   void draw(const Frame& frame, const View& view, Size size, double letters);
-  /// Copies the picture into the window, its lower left corner at a pixel of it.
+  /// Copies the picture to the window. (x, y) is its lower left corner in pixels of the window.
   void show(int x, int y) const;
-  /// The picture as it is.
+  /// The current picture. Requires drawn().
   Image picture() const { return canvas_->read(); }
 
-  /// Pans, zooms, picks a disk, where the mouse is over the viewport, whose upper left corner is at
-  /// `corner` in units of the window, each `scale` pixels.
+  /// Pans, zooms and picks disks with the mouse. Call it only if the mouse is over the viewport.
   void use_mouse(const Frame& frame, ImVec2 corner, float scale);
-  /// Marks the picked disk and a pair that has just collided.
+  /// Marks the picked disk and the pair of the last collision step.
   void mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const;
 
-  /// The place in the box that is at a place of the window, and the reverse; once it has drawn.
+  /// World position at a position of the window. Requires drawn().
   Vec2 world(ImVec2 mouse, ImVec2 corner, float scale) const;
-  ImVec2 place(const Vec2& world, ImVec2 corner, float scale) const;  ///< likewise
+  /// Position in the window of a world position. Requires drawn().
+  ImVec2 place(const Vec2& world, ImVec2 corner, float scale) const;
 
   /// Shows the whole box again.
   void fit();
-  /// The disk that was clicked; absent: none.
+  /// The picked disk; absent: none.
   const std::optional<std::size_t>& picked() const { return picked_; }
-  /// Where it is in the window.
+  /// Position of the picked disk in the window; absent: no such disk.
   std::optional<ImVec2> picked_place(const Frame& frame, ImVec2 corner, float scale) const;
-  /// Whether the camera follows it.
+  /// True if the camera follows the picked disk.
   bool follows() const { return follows_; }
-  /// Lets go of the picked disk; whether there was one.
+  /// Deselects the picked disk. Returns true if there was one.
   bool let_go();
-  /// Whether it has drawn.
+  /// True after the first picture.
   bool drawn() const { return canvas_.has_value(); }
-  /// Draws the next frame anew.
+  /// Makes the next call of draw() redraw the picture.
   void redraw() { stale_ = true; }
 
  private:

@@ -5,32 +5,35 @@
 
 namespace clatter {
 
-/// The walls of the box, to be taken with the mouse and put elsewhere.
+/// Resizes the box by dragging its walls with the mouse. Arguments `corner` and `scale` are as in
+/// Viewport.
 class WallGrip {
  public:
-  /// Another box for the gas.
+  /// A new box for the gas.
   struct Resized {
-    Vec2 box;
-    Vec2 shift;  ///< of the disks in it, which stay where they are on the viewport
+    Vec2 box;    ///< new size
+    Vec2 shift;  ///< shift of the disks, which keeps them at their places on the viewport
   };
 
-  /// The box that there is to be, once a wall is let go elsewhere.
+  /// Handles the mouse. Returns the new box when a moved wall is released. `over`: the mouse is
+  /// over the viewport.
   std::optional<Resized> use(const Viewport& viewport, const Frame& frame, ImVec2 corner,
                              float scale, bool over);
-  /// Whether a wall is under the mouse, or is held.
+  /// True if a wall is under the mouse or being dragged.
   bool active() const { return side_.has_value(); }
-  /// Marks it, and where it would stand.
+  /// Marks that wall, at its new position while it is dragged.
   void mark(ImDrawList& list, const Viewport& viewport, const Frame& frame, ImVec2 corner,
             float scale) const;
 
-  /// Where the wall of a side can be taken: just outside it, where there are no disks to be picked.
+  /// Area where the wall of a side can be grabbed, in window units. It is just outside the box,
+  /// where there are no disks to pick.
   static Area handle(const Viewport& viewport, const Frame& frame, ImVec2 corner, float scale,
                      Side side);
 
  private:
-  std::optional<Side> side_;  // of the wall that is near, or held
+  std::optional<Side> side_;  // wall under the mouse or being dragged
   bool held_ = false;
-  double length_ = 0.0;  // of the box across it
+  double length_ = 0.0;  // length of the box perpendicular to that wall
 };
 
 }  // namespace clatter

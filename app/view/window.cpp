@@ -19,8 +19,7 @@ namespace {
 
 using RealClock = std::chrono::steady_clock;
 
-// OpenGL's word on whether the driver has dropped the context, where it has one (OpenGL 4.5 or
-// ARB_robustness).
+// Detects a lost OpenGL context. Needs OpenGL 4.5 or ARB_robustness; otherwise it detects nothing.
 class ContextGuard {
  public:
   ContextGuard() {
@@ -28,7 +27,7 @@ class ContextGuard {
       if (!status_) status_ = reinterpret_cast<GLenum (*)()>(glfwGetProcAddress(name));
     }
   }
-  /// Throws RunError where the context is lost.
+  /// Throws RunError if the context is lost.
   void check() const {
     if (status_ && status_() != GL_NO_ERROR) throw RunError("the window's OpenGL context is lost");
   }
@@ -43,7 +42,7 @@ double refresh_rate() {
   return mode && mode->refreshRate > 0 ? mode->refreshRate : 60.0;
 }
 
-// Dear ImGui with the keys and the mouse of a window.
+// Dear ImGui, connected to the keyboard and mouse of a window.
 class DearImGui {
  public:
   explicit DearImGui(GLFWwindow* window) {
@@ -60,8 +59,9 @@ class DearImGui {
   }
 };
 
-// Sleeps until something happens, such as a new frame of the engine; where panels still settle, a
-// picture long. Never makes more pictures than the display shows, also where that does not wait.
+// Sleeps until an event, such as a new frame of the engine. While the panels settle it sleeps for
+// at most one refresh period. Without vertical synchronisation the sleep still limits the picture
+// rate.
 void wait_for_events(bool settles, RealClock::time_point began, double rate) {
   if (settles) {
     glfwWaitEventsTimeout(1.0 / rate);
@@ -87,7 +87,7 @@ static void show(const WindowOptions& options) {
   {
     Gui gui(window, context.gl(), input, worker, log);
     gui.open(options.scene, options.seed, options.until);
-    // Panels settle some pictures after an event, not at once.
+    // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;
     for (int left = kSettle; !glfwWindowShouldClose(window); left = left > 0 ? left - 1 : kSettle) {
       const auto began = RealClock::now();
@@ -98,12 +98,11 @@ static void show(const WindowOptions& options) {
       guard.check();
       wait_for_events(left > 0 || gui.films(), began, rate);
     }
-    // What is under way, a film say, comes to its end, for which nobody has to look on.
+    // Hide the window first: ~Gui interrupts a film and waits for its end.
     glfwHideWindow(window);
     log.event("quit", nlohmann::json::object());
   }
-  // An engine that cannot end at once, say while it looks for room for a million disks, has nothing
-  // that is worth waiting for.
+  // A long step of the engine, for example placing a million disks, is abandoned.
   constexpr std::chrono::milliseconds kPatience{150};
   if (!worker.stop_within(kPatience)) std::_Exit(EXIT_SUCCESS);
 }
@@ -113,7 +112,7 @@ void show_window(const WindowOptions& options) {
     show(options);
   } catch (const RunError& error) {
     throw RunError(std::string(error.what()) +
-                   "; without a window, `clatter render SCENE --out film.mp4` films it");
+                   "; use `clatter render SCENE --out film.mp4`, which needs no window");
   }
 }
 

@@ -8,17 +8,17 @@
 
 namespace clatter {
 
-/// How the window opens.
+/// Options of the window.
 struct WindowOptions {
   Scene scene;
   std::uint64_t seed = 1;
-  Size size = {1280, 800};
-  std::optional<double> until;  ///< simulation time at which the gas halts; absent: none
-  std::string script_log;       ///< file that is told what happens; empty: none
+  Size size = {1280, 800};      ///< size in screen units
+  std::optional<double> until;  ///< simulation time at which the gas pauses; absent: none
+  std::string script_log;       ///< file for the log of events, see ScriptLog; empty: none
 };
 
-/// Shows a scene in a window until it is closed. Throws RunError, which names `clatter render`,
-/// where there is no display, none that can draw it, or where its OpenGL is lost.
+/// Shows a scene in a window until the window is closed. Throws RunError if there is no display, no
+/// OpenGL 3.3, or if the OpenGL context is lost. The error names `clatter render`.
 void show_window(const WindowOptions& options);
 
 }  // namespace clatter

@@ -19,7 +19,7 @@ WindowInput::WindowInput(GLFWwindow* window) {
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int held) {
     if (action == GLFW_RELEASE) return;
-    // What is held down repeats steps only.
+    // Only the step keys repeat while held down.
     if (action == GLFW_REPEAT && key != GLFW_KEY_PERIOD) return;
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))
         ->presses_.push_back({key, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0});

@@ -7,21 +7,22 @@ struct GLFWwindow;
 
 namespace clatter {
 
-/// A key that was pressed, and what was held down with it.
+/// A key press with its modifiers.
 struct KeyPress {
-  int key = 0;  ///< as GLFW calls it
+  int key = 0;  ///< GLFW key code
   bool shift = false;
   bool ctrl = false;
 
-  /// The letter that it types on this keyboard, in lower case; 0 where it types none.
+  /// Lower-case letter of the key in the current keyboard layout; 0: no letter.
   char letter() const;
 };
 
-/// What was typed into a window and dropped on it since the last look. Dear ImGui knows only which
-/// keys are down when it looks, and so misses a key that is let go before.
+/// Key presses and dropped files of a window. Dear ImGui samples the state of the keys once per
+/// frame, and so misses a key that was released before.
 class WindowInput {
  public:
-  /// Listens to a window; before Dear ImGui does, which passes on what it hears.
+  /// Installs the callbacks of the window. Must precede the set-up of Dear ImGui, whose callbacks
+  /// call these.
   explicit WindowInput(GLFWwindow* window);
   WindowInput(const WindowInput&) = delete;
   WindowInput& operator=(const WindowInput&) = delete;

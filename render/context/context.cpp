@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-// EGL first: it finds a GPU where there is one, and is no slower than OSMesa where there is none.
+// EGL first: it uses a GPU if there is one, and is no slower than OSMesa otherwise.
 std::unique_ptr<GlContext> open_first_that_works() {
   std::string reasons;
   for (Backend backend : {Backend::Egl, Backend::Osmesa}) {
@@ -19,7 +19,7 @@ std::unique_ptr<GlContext> open_first_that_works() {
       reasons += std::string("\n  ") + error.what();
     }
   }
-  throw RunError("no way to draw on this machine:" + reasons);
+  throw RunError("cannot draw on this machine:" + reasons);
 }
 
 }  // namespace

@@ -7,16 +7,16 @@
 
 namespace clatter {
 
-/// Where OpenGL comes from.
+/// Source of the OpenGL context.
 enum class Backend {
-  Auto,    ///< the first of the next two that works
-  Egl,     ///< off screen, on a GPU where there is one
-  Osmesa,  ///< off screen, on the processor, without any driver
-  Glfw,    ///< that of a display
+  Auto,    ///< Egl if it works, else Osmesa
+  Egl,     ///< off screen, on a GPU if there is one
+  Osmesa,  ///< off screen, on the CPU, without a driver
+  Glfw,    ///< on a display
 };
 
-/// An OpenGL 3.3 core context, current on the thread that made it from its making to its end.
-/// A thread has one at a time, because Mesa's backends share their notion of the current one.
+/// An OpenGL 3.3 core context. It is current on the thread that creates it, for its whole life. A
+/// thread may have only one at a time, because Mesa's backends share the current context.
 class GlContext {
  public:
   GlContext() = default;
@@ -24,18 +24,19 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
   virtual ~GlContext() = default;
 
-  /// The context's functions; they live as long as it.
+  /// The OpenGL functions, valid during the life of the context.
   const Gl& gl() const { return gl_; }
-  /// The backend's name as on the command line: "egl", "osmesa", "glfw".
+  /// Name of the backend on the command line: "egl", "osmesa" or "glfw".
   virtual const char* name() const = 0;
-  /// What draws, in the driver's words, e.g. "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 ...".
+  /// Renderer and version from the driver: "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 ...".
   std::string description() const;
 
  protected:
-  Gl gl_;  ///< loaded by the backend's constructor
+  Gl gl_;  ///< loaded by the constructor of the backend
 };
 
-/// Opens a context; throws RunError that names what each tried backend said and what to install.
+/// Opens a context. Throws RunError with the error of each tried backend and the package to
+/// install.
 std::unique_ptr<GlContext> open_context(Backend backend);
 
 }  // namespace clatter

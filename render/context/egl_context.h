@@ -1,6 +1,6 @@
 #pragma once
 
-// Without X11's headers, whose macros (None, Status, ...) clash with everything.
+// Excludes the X11 headers, whose macros (None, Status, ...) clash with common names.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -10,10 +10,11 @@
 
 namespace clatter {
 
-/// OpenGL by EGL without a display server: Mesa's surfaceless platform, else the first device.
+/// OpenGL through EGL without a display server: Mesa's surfaceless platform, else the first usable
+/// device.
 class EglContext final : public GlContext {
  public:
-  /// Makes the context and makes it current; throws RunError.
+  /// Creates the context and makes it current. Throws RunError if EGL or OpenGL 3.3 is missing.
   EglContext();
   ~EglContext() override;
 
@@ -22,7 +23,7 @@ class EglContext final : public GlContext {
  private:
   template <class F>
   F function(const char* symbol) const;
-  /// The platform's display, initialised; EGL_NO_DISPLAY where there is none.
+  /// The initialised display of a platform; EGL_NO_DISPLAY: none.
   EGLDisplay open_display(EGLenum platform, void* native) const;
   EGLDisplay open_any_display() const;
   void make_context();
@@ -30,9 +31,9 @@ class EglContext final : public GlContext {
   [[noreturn]] void fail(const char* what) const;
 
   Library library_;
-  EGLDisplay display_ = EGL_NO_DISPLAY;  ///< never terminated: EGL hands one to the whole process
+  EGLDisplay display_ = EGL_NO_DISPLAY;  ///< never terminated: the whole process shares it
   EGLSurface surface_ =
-      EGL_NO_SURFACE;  ///< 1x1, for drivers that want one; pictures have their own
+      EGL_NO_SURFACE;  ///< 1x1, for drivers that require one; pictures use framebuffers
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 

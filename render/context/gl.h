@@ -2,13 +2,13 @@
 
 #include <functional>
 
-// The prototypes serve decltype only: a call through them would not link.
+// The prototypes are for decltype only: a call through them does not link.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
 namespace clatter {
 
-/// The functions of OpenGL 3.3 core that clatter calls.
+/// The OpenGL 3.3 core functions that clatter calls.
 // clang-format off
 #define CLATTER_GL_FUNCTIONS(X)                                                                   \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindTexture)                \
@@ -25,14 +25,14 @@ namespace clatter {
   X(Viewport)
 // clang-format on
 
-/// OpenGL's functions as one context supplies them, named as in the specification without "gl".
+/// The OpenGL functions of one context, named as in the specification without "gl".
 struct Gl {
 #define CLATTER_GL_MEMBER(name) decltype(&gl##name) name = nullptr;
   CLATTER_GL_FUNCTIONS(CLATTER_GL_MEMBER)
 #undef CLATTER_GL_MEMBER
 };
 
-/// Asks `address_of` for every function; throws RunError naming those that are missing.
+/// Loads every function with `address_of`. Throws RunError with the names of missing functions.
 Gl load_gl(const std::function<void*(const char*)>& address_of);
 
 }  // namespace clatter

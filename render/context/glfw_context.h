@@ -10,16 +10,16 @@ struct GLFWwindow;
 
 namespace clatter {
 
-/// OpenGL in a window, or in a hidden one to draw off screen.
+/// OpenGL in a window. A hidden window serves to draw off screen.
 class GlfwContext final : public GlContext {
  public:
-  /// A window of so many screen units, or hidden where it has no title. Throws RunError where there
-  /// is no display, or none with OpenGL 3.3.
+  /// Opens a window of `size` screen units; without a title the window is hidden. Throws RunError
+  /// if there is no display or no OpenGL 3.3.
   explicit GlfwContext(const std::string& title = "", Size size = {1280, 720});
   ~GlfwContext() override;
 
   const char* name() const override { return "glfw"; }
-  /// For GLFW's own functions.
+  /// The window, for functions of GLFW.
   GLFWwindow* window() const { return window_; }
 
  private:

@@ -9,8 +9,8 @@
 namespace clatter {
 
 Library::Library(const char* name, const char* package) : name_(name) {
-  // Local, because several GL libraries in one process must not see each other's symbols; never
-  // unloaded, because the drivers below leave exit handlers and thread-local state behind.
+  // RTLD_LOCAL: several GL libraries in one process must not see each other's symbols.
+  // RTLD_NODELETE: drivers leave exit handlers and thread-local state behind.
   handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle_) throw RunError(std::string(dlerror()) + " (apt install " + package + ")");
 }

@@ -2,14 +2,13 @@
 
 namespace clatter {
 
-/// A shared library opened at run time, so that the program starts where it is not installed.
+/// A shared library opened at run time. The program starts even if the library is not installed.
 class Library {
  public:
-  /// Opens `name`; throws RunError that says why it cannot and names the Debian `package` to
-  /// install.
+  /// Opens the library `name`. Throws RunError with the reason and the Debian `package` to install.
   Library(const char* name, const char* package);
 
-  /// The address of an exported function, as pointer type F; throws RunError where there is none.
+  /// The address of an exported function as pointer type F. Throws RunError if it is missing.
   template <class F>
   F function(const char* symbol) const {
     return reinterpret_cast<F>(address(symbol));

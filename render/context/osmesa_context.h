@@ -10,10 +10,10 @@ struct osmesa_context;
 
 namespace clatter {
 
-/// OpenGL by Mesa's off-screen library: needs neither display nor driver.
+/// OpenGL through Mesa's off-screen library, without a display or driver.
 class OsmesaContext final : public GlContext {
  public:
-  /// Makes the context and makes it current; throws RunError.
+  /// Creates the context and makes it current. Throws RunError if OSMesa or OpenGL 3.3 is missing.
   OsmesaContext();
 
   const char* name() const override { return "osmesa"; }
@@ -23,7 +23,7 @@ class OsmesaContext final : public GlContext {
 
   Library library_;
   Handle context_;
-  std::array<unsigned char, 4> surface_ = {};  ///< OSMesa insists on one; pictures have their own
+  std::array<unsigned char, 4> surface_ = {};  ///< required by OSMesa; pictures use framebuffers
 };
 
 }  // namespace clatter

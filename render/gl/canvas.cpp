@@ -26,7 +26,7 @@ Canvas::Canvas(const Gl& gl, Size size, GLint format)
   bind();
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw RunError("this OpenGL cannot draw into a picture of its own");
+    throw RunError("this OpenGL cannot draw off screen");
   }
 }
 
@@ -41,7 +41,7 @@ Image Canvas::read() const {
   gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl_->ReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
 
-  // OpenGL's first row is the lowest.
+  // The first row of OpenGL is the lowest one.
   auto top = image.rgba.begin();
   auto bottom = image.rgba.end() - row;
   for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);

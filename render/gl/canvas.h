@@ -5,22 +5,22 @@
 
 namespace clatter {
 
-/// An off-screen picture that OpenGL draws into: RGBA, by default 8 bits each, colours in sRGB.
+/// An off-screen render target: RGBA, by default with 8 bits per channel and sRGB colours.
 class Canvas {
  public:
-  /// Throws RunError where the picture is larger than this OpenGL allows.
+  /// Creates a picture of `size` pixels. Throws RunError if OpenGL does not support the size.
   Canvas(const Gl& gl, Size size, GLint format = GL_SRGB8_ALPHA8);
 
-  /// The extent asked for.
+  /// Size in pixels.
   Size size() const { return size_; }
-  /// Sends what is drawn from now on into this canvas.
+  /// Makes this canvas the target of later draw calls.
   void bind() const;
-  /// The picture as drawn so far.
+  /// Reads the current picture.
   Image read() const;
-  /// Copies the picture into the window that the context is of, with its lower left corner at a
-  /// pixel of it, and sends what is drawn from now on into that window.
+  /// Copies the picture to the window of the context, with its lower left corner at pixel (x, y).
+  /// The window becomes the target of later draw calls.
   void show(int x, int y) const;
-  /// The name of the texture that it is.
+  /// OpenGL name of the texture that holds the picture.
   GLuint texture() const { return colour_.id(); }
 
  private:

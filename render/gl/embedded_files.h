@@ -6,10 +6,10 @@
 
 namespace clatter {
 
-/// The shaders of shaders/.
+/// The files of shaders/.
 std::span<const EmbeddedFile> embedded_shaders();
 
-/// The fonts that text is drawn with: DejaVuSans.ttf.
+/// The fonts for text: DejaVuSans.ttf.
 std::span<const EmbeddedFile> embedded_fonts();
 
 }  // namespace clatter

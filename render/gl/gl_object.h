@@ -7,11 +7,11 @@
 
 namespace clatter {
 
-/// Owns the name of an OpenGL object; `kDelete` is the member of Gl that deletes such objects.
+/// Owner of an OpenGL object. `kDelete` is the member of Gl that deletes objects of its type.
 template <auto kDelete>
 class GlObject {
  public:
-  /// Takes over `id` of the context that `gl` belongs to.
+  /// Takes ownership of the object `id` in the context of `gl`.
   GlObject(const Gl& gl, GLuint id) : gl_(&gl), id_(id) {}
   GlObject(GlObject&& other) noexcept : gl_(other.gl_), id_(std::exchange(other.id_, 0)) {}
   GlObject& operator=(GlObject&& other) noexcept {
@@ -28,7 +28,7 @@ class GlObject {
     }
   }
 
-  /// The name to pass to OpenGL.
+  /// OpenGL name of the object.
   GLuint id() const { return id_; }
 
  private:
@@ -43,7 +43,7 @@ using ShaderProgram = GlObject<&Gl::DeleteProgram>;
 using Texture = GlObject<&Gl::DeleteTextures>;
 using VertexArray = GlObject<&Gl::DeleteVertexArrays>;
 
-/// Makes an object by one of OpenGL's glGen functions, e.g. `generate<Buffer>(gl, gl.GenBuffers)`.
+/// Creates an object with a glGen function, e.g. `generate<Buffer>(gl, gl.GenBuffers)`.
 template <class Object, class Generate>
 Object generate(const Gl& gl, Generate function) {
   GLuint id = 0;

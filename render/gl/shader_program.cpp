@@ -20,7 +20,7 @@ std::string_view embedded_shader(std::string_view file) {
   return found->bytes;
 }
 
-// Mesa begins a message with "0:12(5): ", NVIDIA with "0(12) : ", others with "ERROR: 0:12: ".
+// Messages begin with "0:12(5): " (Mesa), "0(12) : " (NVIDIA) or "ERROR: 0:12: " (others).
 std::string name_file_and_line(const std::string& log, std::string_view file) {
   static const std::regex place(R"((^|\n)(?:ERROR: )?\d+[:(](\d+)\)?(?:\(\d+\))?\s*:\s*)");
   return std::regex_replace(log, place, "$1" + std::string(file) + ":$2: ");

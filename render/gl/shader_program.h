@@ -7,15 +7,16 @@
 
 namespace clatter {
 
-/// A vertex and a fragment shader of shaders/, compiled and linked.
+/// A compiled and linked pair of a vertex and a fragment shader of shaders/.
 class Program {
  public:
-  /// Takes the embedded files by name, e.g. "field.vert"; throws RunError as file:line: message.
+  /// Compiles and links embedded files, by name, e.g. "field.vert". Throws RunError with messages
+  /// "file:line: ...".
   Program(const Gl& gl, std::string_view vertex_file, std::string_view fragment_file);
 
-  /// Makes it the program that draws.
+  /// Makes this the program of later draw calls.
   void use() const { gl_->UseProgram(program_.id()); }
-  /// The place of a uniform, to pass to glUniform.
+  /// Location of a uniform, for glUniform.
   GLint uniform(const char* name) const { return gl_->GetUniformLocation(program_.id(), name); }
 
  private:
@@ -23,10 +24,10 @@ class Program {
   ShaderProgram program_;
 };
 
-/// Sets a vec4 uniform of the program in use.
+/// Sets a vec4 uniform of the program, which must be in use.
 void set_colour(const Gl& gl, const Program& program, const char* uniform, Colour colour);
 
-/// Compiles `source`; throws RunError in which each message of the driver begins with "file:line:".
+/// Compiles `source`. Throws RunError, where each message of the driver begins with "file:line:".
 Shader compile_shader(const Gl& gl, GLenum stage, std::string_view file, std::string_view source);
 
 }  // namespace clatter

@@ -27,7 +27,7 @@ ArrowLayer::ArrowLayer(const Gl& gl)
 }
 
 void ArrowLayer::collect(const ArrowMap& map, const Projection& projection, double pixels) {
-  constexpr double kShortest = 0.5;  // pixels; below, no direction can be seen
+  constexpr double kShortest = 0.5;  // pixels; shorter arrows show no direction
   const double longest = 2.0 * map.cell.minCoeff() * projection.scale();
   arrows_.clear();
   for (const auto& [place, value] : map.arrows) {

@@ -9,29 +9,29 @@
 
 namespace clatter {
 
-/// The form of an arrow, in pixels.
+/// Shape of an arrow, in pixels.
 struct ArrowShape {
   double shaft = 1.0;        ///< half width of the shaft
-  double head_length = 1.0;  ///< of the head, along the arrow
+  double head_length = 1.0;  ///< length of the head
   double head_width = 1.0;   ///< half width of the head
 
-  /// That of arrows in a picture of `size`, in pixels drawn, of which each of the picture's has
-  /// `samples` along an axis; shorter ones than 1.5 heads shrink as a whole.
+  /// The shape in a picture of `size`, in drawn pixels, with `samples` drawn pixels per finished
+  /// pixel along each axis. Arrows shorter than 1.5 heads are scaled down.
   static ArrowShape in(Size size, int samples = 1);
 };
 
-/// Draws a vector field as arrows, the middle of each at the place of its value.
+/// Draws a vector field as arrows. The middle of an arrow is at the position of its value.
 class ArrowLayer {
  public:
   explicit ArrowLayer(const Gl& gl);
 
-  /// Draws `map` with arrows of `pixels` per unit of value, but none longer than two cells.
+  /// Draws `map` with arrows of `pixels` drawn pixels per unit of value, at most two cells long.
   void draw(const ArrowMap& map, const Projection& projection, double pixels, Colour colour,
             Colour rim);
 
  private:
   struct Arrow {
-    float tail_x, tail_y, tip_x, tip_y;  ///< pixels
+    float tail_x, tail_y, tip_x, tip_y;  ///< drawn pixels
   };
 
   void collect(const ArrowMap& map, const Projection& projection, double pixels);
@@ -39,8 +39,8 @@ class ArrowLayer {
   const Gl* gl_;
   Program program_;
   Buffer buffer_;
-  VertexArray vertices_;       ///< the buffer, an arrow an instance
-  std::vector<Arrow> arrows_;  ///< kept to save its memory
+  VertexArray vertices_;       ///< reads the buffer, one instance per arrow
+  std::vector<Arrow> arrows_;  ///< reused to avoid allocations
 };
 
 }  // namespace clatter

@@ -5,19 +5,19 @@
 
 namespace clatter {
 
-/// Draws a finer picture, averaged over the samples of each pixel in linear light (a box filter).
+/// Draws a supersampled picture at the final resolution, with a box filter in linear light.
 class AverageLayer {
  public:
   explicit AverageLayer(const Gl& gl);
 
-  /// Replaces the picture that is bound by `fine`, which has `samples` along each axis of a pixel,
-  /// and of a `transparent` picture colours that are times their opacity.
+  /// Replaces the bound picture by `fine`, which has `samples` pixels per final pixel along each
+  /// axis. The colours of a `transparent` picture are premultiplied by alpha.
   void draw(const Canvas& fine, int samples, bool transparent = false) const;
 
  private:
   const Gl* gl_;
   Program program_;
-  VertexArray vertices_;  ///< without attributes: the shader knows the corners
+  VertexArray vertices_;  ///< no attributes: the shader computes the corners
 };
 
 }  // namespace clatter

@@ -7,7 +7,7 @@ namespace clatter {
 
 namespace {
 
-// A chord in the world.
+// A chord in world coordinates.
 struct Way {
   Vec2 start, end;
 
@@ -15,8 +15,8 @@ struct Way {
   Vec2 high() const { return start.cwiseMax(end); }
 };
 
-// Calls `visit` with each shift by whole boxes along an axis that brings some of a disk on its way
-// into the box; a way is no longer than a box.
+// Calls `visit` with each shift along an axis, a multiple of the box length, for which the disk
+// touches the box on its way. The way must not be longer than the box.
 template <class Visit>
 void visit_shifts(const Snapshot& snapshot, int axis, const Way& way, Visit visit) {
   if (snapshot.walls[2 * axis]) return visit(0.0);
@@ -34,8 +34,8 @@ class Collector {
 
   std::vector<Chord> chords;
 
-  // A chord lies off its parabola by a dt^2 / 8 at most, and is no longer than a box. Where a
-  // flight passes thousands of boxes, nothing of it can be told apart.
+  // The deviation of a chord from its parabola is at most a dt^2 / 8. A chord is no longer than a
+  // box. The number of chords is limited, because a flight over thousands of boxes is a blur.
   void add(const FlightPiece& piece, double from, double to) {
     constexpr double kOff = 1.0 / 16.0;  // pixels
     const double curvature = piece.acceleration.norm() * projection_.scale();
@@ -63,7 +63,7 @@ class Collector {
     });
   }
 
-  // A disk's soft edge reaches half a pixel beyond its radius.
+  // The soft edge of a disk extends half a pixel beyond its radius.
   bool in_sight(const Chord& chord) const {
     const double reach = 0.5 * snapshot_.diameter * projection_.scale() + 0.5;
     const Size size = projection_.drawn();

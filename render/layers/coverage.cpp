@@ -27,7 +27,7 @@ void Coverage::restart(Size size, double radius) {
   }
 }
 
-// The chords of the disk about (x, y), laid over the pixels of their row.
+// Pixel areas of the disk at (x, y), integrated over horizontal chords.
 Coverage::Stencil Coverage::stencil(double x, double y) const {
   constexpr int kChords = 64;
   Stencil areas{};

@@ -9,36 +9,36 @@
 
 namespace clatter {
 
-/// How much of each pixel small disks of one radius cover, and with how much light of which colour.
-/// What a disk adds is its area times its colour in linear light, whatever its place.
+/// Area and light that small disks of equal radius add to each pixel. The total light of a disk is
+/// its area times its colour in linear light, at any position.
 class Coverage {
  public:
-  /// Pixels kept around the picture, for disks whose centre lies just outside.
+  /// Width of the margin around the picture in pixels, for disks with their centre just outside.
   static constexpr int kMargin = 4;
-  /// Particles are smaller than this, pixels.
+  /// Upper limit of the radius in pixels, exclusive.
   static constexpr double kLargestRadius = 1.5;
 
-  /// Starts an empty picture of `size`, for disks of `radius` > 0, in pixels.
+  /// Starts an empty picture of `size`, for disks of `radius` pixels, 0 < radius < kLargestRadius.
   void restart(Size size, double radius);
-  /// Adds a share of a disk, whose centre is in pixels from the picture's lower left corner and at
-  /// most kMargin - 2 pixels outside.
+  /// Adds the fraction `share` of a disk. `centre` is in pixels from the lower left corner of the
+  /// picture, at most kMargin - 2 pixels outside.
   void add(const Vec2& centre, Colour colour, float share = 1.0f);
-  /// Sums up what the disks added since restart() give to each pixel.
+  /// Computes pixels() from the disks added since restart().
   void sum();
 
-  /// The extent with the margin on every side.
+  /// Size of the picture with its margins.
   Size extent() const { return {size_.width + 2 * kMargin, size_.height + 2 * kMargin}; }
-  /// The sum, [height][width] of extent(), from below: red, green and blue light, and area, in
-  /// pixels.
+  /// Red, green and blue light and covered area of each pixel; a full pixel has area 1. Shape
+  /// [height][width] of extent(), lowest row first.
   const std::vector<Eigen::Array4f>& pixels() const { return pixels_; }
 
  private:
-  static constexpr int kPhases = 16;  // places of a disk in its pixel that are told apart, per axis
-  static constexpr int kSide = 4;     // pixels that such a disk reaches, per axis
+  static constexpr int kPhases = 16;  // resolved positions of a disk in its pixel, per axis
+  static constexpr int kSide = 4;     // largest number of pixels that a disk covers, per axis
   using Stencil = std::array<float, kSide * kSide>;  // [y][x]: area of the disk in each pixel
 
   struct Disk {
-    float x, y;  // lower left corner of the square about it, pixels of extent()
+    float x, y;  // lower left corner of its bounding square, pixels of extent()
     Colour colour;
     float share;
   };
@@ -48,9 +48,9 @@ class Coverage {
 
   Size size_;
   double radius_ = 0.0;
-  int side_ = 0;                          // of the stencils' part that may hold area
+  int side_ = 0;                          // used side of the stencils
   std::vector<Stencil> stencils_;         // [phase of y][phase of x]
-  std::vector<std::vector<Disk>> bands_;  // by height, so that a band's pixels stay in the cache
+  std::vector<std::vector<Disk>> bands_;  // disks sorted by row, to avoid cache misses in pixels_
   std::vector<Eigen::Array4f> pixels_;
 };
 

@@ -9,23 +9,23 @@
 
 namespace clatter {
 
-/// A linear colour and an opacity, of 65535.
+/// Linear red, green and blue, and opacity, each scaled to 0..65535.
 using Light = std::array<std::uint16_t, 4>;
 
-/// The light that a colour stands for.
+/// The linear light of an sRGB colour.
 Light light_of(Colour colour);
 
-/// The value of disk `i` that its colour shows; 0 where it shows nothing.
+/// The value that determines the colour of disk `i`; 0 for ColourBy::None and without spins.
 double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i);
 
-/// Which colours disks have.
+/// The colours of the disks.
 struct DiskColours {
   ColourBy colour_by = ColourBy::None;
-  ColourScale scale;  ///< from the value that it shows
-  Colour plain;       ///< where it shows nothing
+  ColourScale scale;  ///< colours of the values
+  Colour plain;       ///< colour for ColourBy::None
   Blending blending = Blending::Light;
 
-  /// That of disk `i`.
+  /// The colour of disk `i`.
   Colour of(const Snapshot& snapshot, std::size_t i) const;
 };
 

@@ -16,7 +16,7 @@ double radius_pixels(const Snapshot& snapshot, const Projection& projection) {
   return 0.5 * snapshot.diameter * projection.scale();
 }
 
-// A disk's soft edge reaches half a pixel beyond its radius.
+// The soft edge of a disk extends half a pixel beyond its radius.
 double reach_pixels(const Snapshot& snapshot, const Projection& projection) {
   return radius_pixels(snapshot, projection) + 0.5;
 }
@@ -27,15 +27,14 @@ double largest_point_of(const Gl& gl) {
   return range[1];
 }
 
-// Calls `visit` with centre, in pixels, and number of each disk in sight, and of its images across
-// a periodic border.
+// Calls `visit` with the centre, in pixels, and the number of each visible disk and periodic image.
 template <class Visit>
 void visit_disks(const Snapshot& snapshot, const Projection& projection, Visit visit) {
   const double reach = reach_pixels(snapshot, projection);
   const double radius = 0.5 * snapshot.diameter;
   const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
 
-  // The shifts along an axis that bring a disk, or its image, into sight.
+  // Calls `shifted` with the shifts along an axis of a disk and its periodic images.
   auto shifts = [&](int axis, double place, auto&& shifted) {
     shifted(0.0);
     if (snapshot.walls[2 * axis]) return;
@@ -115,7 +114,8 @@ void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projec
   light_.draw(areas_.id(), Coverage::kMargin, projection, faces_of(snapshot), colours.blending);
 }
 
-// Coverage tells places apart by far less than a step.
+// Adds disks along their paths in steps, each with its share of the exposure. The coverage resolves
+// positions far below a step.
 void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projection,
                             const DiskColours& colours) {
   constexpr double kStep = 0.25;  // pixels
@@ -150,7 +150,7 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
 
   const GLsizei count = static_cast<GLsizei>(disks_.size());
   if (2.0 * reach_pixels(snapshot, projection) <= largest_point_) {
-    // Points whose centre lies outside of the viewport are not drawn.
+    // OpenGL drops points with their centre outside the viewport, so the viewport has a margin.
     set_uniforms(point_, snapshot, projection, colours.blending,
                  static_cast<int>(reach_pixels(snapshot, projection)) + 1);
     gl_->Enable(GL_PROGRAM_POINT_SIZE);

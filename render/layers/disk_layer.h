@@ -12,23 +12,22 @@
 
 namespace clatter {
 
-/// Draws the disks: points, squares where a disk is larger than the largest point, and where disks
-/// are too small to have a shape the light of all of them together. Those whose angle is known have
-/// a mark that turns with them; those that the picture shows over a time are blurred by their
-/// motion, and have none.
+/// Draws the disks as points. Disks larger than the largest point are drawn as squares, disks below
+/// Coverage::kLargestRadius through their coverage. Disks of known angle have a mark that turns
+/// with them. With an exposure time disks have motion blur and no mark.
 class DiskLayer {
  public:
-  /// `largest_point` in pixels; absent: what the driver says.
+  /// `largest_point` is the largest point size in pixels; absent: the limit of the driver.
   explicit DiskLayer(const Gl& gl, std::optional<double> largest_point = {});
 
-  /// Draws the snapshot's disks, and those across a periodic border on both sides of it, into what
-  /// is bound, which must be of sRGB.
+  /// Draws the disks of the snapshot into the bound framebuffer, which must be sRGB. Disks that
+  /// cross a periodic border are drawn on both sides.
   void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours);
 
  private:
   struct Disk {
-    float x, y;   ///< centre, pixels
-    float angle;  ///< by which it has turned
+    float x, y;   ///< centre, drawn pixels
+    float angle;  ///< angle of rotation, rad
     Light light;
   };
 
@@ -49,10 +48,10 @@ class DiskLayer {
   LightLayer light_;
   Texture areas_;
   Buffer buffer_;
-  VertexArray points_;       ///< the buffer, a disk a vertex
-  VertexArray squares_;      ///< the buffer, a disk an instance
-  std::vector<Disk> disks_;  ///< those in sight, and their periodic images; kept to save its memory
-  Coverage coverage_;        ///< likewise
+  VertexArray points_;       ///< reads the buffer, one vertex per disk
+  VertexArray squares_;      ///< reads the buffer, one instance per disk
+  std::vector<Disk> disks_;  ///< visible disks and periodic images; reused to avoid allocations
+  Coverage coverage_;        ///< reused to avoid allocations
 };
 
 }  // namespace clatter

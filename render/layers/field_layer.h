@@ -9,21 +9,21 @@
 
 namespace clatter {
 
-/// Draws a field as a heatmap over the box; cells without a value are hatched.
+/// Draws a field as a heatmap over the box. Cells without a value are hatched.
 class FieldLayer {
  public:
   explicit FieldLayer(const Gl& gl);
 
-  /// Draws `map` over a box from the origin to `box`; `gap` is the colour of hatches.
+  /// Draws `map` over the box from the origin to `box`. `gap` is the colour of the hatching.
   void draw(const FieldMap& map, const Vec2& box, const Projection& projection,
             const ColourScale& scale, Colour gap);
 
  private:
   const Gl* gl_;
   Program program_;
-  VertexArray vertices_;  ///< without attributes: the shader knows the corners
+  VertexArray vertices_;  ///< no attributes: the shader computes the corners
   Texture cells_;
-  std::vector<Colour> colours_;  ///< [cells_y][cells_x]; kept to save its memory
+  std::vector<Colour> colours_;  ///< [cells_y][cells_x]; reused to avoid allocations
 };
 
 }  // namespace clatter

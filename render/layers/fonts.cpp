@@ -21,11 +21,11 @@ Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
   for (float size : {std::round(1.5f * unit), unit, std::round(0.85f * unit)}) {
-    // The atlas takes the bytes as its own to change, but leaves them as they are.
+    // The atlas requires a mutable pointer, but does not change the bytes.
     atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()), size,
                                &config, kGlyphs);
   }
-  // Large letters are too many to have them all. The ranges must live until the atlas is built.
+  // All glyphs in a large size would need a very large atlas. The ranges must live until Build().
   ImFontGlyphRangesBuilder letters;
   letters.AddText(title.c_str());
   letters.AddText(" ");
@@ -55,7 +55,7 @@ void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, const Ink& in
     list.AddText(&font, font.FontSize, ImVec2(place.x + dx, place.y + dy), colour, text.data(),
                  text.data() + text.size(), wrap);
   };
-  // A halo of the background keeps it legible where a close camera brings disks below it.
+  // A halo in the background colour keeps the text legible above disks.
   const ImU32 halo = IM_COL32(ink.halo.red, ink.halo.green, ink.halo.blue, 120);
   for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) write(dx, dy, halo);
   write(0, 0, packed(ink.colour));

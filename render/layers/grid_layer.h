@@ -7,22 +7,21 @@
 
 namespace clatter {
 
-/// The side of the grid's squares and the length of the scale bar in a picture: a round number of
-/// disk diameters.
+/// Spacing of the grid and length of the scale bar, a round number of disk diameters.
 double scale_length(const Snapshot& snapshot, const Projection& projection);
 
-/// Draws a grid over the box, from its lower left corner on.
+/// Draws a square grid over the box, with its origin at the lower left corner.
 class GridLayer {
  public:
   explicit GridLayer(const Gl& gl);
 
-  /// Draws lines of this colour.
+  /// Draws grid lines of this colour.
   void draw(const Snapshot& snapshot, const Projection& projection, Colour colour) const;
 
  private:
   const Gl* gl_;
   Program program_;
-  VertexArray vertices_;  ///< without attributes: the shader knows the corners
+  VertexArray vertices_;  ///< no attributes: the shader computes the corners
 };
 
 }  // namespace clatter

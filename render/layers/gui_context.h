@@ -6,8 +6,8 @@
 
 namespace clatter {
 
-/// Dear ImGui's functions act on a context that is global: one of our own is current only while
-/// this object lives, so that the window's is left alone.
+/// Makes a context of Dear ImGui current during its life, and then restores the previous one. The
+/// current context is global, and the window uses another one.
 class CurrentContext {
  public:
   explicit CurrentContext(ImGuiContext* context) : previous_(ImGui::GetCurrentContext()) {
@@ -21,15 +21,15 @@ class CurrentContext {
   ImGuiContext* previous_;
 };
 
-/// Destroys a context that goes.
+/// Deleter of a context.
 struct DestroyContext {
   void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 };
 
-/// A context of our own.
+/// Owner of a context.
 using GuiContext = std::unique_ptr<ImGuiContext, DestroyContext>;
 
-/// A context that keeps no settings and takes meshes of any size.
+/// Creates a context that writes no settings file and supports meshes of any size.
 inline GuiContext make_gui_context() {
   const CurrentContext restored(ImGui::GetCurrentContext());
   GuiContext context(ImGui::CreateContext());

@@ -67,7 +67,7 @@ void GuiLayer::draw_list(const ImDrawList& list, const ImDrawData& data) const {
     const float top = (clip.y - data.DisplayPos.y) * scale.y;
     const float bottom = (clip.w - data.DisplayPos.y) * scale.y;
     if (right <= left || bottom <= top) continue;
-    // OpenGL counts rows from below.
+    // OpenGL counts rows from the lower edge.
     gl_->Scissor(static_cast<GLint>(left), static_cast<GLint>(height - bottom),
                  static_cast<GLsizei>(right - left), static_cast<GLsizei>(bottom - top));
     gl_->BindTexture(GL_TEXTURE_2D,

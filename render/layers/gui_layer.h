@@ -8,17 +8,18 @@ struct ImFontAtlas;
 
 namespace clatter {
 
-/// Draws what Dear ImGui collected. Its own OpenGL renderer loads the system's OpenGL library,
-/// which is not the one that draws off screen.
+/// Renderer for Dear ImGui. The one of Dear ImGui loads the OpenGL library of the system, which is
+/// not the library of an off-screen context.
 class GuiLayer {
  public:
   explicit GuiLayer(const Gl& gl);
 
-  /// Builds the atlas, copies it to the GPU and names the texture in it; anew after each change.
+  /// Builds the atlas, copies it to the GPU and stores the texture in it. Call it after each change
+  /// of the atlas.
   void upload(ImFontAtlas& atlas);
 
-  /// Draws over the whole viewport, whose extent is DisplaySize times FramebufferScale, blended as
-  /// Renderer::draw leaves it.
+  /// Draws over the whole viewport, of size DisplaySize times FramebufferScale in pixels. Blending
+  /// must be set as by Renderer::draw().
   void draw(const ImDrawData& data) const;
 
  private:

@@ -10,11 +10,12 @@ namespace clatter {
 
 namespace {
 
-constexpr float kBarWidth = 0.75f;    // of the bar, in units of the layout
-constexpr float kTickLength = 0.25f;  // likewise
-constexpr float kNameHeight = 1.15f;  // from the name's top to the unit's, likewise
-constexpr float kHeadHeight = 2.75f;  // from the name's top to the bar's, likewise
-constexpr float kArrowHeight = 2.0f;  // from the name's top to the arrow's middle, likewise
+// Lengths in units of the layout, see Fonts::unit().
+constexpr float kBarWidth = 0.75f;
+constexpr float kTickLength = 0.25f;
+constexpr float kNameHeight = 1.15f;  // from the top of the name to the top of the unit
+constexpr float kHeadHeight = 2.75f;  // from the top of the name to the top of the bar
+constexpr float kArrowHeight = 2.0f;  // from the top of the name to the middle of the arrow
 constexpr float kLongestArrow = 5.0f;
 
 std::string unit_and_range(const Legend& legend, const char* range) {
@@ -36,7 +37,7 @@ float name_width(const Label& label, const Fonts& fonts) {
          0.75f * text_extent(*fonts.small, label.subscript).x;
 }
 
-// One strip of colour a pixel: the map's kinks must not depend on the bar's height.
+// One strip per pixel row, so that the colours of the map do not depend on the height of the bar.
 void draw_bar(ImDrawList& list, const ColourScale& scale, ImVec2 low, ImVec2 high) {
   for (float y = low.y; y < high.y; ++y) {
     const double share = (high.y - y - 0.5f) / (high.y - low.y);
@@ -46,7 +47,7 @@ void draw_bar(ImDrawList& list, const ColourScale& scale, ImVec2 low, ImVec2 hig
 }
 
 float bar_width(const Legend& legend, const Fonts& fonts) {
-  // The longest of the ranges, so that a change of it moves nothing.
+  // The longest range word, so that the layout does not depend on the range.
   const float unit = text_extent(*fonts.small, unit_and_range(legend, "locked")).x;
   const float ticks =
       (kBarWidth + 2.0f * kTickLength) * fonts.unit() + text_extent(*fonts.small, "−0.00").x;

@@ -11,40 +11,40 @@
 
 namespace clatter {
 
-/// What a colour means.
+/// Legend of a colour scale.
 struct Legend {
   Label label;
   ColourScale scale;
-  std::string range;  ///< where the scale's ends come from: "auto", "locked" or "given"
+  std::string range;  ///< origin of the ends of the scale: "auto", "locked" or "given"
 };
 
-/// What the length of an arrow means.
+/// Legend of the length of arrows.
 struct ArrowLegend {
   Label label;
-  double pixels = 1.0;  ///< length per unit of value
+  double pixels = 1.0;  ///< pixels per unit of value
 };
 
-/// All that stands beside a picture to say what it shows.
+/// All legends of a picture.
 struct Legends {
   std::optional<Legend> disks, field;
   std::optional<ArrowLegend> arrows;
 
-  /// Those that there are of colours, from the top.
+  /// The legends with a colour bar, from top to bottom.
   std::vector<Legend> bars() const;
 };
 
-/// The width that the widest of them takes, in pixels; 0 where there is none.
+/// Width of the widest legend in pixels; 0: no legends.
 float legend_width(const Legends& legends, const Fonts& fonts);
 
-/// Draws the legend as a vertical bar, with name, unit and range above, `height` pixels high in
-/// all.
+/// Draws a legend as a vertical bar, with name, unit and range above. Its total height is `height`
+/// pixels.
 void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
                  const ThemeColours& theme, ImVec2 place, float height);
 
-/// The height that the legend of arrows takes, in pixels.
+/// Height of the legend of arrows in pixels.
 float arrow_legend_height(const Fonts& fonts);
 
-/// Draws the legend as a name, an arrow of `shape` and the round value that it stands for.
+/// Draws a legend of arrows: name, an arrow of `shape`, and the round value of its length.
 void draw_arrow_legend(ImDrawList& list, const ArrowLegend& legend, const Fonts& fonts,
                        const ThemeColours& theme, const ArrowShape& shape, ImVec2 place);
 

@@ -8,33 +8,33 @@
 
 namespace clatter {
 
-/// How disks go over what lies below them.
+/// Blending of disks with the picture below.
 enum class Blending {
-  Light,   ///< as light, into a framebuffer of sRGB: their edges look right on any background
-  Encoded  ///< by colours as stored, like all else: for pictures without a background
+  Light,   ///< in linear light, into an sRGB framebuffer: correct edges on any background
+  Encoded  ///< in stored sRGB values, like other layers: for pictures without a background
 };
 
-/// Lays light over a picture: what covers each of its pixels only in part, and how brightly.
+/// Blends light with partial coverage over a picture.
 class LightLayer {
  public:
   explicit LightLayer(const Gl& gl);
 
-  /// From now on an empty picture of `size` collects what is drawn: light times opacity, and the
-  /// opacity. The two add up, or with GL_MAX as `equation` the greatest counts.
+  /// Redirects later draw calls to an empty buffer of `size`. It collects light times opacity, and
+  /// opacity. `equation` combines overlapping values: GL_FUNC_ADD or GL_MAX.
   void begin(Size size, GLenum equation = GL_FUNC_ADD);
-  /// Lays what it has collected over what was bound before.
+  /// Blends the buffer over the framebuffer that was bound before begin().
   void end(const Projection& projection, const Faces& faces, Blending blending);
-  /// Lays a texture over what is bound; it has `margin` more pixels on every side. Of what lies
-  /// outside the faces only a ghost is seen.
+  /// Blends a texture over the bound framebuffer. The texture has `margin` more pixels on every
+  /// side. Light outside the faces is faint.
   void draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
             Blending blending) const;
 
  private:
   const Gl* gl_;
   Program program_;
-  VertexArray vertices_;             ///< without attributes: the shader knows the corners
-  std::optional<Canvas> collected_;  ///< absent: not used yet
-  GLint target_ = 0;                 ///< the framebuffer that was bound before
+  VertexArray vertices_;             ///< no attributes: the shader computes the corners
+  std::optional<Canvas> collected_;  ///< buffer of begin(); absent: not used yet
+  GLint target_ = 0;                 ///< framebuffer bound before begin()
 };
 
 }  // namespace clatter

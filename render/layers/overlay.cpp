@@ -13,22 +13,22 @@ namespace clatter {
 
 namespace {
 
-// In units of a line of text: from the picture's edge to the texts, and the column's width.
-constexpr float kEdge = 1.2f;
-constexpr float kColumn = 16.0f;
+// Lengths in units of the layout, see Fonts::unit().
+constexpr float kEdge = 1.2f;     // from the edge of the picture to the text
+constexpr float kColumn = 16.0f;  // width of the column
 
-// Where heading and figures stand: a row above and one below the box, or a column left of it.
+// Position of heading and figures: rows above and below the box, or a column at its left.
 enum class Arrangement { Rows, Column };
 
 struct Page {
   Arrangement arrangement = Arrangement::Rows;
   Fonts fonts;
   ThemeColours theme;
-  Size size;             // of the picture
-  Margins margins;       // which the texts take
-  float edge = 0.0f;     // from the picture's edge to the texts, pixels
+  Size size;             // size of the picture
+  Margins margins;       // margins of the text
+  float edge = 0.0f;     // from the edge of the picture to the text, pixels
   float wrap = 0.0f;     // longest line of the heading, pixels
-  float caption = 0.0f;  // from the upper edge to the caption, below the title, pixels
+  float caption = 0.0f;  // from the upper edge of the picture to the caption, pixels
 };
 
 float unit_for(Size size, double letters) {
@@ -63,7 +63,7 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
   return page;
 }
 
-// The arrangement that leaves the box the most room.
+// The arrangement that shows the box larger.
 Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& theme, Size size,
              const Legends& legends, const OverlayText& text) {
   const Faces faces = outermost_faces(snapshot);
@@ -75,14 +75,14 @@ Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& t
   return shown_width(column) < shown_width(rows) ? column : rows;
 }
 
-// libfmt would write %#.3g of 213 as 213.0.
+// printf rather than libfmt, which formats 213 with "#.3g" as 213.0.
 std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-// With a thin space between groups of three digits.
+// A number with a thin space between groups of three digits.
 std::string grouped(std::uint64_t value) {
   std::string digits = std::to_string(value);
   for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, "\u2009");
@@ -96,7 +96,8 @@ void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
             text.caption, page.wrap);
 }
 
-// A line of a round length with its label above, and its lower left corner at `place`.
+// Scale bar with its label above. `place` is its lower left corner, `length` in diameters, `pixels`
+// its length in pixels.
 void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels, const Page& page) {
   const Fonts& fonts = page.fonts;
   const ThemeColours& theme = page.theme;
@@ -115,7 +116,7 @@ void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels,
 
 struct Figure {
   std::string text;
-  std::string widest;  // keeps the next one in its row from moving with every digit
+  std::string widest;  // reserved width, so that the next figure does not move with every digit
   Ink ink;
 };
 
@@ -125,7 +126,7 @@ std::array<Figure, 3> figures_of(const Snapshot& snapshot, const ThemeColours& t
            {grouped(snapshot.collisions) + " collisions", "", theme.faint_ink()}}};
 }
 
-// Figures in a row from the lower left corner, as far as there is room, and the scale at its end.
+// Figures in a row from the lower left corner, as far as they fit, and the scale bar at its end.
 void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
               const Page& page) {
   const float unit = page.fonts.unit(), bottom = page.size.height - page.edge;
@@ -144,7 +145,7 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
   }
 }
 
-// Figures one above the other in the lower left corner, and the scale above them.
+// Figures in a column in the lower left corner, and the scale bar above them.
 void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
                  const Page& page) {
   const float unit = page.fonts.unit();
@@ -159,7 +160,8 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   }
 }
 
-// One below the other at the right of the box, or at the picture's edge where the box goes beyond.
+// Legends in a column at the right of the box, or at the edge of the picture if the box ends
+// beyond.
 void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
                   const Projection& projection, const Page& page) {
   const float unit = page.fonts.unit();
@@ -175,12 +177,12 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
   const auto lowest = static_cast<float>(height - page.margins.bottom);
   const auto page_room = lowest - static_cast<float>(page.margins.top) + gap - arrows;
   std::vector<Legend> bars = legends.bars();
-  // A small picture has no room for all: the disks' stays.
+  // A small picture drops legends from the last; the first one stays.
   while (bars.size() > 1 && bars.size() * (least + gap) > page_room) bars.pop_back();
   const auto count = static_cast<float>(bars.size());
   const float room = (static_cast<float>(bottom - top) + gap - arrows) / count - gap;
   const float each = std::clamp(room, least, 18.0f * unit);
-  // Where the box is too low for them they stand about its middle, as far as the page lets them.
+  // Legends taller than the box are centred on it, within the margins of the page.
   const float all = count * (each + gap) - gap + arrows;
   const double middle = top + 0.5 * std::min(0.0, bottom - top - all);
   auto y = static_cast<float>(
@@ -207,13 +209,13 @@ void draw_centred(ImDrawList& list, const ImFont& font, float y, ImU32 colour,
   list.AddText(&font, font.FontSize, ImVec2(x, y), colour, line.c_str());
 }
 
-// The text's words in lines of at most `width` pixels.
+// A text broken between words into lines of at most `width` pixels.
 std::vector<std::string> lines_of(const std::string& text, const ImFont& font, float width) {
   std::vector<std::string> lines;
   const char *at = text.data(), *end = at + text.size();
   while (at < end) {
     const char* line_end = font.CalcWordWrapPositionA(1.0f, at, end, width);
-    if (line_end == at) line_end = end;  // not even a letter has room
+    if (line_end == at) line_end = end;  // too narrow for one letter
     lines.emplace_back(at, line_end);
     at = line_end;
     while (at < end && (*at == ' ' || *at == '\n')) ++at;
@@ -221,7 +223,7 @@ std::vector<std::string> lines_of(const std::string& text, const ImFont& font, f
   return lines;
 }
 
-// Title and caption in the middle of a picture that they cover.
+// Title card: title and caption in the middle, over the whole picture.
 void draw_card(ImDrawList& list, const OverlayText& text, const Page& page) {
   const float unit = page.fonts.unit(), width = 0.8f * page.size.width;
   const auto titles = lines_of(text.title, *page.fonts.card, width);

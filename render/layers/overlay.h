@@ -11,40 +11,40 @@
 
 namespace clatter {
 
-/// What the app wants said above the picture; empty: nothing.
+/// Heading of the picture and options of its text.
 struct OverlayText {
-  std::string title;
-  std::string caption;
-  double card = 0.0;     ///< opacity of a card with the two over the whole picture, 0..1
-  double letters = 1.0;  ///< how many times as large as usual all letters are
+  std::string title;     ///< empty: none
+  std::string caption;   ///< empty: none
+  double card = 0.0;     ///< opacity of a title card over the whole picture, 0..1
+  double letters = 1.0;  ///< scale of all text
 };
 
-/// The opacity of a card that stands for the first `length` seconds of a film, `time` seconds after
-/// its beginning: 1, and fading out in the last third.
+/// Opacity of a title card `time` seconds after the beginning of a film. The card lasts `length`
+/// seconds and fades out in the last third.
 double card_opacity(double length, double time);
 
-/// Writes on the picture: title, time, temperature, collisions, colour bars and a scale bar, in the
-/// margins that it asks for.
+/// Draws text and scales in the margins of the picture: title, time, temperature, collisions,
+/// colour bars and a scale bar.
 class Overlay {
  public:
   explicit Overlay(const Gl& gl);
 
-  /// The space its texts take along the edges of a picture of `size` that shows the whole box.
+  /// The margins that the overlay needs in a picture of `size` with the whole box.
   Margins margins(const Snapshot& snapshot, Size size, const Legends& legends,
                   const OverlayText& text);
 
-  /// Draws it over a picture of `snapshot`.
+  /// Draws the overlay over a picture of `snapshot`.
   void draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
             const OverlayText& text, const ThemeColours& theme);
 
  private:
-  /// Loads the fonts for a picture of `size`, and for a title; the context must be current.
+  /// Loads the fonts for a picture of `size` and for its title. The context must be current.
   Fonts fonts_for(Size size, const OverlayText& text);
 
   GuiLayer gui_;
   GuiContext context_;
-  float loaded_size_ = 0.0f;  ///< of the text of the loaded fonts, pixels; 0: none yet
-  std::string loaded_title_;  ///< whose letters are loaded for cards
+  float loaded_size_ = 0.0f;  ///< text size of the loaded fonts, pixels; 0: none yet
+  std::string loaded_title_;  ///< title in the card font
 };
 
 }  // namespace clatter

@@ -16,17 +16,17 @@ namespace clatter {
 
 namespace {
 
-// A logarithmic axis from one power of ten, or half of one, to another.
+// A logarithmic axis between whole or half powers of ten.
 struct Axis {
-  double low = 0.0;  // decimal logarithms
-  double high = 1.0;
+  double low = 0.0;   // decimal logarithm of the lower end
+  double high = 1.0;  // decimal logarithm of the upper end
 
   double share(double value) const {
     return std::clamp((std::log10(value) - low) / (high - low), 0.0, 1.0);
   }
 };
 
-// What holds all values, and not more than four decades below the largest.
+// The axis that contains all values up to four decades below the largest.
 template <class Coordinate>
 Axis axis_of(const Plot& plot, Coordinate coordinate) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -91,7 +91,7 @@ class PanelDrawing {
     return place(x_.share(point.x), point.y > 0.0 ? y_.share(point.y) : 0.0);
   }
 
-  // A line at each power of ten, fainter ones at its multiples.
+  // Lines at the powers of ten, fainter lines at their multiples.
   void draw_axis(const Axis& axis, bool across, bool named) {
     for (int decade = static_cast<int>(std::floor(axis.low)); decade <= axis.high; ++decade) {
       for (int multiple = 1; multiple < 10; ++multiple) {
@@ -133,7 +133,7 @@ class PanelDrawing {
     taken_.push_back({{at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}});
   }
 
-  // On the first side of the point where it covers nothing.
+  // Draws the label on the first side of the point that is free, or not at all.
   void draw_label(const PlotPoint& point) {
     const ImVec2 extent = text_extent(*fonts_.small, point.label), at = place(point);
     const float gap = 0.5f * fonts_.unit();
@@ -161,7 +161,7 @@ class PanelDrawing {
   const ThemeColours& theme_;
   Rectangle frame_;
   Axis x_, y_;
-  std::vector<Rectangle> taken_;  // by points and labels
+  std::vector<Rectangle> taken_;  // areas of points and labels
 };
 
 void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size,
@@ -176,7 +176,7 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
   top += 2.0f * unit;
 
   const auto count = static_cast<int>(plot.panels.size());
-  // Panels somewhat wider than high.
+  // For panels slightly wider than high.
   const int columns =
       std::clamp(static_cast<int>(std::ceil(std::sqrt(1.6 * count))), 1, std::max(1, count));
   const int rows = std::max(1, (count + columns - 1) / columns);

@@ -12,18 +12,18 @@ namespace clatter {
 /// A point of a plot.
 struct PlotPoint {
   double x = 1.0;     ///< > 0
-  double y = 1.0;     ///< > 0; lower than the axis goes: drawn on it
-  std::string label;  ///< beside it, where there is room
+  double y = 1.0;     ///< > 0; below the range of the axis: drawn at its lower end
+  std::string label;  ///< label beside the point, if there is room
   bool hollow = false;
 };
 
-/// Points in their order, joined by a line.
+/// A panel: points joined by a line in their order.
 struct PlotPanel {
   std::string title;
   std::vector<PlotPoint> points;
 };
 
-/// Panels beside and below each other, all with the same logarithmic axes.
+/// A plot: a grid of panels with the same logarithmic axes.
 struct Plot {
   std::string title;
   std::string caption;
@@ -32,7 +32,7 @@ struct Plot {
   std::vector<PlotPanel> panels;
 };
 
-/// A picture of a plot. Throws RunError where it cannot be drawn.
+/// Draws a plot of `size` pixels. Throws RunError if OpenGL does not support the size.
 Image plot_image(const Gl& gl, const Plot& plot, Size size, const ThemeColours& theme);
 
 }  // namespace clatter

@@ -7,19 +7,16 @@ namespace clatter {
 
 namespace {
 
-// Alpha of a heatmap's colours below disks that have colours of their own.
-constexpr std::uint8_t kBelowColouredDisks = 115;
-
-// Alpha of lines that are to stay in the background: of a grid, and of cells without a value.
-constexpr std::uint8_t kGrid = 140;
-constexpr std::uint8_t kHatchOpacity = 70;
+constexpr std::uint8_t kBelowColouredDisks = 115;  // alpha of a heatmap below coloured disks
+constexpr std::uint8_t kGrid = 140;                // alpha of the grid
+constexpr std::uint8_t kHatchOpacity = 70;         // alpha of the hatching of cells without a value
 
 Colour thin(Colour colour, std::uint8_t alpha) {
   colour.alpha = alpha;
   return colour;
 }
 
-// Without its darkest eighth: slow disks would be lost against the background.
+// The palette without its darkest eighth, in which slow disks would blend into the background.
 ColourMap disk_map(const View& view) {
   if (label_of(view.colour_by).sign == Sign::Either) return diverging_map();
   return colour_map(view.palette).subspan(2);
@@ -30,7 +27,7 @@ ColourMap field_map(Field field, const View& view) {
   return colour_map(view.field_palette.value_or(view.palette));
 }
 
-// The map's first colour stands for the least magnitude, or for the least value of either sign.
+// The first colour is the smallest magnitude. For Sign::Either it is the smallest value.
 ColourScale scale_from(double low, double high, Sign sign, ColourMap map) {
   switch (sign) {
     case Sign::Positive:
@@ -139,7 +136,7 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
 
 Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
                      const OverlayText& text) {
-  // Particles stand out of a periodic border by half their diameter.
+  // Disks extend over a periodic border by half their diameter.
   Vec2 overhang(0.0, 0.0);
   for (int axis : {0, 1}) {
     if (!snapshot.walls[2 * axis]) overhang[axis] = 0.5 * snapshot.diameter;
@@ -160,7 +157,7 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   const ThemeColours theme = theme_of(view);
   gl_->Enable(GL_BLEND);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  // A window's own framebuffer, whose name is 0, need not be of sRGB; what is averaged into it is.
+  // Framebuffer 0, the window, may not be sRGB. Averaging writes sRGB values into any framebuffer.
   GLint target = 0;
   gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   if (samples_ == 1 && target != 0) {

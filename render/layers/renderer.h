@@ -17,14 +17,14 @@
 
 namespace clatter {
 
-/// The ends of automatic colour ranges; 0: there is nothing to choose one by.
+/// The ends of automatic colour ranges; 0: no data for the range.
 struct RangeEnds {
   double disks = 0.0;
   double field = 0.0;
   double arrows = 0.0;
 };
 
-/// The round ends that fit a snapshot by itself.
+/// The round ends for a single snapshot.
 RangeEnds range_ends(const Snapshot& snapshot, const View& view);
 
 /// Passes over all members, in order, for checkpoints.
@@ -34,35 +34,38 @@ void visit(Archive& io, RangeEnds& range) {
   io(disks, field, arrows);
 }
 
-/// Draws snapshots into the framebuffer that is bound. Automatic colour ranges follow the snapshots
-/// it is given, until they are fixed; so a film has a Renderer of its own.
+/// Draws snapshots into the bound framebuffer. Automatic colour ranges follow the sequence of
+/// snapshots unless they are fixed, so each film needs its own Renderer.
 class Renderer {
  public:
-  /// Compiles the shaders; throws RunError. `gl` must outlive the renderer. All but the overlay is
-  /// drawn `samples` times larger and averaged in linear light. Without a background,
-  /// `transparent`, pictures have their opacity as alpha, and colours times it.
+  /// Compiles the shaders. Throws RunError if that fails. `gl` must outlive the renderer. All
+  /// layers except the overlay are drawn with `samples` pixels per final pixel along each axis, and
+  /// averaged in linear light. With `transparent` the background is transparent, and colours are
+  /// premultiplied by alpha.
   explicit Renderer(const Gl& gl, int samples = 1, bool transparent = false);
 
-  /// From now on automatic colour ranges have these ends.
+  /// Fixes the ends of the automatic colour ranges.
   void fix(const RangeEnds& ends);
 
-  /// The camera that shows the whole box, clear of what the overlay writes.
+  /// The camera that shows the whole box, inside the margins of the overlay.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text);
 
-  /// Draws a picture of `size`. Throws RunError where it is too large for its samples.
+  /// Draws a picture of `size`. Throws RunError if OpenGL does not support the size times samples.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text);
 
  private:
-  /// The range of a quantity's colours, as far as it follows the snapshots.
+  /// Automatic colour range of one quantity.
   struct Followed {
     Label label;
     SteadyExtent followed;
-    double fixed = 0.0;  ///< the end, once and for all; 0: it follows
+    double fixed = 0.0;  ///< fixed end; 0: the end follows the snapshots
 
-    /// `extent` tells the robust extent of what is shown, and is asked only where it matters.
+    /// End of the range. Another label restarts it. `extent` returns the robust extent of the data,
+    /// and is called only if needed.
     double end(const Label& shown, const std::function<double()>& extent, bool hold = false);
 
+    /// Legend for `range`. A locked range is held only if `lockable`.
     Legend legend(const Label& shown, const ColourRange& range, ColourMap map,
                   const std::function<double()>& extent, bool lockable);
   };
@@ -75,7 +78,7 @@ class Renderer {
   const Gl* gl_;
   int samples_;
   bool transparent_;
-  std::optional<Canvas> fine_;  ///< what has several samples a pixel; absent: not drawn yet
+  std::optional<Canvas> fine_;  ///< supersampled picture; absent: not drawn yet
   AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;

@@ -9,8 +9,8 @@
 
 namespace clatter {
 
-/// What is drawn about a straight way: three pairs of numbers, which a vertex shader reads as
-/// attributes 0 to 2 and places a rectangle by, and its light, attribute 3.
+/// A rectangle around a line segment. A vertex shader reads `pairs` as attributes 0 to 2, with the
+/// position of the rectangle, and `light` as attribute 3.
 struct Stroke {
   std::array<Eigen::Vector2f, 3> pairs;
   Light light;
@@ -21,7 +21,7 @@ class Strokes {
  public:
   explicit Strokes(const Gl& gl);
 
-  /// Draws them by the program in use.
+  /// Draws strokes with the program in use.
   void draw(const std::vector<Stroke>& strokes);
 
  private:

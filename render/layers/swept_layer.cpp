@@ -11,7 +11,7 @@ SweptLayer::SweptLayer(const Gl& gl)
 
 void SweptLayer::draw(const Snapshot& snapshot, const Projection& projection,
                       const DiskColours& colours) {
-  // The shader divides by the way, so that disks which rest tremble too little to be seen.
+  // The shader divides by the length of the way, so a disk at rest gets an invisibly short way.
   constexpr double kShortest = 1.0 / 32.0;  // pixels
   drawn_.clear();
   for (const Chord& chord : chords(snapshot, projection, snapshot.exposure)) {

@@ -9,15 +9,15 @@
 
 namespace clatter {
 
-/// Draws disks as a shutter sees them that is open for the snapshot's exposure: each pixel has the
-/// light of every disk for the share of time in which it covers the pixel, which is exact for
-/// straight flights. Particles never overlap, so that their shares add up.
+/// Draws disks with motion blur over the exposure time of the snapshot. A pixel receives the light
+/// of each disk times the fraction of time that the disk covers it, exact for straight flights.
+/// Disks never overlap, so these fractions add up to at most 1.
 class SweptLayer {
  public:
   explicit SweptLayer(const Gl& gl);
 
-  /// Draws the disks along the snapshot's flights over what is bound, which must be of sRGB. A disk
-  /// has the colour of the snapshot's time.
+  /// Draws the disks along the flights of the snapshot into the bound framebuffer, which must be
+  /// sRGB. A disk has its colour at the time of the snapshot.
   void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours);
 
  private:
@@ -25,7 +25,7 @@ class SweptLayer {
   Program program_;
   LightLayer light_;
   Strokes strokes_;
-  std::vector<Stroke> drawn_;  ///< kept to save its memory
+  std::vector<Stroke> drawn_;  ///< reused to avoid allocations
 };
 
 }  // namespace clatter

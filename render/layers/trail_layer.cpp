@@ -9,10 +9,10 @@ namespace clatter {
 TrailLayer::TrailLayer(const Gl& gl)
     : gl_(&gl), program_(gl, "trail.vert", "trail.frag"), light_(gl), strokes_(gl) {}
 
-// Where lines meet or cross the stronger is seen, so that joints do not show.
+// GL_MAX blending: overlapping lines show the stronger one, so joints are invisible.
 void TrailLayer::draw(const Snapshot& snapshot, const Projection& projection,
                       const DiskColours& colours, double time) {
-  constexpr double kOpacity = 0.6;  // where the disk is
+  constexpr double kOpacity = 0.6;  // at the disk
   drawn_.clear();
   for (const Chord& chord : chords(snapshot, projection, time)) {
     const Vec2 opacities = {kOpacity * (1.0 + chord.from / time),

@@ -9,12 +9,12 @@
 
 namespace clatter {
 
-/// Draws the way that disks have come as lines in their colours, which fade out.
+/// Draws the past paths of the disks as lines in the colours of the disks, which fade out with age.
 class TrailLayer {
  public:
   explicit TrailLayer(const Gl& gl);
 
-  /// Draws the snapshot's flights of the last `time` > 0 over what is bound, which must be of sRGB.
+  /// Draws the flights of the last `time` > 0 into the bound framebuffer, which must be sRGB.
   void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
             double time);
 
@@ -23,7 +23,7 @@ class TrailLayer {
   Program program_;
   LightLayer light_;
   Strokes strokes_;
-  std::vector<Stroke> drawn_;  ///< kept to save its memory
+  std::vector<Stroke> drawn_;  ///< reused to avoid allocations
 };
 
 }  // namespace clatter

@@ -10,17 +10,18 @@ namespace clatter {
 
 namespace {
 
-// As in wall.frag: the patterns, and the teeth's period in thicknesses of the band.
+// Must match wall.frag: the patterns, and the period of teeth over the thickness of the band.
 enum Pattern { kHatch, kTeeth, kWaves, kGlow, kDashes, kPlain };
 constexpr double kToothPeriod = 0.75;
 
 struct Look {
   Pattern pattern;
   Colour colour;
-  double advance = 0.0;  // of a driven wall's teeth, world units
+  double advance = 0.0;  // displacement of a driven wall's teeth, world units
 };
 
-// A thermal wall's colour compares it with the gas: 0.5 of the way up where they are as hot.
+// Colour of a thermal wall from its temperature relative to the gas. The coldest wall is at 1/3 of
+// the palette, a wall as hot as the gas at 2/3, the hottest at its end.
 Colour thermal_colour(double wall_temperature, double gas_temperature) {
   const double sum = wall_temperature + gas_temperature;
   const ColourScale heat{colour_map(Palette::Inferno), -0.5, 1.0};
@@ -33,7 +34,7 @@ Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot, const Th
     case WallKind::Static:
       return {kHatch, theme.static_wall};
     case WallKind::Driven:
-      // A wall that comes at speed V adds 2 V to what it hits.
+      // A wall moving at speed V adds 2 V to the normal velocity of a disk.
       return {kTeeth, theme.driven_wall, 0.5 * wall->drive_speed * snapshot.time};
     case WallKind::Sawtooth:
       return {kTeeth, theme.driven_wall};
@@ -45,9 +46,9 @@ Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot, const Th
   return {kHatch, theme.static_wall};
 }
 
-// The four corners of a band along a wall's face as a triangle strip, from `inner` to `outer`
-// pixels outside it; where walls meet, a mitred one fits its neighbours. Patterns stay in place
-// when the wall beside moves.
+// The four corners, as a triangle strip, of a band along the face of a wall. It reaches from
+// `inner` to `outer` pixels outside the face. Mitred ends join the bands of adjacent walls. The
+// pattern is fixed to the box, so it does not move with the adjacent wall.
 enum class Ends { Straight, Mitred };
 std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
                                       const Projection& projection, double inner, double outer,
@@ -73,7 +74,7 @@ std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
   return corners;
 }
 
-// In pixels drawn, as whole ones of the finished picture.
+// Thickness in drawn pixels, a whole number of pixels of the finished picture.
 double thickness_of(const Projection& projection) {
   return projection.samples * wall_thickness(projection.size);
 }
@@ -134,7 +135,7 @@ void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
 void WallLayer::draw_place(Side side, const Snapshot& snapshot, const Projection& projection,
                            const ThemeColours& theme) const {
   const double line = line_width(projection);
-  // What the field shows behind the face is no part of the gas.
+  // Hides the heatmap behind the face, where there is no gas.
   const double moved_in = snapshot.wall_displacement[side] * projection.scale();
   if (moved_in > 0.0) {
     draw_band(band(side, snapshot, projection, 0.0, moved_in, Ends::Straight), kPlain,

@@ -10,30 +10,31 @@
 
 namespace clatter {
 
-/// How thick the band outside the box is that shows a wall, in pixels of a picture of `size`.
+/// Thickness of the band outside the box that shows a wall, in pixels of a picture of `size`.
 double wall_thickness(Size size);
 
-/// Opposite corners of a box between faces of walls, or periodic borders; world units.
+/// Lower left and upper right corner of the area between the walls' faces or periodic borders, in
+/// world units.
 struct Faces {
   Vec2 low, high;
 };
 
-/// Where the faces are at the snapshot's time.
+/// The faces at the time of the snapshot.
 Faces faces_of(const Snapshot& snapshot);
 
-/// Where they are farthest out.
+/// The faces at their outermost positions.
 Faces outermost_faces(const Snapshot& snapshot);
 
-/// Draws the sides of the box so that they look like what they do: a driven wall's teeth move into
-/// the box at the speed it stands for, a saw-tooth or sinusoidal one moves as a whole over a line
-/// that marks its place, a thermal one glows, a static one is hatched, and a periodic border is a
-/// dashed line.
+/// Draws the sides of the box. The teeth of a driven wall move into the box at half its drive
+/// speed, the speed of the equivalent moving wall. A saw-tooth or sinusoidal wall moves over a line
+/// at the side of the box. A thermal wall glows, a static wall is hatched, a periodic border is
+/// dashed.
 class WallLayer {
  public:
-  /// A corner of a band, as the shader gets it.
+  /// A vertex of a band, with the layout of the shader attributes.
   struct Vertex {
-    float x, y;            // pixels
-    float along, outward;  // pixels from the box's lower or left end, and from the wall's face
+    float x, y;            // drawn pixels
+    float along, outward;  // pixels from the lower or left end of the box, and from the face
   };
 
   explicit WallLayer(const Gl& gl);

@@ -12,52 +12,51 @@
 
 namespace clatter {
 
-/// Whether a film has come to its end, or is cut and may be taken up again.
+/// End of a film: complete, or interrupted and open for a restart.
 enum class Ending { Whole, Cut };
 
-/// Where finished pictures go.
+/// Output for finished pictures.
 class FrameSink {
  public:
   FrameSink() = default;
   FrameSink(const FrameSink&) = delete;
   FrameSink& operator=(const FrameSink&) = delete;
-  /// Without finish() before, gives up: stops the work and keeps the pictures that are whole.
+  /// Without a call of finish(), stops the work and keeps the complete pictures.
   virtual ~FrameSink() = default;
 
-  /// Takes the next picture and what is to be said of it alone; waits only while too many are
-  /// unwritten. Throws what went wrong with an earlier one.
+  /// Adds the next picture with its own texts. Waits only while too many pictures are unwritten.
+  /// Throws the error of an earlier picture.
   virtual void add(Image image, std::vector<PngText> notes) = 0;
-  /// Waits until all pieces that are whole are written; throws what went wrong.
+  /// Waits until all complete pieces are written. Throws the first error.
   virtual void flush() = 0;
-  /// Waits until everything is written; throws what went wrong.
+  /// Waits until everything is written. Throws the first error.
   virtual void finish(Ending ending) = 0;
-  /// CRC-32 of each piece that is whole, in order; empty where pieces carry their own.
+  /// CRC-32 of each complete piece, in order. Empty for files with checksums of their own.
   virtual std::vector<std::uint32_t> checksums() const { return {}; }
 
-  /// How many pictures a piece has: where the number of one is a multiple of this, a film can be
-  /// taken up again.
+  /// Number of pictures in a piece. A film can restart at picture numbers that are multiples of it.
   static constexpr long kPiece = 60;
 };
 
-/// How pictures are kept.
+/// Options of a sink.
 struct SinkOptions {
-  Size size;          ///< of every picture
+  Size size;          ///< size of every picture
   double fps = 30.0;  ///< pictures per second of a film
   std::vector<PngText>
-      texts;               ///< kept in the file; a film has a title, and the rest as its comment
-  bool overwrite = false;  ///< whether a sequence may replace pictures that exist
-  int threads = 2;         ///< that encode a sequence's pictures
+      texts;               ///< texts of the file; a film stores "Title" and a comment with the rest
+  bool overwrite = false;  ///< may replace existing pictures or pieces
+  int threads = 2;         ///< number of threads that encode a sequence
   long begin = 0;          ///< number of the first picture in the file or folder
-  long end = std::numeric_limits<long>::max();  ///< one more than the number of the last
-  long next = 0;  ///< number of the first picture that is added; those from `begin` on are there
-  bool goes_on = false;  ///< what is there from `next` on is of this film, before it was cut
-  std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`; empty: not known
-  std::vector<PngText> notes = {};            ///< of the picture before `next`
+  long end = std::numeric_limits<long>::max();  ///< number of the last picture plus 1
+  long next = 0;         ///< number of the next picture; pictures begin..next - 1 already exist
+  bool goes_on = false;  ///< restart: existing pictures from `next` on may be replaced
+  std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`; empty: unknown
+  std::vector<PngText> notes = {};            ///< texts of the picture before `next`
 };
 
-/// The sink that a path asks for: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or else a
-/// folder for a sequence of pictures. Throws UserError for any other extension, where earlier
-/// pictures are missing, or where others are in the way.
+/// Opens the sink for a path: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or a folder for
+/// a sequence of pictures. Throws UserError for another extension, if earlier pictures are missing,
+/// or if existing pictures would be replaced.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 
 }  // namespace clatter

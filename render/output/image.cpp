@@ -15,7 +15,7 @@
 
 namespace {
 
-// stb's own compressor is several times slower than libdeflate. The result is stb's to free().
+// libdeflate is several times faster than the compressor of stb. stb calls free() on the result.
 unsigned char* compress_for_stb(unsigned char* data, int size, int* compressed_size, int) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(1), libdeflate_free_compressor);
@@ -37,11 +37,11 @@ namespace clatter {
 
 namespace {
 
-// No filter: the pictures are flat areas, which compress best and fastest as they are. stb keeps
-// the choice in a variable of its own, which is set here once, before any thread encodes.
+// No filter: pictures of flat areas compress best and fastest without one. The global variable of
+// stb is set once, before any thread encodes.
 [[maybe_unused]] const int kFilter = stbi_write_force_png_filter = 0;
 
-// Signature (8 bytes) and IHDR (4 + 4 + 13 + 4): iTXt may follow, and must precede nothing else.
+// Signature (8 bytes) and IHDR (4 + 4 + 13 + 4). iTXt chunks may follow directly.
 constexpr std::size_t kHeaderSize = 33;
 
 void append_big_endian(std::vector<unsigned char>& bytes, std::uint32_t value) {
@@ -91,9 +91,9 @@ void write_png(const std::filesystem::path& path, const Image& image,
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-// The texts of a picture, which stand before its pixels. Throws UserError where they are damaged.
+// The texts of a picture before its pixels. Throws UserError if they are damaged.
 static std::vector<PngText> texts_of(std::FILE* file, const std::filesystem::path& path) {
-  constexpr std::size_t kLargest = 16'000'000;  // bytes of a chunk, and of all of them
+  constexpr std::size_t kLargest = 16'000'000;  // limit for a chunk and for all chunks, bytes
   const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), spng_ctx_free);
   spng_set_crc_action(png.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR);
   spng_set_chunk_limits(png.get(), kLargest, kLargest);
@@ -105,14 +105,14 @@ static std::vector<PngText> texts_of(std::FILE* file, const std::filesystem::pat
   if (error == 0) error = spng_get_text(png.get(), found.data(), &count);
   if (error != 0) {
     throw UserError({path.string()}, std::string("the picture is damaged: ") + spng_strerror(error),
-                    "copy it again from where it was made");
+                    "copy the original again");
   }
   std::vector<PngText> texts;
   for (const spng_text& text : found) texts.push_back({text.keyword, {text.text, text.length}});
   return texts;
 }
 
-// What is read from a pipe would be lost to whoever reads it for something else.
+// Regular files only: reading the signature from a pipe would consume it.
 bool is_png(const std::filesystem::path& path) {
   constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
   std::error_code ignored;

@@ -17,26 +17,26 @@ struct Image {
   std::vector<unsigned char> rgba;  ///< [height][width][4], top row first
 };
 
-/// A picture whose colours are times their opacity, with colours as PNG files have them: not.
+/// Converts colours premultiplied by alpha to the unmultiplied colours of PNG files.
 Image with_own_colours(Image image);
 
-/// A note inside a PNG file, as an iTXt chunk.
+/// A text in a PNG file, stored as an iTXt chunk.
 struct PngText {
   std::string keyword;  ///< 1..79 Latin-1 characters, e.g. "Title"
   std::string text;     ///< UTF-8
 };
 
-/// The bytes of a PNG file.
+/// The bytes of a PNG file. Throws RunError if there is not enough memory.
 std::vector<unsigned char> encode_png(const Image& image, std::span<const PngText> texts = {});
 
-/// Whether a path is a regular file that begins as PNG pictures do.
+/// True if the path is a regular file with the signature of a PNG file.
 bool is_png(const std::filesystem::path& path);
 
-/// The text that a PNG file carries under a keyword before its pixels; absent: none, or no PNG
-/// file. Throws UserError where the file is damaged up to there.
+/// The text of a keyword before the pixels of a PNG file; absent: no such text, or no PNG file.
+/// Throws UserError if the texts are damaged.
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);
 
-/// Writes a PNG file, whole or not at all; throws RunError.
+/// Writes a PNG file, completely or not at all. Throws RunError if that fails.
 void write_png(const std::filesystem::path& path, const Image& image,
                std::span<const PngText> texts = {});
 

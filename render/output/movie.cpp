@@ -19,11 +19,11 @@ namespace clatter {
 
 namespace {
 
-// Files in the folder of the pieces, which ffmpeg reads.
+// Input files of ffmpeg in the folder of the pieces.
 constexpr const char* kList = "pieces.txt";
 constexpr const char* kTexts = "texts.txt";
 
-// Thrown on the writing thread; the caller's thread asks the encoder for the reason.
+// Thrown on the writing thread. The calling thread then reads the error of the encoder.
 struct EncoderStopped {};
 
 std::filesystem::path folder_for(const std::filesystem::path& path) {
@@ -33,8 +33,8 @@ std::filesystem::path folder_for(const std::filesystem::path& path) {
 void require_no_pieces(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_empty(folder, ignored) || ignored) return;
-  throw UserError({folder.string()}, "holds what there is of a film that was cut",
-                  "go on with it by --resume, or give --overwrite to film anew");
+  throw UserError({folder.string()}, "holds the pieces of an interrupted film",
+                  "continue it with --resume, or replace it with --overwrite");
 }
 
 FileDescriptor open_new(const std::filesystem::path& path) {
@@ -42,7 +42,7 @@ FileDescriptor open_new(const std::filesystem::path& path) {
   return FileDescriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
 }
 
-// Whether the folder of that name is still the one that is open.
+// True if `path` still names the open folder.
 bool is_at(const FileDescriptor& folder, const std::filesystem::path& path) {
   struct stat opened, named;
   return fstat(folder.get(), &opened) == 0 && stat(path.c_str(), &named) == 0 &&
@@ -73,8 +73,8 @@ Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::
   start_piece();
 }
 
-// Two films of one name would write into each other's pieces. The folder that was opened may have
-// been removed by the film that held it until then.
+// Locks the folder, because two films of one name would overwrite each other's pieces. The previous
+// film may remove the folder between open() and flock(), hence the loop.
 void Movie::open_folder() {
   do {
     std::error_code error;
@@ -96,9 +96,9 @@ void Movie::require_earlier_pieces() {
   for (const Piece& piece : earlier) {
     if (std::filesystem::exists(piece.path)) continue;
     throw UserError({path_.string()},
-                    "the film goes on, but its piece " + piece.path.string() + " is not there",
-                    (std::filesystem::exists(path_) ? "the film may be whole already; else " : "") +
-                        ("name the film that was cut, or begin one by --frames " +
+                    "the piece " + piece.path.string() + " of the film is missing",
+                    (std::filesystem::exists(path_) ? "if the film is not complete yet, " : "") +
+                        ("name the interrupted film, or start one with --frames " +
                          std::to_string(next_) + ":"));
   }
   for (std::size_t i = checksums_.size(); i < earlier.size(); ++i) {
@@ -109,7 +109,7 @@ void Movie::require_earlier_pieces() {
     require_unchanged(earlier);
   } catch (const RunError& error) {
     throw UserError({path_.string()}, error.what(),
-                    "draw the film again: leave --resume out, and give --overwrite");
+                    "draw the film again with --overwrite, without --resume");
   }
 }
 
@@ -125,13 +125,13 @@ std::filesystem::path Movie::piece_path(long first) const {
   return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }
 
-// As name_while_open(): a path that also has no characters which a list of ffmpeg's takes for
-// something else, whatever the film is called.
+// A path without characters of the film's name, which could have a special meaning in lists of
+// ffmpeg. See name_while_open().
 std::filesystem::path Movie::name_in_folder(const std::string& file) const {
   return std::filesystem::path(name_while_open(held_, folder_.string())) / file;
 }
 
-// The number of the first picture in the piece that has this one.
+// Number of the first picture in the piece that contains this picture.
 long Movie::start_of_piece(long number) const {
   return std::max(options_.begin, number / kPiece * kPiece);
 }
@@ -139,12 +139,12 @@ long Movie::start_of_piece(long number) const {
 void Movie::start_piece() {
   piece_ = next_;
   const std::filesystem::path piece = piece_path(piece_);
-  // Found out now rather than after the first hour of a run.
+  // Opened before the run, so that an error appears immediately.
   file_ = open_new(piece);
   if (!file_) fail(std::strerror(errno));
   write_file(folder_ / kTexts, metadata_file(options_.texts));
-  // An encoder may open its file late, after its run was killed. By this name it cannot write into
-  // the file of the run that goes on.
+  // An encoder may open its file after its run was killed. This name keeps it from the file of the
+  // restarted run.
   const std::string name = name_while_open(file_, piece.string());
   try {
     encoder_ = std::make_unique<ChildProcess>(
@@ -178,7 +178,7 @@ void Movie::end_piece() {
   if (!encoder_->wait()) fail(*encoder_);
   encoder_.reset();
   require_pictures(piece_path(piece_), next_ - piece_);
-  // A checkpoint may count on it from now on.
+  // A later checkpoint relies on this piece.
   if (!file_.sync()) fail(std::strerror(errno));
   const auto sum = checksum_of_file(piece_path(piece_));
   if (!sum) fail("cannot read " + piece_path(piece_).string());
@@ -192,7 +192,7 @@ void Movie::finish(Ending ending) {
   if (ending == Ending::Whole) std::filesystem::remove_all(folder_);
 }
 
-// Of the whole film up to now, in order.
+// The pieces of the film so far, in order.
 std::vector<Movie::Piece> Movie::pieces() const {
   std::vector<Piece> all;
   for (long first = options_.begin, after; first < next_; first = after) {
@@ -238,7 +238,7 @@ void Movie::join() {
   }
 }
 
-// A piece may have been cut or replaced since it was drawn, which no encoder would notice.
+// The encoder does not notice a piece that was truncated or replaced.
 void Movie::require_unchanged(const std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (checksum_of_file(pieces[i].path) == checksums_[i]) continue;
@@ -246,7 +246,7 @@ void Movie::require_unchanged(const std::vector<Piece>& pieces) {
   }
 }
 
-// Ends the encoder under way, and removes what holds no picture.
+// Kills the current encoder, and removes files and folders without pictures.
 void Movie::tidy() {
   if (encoder_) {
     encoder_->kill();
@@ -257,7 +257,7 @@ void Movie::tidy() {
   rmdir(folder_.c_str());
 }
 
-// As many as a player would find; -1 where the encoder cannot be started.
+// Number of pictures that a player finds; -1: the encoder cannot start.
 long Movie::pictures_in(const std::filesystem::path& film) const {
   std::istringstream list;
   try {
@@ -272,7 +272,7 @@ long Movie::pictures_in(const std::filesystem::path& film) const {
   return pictures;
 }
 
-// An encoder may lose pictures and succeed, for one where a disk is full at the end of a film.
+// An encoder may lose pictures without an error, for example if the disk is full at the end.
 void Movie::require_pictures(const std::filesystem::path& film, long count) {
   const long found = pictures_in(film);
   if (found == count) return;
@@ -289,10 +289,10 @@ void Movie::fail(const std::string& reason) {
   throw RunError("ffmpeg could not write " + path_.string() + ": " + reason + place_of_pieces());
 }
 
-// To be added to an error.
+// Text to append to an error.
 std::string Movie::place_of_pieces() const {
   if (!std::filesystem::exists(folder_)) return "";
-  return "; what was filmed before is in " + folder_.string();
+  return "; earlier pictures are in " + folder_.string();
 }
 
 }  // namespace clatter

@@ -9,32 +9,32 @@
 
 namespace clatter {
 
-/// A film, encoded by ffmpeg beside the simulation: in pieces of so many pictures, each by itself,
-/// in a folder FILE.part, which are then joined without encoding them anew. So a film that was cut
-/// and taken up again is the same to the bit, and what is encoded is safe.
+/// A film, encoded by ffmpeg in parallel with the simulation. Pieces of kPiece pictures are encoded
+/// separately in the folder FILE.part, and then joined without encoding them again. So a crash
+/// loses no complete piece, and a restarted film is bit for bit identical to an uninterrupted one.
 class Movie final : public FrameSink {
  public:
-  /// The kind of film is that of the extension. Throws UserError where the folder lacks pieces of a
-  /// film that goes on, or holds those of another one; RunError where files cannot be written or
-  /// `encoder`, a name on the PATH, cannot be started.
+  /// Opens a film; the extension of `path` determines its format. `encoder` is a name on the PATH.
+  /// Throws UserError if pieces of a restarted film are missing or changed, or if the folder has
+  /// other pieces. Throws RunError if files cannot be written or the encoder cannot start.
   Movie(std::filesystem::path path, const SinkOptions& options,
         const std::string& encoder = "ffmpeg");
   ~Movie() override;
 
-  /// Whether there is a kind of film of this extension: ".mp4", ".webm", ".gif", ".mkv".
+  /// True for the extensions ".mp4", ".webm", ".gif" and ".mkv".
   static bool knows(const std::string& extension);
 
   void add(Image image, std::vector<PngText> notes) override;
-  /// Has nothing to do: add() waits for the encoder of a piece with its last picture.
+  /// Does nothing: add() of the last picture of a piece waits for the encoder.
   void flush() override {}
-  /// The film gets its name once it is whole; one that is cut keeps its pieces, too.
+  /// Joins the pieces to the film at its path. An interrupted film also keeps its pieces.
   void finish(Ending ending) override;
   std::vector<std::uint32_t> checksums() const override { return checksums_; }
 
  private:
   struct Piece {
     std::filesystem::path path;
-    long count;  // of its pictures
+    long count;  // number of pictures
   };
 
   std::filesystem::path piece_path(long first) const;
@@ -55,18 +55,18 @@ class Movie final : public FrameSink {
   [[noreturn]] void fail(const std::string& reason);
 
   std::filesystem::path path_;
-  std::filesystem::path folder_;  ///< of the pieces
-  FileDescriptor held_;           ///< that folder, locked against other films of this name
+  std::filesystem::path folder_;  ///< folder of the pieces
+  FileDescriptor held_;           ///< lock on that folder, against other films of this name
   const MovieFormat* format_;
   SinkOptions options_;
-  std::string program_;                    ///< that encodes
-  std::vector<std::uint32_t> checksums_;   ///< of the pieces that are whole, in order
-  std::vector<PngText> notes_;             ///< of the last picture
+  std::string program_;                    ///< name of the encoder
+  std::vector<std::uint32_t> checksums_;   ///< checksums of the complete pieces, in order
+  std::vector<PngText> notes_;             ///< texts of the last picture
   long next_;                              ///< number of the next picture
-  long piece_ = 0;                         ///< number of the first picture of the piece under way
-  FileDescriptor file_;                    ///< of that piece, or the one before
-  std::unique_ptr<ChildProcess> encoder_;  ///< of that piece; none: it has not begun
-  WorkQueue queue_;                        ///< last, so that its thread ends before the rest
+  long piece_ = 0;                         ///< number of the first picture of the current piece
+  FileDescriptor file_;                    ///< file of the current or previous piece
+  std::unique_ptr<ChildProcess> encoder_;  ///< encoder of the current piece; null: not started
+  WorkQueue queue_;                        ///< last member: its thread must end first
 };
 
 }  // namespace clatter

@@ -8,8 +8,8 @@ namespace clatter {
 
 namespace {
 
-// The colours are those of BT.709, said and done: left alone, ffmpeg converts by BT.601 and players
-// assume BT.709. Both codecs store colour at half the resolution, so sides are made even.
+// Converts to BT.709 explicitly: by default ffmpeg converts to BT.601, and players assume BT.709.
+// Both codecs store colour at half the resolution, so the sides are padded to even lengths.
 const std::string kEvenSides =
     "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x101418,"
     "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
@@ -22,10 +22,9 @@ std::vector<std::string> video(std::vector<std::string> codec) {
   return all;
 }
 
-// An mp4 is written in fragments of a second of film, which play even where the machine stops
-// halfway. VP9's "realtime" is five times as fast as "good" for a fifth more bytes at the same
-// quality. FFV1 keeps every bit of a picture, with checksums. A GIF has a palette for each frame:
-// one for the whole film would have ffmpeg keep every frame in memory.
+// mp4: fragments of one second of film, which play even after a crash. VP9: "realtime" is five
+// times as fast as "good", with a fifth more bytes at the same quality. FFV1: lossless, with
+// checksums. GIF: one palette per frame, because one for the whole film needs all frames in memory.
 const std::array<MovieFormat, 4>& formats() {
   static const std::array<MovieFormat, 4> all = {{
       {".mp4", "mp4",
@@ -45,7 +44,7 @@ const std::array<MovieFormat, 4>& formats() {
   return all;
 }
 
-// "file:" keeps a colon in the name from being taken for a protocol.
+// "file:" prevents ffmpeg from reading a name with a colon as a protocol.
 std::string name_of(const std::filesystem::path& file) {
   return "file:" + file.string();
 }
@@ -54,7 +53,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// A value in ffmpeg's metadata files.
+// Escapes a value for a metadata file of ffmpeg.
 std::string escaped(std::string_view value) {
   std::string text;
   for (const char c : value) {
@@ -86,12 +85,12 @@ std::string metadata_file(const std::vector<PngText>& texts) {
   return ";FFMETADATA1\ntitle=" + escaped(title) + "\ncomment=" + escaped(comment) + "\n";
 }
 
-// The encoder, which says no more than errors and replaces its output.
+// The encoder with options to report only errors and to replace its output.
 static std::vector<std::string> quiet(const std::string& encoder) {
   return {encoder, "-v", "error", "-nostdin", "-y"};
 }
 
-// The texts of a film, as the input after the pictures.
+// Options for the texts of a film, as the second input after the pictures.
 static std::vector<std::string> texts_of(const std::filesystem::path& metadata) {
   return {"-f", "ffmetadata", "-i", name_of(metadata), "-map_metadata", "1"};
 }
@@ -116,7 +115,7 @@ std::vector<std::string> joining_command(const std::string& encoder, const Movie
   std::vector<std::string> all = quiet(encoder);
   append(all, {"-f", "concat", "-i", name_of(list)});
   append(all, texts_of(metadata));
-  // Without names that the muxer makes up, so that the same film is the same file.
+  // "+bitexact" leaves out version and random identifiers: equal films are equal files.
   append(all, {"-c", "copy", "-fflags", "+bitexact"});
   if (format.muxer == "mp4") append(all, {"-movflags", "+faststart"});
   append(all, {"-f", format.muxer, name_of(file)});

@@ -18,7 +18,7 @@ std::string frame_name(long number) {
   return fmt::format("frame_{:06}.png", number);
 }
 
-// The number of a frame; -1 of any other file.
+// The number of a frame; -1: another file.
 long frame_number(const std::filesystem::directory_entry& entry) {
   constexpr std::string_view kPrefix = "frame_", kSuffix = ".png";
   const std::string name = entry.path().filename();
@@ -32,8 +32,8 @@ void require_earlier_frames(const std::filesystem::path& folder, const SinkOptio
   for (long number = options.begin; number < options.next; ++number) {
     const std::filesystem::path frame = folder / frame_name(number);
     if (std::filesystem::exists(frame)) continue;
-    throw UserError({folder.string()}, "the film goes on, but " + frame.string() + " is not there",
-                    "name the folder of the film, or begin one by --frames " +
+    throw UserError({folder.string()}, "the frame " + frame.string() + " of the film is missing",
+                    "name the folder of the film, or start one with --frames " +
                         std::to_string(options.next) + ":");
   }
 }
@@ -89,7 +89,7 @@ void PngSequence::flush() {
 }
 
 void PngSequence::fail(const RunError& error) const {
-  throw RunError(std::string(error.what()) + "; what was filmed before is in " + folder_.string());
+  throw RunError(std::string(error.what()) + "; earlier pictures are in " + folder_.string());
 }
 
 }  // namespace clatter

@@ -11,7 +11,7 @@ class PngFile final : public FrameSink {
  public:
   PngFile(std::filesystem::path path, const SinkOptions& options);
 
-  /// Writes the picture; another one replaces it.
+  /// Writes the picture. A later picture replaces it.
   void add(Image image, std::vector<PngText> notes) override;
   void flush() override {}
   void finish(Ending) override {}
@@ -21,12 +21,12 @@ class PngFile final : public FrameSink {
   std::vector<PngText> texts_;
 };
 
-/// A folder of pictures, DIR/frame_000000.png and on, encoded by threads beside the caller's. Those
-/// that are written stay, whatever happens.
+/// A folder of pictures, DIR/frame_000000.png etc., encoded by worker threads. Written pictures
+/// always remain.
 class PngSequence final : public FrameSink {
  public:
-  /// Makes the folder; throws UserError where it holds frames of these numbers already and may not
-  /// replace them, or lacks earlier ones, and RunError where it cannot be made.
+  /// Creates the folder. Throws UserError if earlier frames are missing, or if frames of these
+  /// numbers exist and may not be replaced. Throws RunError if the folder cannot be created.
   PngSequence(std::filesystem::path folder, const SinkOptions& options);
 
   void add(Image image, std::vector<PngText> notes) override;
@@ -39,7 +39,7 @@ class PngSequence final : public FrameSink {
   std::filesystem::path folder_;
   std::vector<PngText> texts_;
   long next_;        ///< number of the next picture
-  WorkQueue queue_;  ///< last, so that its threads end before the rest
+  WorkQueue queue_;  ///< last member: its threads must end first
 };
 
 }  // namespace clatter

@@ -48,8 +48,8 @@ void WorkQueue::close_and_join() {
 }
 
 void WorkQueue::work() {
-  // Signals are for the program's own threads; and a pipe whose reader is gone then shows as an
-  // error of write() instead of killing the program.
+  // Signals are handled by other threads. A closed pipe then makes write() fail, instead of ending
+  // the program with SIGPIPE.
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, nullptr);

@@ -10,22 +10,21 @@
 
 namespace clatter {
 
-/// A bounded queue of jobs and the threads that do them, beside the one that adds. After a job has
-/// thrown, no other begins.
+/// A bounded queue of jobs with worker threads. After a job has thrown, no further job starts.
 class WorkQueue {
  public:
-  /// At most `capacity` jobs wait; with one thread they are done in order.
+  /// Starts `threads` threads. At most `capacity` jobs wait. One thread runs the jobs in order.
   WorkQueue(int threads, std::size_t capacity);
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
-  /// Drops the jobs that wait and ends when those begun have ended.
+  /// Drops waiting jobs, and waits for running ones.
   ~WorkQueue();
 
-  /// Adds a job, once there is room; throws what a job threw.
+  /// Adds a job, after waiting for room. Throws the exception of an earlier job.
   void add(std::function<void()> job);
-  /// Waits until all jobs are done; throws what a job threw.
+  /// Waits until all jobs are done. Throws the exception of a job.
   void drain();
-  /// Ends when all jobs are done, for good; throws what a job threw.
+  /// Waits until all jobs are done, and ends the threads. Throws the exception of a job.
   void finish();
 
  private:
@@ -34,11 +33,11 @@ class WorkQueue {
 
   const std::size_t capacity_;
   std::mutex mutex_;
-  std::condition_variable job_or_end_;  ///< the threads wait for it
-  std::condition_variable room_;        ///< add() waits for it
-  std::condition_variable idle_;        ///< drain() waits for it
+  std::condition_variable job_or_end_;  ///< for the threads
+  std::condition_variable room_;        ///< for add()
+  std::condition_variable idle_;        ///< for drain()
   std::deque<std::function<void()>> jobs_;
-  int under_way_ = 0;  ///< jobs that have begun and not ended
+  int under_way_ = 0;  ///< number of running jobs
   std::exception_ptr error_;
   bool closed_ = false;
   std::vector<std::thread> threads_;

@@ -116,7 +116,7 @@ TEST_CASE(
   CAPTURE(killed.err);
   CHECK(killed.code == 1);
   CHECK(says(killed.err,
-             "Killed; what was filmed before is in film.mp4.part; go on with --resume "
+             "Killed; earlier pictures are in film.mp4.part; go on with --resume "
              "film.checkpoint"));
   CHECK(hashes(shell, "-i film.mp4.part/000000.mp4").size() == 60 * 33);
   check_refused(shell, kFilm + "--out film.mp4", {"film.mp4.part", "--resume", "--overwrite"});

@@ -120,11 +120,11 @@ const std::vector<SliderMeaning> kSliders = {
     {"bulk_drive.kick_speed", "/bulk_drive/kick_speed", 0.0, 1.0, "Kicks s 0.220 a/t",
      "Homogeneous"},
     {"view.trails", "/view/trails", 0.0, 5.0, "Trails 0.25 t", "paths are drawn"},
-    {"collapse.contact_time", "/collapse/contact_time", 1e-9, 0.1, "Its length t_c 2.0e-04 t",
+    {"collapse.contact_time", "/collapse/contact_time", 1e-9, 0.1, "Duration t_c 2.0e-04 t",
      "TC model", true},
     {"view.interval", "/view/interval", 0.01, 4.0, "Snapshots every 0.300 t",
-     "Time between two of them", true},
-    {"view.window", "/view/window", 0.1, 100.0, "Averaged over 4.00 t", "How far back", true}};
+     "Time between two snapshots", true},
+    {"view.window", "/view/window", 0.1, 100.0, "Averaged over 4.00 t", "Averaging time", true}};
 
 std::string text_of(PanelDriver& driver) {
   std::string text;
@@ -236,7 +236,7 @@ TEST_CASE("Panels: every name stands beside the value of its own key, in its uni
                                "[ ] Title, figures and scales",
                                "### Accuracy ###",
                                "[x] Contact time",
-                               "Its length t_c 2.0e-04 t",
+                               "Duration t_c 2.0e-04 t",
                                "{ 0.0002 }",
                                "CPU time x1",
                                "Not dissipated: -",

@@ -132,7 +132,7 @@ TEST_CASE("Movie: pieces that cannot be joined stay, and the error names them") 
   {
     Movie movie(folder / "film.mp4", options(), encoder);
     const std::string named =
-        "no room; what was filmed before is in " + (folder / "film.mp4.part").string();
+        "no room; earlier pictures are in " + (folder / "film.mp4.part").string();
     CHECK_THROWS_WITH_AS(write_film(movie, FrameSink::kPiece + 20),
                          doctest::Contains(named.c_str()), RunError);
   }
@@ -258,9 +258,8 @@ TEST_CASE("Movie: a joined film that lacks pictures is an error, and the pieces 
     CAPTURE(name);
     {
       Movie movie(folder / name, options(), encoder);
-      const std::string named =
-          " of 80 pictures; is the disk full?; what was filmed before is in " +
-          (folder / (name + ".part")).string();
+      const std::string named = " of 80 pictures; is the disk full?; earlier pictures are in " +
+                                (folder / (name + ".part")).string();
       CHECK_THROWS_WITH_AS(write_film(movie, 80), doctest::Contains(named.c_str()), RunError);
     }
     CHECK_FALSE(std::filesystem::exists(folder / name));
