@@ -25,7 +25,7 @@ void print(std::string_view text) {
 
 void require_folder_of(const std::filesystem::path& path, const char* flag) {
   if (path.empty()) throw UserError({flag, 0, 0}, "the name is empty", "name a file or folder");
-  // "frames/" names the folder frames.
+  // The path "frames/" names the folder frames.
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
   if (std::filesystem::is_directory(folder)) return;
@@ -51,7 +51,7 @@ void make_folder(const std::filesystem::path& folder, const char* flag) {
   if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
 }
 
-// One name of a place, however it is written.
+// The same text for all paths to one place.
 static std::filesystem::path whole_name(const std::filesystem::path& path) {
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
