@@ -19,14 +19,15 @@ static std::string shown(const std::string& value) {
                   advice);
 }
 
-// What a run cannot change: where its disks are, and which sides hold them.
+// Properties that a resumed run must keep: the box, the disks and the walled sides.
 static bool is_fixed(const KeyDifference& difference) {
   const bool wall_of_one = difference.before.empty() || difference.now.empty();
   return difference.key == "box.size" || difference.key == "particles.count" ||
          (wall_of_one && difference.key.starts_with("walls.") && difference.key.ends_with(".kind"));
 }
 
-// Whether it is what happens to the disks, and not what is measured, shown or said of them.
+// Whether a key changes the dynamics. The other keys concern measurement, pictures and
+// descriptions.
 static bool is_law(const KeyDifference& difference) {
   const std::string& key = difference.key;
   return !key.starts_with("measure.") && !key.starts_with("view.") &&
@@ -70,7 +71,7 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
 
 void require_same_measure(const Resumed& resumed) {
   for (const KeyDifference& key : resumed.differences) {
-    // How long it goes on is another matter.
+    // The duration may change.
     if (!key.key.starts_with("measure.") || key.key == "measure.duration") continue;
     refuse(resumed, key, "averages go on as they began only: --set " + key.key + "=" + key.before);
   }

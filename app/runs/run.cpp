@@ -15,10 +15,10 @@
 
 namespace clatter {
 
-// Whether averages can go on under a model. Under another gravity they cannot, for what flights
-// contribute is booked at their end, by the gravity of that time; nor where walls move otherwise,
-// which starts flights anew; nor where spins come or go or get another inertia, for fields then
-// need other sums and cells hold another energy.
+// Whether averages can continue under a new model. They cannot under another gravity: a flight is
+// booked at its end, with the gravity of that time. They cannot under another wall motion, which
+// restarts flights. They cannot if spins appear, disappear or change their inertia: the fields need
+// other sums, and the energy of cells changes.
 static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Model<2>& model,
                            const Measure& measure) {
   const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
@@ -27,8 +27,8 @@ static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Mo
          saved.wall_motions == wall_motions<2>(model);
 }
 
-// Where a checkpoint goes that nobody asked for: beside what the command writes, where that is a
-// file or folder. Else runs of other seeds in the same folder have others.
+// Path of an automatic checkpoint: beside the output if this is a file or folder. Otherwise the
+// name contains the seed, so that runs in one folder use different files.
 static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene,
                                                std::uint64_t seed) {
   if (out.empty() || is_special(out)) {
@@ -69,7 +69,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
-  saved = {};  // some memory
+  saved = {};  // frees memory
   const std::string laws = changed_laws(*resumed_);
   if (!laws.empty() && !quiet_) {
     std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
@@ -111,7 +111,7 @@ void Run::tell_new_averages() const {
 
 bool Run::until(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
-  std::uint64_t slice = 1024;  // steps, found while running
+  std::uint64_t slice = 1024;  // steps; adapted while running
   ended_early_ = true;
   try {
     for (bool arrived = false; !arrived; progress.update(simulation().time())) {
@@ -126,7 +126,7 @@ bool Run::until(double time, Progress& progress) {
     stop_ = stop;
     return false;
   }
-  // Also where an interrupt came meanwhile: a run that has arrived has nothing to go on with.
+  // An interrupt after the end has no effect: the run is complete.
   ended_early_ = false;
   return true;
 }
@@ -146,7 +146,7 @@ void Run::mark() {
   marked_ = checkpoint();
 }
 
-// A run does not fail for a checkpoint on the way: the next may succeed.
+// A failed checkpoint does not end a run. The next may succeed.
 void Run::write() {
   try {
     if (marked_) {
@@ -193,7 +193,7 @@ int Run::end() {
                                             : "; no checkpoint is left: " + failure_));
   }
   require_no_overlap(simulation().checks());
-  // Also of a run that was interrupted: its exit code would say that all there is has been saved.
+  // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }
