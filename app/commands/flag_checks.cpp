@@ -12,7 +12,7 @@
 
 namespace clatter {
 
-// The whole of a text as a finite number; NaN where it is none.
+// The finite number that the whole text represents; otherwise NaN.
 static double number_in(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr Size kMinSize = {16, 16};
 
-// Presets of size and rate.
+// Presets of picture size and frame rate.
 enum class Quality { Low, Medium, High };
 
 struct Preset {
@@ -49,15 +49,15 @@ struct RenderOptions {
   CheckpointOptions checkpoints;
   std::string out;
   std::optional<Quality> quality;   // absent: medium
-  std::optional<std::string> size;  // absent: that of the quality
-  std::optional<double> fps;        // likewise
+  std::optional<std::string> size;  // absent: size of the quality
+  std::optional<double> fps;        // absent: rate of the quality
   std::optional<double> from;       // absent: 0, or the time of the checkpoint
   std::optional<double> to;
   std::optional<double> speed;
   std::optional<std::string> frames;  // absent: all
   std::optional<int> supersample;     // absent: 1
   std::optional<double> shutter;      // absent: 0
-  int threads = 2;                    // that encode pictures
+  int threads = 2;                    // number of encoding threads
   bool no_overlay = false;
   bool transparent = false;
   bool overwrite = false;
@@ -78,7 +78,7 @@ FrameRange parse_frames(const std::string& text) {
                   "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");
 }
 
-// The film has `from`, `speed` and `fps`; its end is asked for, or as it was.
+// Number of frames. `from`, `speed` and `fps` are known. The end is `to`, or the previous end.
 long count_frames(const FrameTimes& times, const std::optional<double>& to) {
   constexpr double kFilmSeconds = 20.0;
   constexpr double kMaxFrames = 1e7;
@@ -89,9 +89,10 @@ long count_frames(const FrameTimes& times, const std::optional<double>& to) {
                   "choose a larger --speed, or an earlier --to");
 }
 
-// The run is at `start`, 0 or the time of a checkpoint, and the film begins there or at --from.
+// A new film. The run is at `start`, 0 or the time of a checkpoint. The film begins there or at
+// --from.
 FilmState new_film(const RenderOptions& options, const View& view, double start) {
-  constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
+  constexpr double kPictureSeconds = 10.0;  // film time of a single picture
   const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
   FilmState film;
   film.size = parse_size(options.size.value_or(preset.size), kMinSize);
@@ -119,7 +120,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   return film;
 }
 
-// Films have no transparency.
+// Film formats have no transparency.
 void require_pictures(const RenderOptions& options) {
   const auto extension = std::filesystem::path(options.out).extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
@@ -137,7 +138,7 @@ void keep(const std::optional<T>& asked, const T& before, const char* flag, cons
   if (asked && !(*asked == before)) refuse_change(flag, text(before));
 }
 
-// A film goes on as it began, but that it may end at another time.
+// A resumed film keeps its settings, except for its end.
 FilmState continued_film(const RenderOptions& options, FilmState film) {
   const FrameTimes& times = film.times;
   std::optional<Size> size;
@@ -164,7 +165,7 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   return film;
 }
 
-// The film that a run is to make: that of its checkpoint, unless another beginning is asked for.
+// The film to draw: from the checkpoint, unless the flags give another beginning.
 FilmState film_asked_for(const RenderOptions& options, const View& view,
                          const std::optional<Resumed>& resumed) {
   if (!resumed) return new_film(options, view, 0.0);
@@ -219,8 +220,8 @@ void require_few_windows(const View& view, double last) {
                   "choose at least " + number_text(last / kMaxWindows));
 }
 
-// Whether there is anything in the sink. Where that cannot be written, the run is kept all the
-// same.
+// Returns whether the sink has frames. A checkpoint keeps the run even if the sink cannot be
+// written.
 bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progress& progress) {
   try {
     const long next = film.draw(frames, sink, progress);
