@@ -135,8 +135,8 @@ int bench_accuracy(const AccuracyBench& bench) {
   require_places(bench);
   Scene scene = load_scene(bench.scene, {});
   if (scene.particles.count < 2 || !scene.changes.empty()) {
-    throw UserError({bench.scene, 0, 0}, "errors are those of a gas whose laws stay",
-                    "choose a scene of two disks or more, without [[change]]");
+    throw UserError({bench.scene, 0, 0}, "the bench needs constant laws and at least two disks",
+                    "choose another scene, or remove [[change]]");
   }
   require_known(sweeps_of(scene, 1.0), bench);
   const Effort effort{.burn_in = 0.2 * bench.duration, .duration = bench.duration};

@@ -123,10 +123,10 @@ std::string accuracy_statement(const AccuracyBench& bench) {
          "ρ(x): temperature, wall pressure, stress, heat flux, dissipation and density profile "
          "(root mean square), relative to the dial's first row; overlap: deepest, in diameters; "
          "el.: collisions that t_c made elastic; error: sqrt(bias² + variance per CPU second), "
-         "root mean square over those six; SSIM: similarity to a picture of 4 x 4 samples a pixel; "
-         "centre px: how far a disk's light is from where the disk is, for frame rates where it is "
-         "half a frame later; *: another setting of the dial costs less and errs less, by a tenth "
-         "at least.\n";
+         "root mean square over those six; SSIM: similarity to a picture of 4 x 4 samples per "
+         "pixel; centre px: distance between a drawn disk and the disk, for frame rates half a "
+         "frame later; *: another setting of the dial has both a lower cost and a lower error, by "
+         "at least one tenth.\n";
 }
 
 std::string accuracy_text(const AccuracyTable& table) {

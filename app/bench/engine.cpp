@@ -158,8 +158,9 @@ int bench_engine(const std::string& json, int count, double area_fraction) {
   std::vector<std::pair<int, double>> cells;
   if (count > 0) {
     if (!has_room(count, area_fraction)) {
-      throw UserError({"--area-fraction", 0, 0}, "no square box holds so many disks so densely",
-                      "choose a smaller one, or another --count");
+      throw UserError({"--area-fraction", 0, 0},
+                      "no square box holds this number of disks at this area fraction",
+                      "choose a smaller fraction, or another --count");
     }
     cells = {{count, area_fraction}};
   } else {

@@ -193,10 +193,9 @@ int bench_features(const std::string& json, int count) {
   bare.box.setConstant(std::sqrt(bare.particles.count * 0.25 * std::numbers::pi / kAreaFraction));
   const auto batch = kPerDisk * static_cast<std::uint64_t>(bare.particles.count);
   std::fprintf(stderr,
-               "%d disks, phi = %g; each %d rounds of %llu collisions, interleaved; rate: "
-               "collisions with disks and walls per CPU second over those of the bare run "
-               "(elastic, periodic) in the "
-               "same round, median\n",
+               "%d disks, phi = %g; %d rounds of %llu collisions each, interleaved; rate: "
+               "collisions with disks and walls per CPU second, relative to the bare run (elastic, "
+               "periodic) of the same round, median\n",
                bare.particles.count, kAreaFraction, kRounds,
                static_cast<unsigned long long>(batch));
 

@@ -121,9 +121,9 @@ int bench_fields(double duration, const std::string& json) {
                                          {"snapshot 10", temperature, 10.0},
                                          {"balance", {}, {}, true}};
   std::fprintf(stderr,
-               "vibrated scene, cells of one diameter, %g time units; the field is T but for the "
-               "second row, and the last books all balance equations\ncost: CPU time over that of "
-               "a bare run; variance: of the profile of T, mean over its columns\n",
+               "vibrated scene, cells of one diameter, %g time units; the second row measures all "
+               "fields, the last row all balance equations, the others T\ncost: CPU time relative "
+               "to a bare run; variance: of the profile of T, mean over its columns\n",
                duration);
   const std::vector<Outcome> outcomes = observe_all(scene, duration, ways);
   const Outcome& bare = outcomes.front();

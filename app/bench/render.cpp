@@ -215,10 +215,10 @@ int bench_render(const std::string& json, int count) {
   const auto context = open_context(Backend::Auto);
   std::fprintf(
       stderr,
-      "elastic disks at phi = 0.5 over a heatmap, %g frames a time unit, %s\n"
-      "milliseconds of CPU a frame, all threads; draw: the whole picture, of which disks, "
-      "heatmap and overlay are parts; x264: as films are encoded, veryfast: by that preset\n"
-      "of x264 from its own colours\n",
+      "elastic disks at phi = 0.5 over a heatmap, %g frames per time unit, %s\n"
+      "CPU milliseconds per frame, all threads; draw: the whole picture, with its parts disks, "
+      "heatmap and overlay;\nx264: the encoder of films; veryfast: x264 with this preset and "
+      "pictures in yuv420p\n",
       kFps, context->description().c_str());
   std::printf("%8s %10s", "N", "size");
   for (const char* name : kNames) std::printf(" %8s", name);

@@ -93,9 +93,9 @@ Size parse_size(const std::string& text, Size least) {
       return {*width, *height};
     }
   }
-  throw UserError({"--size", 0, 0}, "'" + text + "' is no size that there can be",
+  throw UserError({"--size", 0, 0}, "'" + text + "' is not a valid size",
                   "write WIDTHxHEIGHT, from " + size_text(least) + " to " +
-                      size_text({kMax, kMax}) + ", for instance 1280x720");
+                      size_text({kMax, kMax}) + ", for example 1280x720");
 }
 
 }  // namespace clatter

@@ -33,7 +33,7 @@ CLI::Validator one_of(std::vector<std::pair<std::string, E>> words) {
       text = std::to_string(static_cast<int>(value));
       return "";
     }
-    return "'" + text + "' is none of " + wanted;
+    return "'" + text + "' is unknown; give one of " + wanted;
   };
   return CLI::Validator(convert, "");
 }

@@ -61,12 +61,15 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
                100.0 * elastic / all);
   const double rate = enskog_rate(scene.packing_fraction(), measured.temperature.mean);
   if (*scene.contact_time * rate > kLong) {
-    std::fprintf(stderr,
-                 "for the gas collides as often; a smaller one, say %.1g, would let it dissipate\n",
-                 kShort / rate);
+    std::fprintf(
+        stderr,
+        "because it is near the time between collisions; a smaller value, for example %.1g, "
+        "restores the dissipation\n",
+        kShort / rate);
   } else {
     std::fprintf(stderr,
-                 "as of grains that rest on each other; a larger one, say %s, would run faster\n",
+                 "because grains rest on each other; a larger value, for example %s, makes the run "
+                 "faster\n",
                  number_text(10.0 * *scene.contact_time).c_str());
   }
 }
@@ -92,8 +95,8 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
   add_files("--vtk", options.vtk, vtk_names());
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   if (!options.vtk.empty() && spec.fields.empty()) {
-    throw UserError({"--vtk", 0, 0}, "the scene asks for no fields",
-                    "--set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
+    throw UserError({"--vtk", 0, 0}, "the scene measures no fields",
+                    "add --set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
@@ -151,8 +154,8 @@ void require_bounded_samples(const Measure& spec, double end) {
 // Replicas differ in the seed only, so that the outputs of a single run are not available.
 int measure_replicas(const MeasureOptions& options, const Scene& scene, double end) {
   if (!scene.changes.empty()) {
-    throw UserError({"--replicas", 0, 0}, "the scene's laws change",
-                    "measure it seed by seed, or take out [[change]]");
+    throw UserError({"--replicas", 0, 0}, "the laws of this scene change",
+                    "measure each seed separately, or remove [[change]]");
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   catch_interrupts();
@@ -177,7 +180,7 @@ void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
   if (end > measure.burn_in) return;
   if (options.sets("measure.burn_in")) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
-                    "go beyond measure.burn_in = " + number_text(measure.burn_in));
+                    "give a time after measure.burn_in = " + number_text(measure.burn_in));
   }
   const double shorter = end * (measure.burn_in / (measure.burn_in + measure.duration));
   if (!options.quiet) {
@@ -199,7 +202,7 @@ int measure(const MeasureOptions& options) {
     throw UserError({"--until", 0, 0},
                     "the checkpoint is at t = " + number_text(resumed->time()) +
                         ", and the run ends at " + number_text(end),
-                    "go beyond that");
+                    "give a time after the checkpoint");
   }
   require_bounded_samples(spec, end);
   if (options.replicas > 1) return measure_replicas(options, scene, end);

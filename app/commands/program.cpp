@@ -54,7 +54,7 @@ int run_program(int argc, const char* const* argv) {
     program.set_version_flag("--version", version_text(), "Print the version and the commit.");
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` has the flags\n";
+      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` lists the flags\n";
     });
     add_view_command(program, exit_code);
     add_render_command(program, exit_code);

@@ -74,8 +74,8 @@ FrameRange parse_frames(const std::string& text) {
     const auto end = after.empty() ? std::numeric_limits<long>::max() : whole_number<long>(after);
     if (begin && end && *begin >= 0 && *begin < *end) return {*begin, *end};
   }
-  throw UserError({"--frames", 0, 0}, "'" + text + "' is no range of frames",
-                  "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");
+  throw UserError({"--frames", 0, 0}, "'" + text + "' is not a range of frames",
+                  "write FIRST:END with 0 <= FIRST < END, for example 100:200, or FIRST:");
 }
 
 // Number of frames. `from`, `speed` and `fps` are known. The end is `to`, or the previous end.
@@ -104,13 +104,13 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
                 options.fps.value_or(preset.fps), 1};
   if (film.times.from < start) {
     throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
-                    "give a time after that, or leave --from out");
+                    "give a later time, or omit --from");
   }
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to && *to < film.times.from) {
     throw UserError(
-        {"--to", 0, 0}, "the film would end before it begins",
-        "give a time after " + number_text(film.times.from) + ", that of --from or --resume");
+        {"--to", 0, 0}, "the film would end before its beginning",
+        "give a time after " + number_text(film.times.from) + ", the time of --from or --resume");
   }
   if (!options.one_picture()) {
     film.times.count = count_frames(film.times, to);
@@ -124,13 +124,13 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
 void require_pictures(const RenderOptions& options) {
   const auto extension = std::filesystem::path(options.out).extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
-  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be without a background",
-                  "write to a FILE.png or to a folder, or leave --transparent out");
+  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
+                  "write to a FILE.png or to a folder, or omit --transparent");
 }
 
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
-  throw UserError({flag, 0, 0}, "the film that goes on has " + before,
-                  "leave the flag out, or begin another film by --from");
+  throw UserError({flag, 0, 0}, "the film of the checkpoint has " + before,
+                  "omit the flag, or begin another film with --from");
 }
 
 template <class T, class Text>
@@ -159,8 +159,8 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   if (to) film.times.count = count_frames(times, to);
   if (film.times.count < film.next) {
     throw UserError({"--to", 0, 0},
-                    "the film is at t = " + number_text(film.times.of(film.next - 1)),
-                    "give a time after that, or leave --to out");
+                    "the film is already at t = " + number_text(film.times.of(film.next - 1)),
+                    "give a later time, or omit --to");
   }
   return film;
 }
@@ -183,13 +183,13 @@ FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film)
   if (frames.begin >= film.times.count) {
     throw UserError({"--frames", 0, 0},
                     "the film has " + std::to_string(film.times.count) + " frames",
-                    "begin before, or give a later --to");
+                    "give a smaller FIRST, or a later --to");
   }
   frames.end = std::min(frames.end, film.times.count);
   if (film.next > frames.end) {
     throw UserError({"--frames", 0, 0},
-                    "the checkpoint is at frame " + std::to_string(film.next) + " already",
-                    "give an earlier checkpoint, or leave --resume out");
+                    "the checkpoint is already at frame " + std::to_string(film.next),
+                    "resume an earlier checkpoint, or omit --resume");
   }
   return frames;
 }
@@ -271,10 +271,10 @@ void add_render_command(CLI::App& program, int& exit_code) {
   add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command
-      ->add_option("--out", options->out,
-                   "The ending decides the format. Films end in .mp4, .webm, .gif, or .mkv "
-                   "(without loss). One "
-                   "picture ends in .png. A folder gets a picture for each frame.")
+      ->add_option(
+          "--out", options->out,
+          "The file extension selects the format. Films end in .mp4, .webm, .gif, or .mkv "
+          "(without loss). One picture ends in .png. A folder gets a picture for each frame.")
       ->required()
       ->type_name("FILE|DIR");
   command

@@ -64,11 +64,11 @@ void tell_accuracy(const AccuracyGoal& goal, const Measured& measured) {
   if (!(measured.duration > 0.0)) return;
   const Estimate estimate = estimate_for(goal, measured);
   const double error = relative_error(estimate);
-  std::fprintf(stderr, "note: %s = %.6g, known within %s after %g time units", goal.of.c_str(),
+  std::fprintf(stderr, "note: %s = %.6g, relative error %s after %g time units", goal.of.c_str(),
                estimate.mean, percent(error).c_str(), measured.duration);
   if (error > goal.relative) {
-    std::fprintf(stderr, "; for %s the run would end about t = %.2g: give that to --until",
-                 percent(goal.relative).c_str(), measured.burn_in + needed_time(goal, measured));
+    std::fprintf(stderr, "; for %s, give about --until %.2g", percent(goal.relative).c_str(),
+                 measured.burn_in + needed_time(goal, measured));
   }
   std::fputs("\n", stderr);
 }

@@ -43,7 +43,7 @@ static void require_checkpoint_place(const CheckpointOptions& options) {
   if (options.file.empty()) return;
   require_writable_file(options.file, "--checkpoint");
   if (std::filesystem::exists(options.file) && !is_checkpoint(options.file)) {
-    throw UserError({"--checkpoint", 0, 0}, options.file + " is there and is no checkpoint",
+    throw UserError({"--checkpoint", 0, 0}, options.file + " exists and is not a checkpoint",
                     "give another name");
   }
 }
@@ -72,7 +72,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   saved = {};  // frees memory
   const std::string laws = changed_laws(*resumed_);
   if (!laws.empty() && !quiet_) {
-    std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
+    std::fprintf(stderr, "clatter: laws changed at t = %g: %s\n", simulation().time(),
                  laws.c_str());
   }
 }
@@ -105,7 +105,7 @@ void Run::measure_on(Simulation<2>& next) {
 
 void Run::tell_new_averages() const {
   if (quiet_) return;
-  std::fprintf(stderr, "clatter: averages start anew at t = %g\n",
+  std::fprintf(stderr, "clatter: averages restart at t = %g\n",
                std::max(run_->simulation().time(), scene_.measure.burn_in));
 }
 
@@ -164,14 +164,14 @@ void Run::write() {
 
 std::string Run::rescue() {
   write();
-  return failure_.empty() ? "; go on with --resume " + file_.string() : "";
+  return failure_.empty() ? "; continue with --resume " + file_.string() : "";
 }
 
 void Run::put_aside() {
   if (!ended_early_ && options_.file.empty()) return;
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
-    std::fprintf(stderr, "clatter: interrupted at t = %g; go on with --resume %s\n",
+    std::fprintf(stderr, "clatter: interrupted at t = %g; continue with --resume %s\n",
                  simulation().time(), file_.c_str());
   }
 }
@@ -179,22 +179,22 @@ void Run::put_aside() {
 void require_no_overlap(const RunChecks& checks) {
   constexpr double kRounding = 1e-9;  // diameters
   if (checks.deepest_overlap <= kRounding) return;
-  throw PhysicalStop(fmt::format(
-      "disks overlapped by {:.3g} diameters: events were lost; please report this scene "
-      "and seed",
-      checks.deepest_overlap));
+  throw PhysicalStop(
+      fmt::format("disks overlapped by {:.3g} diameters, so events were lost; please report the "
+                  "scene and the seed",
+                  checks.deepest_overlap));
 }
 
 int Run::end() {
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
     throw PhysicalStop(stop_->what() + (failure_.empty()
-                                            ? "; go on with --resume " + file_.string() + remedy
-                                            : "; no checkpoint is left: " + failure_));
+                                            ? "; continue with --resume " + file_.string() + remedy
+                                            : "; no checkpoint was written: " + failure_));
   }
   require_no_overlap(simulation().checks());
   // An interrupted run throws too: its exit code would claim that the state has been saved.
-  if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
+  if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }
 

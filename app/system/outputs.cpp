@@ -30,13 +30,13 @@ void require_folder_of(const std::filesystem::path& path, const char* flag) {
   const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
   if (std::filesystem::is_directory(folder)) return;
   throw UserError({flag, 0, 0}, "there is no folder " + folder.string(),
-                  "make it first, or name a file elsewhere");
+                  "create it, or choose another folder");
 }
 
 void require_writable_file(const std::filesystem::path& path, const char* flag) {
   require_folder_of(path, flag);
   if (!path.has_filename() || std::filesystem::is_directory(path)) {
-    throw UserError({flag, 0, 0}, path.string() + " is a folder", "name a file in it");
+    throw UserError({flag, 0, 0}, path.string() + " is a folder", "give a file in it");
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const std::filesystem::path& written = is_special(path) ? path : folder;
@@ -47,7 +47,9 @@ void make_folder(const std::filesystem::path& folder, const char* flag) {
   require_folder_of(folder, flag);
   std::error_code error;
   std::filesystem::create_directory(folder, error);
-  if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (error)
+    throw RunError("cannot make the folder " + folder.string() + ": " + error.message() +
+                   "; choose another folder");
   if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
 }
 
@@ -73,7 +75,7 @@ void require_distinct(std::span<const Output> outputs,
           names.emplace(name.string() + suffix, std::string(flag) + " writes");
       if (first) continue;
       throw UserError({flag, 0, 0}, path.string() + suffix + " is the file that " + other->second,
-                      "give each a name of its own");
+                      "choose different names");
     }
   }
 }

@@ -82,7 +82,8 @@ TEST_CASE("Completions: every command has the scripts of zsh and fish") {
     CHECK(says(zsh, "_clatter_" + command + "() {"));
     CHECK(says(fish, "'__clatter_command_is' -a " + command + " "));
   }
-  check_refused(shell, "clatter completions csh", {"'csh' is none of bash, zsh, fish"});
+  check_refused(shell, "clatter completions csh",
+                {"'csh' is unknown; give one of bash, zsh, fish"});
 }
 
 }  // namespace clatter

@@ -88,7 +88,7 @@ TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses
   REQUIRE(shell.run(kFilm + "--out whole.mp4").code == 0);
   REQUIRE(shell.run(kFilm + "--frames 0:60 --out film --checkpoint c").code == 0);
   const std::string on = "clatter render scene.toml --quiet --resume c ";
-  check_refused(shell, on + "--out film --fps 20", {"--fps", "the film that goes on has 10"});
+  check_refused(shell, on + "--out film --fps 20", {"--fps", "the film of the checkpoint has 10"});
   check_refused(shell, on + "--out film --size 320x240", {"--size", "160x120"});
   check_refused(shell, on + "--out film --speed 2", {"--speed"});
   check_refused(shell, on + "--out film --shutter 0.2", {"--shutter", "has 0.7"});
@@ -116,7 +116,7 @@ TEST_CASE(
   CAPTURE(killed.err);
   CHECK(killed.code == 1);
   CHECK(says(killed.err,
-             "Killed; what was filmed before is in film.mp4.part; go on with --resume "
+             "Killed; what was filmed before is in film.mp4.part; continue with --resume "
              "film.checkpoint"));
   CHECK(hashes(shell, "-i film.mp4.part/000000.mp4").size() == 60 * 33);
   check_refused(shell, kFilm + "--out film.mp4", {"film.mp4.part", "--resume", "--overwrite"});

@@ -259,7 +259,7 @@ TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is adv
   const Outcome frozen = shell.run(
       "clatter measure cooling --set collapse.contact_time=100 --set measure.burn_in=1 --until 20");
   CHECK(frozen.code == 0);
-  CHECK(says(frozen.err, "a smaller one, say "));
+  CHECK(says(frozen.err, "a smaller value, for example "));
   shell.write("pile.toml",
               "box.size = [10, 20]\nparticles = { count = 20, restitution = 0.5 }\n"
               "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
@@ -267,7 +267,7 @@ TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is adv
               "collapse.contact_time = 1e-2\nmeasure.burn_in = 20\n");
   const Outcome resting = shell.run("clatter measure pile.toml --until 40");
   CHECK(resting.code == 0);
-  CHECK(says(resting.err, "a larger one, say 0.1, would run faster"));
+  CHECK(says(resting.err, "a larger value, for example 0.1, makes the run faster"));
 }
 
 TEST_CASE("Measure: an interrupted measurement keeps what it has") {
@@ -326,8 +326,8 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   CHECK(late.at("accuracy").at("of") == "pressure.left");
   double told_mean = 0.0, told_error = 0.0, time = 0.0, aim = 0.0, end = 0.0;
   REQUIRE(std::sscanf(more.err.substr(more.err.find("note: pressure")).c_str(),
-                      "note: pressure.left = %lf, known within %lf %% after %lf time units; for "
-                      "%lf %% the run would end about t = %lf: give that to --until",
+                      "note: pressure.left = %lf, relative error %lf %% after %lf time units; for "
+                      "%lf %%, give about --until %lf",
                       &told_mean, &told_error, &time, &aim, &end) == 5);
   CHECK(told_mean == doctest::Approx(mean(late.at("pressure").at("left"))).epsilon(1e-5));
   CHECK(told_error == doctest::Approx(100.0 * known).epsilon(0.01));

@@ -73,7 +73,7 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
     const Outcome outcome = shell.run("timeout --preserve-status -s " + signal + " 1 " + line);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 130);
-    CHECK(says(outcome.err, "go on with --resume " + file + "\n"));
+    CHECK(says(outcome.err, "continue with --resume " + file + "\n"));
     CHECK_FALSE(shell.read(file).empty());
   };
   shell.run("mkdir folder && clatter check vibrated > folder/mine.toml");
@@ -100,13 +100,14 @@ TEST_CASE("Resume: a run that is continued for longer equals one long run") {
   CHECK(resumed.at("time").at("measured").get<double>() == doctest::Approx(100.0));
   CHECK(resumed.at("temperature_series") == whole.at("temperature_series"));
   CHECK(resumed.at("events") == whole.at("events"));
-  check_refused(shell, line + "--until 59 --resume c", {"--until", "t = 60", "go beyond"});
+  check_refused(shell, line + "--until 59 --resume c",
+                {"--until", "t = 60", "give a time after the checkpoint"});
   // As after a kill between the last checkpoint and the results.
   CHECK(shell.run(line + "--until 60 --resume c --out d.json").code == 0);
   CHECK(result_of(shell, "d.json") == result_of(shell, "a.json"));
   // Of other laws it has nothing to tell.
   check_refused(shell, line + "--until 60 --resume c --set particles.restitution=0.8",
-                {"--until", "t = 60", "go beyond"});
+                {"--until", "t = 60", "give a time after the checkpoint"});
 }
 
 TEST_CASE(
@@ -134,7 +135,7 @@ TEST_CASE(
   const Outcome measured = shell.run(
       "clatter measure vibrated --set measure.burn_in=1 --until 40 --resume d --out m.json");
   CHECK(measured.code == 0);
-  CHECK(says(measured.err, "averages start anew at t = 25.75"));
+  CHECK(says(measured.err, "averages restart at t = 25.75"));
   CHECK(result_of(shell, "m.json").at("time").at("burn_in") == 25.75);
 }
 
@@ -146,28 +147,28 @@ TEST_CASE("Resume: laws may change at a checkpoint, and are named") {
                                     "--until 9 --resume c --set particles.restitution=0.8 "
                                     "--set walls.left.drive_speed=2 --set view.speed=7");
   CHECK(outcome.code == 0);
-  CHECK(says(outcome.err,
-             "from t = 5 on other laws hold: particles.restitution, walls.left.drive_speed\n"));
+  CHECK(
+      says(outcome.err, "laws changed at t = 5: particles.restitution, walls.left.drive_speed\n"));
 
   // Another seed or another scene is another run, whose checkpoint was meant.
   const Outcome seed = shell.run(line + "--until 9 --resume c --seed 3");
   CHECK(seed.code == 2);
-  CHECK(says(seed.err, "c: this checkpoint has the seed 1; leave --seed out"));
+  CHECK(says(seed.err, "c: this checkpoint has the seed 1; omit --seed"));
   shell.run("clatter check vibrated --set walls.right.restitution=0.5 > other.toml");
   const Outcome other =
       shell.run("clatter measure other.toml --set measure.burn_in=1 --until 9 --resume c");
   CHECK(other.code == 2);
   CHECK(says(other.err,
              "c: walls.right.restitution is 1.0 in the checkpoint and 0.5 in the scene; "
-             "give that scene; or change the law from here on, --set "
+             "give the scene of the checkpoint, or change the law with --set "
              "walls.right.restitution=0.5"));
 
   // What flights contribute is booked at their end, so averages cannot span two gravities.
   const Outcome fallen =
       shell.run(line + "--until 9 --resume c --set gravity.acceleration=[0.1,0]");
   CHECK(fallen.code == 0);
-  CHECK(says(fallen.err, "other laws hold: gravity.acceleration\n"));
-  CHECK(says(fallen.err, "averages start anew at t = 5\n"));
+  CHECK(says(fallen.err, "laws changed at t = 5: gravity.acceleration\n"));
+  CHECK(says(fallen.err, "averages restart at t = 5\n"));
   CHECK(json::parse(fallen.out).at("time").at("burn_in") == 5.0);
 }
 
@@ -188,14 +189,14 @@ TEST_CASE(
     const Outcome outcome = resumed(change);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(says(outcome.err, "averages start anew at t = 5\n"));
+    CHECK(says(outcome.err, "averages restart at t = 5\n"));
     CHECK(json::parse(outcome.out).at("time").at("burn_in") == 5.0);
   }
   for (const std::string change : {"right.restitution=0.5", "left.restitution=0.9"}) {
     CAPTURE(change);
     const Outcome outcome = resumed(change);
     CHECK(outcome.code == 0);
-    CHECK_FALSE(says(outcome.err, "anew"));
+    CHECK_FALSE(says(outcome.err, "averages restart"));
     CHECK(json::parse(outcome.out).at("time").at("burn_in") == 1.0);
   }
 }
@@ -265,7 +266,7 @@ TEST_CASE("Resume: a checkpoint that does not fit is refused") {
   check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "cut short"});
   shell.write("c", "no checkpoint");
   check_refused(shell, line, {"c: ", "this is no checkpoint"});
-  check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c is there"});
+  check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c exists"});
   check_refused(shell, "clatter measure vibrated --checkpoint no/c", {"--checkpoint", "folder no"});
   check_refused(shell, "clatter measure vibrated --checkpoint-every 5", {"--checkpoint"});
   check_refused(shell, "clatter measure vibrated --checkpoint d --checkpoint-every 0",
@@ -292,7 +293,7 @@ TEST_CASE("Resume: a collapse leaves results, a checkpoint and the command that 
       shell.run("clatter measure " + scene + "--out s.json " + stopped.err.substr(way));
   CAPTURE(resumed.err);
   CHECK(resumed.code == 0);
-  CHECK(says(resumed.err, "other laws hold: collapse.contact_time\n"));
+  CHECK(says(resumed.err, ": collapse.contact_time\n"));
   CHECK(json::parse(shell.read("s.json")).at("temperature_series").at("time").back() == 1000.0);
 
   const Outcome film =
@@ -308,7 +309,8 @@ TEST_CASE("Resume: a checkpoint that cannot be written costs no result") {
       "mkdir vibrated-seed1.checkpoint.part; timeout --preserve-status -s INT 1 clatter measure "
       "vibrated --until 1e6");
   CHECK(outcome.code == 1);
-  CHECK(says(outcome.err, "no checkpoint is left: cannot write vibrated-seed1.checkpoint.part"));
+  CHECK(
+      says(outcome.err, "no checkpoint was written: cannot write vibrated-seed1.checkpoint.part"));
   CHECK(json::accept(outcome.out));
 }
 

@@ -75,8 +75,8 @@ TEST_CASE("Wrong use: scenes that do not exist are refused") {
 
 TEST_CASE("Wrong use: wrong flags are refused") {
   const Shell shell;
-  check_refused(shell, "clatter check vibrated --set particles.count", {"--set key=value"});
-  check_refused(shell, "clatter check vibrated --set =5", {"--set key=value"});
+  check_refused(shell, "clatter check vibrated --set particles.count", {"--set KEY=VALUE"});
+  check_refused(shell, "clatter check vibrated --set =5", {"--set KEY=VALUE"});
   check_refused(shell, "clatter check vibrated --set particles.cuont=5",
                 {"--set particles.cuont", "did you mean 'count'?"});
   check_refused(shell, "clatter check vibrated --colour", {"--colour"});
@@ -150,7 +150,7 @@ TEST_CASE("Wrong use: outputs that would replace what the command reads are refu
       {"measure s.toml --until 2 --resume c --out c", "--out"},
       {"measure vibrated --until 2 --csv d --out d/x --hdf5 d/x.part", "--hdf5"}};
   for (const auto& [line, flag] : lines) {
-    check_refused(shell, "clatter " + line, {flag, "is the file that", "name of its own"});
+    check_refused(shell, "clatter " + line, {flag, "is the file that", "choose different names"});
   }
   check_refused(shell, "clatter measure s.toml --resume ''", {"--resume", "the name is empty"});
   check_refused(shell, "clatter measure s.toml --checkpoint ''", {"--checkpoint", "name a file"});
@@ -190,7 +190,7 @@ TEST_CASE("Wrong use: a picture without a scene is refused as a picture") {
   const Shell shell;
   REQUIRE(shell.run("ffmpeg -v error -f lavfi -i color=red:16x16 -frames:v 1 red.png").code == 0);
   check_refused(shell, "clatter check red.png",
-                {"red.png: this picture has no scene inside", "a picture that clatter drew"});
+                {"red.png: this picture contains no scene", "a picture made by clatter"});
   check_refused(shell, "clatter check vibrated --set particles.count=1e3", {"cannot be 1000.0"});
 }
 
@@ -204,7 +204,7 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
       check_refused(shell,
                     "clatter measure vibrated --until 1e6 " + flags[k] + " link/x " + flags[other] +
                         " ./folder/../folder/x",
-                    {flags[k], flags[other], "/x is the file that", "name of its own"});
+                    {flags[k], flags[other], "/x is the file that", "choose different names"});
     }
   }
   check_refused(shell, "clatter measure vibrated --until 1e6 --csv x/ --vtk x", {"--vtk", "--csv"});
@@ -216,7 +216,7 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
         "--vtk d --checkpoint d/series.pvd", "--vtk d --out d/series_63.vti"}) {
     const std::string name = file.substr(file.rfind("d/"));
     check_refused(shell, "clatter measure vibrated --until 1e6 " + file,
-                  {file.substr(0, 5), name + " is the file that", "name of its own"});
+                  {file.substr(0, 5), name + " is the file that", "choose different names"});
   }
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.mp4 --checkpoint x.mp4",
                 {"--checkpoint", "--out"});
