@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-// The candidates that bash offers for the last of these words.
+// The candidates of bash for the last of these words.
 std::vector<std::string> candidates(const Shell& shell, const std::string& words) {
   shell.write("complete.bash",
               "source <(clatter completions bash)\n"

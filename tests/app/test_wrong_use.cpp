@@ -1,5 +1,5 @@
-// Whatever a person gets wrong is refused with exit code 2, a message that says where, what and
-// what to do, and nothing written.
+// Every wrong use gives exit code 2, a message with the place, the problem and the fix, and no
+// output.
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@ namespace clatter {
 
 namespace {
 
-// A scene that is right: a mistake is put in by writing another line 4 or 5.
+// A valid scene. A mistake replaces line 4 or 5.
 std::string scene(const std::string& line_4 = "count = 10",
                   const std::string& line_5 = "restitution = 0.9") {
   return "[box]\nsize = [20, 20]\n[particles]\n" + line_4 + "\n" + line_5 + "\n";
@@ -156,7 +156,7 @@ TEST_CASE("Wrong use: outputs that would replace what the command reads are refu
   check_refused(shell, "clatter measure s.toml --checkpoint ''", {"--checkpoint", "name a file"});
 }
 
-// A device stays what it is, and so does an open file, to which others may write too.
+// A device keeps its type. An open file is kept too, because others may write to it.
 TEST_CASE("Outputs: devices, links and open files are written into") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --until 1 --quiet --out ";
