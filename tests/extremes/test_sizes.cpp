@@ -11,7 +11,7 @@ using namespace clatter;
 using namespace clatter::testing;
 using nlohmann::json;
 
-// What is very large, long, high or small either runs, or is refused with the reason.
+// Extreme sizes, lengths, times and numbers either run, or are an error with a reason.
 
 namespace {
 
