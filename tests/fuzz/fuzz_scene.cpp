@@ -1,6 +1,6 @@
-// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn. Lines
-// "#set key=value" in it are settings, as --set gives them; a mutator of our own adds these, of
-// every key and with the ends of all ranges.
+// libFuzzer target: reads the text of a scene, validates it, runs a thousand collisions and draws a
+// picture. Lines "#set key=value" are settings of --set. A custom mutator adds these lines for all
+// keys, with extreme values.
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,10 @@ using namespace clatter;
 
 namespace {
 
-// More are no other, only slower.
+// More particles would only be slower.
 constexpr int kMaxParticles = 1000;
 constexpr std::uint64_t kCollisions = 1000, kSteps = 20000;
-// Averages take time where nothing moves, too.
+// Averages also take time without motion.
 constexpr double kWindows = 100.0;
 
 constexpr std::string_view kSetting = "#set ";
@@ -41,7 +41,7 @@ std::vector<std::string> keys_of_scenes() {
   return lister.keys();
 }
 
-// Limits, their neighbours, and numbers at the ends of double precision.
+// Limits, their neighbours, and extreme double-precision numbers.
 std::string extreme_number(std::minstd_rand& random) {
   constexpr std::array<const char*, 36> kNumbers = {"0",
                                                     "-0.0",
