@@ -35,7 +35,7 @@ TEST_CASE("Timers: they fire at start + count * interval, all of them, across ba
     const double start = from + 0.25;
     simulation.every(start, 0.1, [&](double time) {
       times.push_back(time);
-      // The clock's own reading may round once more.
+      // The reading of the clock may add one rounding.
       late += std::fabs(simulation.time() - time) > 0x1p-52 * time;
     });
     simulation.run_until(from + 200.25 - 1e-5);
@@ -99,7 +99,7 @@ TEST_CASE("Timers: an action may start others") {
     for (int i = 0; i < 20; ++i) {
       simulation.every(2.0 + i, 0.0, [&times](double t) { times.push_back(t); });
     }
-    times.push_back(time);  // through what the action holds, which must still be there
+    times.push_back(time);  // the captures of the action must still be valid
   });
   simulation.run_until(30.0);
   REQUIRE(times.size() == 21);

@@ -15,7 +15,7 @@ using namespace clatter::testing;
 
 namespace {
 
-// Everything that books: rough particles, gravity, kicks, thermal, driven and moving walls.
+// All contributions: rough particles, gravity, kicks, thermal, driven and moving walls.
 Scene everything() {
   Scene scene = rough_mixture(20);
   scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
@@ -136,7 +136,7 @@ TEST_CASE("Measurement: residuals have maps over the whole time, after those of 
   }
 }
 
-// 32 averaging windows make one of the balance; of 520, 8 are left over for the last.
+// 32 averaging windows form one window of the balance. Of 520, 8 remain for the last one.
 TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
   const Measure measure = measure_of(kBalance);
   const auto simulation = simulation_of<2>(everything(), 61);

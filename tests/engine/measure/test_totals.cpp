@@ -16,7 +16,7 @@ struct TimedRun {
   EventTimes events;
 };
 
-/// Runs to each of the ends in turn and closes a window there.
+/// Runs to each of the ends and closes a window there.
 TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vector<double>& ends) {
   TimedRun run;
   const auto simulation = simulation_of<2>(scene, seed);
@@ -30,8 +30,8 @@ TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vecto
   return run;
 }
 
-/// Integral of sum v_k^2 from `begin` to `end` by asking a second run, without observers, half-way
-/// between any two events.
+/// Integral of sum v_k^2 from `begin` to `end`, from the states of a second run without observers,
+/// half-way between successive events.
 Vec2 brute_force_integral(Simulation<2>& simulation, const std::vector<double>& events,
                           double begin, double end) {
   Vec2 integral = Vec2::Zero();
@@ -62,7 +62,7 @@ TEST_CASE("Totals: the temperature is the exact time average, across base moves"
     const Vec2 integral = brute_force_integral(*again, run.events.times, begin, ends[k]);
     const Vec2 expected = integral / (20.0 * (ends[k] - begin));
     CAPTURE(k);
-    // Durations and event times have the rounding of times about 300.
+    // Durations and event times have the rounding errors of times about 300.
     CHECK(run.windows[k].duration == doctest::Approx(ends[k] - begin).epsilon(1e-9));
     CHECK(run.windows[k].temperature.x() == doctest::Approx(expected.x()).epsilon(1e-9));
     CHECK(run.windows[k].temperature.y() == doctest::Approx(expected.y()).epsilon(1e-9));
@@ -102,7 +102,7 @@ TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {
 }
 
 TEST_CASE("Totals: the ledger notices what was not booked") {
-  // An observer that comes too late for some events cannot close the balance.
+  // An observer that misses some events cannot close the balance.
   const auto simulation = simulation_of<2>(gas(10.0, 10.0, 20, 0.7), 9);
   Totals<2> totals(*simulation);
   simulation->run_until(1e4, 10);

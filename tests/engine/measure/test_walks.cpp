@@ -31,7 +31,7 @@ void check_steps(const std::vector<Step>& steps, const std::vector<Step>& expect
   }
 }
 
-/// The borders that a flight crosses; checks that the pieces between them follow each other.
+/// The borders that a flight crosses. Checks that the pieces in between are contiguous.
 std::vector<Step> crossed(const Flight<2>& flight, Cell cell, double begin, double end,
                           const Vec2& gravity = Vec2::Zero()) {
   std::vector<Step> steps;
@@ -105,10 +105,11 @@ TEST_CASE("FieldGrid: the borders on a flight, in order") {
               {{1.0, 0, 1}, {2.5, 1, 1}, {3.0, 0, 1}});
   check_steps(crossed({{3.0, 63.0}, {-0.5, 0.8}}, {1, 31}, 0.25, 2.1),
               {{1.25, 1, 1}, {2.0, 0, -1}});
-  // On a border, or beyond by rounding: at once outwards, the far one inwards.
+  // On a border, or beyond it by rounding: the outward crossing is immediate, the other border is
+  // far.
   check_steps(crossed({{4.0 + 1e-15, 3.0}, {1.0, 0.0}}, {1, 1}, 0.0, 1.0), {{0.0, 0, 1}});
   check_steps(crossed({{4.0 + 1e-15, 3.0}, {-1.0, 0.0}}, {1, 1}, 0.0, 2.5), {{2.0, 0, -1}});
-  // One that is reached at the very end is left to what comes then.
+  // A border at the very end belongs to the next piece.
   check_steps(crossed({{3.0, 3.0}, {1.0, 0.0}}, {1, 1}, 0.0, 1.0), {});
   // Parabolas turn before the border ahead, or behind it.
   const Vec2 down(0.0, -1.0);

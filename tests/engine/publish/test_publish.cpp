@@ -15,7 +15,7 @@ TEST_CASE("Snapshot: it has the state to the last bit") {
     simulation->run_until(0.37 * frame);
     const Snapshot snapshot = snapshot_of(*simulation);
     const State<2> state = simulation->state();
-    // Through the moving base and back costs one rounding.
+    // The moving base costs one rounding.
     CHECK(std::fabs(snapshot.time - 0.37 * frame) <= 4e-16 * snapshot.time);
     CHECK(snapshot.positions == as_columns(state.positions));
     CHECK(snapshot.velocities == as_columns(state.velocities));

@@ -103,7 +103,7 @@ TEST_CASE("Field: a field has one name, and a name one field") {
         CHECK(names[k].second != names[l].second);
       }
     }
-    // Whatever exists can be measured.
+    // All quantities can be measured.
     std::set<std::string> measured;
     for (const auto& [name, field] : measured_names(dimension)) measured.insert(name_of(field));
     CHECK(measured.size() == fields.size());

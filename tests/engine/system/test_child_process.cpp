@@ -15,7 +15,7 @@ static int end_of(ChildProcess& process) {
   }
 }
 
-// What the process says until it has said so much.
+// The output of the process up to this length.
 static std::string words_of(ChildProcess& process, std::size_t length) {
   std::string words;
   while (words.size() < length) {
