@@ -137,8 +137,8 @@ std::string key_help(const std::string& name) {
   if (text.empty()) {
     const std::string near(near_miss(wanted, paths));
     throw UserError(
-        {}, "there is no key " + in_quotes(name),
-        near.empty() ? "`clatter help keys` prints all keys" : "did you mean '" + near + "'?");
+        {}, "there is no key '" + name + "'",
+        near.empty() ? "`clatter help keys` lists all keys" : "did you mean '" + near + "'?");
   }
   return text + "\nunits: " + kUnits + ", s: second of film\n";
 }

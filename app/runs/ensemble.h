@@ -21,7 +21,7 @@ struct Ensemble {
 /// their scatter, under the usual names. The array "results" has the result of `clatter measure
 /// --seed` for each replica, without performance. After an interrupt the result has the finished
 /// replicas. If a replica stops or fails a check, throws PhysicalStop or RunError, which names the
-/// first such seed.
+/// first failed seed.
 nlohmann::ordered_json measure_ensemble(const Scene& scene, const Ensemble& ensemble,
                                         Progress& progress);
 
