@@ -54,7 +54,7 @@ std::vector<std::string> words_of(const std::string& text, char gap) {
 
 }  // namespace
 
-TEST_CASE("Accuracy tables: each number of a setting stands under its own heading") {
+TEST_CASE("Accuracy tables: each number of a setting is under its own heading") {
   const std::vector<std::string> lines = words_of(accuracy_text(gas_table()), '\n');
   REQUIRE(lines.size() == 4);
   CHECK(lines[1] == "Contact time t_c");

@@ -35,7 +35,7 @@ TEST_CASE("Commands: check prints a scene that it prints again unchanged") {
   }
 }
 
-TEST_CASE("Commands: check says what a scene models, what not, and how much it computes") {
+TEST_CASE("Commands: check prints the used and unused features of a scene, and its cost") {
   const Shell shell;
   const std::string plain = shell.run("clatter check cooling").err;
   CAPTURE(plain);

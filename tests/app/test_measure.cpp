@@ -86,7 +86,7 @@ TEST_CASE("Measure: it prints one JSON object, with everything that the scene ha
   CHECK(result.at("performance").at("peak_memory_bytes") > 1'000'000);
 }
 
-TEST_CASE("Measure: a result has only what its scene has") {
+TEST_CASE("Measure: a result has only the parts of its scene") {
   const Shell shell;
   const json cooling =
       json::parse(shell.run("clatter measure cooling --until 5 --set measure.fields=[]").out);
@@ -270,7 +270,7 @@ TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is adv
   CHECK(says(resting.err, "a larger value, for example 0.1, makes the run faster"));
 }
 
-TEST_CASE("Measure: an interrupted measurement keeps what it has") {
+TEST_CASE("Measure: an interrupted measurement keeps its results so far") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";
   SUBCASE("while it averages") {

@@ -165,7 +165,7 @@ void check_lines(const std::vector<std::string>& lines, const std::vector<std::s
 
 }  // namespace
 
-TEST_CASE("Panels: every name stands beside the value of its own key, in its unit") {
+TEST_CASE("Panels: every name is beside the value of its own key, in its unit") {
   PanelDriver driver(uneven_scene(), all_panels);
   check_lines(driver.lines(), {"### Gas ###",
                                "Disks N 14",
@@ -312,7 +312,7 @@ TEST_CASE("Panels: every word of a list sets its own key to itself") {
   }
 }
 
-TEST_CASE("Panels: lists take away what their first word says") {
+TEST_CASE("Panels: the first item of a list removes the feature") {
   PanelDriver driver(uneven_scene(), all_panels);
   const json before = settings(driver);
   choose(driver, "view.arrows", "none");
@@ -379,7 +379,7 @@ TEST_CASE("Panels: spins go with their keys, and come back with the numbers that
         Places{"/particles/friction", "/particles/tangential_restitution"});
 }
 
-TEST_CASE("Panels: what is switched on starts with the usual numbers") {
+TEST_CASE("Panels: a feature starts with its usual numbers when switched on") {
   Scene scene = uneven_scene();
   scene.particles.roughness = {};
   scene.contact_time.reset();
@@ -414,7 +414,7 @@ TEST_CASE("Panels: a number of disks is set once its slider is let go") {
   CHECK(settings(driver).at("/particles/count") < 110);
 }
 
-TEST_CASE("Panels: a picked disk tells its own state, and what it has hit and will hit") {
+TEST_CASE("Panels: a picked disk shows its state, its last and its next collision") {
   Frame frame;
   frame.snapshot.positions.resize(2, 3);
   frame.snapshot.positions << 1.25, 2.5, 3.75, 4.125, 5.25, 6.5;
@@ -435,7 +435,7 @@ TEST_CASE("Panels: a picked disk tells its own state, and what it has hit and wi
   CHECK(driver.lines().back() == "followed; Esc lets go");
 }
 
-TEST_CASE("Panels: the bar above tells the time and sets the speed by steps of the root of 2") {
+TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of the root of 2") {
   Scene scene = uneven_scene();
   scene.title = "Uneven";
   scene.view.speed = 2.0;

@@ -113,7 +113,7 @@ void check_last(const LivePlot& plot, const std::string& name, double x, double 
 
 }  // namespace
 
-TEST_CASE("Plots: curves over time are what was gained since the frame before, under its name") {
+TEST_CASE("Plots: curves over time are gains since the previous frame, with their names") {
   const TwoFrames frames;
   const LivePlot temperature = frames.plot("Temperature");
   check_axes(temperature, "time t", "m a²/t²", false, false);
@@ -146,7 +146,7 @@ TEST_CASE("Plots: curves over time are what was gained since the frame before, u
   CHECK(residuals.curves.size() == 2);
 }
 
-TEST_CASE("Plots: a sample has what was gained under its own name, and the size of residuals") {
+TEST_CASE("Plots: a sample has each gain under its own name, and the size of residuals") {
   const TwoFrames frames;
   REQUIRE(frames.history.samples().size() == 2);
   const Sample& sample = frames.history.samples()[1];
@@ -341,7 +341,7 @@ TEST_CASE("Plots: the copied numbers of a plot are its curves, a table each") {
   CHECK(csv_of(plot) == "x in a,one,standard error\n1,2,0.5\n3,4,0.25\n\nx in a,Title\n5,6\n\n");
 }
 
-TEST_CASE("Plots: axes hold what they show, with room above, or from decade to decade") {
+TEST_CASE("Plots: axes contain their curves with a margin above, or go from decade to decade") {
   LivePlot plot{"", "", false, false, {{"", {}, {{-1.0, 2.0}, {3.0, 20.0}}}}, ""};
   auto [x, y] = scales_of(plot);
   CHECK(x.low == -1.0);
@@ -414,7 +414,7 @@ class DrawnPlot {
   std::vector<ImVec2> marks_;
 };
 
-TEST_CASE("Plots: numbers at the axes are those of the places where they stand") {
+TEST_CASE("Plots: numbers at the axes have the values of their positions") {
   LivePlot plot{"Title", "the x axis", false, false, {}, "unit of y"};
   plot.curves = {{"mark", DrawnPlot::kMarked, {{3.0, 50.0}}, false, true},
                  {"line", {1, 2, 3}, {{0.0, 0.0}, {4.0, 100.0}}}};

@@ -65,8 +65,7 @@ TEST_CASE("Render: a picture has the size asked for and says which scene and see
   CHECK(shell.files() == Files{"picture.png"});
 }
 
-TEST_CASE(
-    "Render: pictures and films say which scene, seed and state they show, and what drew them") {
+TEST_CASE("Render: pictures and films contain their scene, seed, state and program") {
   const Shell shell;
   const Outcome measured = shell.run(
       "clatter measure vibrated --seed 5 --set measure.burn_in=0 --until 2 --quiet | "
@@ -213,7 +212,7 @@ TEST_CASE(
   CHECK(shell.run("ls -l --full-time frames").out != before);
 }
 
-TEST_CASE("Render: without ffmpeg a film fails, says what to install and leaves nothing") {
+TEST_CASE("Render: without ffmpeg a film fails, names the package and leaves no file") {
   const Shell shell;
   const Outcome outcome = shell.run(
       "program=$(command -v clatter); PATH=/nowhere\n"
@@ -223,7 +222,7 @@ TEST_CASE("Render: without ffmpeg a film fails, says what to install and leaves 
   CHECK(shell.files().empty());
 }
 
-TEST_CASE("Render: on a full disk it fails, says so and keeps what can be used") {
+TEST_CASE("Render: on a full disk it fails with an error and keeps the usable frames") {
   const Shell shell;
   // A private namespace, so that the mount ends with the command.
   const std::string small_disk =

@@ -376,7 +376,7 @@ void take_out_rounding(json& result) {
 
 }  // namespace
 
-TEST_CASE("Results: every value of a walled gas is that of its events, counted again") {
+TEST_CASE("Results: every value of a walled gas follows from its events") {
   const Witnessed run(uneven_scene());
   json result = run.result();
   take_out_rounding(result);
@@ -386,14 +386,14 @@ TEST_CASE("Results: every value of a walled gas is that of its events, counted a
   check_same(result, expected);
 }
 
-TEST_CASE("Results: every value of a periodic gas is that of its events, counted again") {
+TEST_CASE("Results: every value of a periodic gas follows from its events") {
   const Witnessed run(periodic_scene());
   json result = run.result();
   take_out_rounding(result);
   check_same(result, totals_json(run));
 }
 
-TEST_CASE("Results: what tells of the run itself stands under its own key") {
+TEST_CASE("Results: each number about the run itself has its own key") {
   Scene scene = uneven_scene();
   scene.measure.fields = residual_fields(2);
   RunState<2> saved = Simulation<2>(model_of<2>(scene, 11), uneven_start()).save();
@@ -425,7 +425,7 @@ TEST_CASE("Results: what tells of the run itself stands under its own key") {
                                          {"peak_memory_bytes", 96}});
 }
 
-TEST_CASE("Results: every column of the tables is that of its events, with its unit") {
+TEST_CASE("Results: every column of the tables follows from the events, with its unit") {
   for (const Axis axis : {Axis::X, Axis::Y}) {
     Scene scene = uneven_scene();
     scene.measure.profile_axis = axis;
@@ -463,7 +463,7 @@ TEST_CASE("Results: every column of the tables is that of its events, with its u
   }
 }
 
-TEST_CASE("Results: every cell of the maps is that of its events, in all files") {
+TEST_CASE("Results: every cell of the maps follows from its events, in all files") {
   Witnessed run(uneven_scene());
   const auto sums = cell_sums_of(run.witness, run.windows, kBox, {kColumns, kRows});
   // Real residuals are rounding errors, and could come from any run.

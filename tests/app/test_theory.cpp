@@ -91,7 +91,7 @@ TEST_CASE("Theory: without a drive a gas between walls cools or diverges by Eq. 
   }
 }
 
-TEST_CASE("Theory: walls that are not alike have no theory") {
+TEST_CASE("Theory: unequal walls have no theory") {
   const auto has_psi = [](auto change) {
     Scene scene = walled_scene(0.85, 0.95, 1.7);
     change(scene);

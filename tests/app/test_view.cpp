@@ -162,7 +162,7 @@ TEST_CASE("Window: a scene of the gallery is found by its name") {
   CHECK(driver.wait_for("open", told)["title"] == "Haff's cooling");
 }
 
-TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays it again") {
+TEST_CASE("Window: a screenshot equals the screen, and its scene plays it again") {
   const GuiDriver driver("");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 2.0; });
   driver.drag("walls.left.drive_speed", 0.3, 0.8);
@@ -332,7 +332,7 @@ TEST_CASE("Window: the effect of a contact time is shown, and fields may come fr
   CHECK(says(scene, "estimator = \"snapshot\"\ninterval = 0.1"));
 }
 
-TEST_CASE("Window: its film of a changed gas is that of the command it shows") {
+TEST_CASE("Window: its film of a changed gas equals the film of the command that it shows") {
   const GuiDriver driver("--set view.speed=4", "1280x1700");
   driver.drag("particles.restitution", 0.88, 0.7);
   driver.drag("walls.left.drive_speed", 0.2, 0.4);
@@ -363,7 +363,7 @@ TEST_CASE("Window: it halts at the time of --until") {
   CHECK(hash_of_run(driver, "vibrated", there) == there["hash"]);
 }
 
-TEST_CASE("Window: if OpenGL is too old, it says what to do instead") {
+TEST_CASE("Window: if OpenGL is too old, it names an alternative") {
   const GuiDriver driver("");
   const Outcome old = driver.run("MESA_GL_VERSION_OVERRIDE=2.1 clatter view");
   CHECK(old.code == 1);
@@ -374,7 +374,7 @@ TEST_CASE("Window: if OpenGL is too old, it says what to do instead") {
   CHECK(says(off_screen.err, "clatter render"));
 }
 
-TEST_CASE("Window: if its OpenGL context is lost, it says what to do instead") {
+TEST_CASE("Window: if its OpenGL context is lost, it names an alternative") {
   const GuiDriver driver("");
   // The sanitizers require the first position in the preload order.
   const Outcome lost = driver.run("ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" +
@@ -415,7 +415,7 @@ TEST_CASE("Window: it quits amid a collapse") {
   CHECK(driver.exit_code() == 0);
 }
 
-TEST_CASE("Window: without a display, it says what to do instead") {
+TEST_CASE("Window: without a display, it names an alternative") {
   const Shell shell;
   for (const char* line : {"DISPLAY= clatter view vibrated", "DISPLAY= clatter"}) {
     const Outcome outcome = shell.run(line);

@@ -136,7 +136,7 @@ TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a messa
   }
 }
 
-TEST_CASE("Wrong use: outputs that would replace what the command reads are refused") {
+TEST_CASE("Wrong use: outputs that would replace inputs are refused") {
   const Shell shell;
   shell.run("clatter check vibrated > s.toml");
   shell.run(

@@ -148,7 +148,7 @@ TEST_CASE("Hashes: every scene of the gallery has its pinned hash") {
   }
 }
 
-TEST_CASE("Hashes: scenes with what the gallery lacks have their pinned hashes") {
+TEST_CASE("Hashes: scenes with features outside the gallery have their pinned hashes") {
   for (const SceneHash& row : kScenes) {
     compare(row.what, hash_of(parse_scene(row.scene, row.what)), row.hash);
   }

@@ -31,11 +31,11 @@ void check_compressibility(double area_fraction, double literature, double durat
 }  // namespace
 
 // Kolafa & Rottner 2006, Mol. Phys. 104, 3435: molecular dynamics and virial series of hard disks.
-TEST_CASE("Elastic gas: Z is that of the literature at phi = .31416") {
+TEST_CASE("Elastic gas: Z agrees with the literature at phi = .31416") {
   check_compressibility(0.31416, 2.15144, 240.0, 101);
 }
 
-TEST_CASE("Elastic gas: Z is that of the literature at phi = .47124") {
+TEST_CASE("Elastic gas: Z agrees with the literature at phi = .47124") {
   check_compressibility(0.47124, 3.66369, 160.0, 102);
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("Elastic gas: the collision rate is Enskog's at phi = .1") {
   CHECK(std::fabs(relative(result.collision_rate, expected)) < 0.005);
 }
 
-TEST_CASE("Elastic gas: the kurtosis of the velocities is that of a Gaussian") {
+TEST_CASE("Elastic gas: the kurtosis of the velocities is Gaussian") {
   // Energy and momentum are fixed. Each component is therefore one coordinate on a sphere in n =
   // 2(N-1) dimensions: <v^4>/(3 <v^2>^2) - 1 = -2/(n + 2) = -1/N exactly.
   const Measured result = run(gas_of_fraction(0.3, 400, 1.0), 20.0, 1000.0, 104);
@@ -97,7 +97,7 @@ TEST_CASE("Elastic gas: both components have the same temperature") {
   CHECK(result.temperature.mean == doctest::Approx(1.0).epsilon(1e-12));
 }
 
-TEST_CASE("Elastic gas: the pressure on walls is that of the equation of state") {
+TEST_CASE("Elastic gas: the pressure on walls follows the equation of state") {
   // Between two walls p = Z rho T with the density of the central part: 60 long without 12 at each
   // end. Z from Kolafa & Rottner's table would need a listed density. Henderson's Z is accurate to
   // 0.1 % at phi = .25.

@@ -220,7 +220,7 @@ TEST_CASE("Checkpoint: a file with any byte changed, cut off or added is refused
   CHECK(refusal(folder / "a").empty());
 }
 
-TEST_CASE("Checkpoint: a refusal says what is wrong, and where the previous one is") {
+TEST_CASE("Checkpoint: an error names the problem and the previous checkpoint") {
   const TemporaryFolder folder;
   CHECK(says(refusal(folder / "a"), "there is no such file"));
   CHECK(says(refusal(folder / ""), "this is no file"));

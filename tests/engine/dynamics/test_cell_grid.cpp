@@ -137,7 +137,7 @@ TEST_CASE("CellGrid: a list holds the particles about its cell, however many") {
   }
 }
 
-TEST_CASE("CellGrid: a list marks that some particles lie across a periodic border") {
+TEST_CASE("CellGrid: a list marks particles across a periodic border") {
   CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
   const IntVec<2> first = {0, 2}, last = {6, 2};
   // Particles beyond the border reuse the places of others.
@@ -173,7 +173,7 @@ TEST_CASE("CellGrid: a particle that moves is listed as if inserted there") {
   }
 }
 
-TEST_CASE("CellGrid: every position lies in a cell, within its borders") {
+TEST_CASE("CellGrid: every position is in a cell, within its borders") {
   Random random(62, Stream::Placement, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     const Model<2> model = random_box(random);
@@ -199,7 +199,7 @@ TEST_CASE("CellGrid: every position lies in a cell, within its borders") {
   }
 }
 
-TEST_CASE("CellGrid: no image within one diameter is missed, and none comes twice") {
+TEST_CASE("CellGrid: every image within one diameter is found exactly once") {
   Random random(63, Stream::Placement, 0, 0);
   int overhanging = 0;
   for (int i = 0; i < 10000; ++i) {

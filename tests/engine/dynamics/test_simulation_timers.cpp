@@ -49,7 +49,7 @@ TEST_CASE("Timers: they fire at start + count * interval, all of them, across ba
   }
 }
 
-TEST_CASE("Timers: all fire in the order of time, and in that of registration at the same time") {
+TEST_CASE("Timers: all fire in the order of time, then in the order of registration") {
   Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 112));
   std::vector<std::pair<double, int>> log;
   const auto note = [&](int who) { return [&log, who](double t) { log.push_back({t, who}); }; };

@@ -162,7 +162,7 @@ void check_seeds(const Room<D>& room) {
 
 }  // namespace
 
-TEST_CASE("Random insertion: no two centres overlap, all lie in the room") {
+TEST_CASE("Random insertion: no two particles overlap, and all centres are in the room") {
   check_apart<2>({21.3, 17.9}, {0.1, 0.3, 0.5});
   check_apart<3>({7.3, 5.9, 6.4}, {0.1, 0.2, 0.3});
   // Dilute, but in a room that is narrow enough for contacts.
@@ -192,7 +192,7 @@ TEST_CASE("Random insertion: there are no gaps between its cells") {
   check_no_gaps<3>({{5.3, 3.7, 2.3}, {false, true, false}});
 }
 
-TEST_CASE("Random insertion: all places of a periodic room are alike, however full it is") {
+TEST_CASE("Random insertion: positions in a periodic room are uniform at any density") {
   // phi = .44 in a box in which a particle excludes its own images: 9 particles, 2000 seeds, 36
   // cells of 500 each.
   check_uniform(pooled_counts<2>({{4.0, 4.0}}, 9, 2000, 6));

@@ -443,7 +443,7 @@ TEST_CASE("Start state: a lattice of disks stays a lattice if asked for, or too 
   scene.particles.start.layout = Layout::Lattice;
   const State<2> state = start_state<2>(scene, 80);
   CHECK(least_distance(room_of<2>(scene), state.positions) > 1.5);
-  // Few different heights or few different places along x: the sites lie in rows.
+  // Few different heights or few different positions along x: the sites are in rows.
   std::set<long> x, y;
   for (const Vec2& r : state.positions) {
     x.insert(std::lround(1e6 * r.x()));

@@ -41,7 +41,7 @@ Model<D> between(const Wall& wall, int axis) {
   return with_walls(box<D>(), axis, wall);
 }
 
-/// Walls all round; along z those of x.
+/// Walls on all sides. The walls along z equal the walls along x.
 template <int D>
 Model<D> walled(const Wall& sides, const Wall& ends) {
   Model<D> model = with_walls(between<D>(sides, 0), 1, ends);
@@ -297,7 +297,7 @@ TEST_CASE("Balance: a watch that begins finds the particles where they are") {
 
 // The faces are at whole numbers. The particle starts at x = 2.5 with speed 1 under gravity -1. At
 // time 1 it turns on the face x = 3, and it returns to x = 2 with speed sqrt(2) at 1 + sqrt(2).
-TEST_CASE("Balance: a particle carries through a face what it has there and then") {
+TEST_CASE("Balance: a particle carries its present momentum and energy through a face") {
   const Model<2> model = falling(periodic_box(9.0, 8.0), {-1.0, 0.0});
   Watched<2> run(model, {{{2.5, 4.5}}, {{1.0, 0.1}}}, {9, 8});
   const std::size_t row = 9 * 4;
@@ -377,7 +377,7 @@ TEST_CASE("Balance: a branch passes the faces between images that touch, in orde
 
 // The particle, of velocity (1, 0), touches the far wall with its centre at 8.5; faces
 // at 8.25, 8.5, 8.75. alpha_w = 0.8: it gains momentum -1.8 and energy -0.18.
-TEST_CASE("Balance: what a wall gives comes in where it touches") {
+TEST_CASE("Balance: momentum and energy from a wall enter at the contact point") {
   Watched<2> run(between(kLossy, 0), {{{8.4, 4.1}}, {{1.0, 0.0}}}, {36, 8});
   const BalanceWindow<2> window = run.close_at(0.15);
   REQUIRE(run.simulation.counts().wall_collisions == 1);
@@ -396,7 +396,7 @@ TEST_CASE("Balance: what a wall gives comes in where it touches") {
 
 // The left wall moves slowly inwards at 0.002. It is 1 inside when the particle of velocity (-1, 0)
 // hits it at x = 1.0002, with its centre at 1.5002. Faces every 1/4. alpha_w = 0.9.
-TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
+TEST_CASE("Balance: momentum and energy from a wall inside the box enter inside") {
   Model<2> model = periodic_box(9.0, 8.0);
   const Wall creeping{.kind = WallKind::Sawtooth,
                       .restitution = 0.9,
@@ -496,7 +496,7 @@ TEST_CASE("Balance: an empty gas and untouched cells have nothing to close") {
 }
 
 // Disturbs the events of the balance. A residual that is always 0 would not show it.
-TEST_CASE("Balance: what was not booked shows") {
+TEST_CASE("Balance: missing events give residuals") {
   const Model<2> model = inelastic(between(kDriven, 0), 0.9);
   const State<2> start = clear_gas(model, 30, 86);
   Simulation<2> simulation(model, start);
@@ -508,7 +508,7 @@ TEST_CASE("Balance: what was not booked shows") {
 
 // The particle hits the far wall with momentum 1 and crosses the face x = 8 with -0.8 at 0.725. A
 // balance without the wall event misses -1.8, first relative to nothing, then relative to 0.8.
-TEST_CASE("Balance: residuals are shares of what was booked") {
+TEST_CASE("Balance: residuals are relative to the booked amounts") {
   const Model<2> model = between(kLossy, 0);
   for (const auto& [end, residual] : {std::pair(0.5, -1.0), std::pair(0.9, -2.25)}) {
     Simulation<2> simulation(model, {{{8.4, 4.5}}, {{1.0, 0.0}}});

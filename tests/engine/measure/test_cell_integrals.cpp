@@ -91,7 +91,7 @@ TEST_CASE("CellIntegrals: a flight back, and through the corners of cells") {
               v);
 }
 
-TEST_CASE("CellIntegrals: a flight over many boxes visits all cells on its line alike") {
+TEST_CASE("CellIntegrals: a flight over many boxes visits all cells on its line equally") {
   // In 80 time units the particle crosses the box 20 times along x, and 10 times backwards along y.
   const Vec2 v = {1.0, -0.5};
   const Grid grid = of_lone_particle({4.0, 4.0}, {4, 4}, {0.5, 3.75}, v, 80.0);
@@ -445,7 +445,7 @@ TEST_CASE("CellIntegrals: snapshots count the particles where they are") {
   CHECK(difference(grid, expected) < 1e-12);
 }
 
-TEST_CASE("CellIntegrals: a Gaussian spreads what box cells hold, and keeps its amount") {
+TEST_CASE("CellIntegrals: a Gaussian spreads the integrals of cells, and keeps their sum") {
   const IntVec<2> cells(12, 10);
   const auto simulation = simulation_of<2>(gas(6.0, 5.0, 12, 0.8), 59);
   CellIntegrals<2> box(*simulation, cells, full_layout(), {Estimator::Snapshot, {}});

@@ -8,9 +8,9 @@
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
 
-// The first-moment identities (theory 9.6, 9.7) tie the stress, heat flux and dissipation that are
-// reported to the states of the particles at a window's two ends, so that no sign, factor or wall
-// branch can be wrong in one and not show. Along each walled axis k
+// The first-moment identities (theory 9.6, 9.7) connect the reported stress, heat flux and
+// dissipation with the states of the particles at the two ends of a window. A wrong sign, factor or
+// wall branch in one of them violates an identity. Along each walled axis k
 //   [sum r_k v_l] = Dt int (rho V_k V_l - sigma_kl) dA + sum_walls r_w,k dp_l + sources
 //   [sum r_k E]   = Dt int (q + E V - sigma.V)_k dA + sum_coll (dE_1 + dE_2)/2 (r_1 + r_2)_k
 //                   + sum_walls r_w,k dE + sources
@@ -239,7 +239,7 @@ Scene periodic() {
   return scene;
 }
 
-/// Walls all round; along z those of x.
+/// Walls on all sides. The walls along z equal the walls along x.
 template <int D>
 Scene boxed(const Wall& along_x, const Wall& along_y) {
   Scene scene = periodic<D>();

@@ -53,7 +53,7 @@ bool needs_visitors(Field field) {
 
 }  // namespace
 
-TEST_CASE("Field value: every field is that of its definition, particle by particle") {
+TEST_CASE("Field value: every field follows from its definition, particle by particle") {
   const Content content;
   const double area = 0.5;
   const CellAverages<2, double> cell = averages(content, area);
@@ -163,7 +163,7 @@ TEST_CASE("Dual: derivatives of all fields as finite differences have them") {
   }
 }
 
-TEST_CASE("Moment layout: every field has what it needs, and no field keeps all") {
+TEST_CASE("Moment layout: every field has the sums it needs, and no field needs all") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   scene.particles.start.spin_temperature = 1.0;
@@ -192,7 +192,7 @@ TEST_CASE("Moment layout: every field has what it needs, and no field keeps all"
   }
 }
 
-TEST_CASE("Moment layout: what the fields asked for do not need is not stored") {
+TEST_CASE("Moment layout: unneeded sums are not stored") {
   const auto size = [](std::vector<Field> fields, bool spins) {
     return moment_layout<2>(fields, spins).size;
   };

@@ -136,7 +136,7 @@ TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
   CHECK(result.series_temperature.front() == doctest::Approx(1.0).epsilon(1e-14));
 }
 
-TEST_CASE("Measurement: an interrupted run has what it had come to") {
+TEST_CASE("Measurement: an interrupted run has its results so far") {
   Measure measure = measure_for(10.0, 100.0);
   measure.fields = {Quantity::Density};
   const Scene scene = rough_mixture(15);

@@ -112,7 +112,7 @@ void check_same(const Run& a, const Run& b) {
 
 }  // namespace
 
-TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
+TEST_CASE("Measurement: it resumes at any time, bit for bit") {
   for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
     for (const Measure& measure :
          {measure_of({Quantity::Density}), measure_of({}), measure_of({Quantity::BalanceEnergy})}) {
@@ -135,7 +135,7 @@ TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
   }
 }
 
-TEST_CASE("Measurement: taken up for longer it goes on with windows of the same length") {
+TEST_CASE("Measurement: resumed for a longer time it keeps the length of its windows") {
   const Measure measure = measure_of({Quantity::Density, Quantity::BalanceMass});
   const Run first = started(rough_mixture(20), measure);
   first.simulation->run_until(kEnd);
@@ -182,7 +182,7 @@ TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledg
   CHECK(smooth.measurement->result().ledger_residual < 1e-12);
 }
 
-TEST_CASE("Measurement: what is no measurement is refused") {
+TEST_CASE("Measurement: bytes of no measurement are refused") {
   const Measure measure = measure_of({Quantity::Density});
   const Run run = started(rough_mixture(20), measure);
   run.simulation->run_until(10.0);

@@ -70,7 +70,7 @@ TEST_CASE("Totals: the temperature is the exact time average, across base moves"
   }
 }
 
-TEST_CASE("Totals: what every window booked is the change of the energy") {
+TEST_CASE("Totals: the sum of every window equals the change of the energy") {
   const Scene scene = rough_mixture(30);
   const auto simulation = simulation_of<2>(scene, 8);
   Totals<2> totals(*simulation);
@@ -101,7 +101,7 @@ TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {
   CHECK(totals.ledger_residual() < 1e-13);
 }
 
-TEST_CASE("Totals: the ledger notices what was not booked") {
+TEST_CASE("Totals: the ledger shows missing events") {
   // An observer that misses some events cannot close the balance.
   const auto simulation = simulation_of<2>(gas(10.0, 10.0, 20, 0.7), 9);
   Totals<2> totals(*simulation);
@@ -109,7 +109,7 @@ TEST_CASE("Totals: the ledger notices what was not booked") {
   CHECK(totals.ledger_residual() > 1e-3);
 }
 
-TEST_CASE("Totals: what the walls took up is what the gas lost") {
+TEST_CASE("Totals: the momentum of the walls equals the loss of the gas") {
   // Static and driven walls act along their normals only.
   Scene scene = rough_mixture(25);
   scene.walls[kBottom] = Wall{.kind = WallKind::Static, .restitution = 0.95};

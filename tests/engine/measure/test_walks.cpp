@@ -82,7 +82,7 @@ TEST_CASE("FieldGrid: cells by place and by index") {
   }
 }
 
-TEST_CASE("FieldGrid: a cell's image is where a place in it lies, and between walls it has one") {
+TEST_CASE("FieldGrid: a cell has an image for each position, and one image between walls") {
   CHECK(kGrid.image_at({1, 1}, {3.0, 3.0 - 60.0}) == Cell{1, -29});
   CHECK(kGrid.image_at({1, -29}, {3.0, 3.0 + 6.0}) == Cell{1, 4});
   CHECK(kGrid.image_at({1, 1}, {30.0, 3.0}) == Cell{1, 1});
@@ -91,7 +91,7 @@ TEST_CASE("FieldGrid: a cell's image is where a place in it lies, and between wa
   CHECK(kGrid.image_at({1, 0}, {3.0, 6.0}) == Cell{1, 3});
 }
 
-TEST_CASE("FieldGrid: a cell contains what lies in it to within rounding") {
+TEST_CASE("FieldGrid: a cell contains its positions up to rounding") {
   CHECK(kGrid.contains({1, 1}, {2.0 - 1e-12, 4.0 + 1e-12}));
   CHECK(kGrid.contains({1, -29}, {3.0, 3.0 - 60.0}));
   CHECK_FALSE(kGrid.contains({1, 1}, {3.0, 3.0 - 60.0}));

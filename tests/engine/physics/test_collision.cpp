@@ -139,8 +139,8 @@ TEST_CASE_TEMPLATE("Collision: rough pairs keep their angular momentum", Dimensi
   CHECK(angular_off < 1e-14);
 }
 
-TEST_CASE_TEMPLATE("Collision: what rough pairs dissipate is what their energies lose", Dimension,
-                   Plane, Space) {
+TEST_CASE_TEMPLATE("Collision: the dissipation of rough pairs equals their loss of energy",
+                   Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
   double off = 0.0;
   int conserving = 0;

@@ -127,7 +127,7 @@ constexpr int kTries = 15000;
 
 }  // namespace
 
-TEST_CASE("Elementary functions: sine and cosine of turns lie within 1 ulp") {
+TEST_CASE("Elementary functions: sine and cosine of turns have an error below 1 ulp") {
   Worst sine, cosine;
   const auto look_at = [&](double phase) {
     const SineCosine both = sin_cos_2pi(phase);
@@ -171,7 +171,7 @@ TEST_CASE("Elementary functions: sine and cosine of quarters of a turn are exact
   }
 }
 
-TEST_CASE("Elementary functions: the arc cosine in turns lies within 1 ulp") {
+TEST_CASE("Elementary functions: the arc cosine in turns has an error below 1 ulp") {
   Worst worst;
   const auto look_at = [&](double x) {
     if (std::fabs(x) <= 1.0) worst.take(x, acos_error(x, acos_turns(x)));
@@ -193,7 +193,7 @@ TEST_CASE("Elementary functions: the arc cosine in turns lies within 1 ulp") {
   CHECK(acos_turns(-1.0) == 0.5);
 }
 
-TEST_CASE("Elementary functions: the logarithm lies within 1 ulp") {
+TEST_CASE("Elementary functions: the logarithm has an error below 1 ulp") {
   Worst worst;
   const auto look_at = [&](double x) {
     if (x > 0.0) worst.take(x, log_error(x, natural_log(x)));

@@ -173,7 +173,7 @@ TEST_CASE("Lattice: there are enough sites, inside the room and never closer tha
   check_sites<3>({{2.9, 2.2, 1.7}, {1.2, 4.1, 1.1}, {1.6, 1.6, 3.3}, {2.1, 2.1, 2.1}});
 }
 
-TEST_CASE("Lattice: capacity and distances are those of the best arrangement in any room") {
+TEST_CASE("Lattice: capacity and distances equal the best arrangement in any room") {
   check_against_brute_force<2>(
       {{5.3, 6.1}, {7.77, 3.21}, {1.5, 9.2}, {2.05, 6.6}, {4.4, 4.4}, {8.1, 1.05}, {6.93, 6.07}});
   check_against_brute_force<3>(

@@ -297,7 +297,7 @@ TEST_CASE(
   CHECK(touching > 150);
 }
 
-TEST_CASE("Contact kernel: if nobody left the box, the shorter form gives the same") {
+TEST_CASE("Contact kernel: if no particle has left the box, the shorter form gives the same") {
   int met = 0;
   for (std::uint32_t number = 0; number < 4000; ++number) {
     const Vec2& gravity = kGravities[number % 2];

@@ -126,13 +126,13 @@ Temperatures evolved(const RoughGas& gas, Temperatures T, double power) {
 
 }  // namespace
 
-TEST_CASE("Theory: chi is that of theory 6.1") {
+TEST_CASE("Theory: chi follows theory 6.1") {
   CHECK(contact_correlation(0.0) == 1.0);
   CHECK(contact_correlation(0.5) == doctest::Approx(3.125).epsilon(1e-15));       // (25/32) / (1/4)
   CHECK(contact_correlation(0.2) == doctest::Approx(1.42578125).epsilon(1e-14));  // .9125/.64
 }
 
-TEST_CASE("Theory: the pressure of hard spheres is that of Carnahan and Starling (1969)") {
+TEST_CASE("Theory: the pressure of hard spheres follows Carnahan and Starling (1969)") {
   // Z = (1 + phi + phi^2 - phi^3)/(1 - phi)^3.
   for (const double phi : {0.0, 0.1, 0.3, 0.49}) {
     const double state = (1.0 + phi + phi * phi - phi * phi * phi) / std::pow(1.0 - phi, 3);
@@ -157,7 +157,7 @@ TEST_CASE("Theory: the compressibility has its virial limit and the factor (1 + 
   CHECK((compressibility(1e-6, 1.0) - 1.0) / 1e-6 == doctest::Approx(2.0).epsilon(1e-5));
 }
 
-TEST_CASE("Theory: Enskog's rate is that of theory 6.2, and kinetic when dilute") {
+TEST_CASE("Theory: Enskog's rate follows theory 6.2, and the kinetic rate when dilute") {
   // chi(.1) = .95625/.81, rho = .4/pi: 2 sqrt(pi) * 1.1805556 * .1273240.
   CHECK(enskog_rate(0.1, 1.0) == doctest::Approx(0.5328457177951).epsilon(1e-12));
   CHECK(enskog_rate(0.1, 9.0) == doctest::Approx(3.0 * enskog_rate(0.1, 1.0)).epsilon(1e-14));
@@ -200,7 +200,7 @@ TEST_CASE("VibratedGas: of spheres it is the balance of their rates and energies
       doctest::Approx(haff_rate_periodic(lossless.packing_fraction(), 0.9, 1.7, 3)).epsilon(1e-13));
 }
 
-TEST_CASE("VibratedGas: its parameters are those of theory 7.5 and 7.6") {
+TEST_CASE("VibratedGas: its parameters follow theory 7.5 and 7.6") {
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
   CHECK(gas.packing_fraction() == doctest::Approx(pi / 10.0).epsilon(1e-15));
   // sqrt(2) * 1.8337511829 * 200/25
@@ -264,7 +264,7 @@ TEST_CASE("VibratedGas: a vanishing loss is balanced by the linear gain alone") 
   CHECK(gas.temperature_refined() == doctest::Approx(s * s).epsilon(1e-7));
 }
 
-TEST_CASE("VibratedGas: rates and energies are those of theory 7.1-7.4") {
+TEST_CASE("VibratedGas: rates and energies follow theory 7.1-7.4") {
   // Independently evaluated at T = 1.7: 10 sqrt(T/2 pi); sqrt(pi) chi 200 * 199/500 sqrt(T); (1 +
   // 3.8 sqrt(T/2 pi) - .0975 T)/2; -.19 T/2.
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
@@ -317,7 +317,7 @@ TEST_CASE("VibratedGas: the wall layer makes hits more frequent, and the gas hot
         doctest::Approx(vibrated(100.0, 1.0, 0.9).temperature_refined()).epsilon(1e-14));
 }
 
-TEST_CASE("VibratedGas: Haff's rates are those of theory 7.12") {
+TEST_CASE("VibratedGas: Haff's rates follow theory 7.12") {
   // -dT/dt/(2 T) at T = 1.7 from rates times energies, independently evaluated. First simple
   // averages; then refined ones, which lose (1 - alpha_w^2) T at a wall and (1 - alpha^2) T at a
   // particle; then the refined ones with the wall contribution times kappa.
@@ -368,7 +368,7 @@ TEST_CASE("Theory: Haff's law diverges at its divergence time") {
   CHECK(late == doctest::Approx(1.45).epsilon(0.03));
 }
 
-TEST_CASE("RoughGas: the coefficients are those of the collision rule") {
+TEST_CASE("RoughGas: the coefficients follow from the collision rule") {
   check_rough_coefficients<2>();
   check_rough_coefficients<3>();
 }

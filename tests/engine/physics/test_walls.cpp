@@ -64,7 +64,7 @@ constexpr std::uint32_t kHits = 100000;
 }  // namespace
 
 // (theory 4.1): v_n' = alpha_w |v_n| + v_dr, along the normal into the box.
-TEST_CASE("Walls: reflection off each of the four walls is that of theory 4.1") {
+TEST_CASE("Walls: reflection off each of the four walls follows theory 4.1") {
   CHECK(reflect<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
   CHECK(reflect<2>({2.0, 3.0}, 0, -1.0, 0.5, 0.0) == Vec2(-1.0, 3.0));
   CHECK(reflect<2>({-2.0, -3.0}, 1, 1.0, 0.5, 0.25) == Vec2(-2.0, 1.75));

@@ -49,7 +49,7 @@ TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere
   for (const double density : map.values) CHECK(std::fabs(density / (30.0 / 96.0) - 1.0) < 0.2);
 }
 
-TEST_CASE("LiveField: every field is that of its cells over the window") {
+TEST_CASE("LiveField: every field is the average of its cells over the window") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   for (const Field field : average_fields()) {
@@ -110,7 +110,7 @@ TEST_CASE("LiveField: of snapshots it is the average of samples, also across cha
   }
 }
 
-TEST_CASE("LiveField: every residual is that of its cells over the window") {
+TEST_CASE("LiveField: every residual belongs to its cells over the window") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   scene.gravity = Vec2(0.2, -0.5);
@@ -334,7 +334,7 @@ TEST_CASE("LiveField: of spheres, cells and arrows fill the box") {
   CHECK(known > 50);
 }
 
-TEST_CASE("LiveField: a residual and arrows together are those of each alone") {
+TEST_CASE("LiveField: a residual and arrows do not change each other") {
   const auto shown = [](std::optional<Field> field, std::optional<Quantity> arrows) {
     const auto simulation = simulation_of<2>(rough_mixture(20), 36);
     View view;

@@ -203,7 +203,7 @@ TEST_CASE("ScheduledRun: impossible changes are refused, and change nothing") {
   CHECK(run.run_until(4.0));
 }
 
-TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run, to the bit") {
+TEST_CASE("ScheduledRun: averages resumed from a checkpoint equal one run, to the bit") {
   for (const std::string field : {"temperature", "balance_energy"}) {
     CAPTURE(field);
     Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
@@ -234,7 +234,7 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run
   }
 }
 
-TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint are those of one run") {
+TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint equal one run") {
   Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
   scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
   ScheduledRun<2> whole(scene, 15);

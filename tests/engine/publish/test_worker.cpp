@@ -284,7 +284,7 @@ TEST_CASE("Worker: it predicts the next collision of a picked particle, then rep
   CHECK(after.next_collision->time > time);
 }
 
-TEST_CASE("Worker: the predicted collision of a picked particle comes true while the gas plays") {
+TEST_CASE("Worker: the predicted collision of a picked particle occurs while the gas plays") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 30});
   worker.send(command::Pick{11});

@@ -391,7 +391,7 @@ TEST_CASE("Scene file: area_fraction becomes the nearest count") {
   CHECK(scene.particles.count == 38);  // 0.3 * 400 / pi = 38.197
 }
 
-TEST_CASE("Scene file: a name of a field stands for its components, and each may stand alone") {
+TEST_CASE("Scene file: a field name means all components, and each component has a name") {
   const auto fields = [](const std::string& list) {
     return parse_scene(kParticles + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;

@@ -10,7 +10,7 @@ using namespace clatter::testing;
 
 // Every mistake in the text of a scene gives an error with its place and a fix.
 
-TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
+TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
   struct Case {
     std::string text;
     std::string message;

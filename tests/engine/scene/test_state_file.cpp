@@ -179,7 +179,7 @@ TEST_CASE("State file: a state that was written reads back to the same bits") {
   check_bits<3>();
 }
 
-TEST_CASE("State file: mistakes are reported with their place and what to do") {
+TEST_CASE("State file: mistakes are reported with their place and a fix") {
   struct Case {
     std::string csv;
     std::string message;
@@ -313,7 +313,7 @@ TEST_CASE("State file: particles may touch each other or a wall, up to rounding"
 }
 
 TEST_CASE(
-    "State file: particles may lie wherever the walls are not at time 0, also outside the box") {
+    "State file: particles may be anywhere outside the walls at time 0, also outside the box") {
   CHECK(state_refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // in the range of the wall
   Scene scene = walled_scene();
   scene.walls[kRight] =
@@ -379,7 +379,7 @@ TEST_CASE("State file: a scene names its state relative to its own folder") {
              "--set particles.start.file: there is no file 'a.csv'; "));
 }
 
-TEST_CASE("State file: a count beside a state must be that of its particles") {
+TEST_CASE("State file: a count must equal the number of particles in the state") {
   const TemporaryFolder folder;
   const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");

@@ -60,7 +60,7 @@ double area_in(int x, int y, const Vec2& centre, double radius) {
 
 }  // namespace
 
-TEST_CASE("Coverage: a small disk covers the part of each pixel that lies in it") {
+TEST_CASE("Coverage: the coverage of a pixel is its overlap with a small disk") {
   Coverage coverage;
   const int width = kSize.width + 2 * Coverage::kMargin;
   for (const double radius : {0.3, 1.2, 1.49}) {

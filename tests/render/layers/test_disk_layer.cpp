@@ -123,7 +123,7 @@ TEST_CASE("Disk layer: particles beyond the largest point of the driver are draw
   CHECK(pixel(image, 1010, 700) == kDarkTheme.background);
 }
 
-TEST_CASE("Disk layer: a disk whose centre lies outside the picture shows its part inside") {
+TEST_CASE("Disk layer: a disk with its centre outside the picture shows its part inside") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
   const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -219,8 +219,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "Disk layer: the light of small disks is that of their shapes, drawn larger and averaged") {
+TEST_CASE("Disk layer: small disks have the light of their shapes, drawn larger and averaged") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   for (const double diameter : {0.8, 1.5, 2.5}) {

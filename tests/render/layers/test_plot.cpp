@@ -9,8 +9,8 @@ namespace {
 
 const ThemeColours kTheme = kLightTheme;
 
-// Mean position of the pixels with the colour of the points, as shares of the picture from the
-// upper left corner, and the number of these pixels.
+// Mean position of the pixels with the colour of the points, and their number. Positions are shares
+// of the picture from the upper left corner.
 struct Mark {
   Vec2 place{0.0, 0.0};
   int pixels = 0;

@@ -175,7 +175,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
+TEST_CASE("Renderer: arrows over the box have the length of their legend") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;

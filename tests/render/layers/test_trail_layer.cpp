@@ -17,7 +17,7 @@ Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
 
 }  // namespace
 
-TEST_CASE("Trail layer: trails lie on the paths and fade out as far back as they reach") {
+TEST_CASE("Trail layer: trails follow the paths and fade out to their ends") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({120.0, 100.0}, 20.0);
   snapshot.velocities = Vec2(0.0, 40.0);

@@ -56,7 +56,7 @@ TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed"
   }
 }
 
-TEST_CASE("Wall layer: a moving wall is drawn where it is, and covers what is behind it") {
+TEST_CASE("Wall layer: a moving wall is drawn at its position, and covers the picture behind it") {
   const auto context = open_context(Backend::Osmesa);
   for (WallKind kind : {WallKind::Sawtooth, WallKind::Sinusoidal}) {
     for (double displacement : {-1.0, 0.0, 2.0, 3.0}) {  // 10 pixels each

@@ -207,7 +207,7 @@ TEST_CASE("Movie: names that look like options or protocols are names") {
   CHECK(std::filesystem::exists(folder / "-a:b %d.gif"));
 }
 
-TEST_CASE("Movie: without an encoder there is an error that says what to install, and no file") {
+TEST_CASE("Movie: without an encoder an error names the package, and there is no file") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", options(), "no-such-encoder"),
                        doctest::Contains("apt install ffmpeg"), RunError);
@@ -282,7 +282,7 @@ TEST_CASE("Movie: an earlier piece that was cut is an error that names it") {
   CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
 }
 
-TEST_CASE("Movie: a film does not go on from a piece that has changed") {
+TEST_CASE("Movie: a film does not continue from a changed piece") {
   const TemporaryFolder folder;
   SinkOptions resumed = options();
   {

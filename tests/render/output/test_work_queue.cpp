@@ -53,7 +53,7 @@ TEST_CASE("WorkQueue: drain waits for the jobs that have begun, too") {
   }
 }
 
-TEST_CASE("WorkQueue: what a job throws reaches add and finish") {
+TEST_CASE("WorkQueue: the exception of a job reaches add and finish") {
   WorkQueue queue(2, 2);
   auto add_many = [&] {
     for (int i = 0; i < 1000; ++i) queue.add([] { throw std::runtime_error("broken"); });
