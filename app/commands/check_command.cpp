@@ -39,7 +39,7 @@ void print_events(const Scene& scene, double end) {
     std::fprintf(stderr, ", %.3g kicks of all particles",
                  std::floor(end / scene.bulk_drive->interval));
   }
-  std::fprintf(stderr, ", at the start temperature %g.\n", temperature);
+  std::fprintf(stderr, "; at the start temperature %g.\n", temperature);
 }
 
 int check(const CommonOptions& options) {
