@@ -1,5 +1,5 @@
-# Writes commit.cpp, which has the commit of a checkout in 12 digits, or an empty text elsewhere. A
-# new commit configures the build again and compiles that one file.
+# Writes commit.cpp with the 12-digit commit of a checkout, or an empty text without a checkout.
+# After a new commit, the build is configured again, and this one file is compiled.
 set(commit "")
 set(log "")
 find_package(Git QUIET)

@@ -1,6 +1,7 @@
-# embed_files(TARGET TABLE FILE...): puts files into the program and defines, in <TABLE>.cpp,
-# `std::span<const clatter::EmbeddedFile> clatter::<TABLE>()`, one entry per file, named by file name.
-# There may be no file. The bytes go through the assembler's .incbin, so a large font costs no compile time.
+# embed_files(TARGET TABLE FILE...): embeds files into the program and defines, in <TABLE>.cpp,
+# `std::span<const clatter::EmbeddedFile> clatter::<TABLE>()`, one entry per file with its file name.
+# The list of files may be empty. The assembler's .incbin reads the bytes, so that a large font costs
+# no compile time.
 function(embed_files target table)
   set(assembly ".section .rodata\n")
   set(declarations "")

@@ -1,8 +1,8 @@
-# Installation and Debian package. The target installed_files builds what `cmake --install` copies:
-# the program, and the pages and scripts that it writes about itself.
+# Installation and Debian package. The target installed_files builds all files of `cmake --install`:
+# the program, its manual page and its completions.
 include(GNUInstallDirs)
 
-# Packages of Debian have their completions in zsh/vendor-completions, see ./run package.
+# Debian packages install zsh completions in zsh/vendor-completions, see ./run package.
 set(CLATTER_ZSH_FOLDER ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
     CACHE STRING "Folder for the completions of zsh")
 set(CLATTER_CONTACT "clatter authors <authors@clatter.invalid>"
@@ -13,7 +13,7 @@ file(MAKE_DIRECTORY ${share})
 find_program(GZIP gzip REQUIRED)
 set(documentation ${CMAKE_INSTALL_DATADIR}/doc/clatter)
 
-# The changelog of the package refers to that of the program. SOURCE_DATE_EPOCH sets its date.
+# The changelog of the package refers to the program's changelog. SOURCE_DATE_EPOCH sets its date.
 string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(CONFIGURE OUTPUT ${share}/changelog.Debian CONTENT
 "clatter (${PROJECT_VERSION}-1) unstable; urgency=medium
@@ -44,7 +44,7 @@ add_custom_target(installed_files ALL
                           ${share}/clatter.1.gz ${share}/changelog.gz
                           ${share}/changelog.Debian.gz)
 
-# The tests are not installed, so that the other targets need not be built.
+# Tests are not installed. The other targets need no build.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 install(TARGETS clatter)
 install(FILES ${share}/clatter.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
@@ -73,7 +73,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# These libraries are opened at run time. OSMesa draws without a display and without a driver.
+# Libraries opened at run time. OSMesa draws without a display and without a driver.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libegl1, libgl1, libgl1-mesa-dri")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION

@@ -1,5 +1,5 @@
-# Every dependency comes from the distribution. What is missing is named with the package that
-# is_current it, all at once, so that one call of the package manager mends it.
+# All dependencies come from the distribution. One error lists all missing libraries with their
+# packages, so that one call of the package manager installs them.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 
@@ -37,12 +37,12 @@ need_module(MPFR mpfr libmpfr-dev)
 need_module(IMGUI imgui libimgui-dev)
 need_module(STB stb libstb-dev)
 need_module(GLFW glfw3 libglfw3-dev)
-# The GL libraries are opened at run time; only their headers are needed to build.
+# The GL libraries are opened at run time. The build needs their headers only.
 need_header(GL/glcorearb.h libgl-dev)
 need_header(GL/osmesa.h libosmesa6-dev)
 need_header(EGL/egl.h libegl-dev)
 
-# Beside the C library, which alone pkg-config knows.
+# pkg-config has only the C library.
 find_library(HDF5_CPP hdf5_cpp HINTS ${HDF5_LIBRARY_DIRS})
 if(NOT HDF5_CPP)
   string(APPEND missing "\n  hdf5_cpp: apt install libhdf5-dev")

@@ -25,7 +25,7 @@ RunResult observe_one(const Setting& setting, double duration, std::uint64_t see
                                  : observe(setting.scene, effort, seed);
 }
 
-// Settings one after the other again and again, so that all meet the same load.
+// Runs all settings in turn, repeatedly, so that the load of the machine affects them equally.
 std::vector<Replicas> observe_all(const ParameterSweep& dial, double duration) {
   std::vector<Replicas> runs(dial.settings.size());
   for (std::uint64_t seed = 1; seed <= kAccuracyReplicas; ++seed) {
@@ -54,7 +54,7 @@ AccuracyRow row_of(const Setting& setting, const Replicas& replicas, const Repli
   return row;
 }
 
-// What the settings but the first tend to as their values go to 0, compared with the first.
+// The extrapolation of all settings but the first to value 0, compared with the first.
 AccuracyRow limit_row(const ParameterSweep& dial, const std::vector<Replicas>& runs) {
   AccuracyRow row{.setting = "-> 0",
                   .value = 0.0,
@@ -79,7 +79,7 @@ AccuracyRow limit_row(const ParameterSweep& dial, const std::vector<Replicas>& r
   return row;
 }
 
-// By a tenth at least, which is about as well as either is known.
+// The margin of one tenth is about the precision of both values.
 void mark_dominated(std::vector<AccuracyRow>& rows) {
   constexpr double kLess = 0.9;
   for (AccuracyRow& row : rows) {
@@ -105,7 +105,7 @@ bool asked_for(const std::string& dial, const AccuracyBench& bench) {
   return bench.dials.empty() || std::ranges::find(bench.dials, dial) != bench.dials.end();
 }
 
-// Throws where a dial is asked for that the scene has not.
+// Throws if the scene has no sweep of a requested name.
 void require_known(const std::vector<ParameterSweep>& dials, const AccuracyBench& bench) {
   std::vector<std::string> known(std::begin(kPictureDials), std::end(kPictureDials));
   for (const ParameterSweep& dial : dials) known.push_back(dial.name);
@@ -135,8 +135,8 @@ int bench_accuracy(const AccuracyBench& bench) {
   require_places(bench);
   Scene scene = load_scene(bench.scene, {});
   if (scene.particles.count < 2 || !scene.changes.empty()) {
-    throw UserError({bench.scene, 0, 0}, "errors are those of a gas whose laws stay",
-                    "choose a scene of two disks or more, without [[change]]");
+    throw UserError({bench.scene, 0, 0}, "the bench needs constant laws and at least two disks",
+                    "choose another scene, or remove [[change]]");
   }
   require_known(sweeps_of(scene, 1.0), bench);
   const Effort effort{.burn_in = 0.2 * bench.duration, .duration = bench.duration};

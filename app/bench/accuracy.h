@@ -8,40 +8,40 @@
 
 namespace clatter {
 
-/// What `clatter bench accuracy` is asked for.
+/// Options of `clatter bench accuracy`.
 struct AccuracyBench {
   std::string scene = "vibrated";  ///< path or gallery name
-  double duration = 1000.0;        ///< simulated time of each replica, after a fifth of it
-  std::vector<std::string> dials;  ///< names of those asked for; empty: all
-  std::string csv;                 ///< files; empty: none
+  double duration = 1000.0;        ///< simulated time of each replica, after a burn-in of one fifth
+  std::vector<std::string> dials;  ///< names of the selected sweeps; empty: all
+  std::string csv;                 ///< output file; empty: none
   std::string json;
   std::string plot;      ///< PNG
-  std::string markdown;  ///< a page whose table is replaced
+  std::string markdown;  ///< page with a table to replace
 };
 
-/// A setting with what its runs found.
+/// A setting with the results of its runs.
 struct AccuracyRow {
   std::string setting;
-  double value = 0.0;         ///< on the dial; NaN: none
-  double cpu_per_time = 0.0;  ///< seconds, the least of any replica; NaN: nothing ran
+  double value = 0.0;         ///< of the parameter; NaN: none
+  double cpu_per_time = 0.0;  ///< CPU seconds per time, the least of all replicas; NaN: no run
   double events_per_second = 0.0;
   double bytes = 0.0;
   double deepest_overlap = 0.0;
   double elasticised_share = 0.0;  ///< NaN: no t_c
-  Comparison comparison = {};      ///< with the finest setting of its dial
-  /// Whether another setting of the dial costs less and errs less, by a tenth at least.
+  Comparison comparison = {};      ///< with the finest setting of the sweep
+  /// Whether another setting has both a lower cost and a lower error, by at least one tenth.
   bool dominated = false;
 };
 
-/// A dial's settings, from the finest.
+/// The settings of a sweep, from the finest.
 struct AccuracyTable {
   std::string dial;
   std::string title;
   std::vector<AccuracyRow> rows;
 };
 
-/// Runs the exact engine, fields and all, at each setting of each dial of a scene, and prints what
-/// each costs and how far it is off the finest; returns the exit code.
+/// Runs the exact engine with all fields at each setting of each sweep of a scene. Prints the cost
+/// of each setting and its deviation from the finest. Returns the exit code.
 int bench_accuracy(const AccuracyBench& bench);
 
 }  // namespace clatter

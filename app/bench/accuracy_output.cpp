@@ -19,17 +19,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the columns that are compared, in files and in tables.
+// Names of the compared columns, in files and in tables.
 constexpr std::array<const char*, kCompared> kNames = {"temperature", "pressure",    "stress",
                                                        "heat_flux",   "dissipation", "density"};
 constexpr std::array<const char*, kCompared> kSymbols = {"T", "p", "σ", "q", "ζ", "ρ(x)"};
 
-// A number, or a dash where there is none.
+// A number, or a dash for NaN.
 std::string number(fmt::format_string<double&> format, double value) {
   return std::isnan(value) ? "-" : fmt::format(format, value);
 }
 
-// A difference in per cent.
+// A difference in percent.
 std::string percent(const Estimate& bias) {
   if (std::isnan(bias.mean)) return "-";
   if (bias.mean == 0.0 && bias.standard_error == 0.0) return "0";
@@ -38,7 +38,7 @@ std::string percent(const Estimate& bias) {
   return fmt::format("{:+.{}f} ±{:.{}f}", 100.0 * bias.mean, digits, error, digits);
 }
 
-// Cells of a row of a table, in the order of kHeadings.
+// The cells of a row, in the order of kHeadings.
 std::vector<std::string> cells_of(const AccuracyRow& row) {
   std::vector<std::string> cells = {
       row.setting + (row.dominated ? " *" : ""), number("{:.3g}", 1e3 * row.cpu_per_time),
@@ -64,7 +64,7 @@ std::vector<std::string> headings() {
   return names;
 }
 
-// Letters, not bytes, of UTF-8.
+// Number of UTF-8 characters.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -99,7 +99,7 @@ std::string markdown_of(const std::string& title, const Grid& grid) {
     for (const std::string& cell : grid[row]) {
       text += "| ";
       for (const char letter : cell) {
-        if (letter == '*') text += '\\';  // which would begin something else
+        if (letter == '*') text += '\\';  // otherwise Markdown emphasis
         text += letter;
       }
       text += " ";
@@ -123,10 +123,10 @@ std::string accuracy_statement(const AccuracyBench& bench) {
          "ρ(x): temperature, wall pressure, stress, heat flux, dissipation and density profile "
          "(root mean square), relative to the dial's first row; overlap: deepest, in diameters; "
          "el.: collisions that t_c made elastic; error: sqrt(bias² + variance per CPU second), "
-         "root mean square over those six; SSIM: similarity to a picture of 4 x 4 samples a pixel; "
-         "centre px: how far a disk's light is from where the disk is, for frame rates where it is "
-         "half a frame later; *: another setting of the dial costs less and errs less, by a tenth "
-         "at least.\n";
+         "root mean square over those six; SSIM: similarity to a picture of 4 x 4 samples per "
+         "pixel; centre px: distance between a drawn disk and the disk, for frame rates half a "
+         "frame later; *: another setting of the dial has both a lower cost and a lower error, by "
+         "at least one tenth.\n";
 }
 
 std::string accuracy_text(const AccuracyTable& table) {
@@ -169,7 +169,7 @@ std::string accuracy_csv(const std::vector<AccuracyTable>& tables,
 
 std::string accuracy_json(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables,
                           const std::vector<PictureTable>& pictures) {
-  // What there is not is null.
+  // Absent values are null.
   Json json{{"scene", bench.scene},
             {"replicas", kAccuracyReplicas},
             {"duration", bench.duration},

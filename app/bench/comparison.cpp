@@ -20,7 +20,7 @@ ProfileValues mean_profile(const Replicas& replicas, ProfileValues RunResult::*p
   return mean;
 }
 
-// Values of replicas are independent, so that blocks would only waste them.
+// Replicas are independent. Blocking would waste data.
 Estimate independent_mean(const std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());
   double mean = 0.0, squares = 0.0;
@@ -29,7 +29,7 @@ Estimate independent_mean(const std::vector<double>& values) {
   return {mean, count > 1.0 ? std::sqrt(squares / (count * (count - 1.0))) : 0.0};
 }
 
-// One mean of each replica.
+// One mean per replica.
 std::vector<double> values_of(const Replicas& replicas, ComparedMean quantity,
                               const ProfileValues& heat_flux) {
   std::vector<double> values;
@@ -47,8 +47,8 @@ std::vector<double> values_of(const Replicas& replicas, ComparedMean quantity,
   return values;
 }
 
-// The square of a mean over replicas without what their scatter adds to it, summed over columns;
-// `skipped` leaves one replica out.
+// The square of a mean over replicas, without the contribution of their scatter, summed over
+// columns. `skipped` leaves out one replica.
 double square_of_mean(const std::vector<ProfileValues>& replicas, std::size_t skipped) {
   double sum = 0.0;
   const auto count = static_cast<double>(replicas.size() - (skipped < replicas.size() ? 1 : 0));
@@ -64,7 +64,7 @@ double square_of_mean(const std::vector<ProfileValues>& replicas, std::size_t sk
   return sum;
 }
 
-// The root mean square of a profile of differences, its error by leaving out each replica in turn.
+// The root mean square of a profile of differences. The jackknife over replicas gives the error.
 Estimate profile_bias(const std::vector<ProfileValues>& differences) {
   const std::size_t count = differences.size();
   const double square = square_of_mean(differences, count) / kProfileColumns;
@@ -79,7 +79,7 @@ Estimate profile_bias(const std::vector<ProfileValues>& differences) {
 
 struct ProfileComparison {
   Estimate bias;
-  double variance = 0.0;  // of the setting's own mean profile, mean over columns
+  double variance = 0.0;  // of the mean profile of the setting, averaged over columns
 };
 
 ProfileComparison compare_densities(const Replicas& replicas, const Replicas& reference) {
@@ -132,7 +132,7 @@ Comparison compare(const Replicas& replicas, const Replicas& reference) {
     std::vector<double> values = values_of(replicas, quantity, heat_flux);
     const std::vector<double> others = values_of(reference, quantity, heat_flux);
     const double mean = independent_mean(others).mean;
-    // Of nothing, as of what elastic disks dissipate, nothing is a share.
+    // A difference relative to 0 is undefined, for example in the dissipation of elastic disks.
     const double scale = mean == 0.0 ? kNotANumber : mean;
     const double error = independent_mean(values).standard_error / scale;
     for (std::size_t r = 0; r < values.size(); ++r) values[r] = (values[r] - others[r]) / scale;

@@ -26,13 +26,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What one cell of the engine's table shows.
+// One cell of the engine's table.
 struct EngineRate {
   int count;
   double area_fraction;
   double rate;            // millions of disk-disk collisions per CPU second, best of three
   double setup_seconds;   // CPU time to build the start state and the simulation
-  double bytes_per_disk;  // peak resident size less that before the state was built
+  double bytes_per_disk;  // peak resident size minus the size before the state was built
 };
 
 // Elastic disks in a periodic square box.
@@ -47,7 +47,7 @@ bool has_room(int count, double area_fraction) {
   return lattice_capacity(scene_of(count, area_fraction).start_room<2>()) >= count;
 }
 
-// After a number of collisions of each disk: elastic disks are in equilibrium after ten.
+// Equilibrates for a number of collisions per disk. Elastic disks need about ten.
 EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
   constexpr int kRepetitions = 3;
   const auto disks = static_cast<std::uint64_t>(scene.particles.count);
@@ -70,7 +70,7 @@ EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) 
   return result;
 }
 
-// Prints the rows of a table and gives them as JSON.
+// Prints the rows of a table and returns them as JSON.
 Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<EngineRate>& rates) {
   std::fprintf(stderr,
                "elastic disks, periodic box; Mcoll/s: 10^6 disk-disk collisions per CPU second\n");
@@ -78,7 +78,7 @@ Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<E
   Json json = Json::array();
   for (const auto& [count, area_fraction] : cells) {
     EngineRate r = measure_engine(scene_of(count, area_fraction));
-    r.area_fraction = area_fraction;  // that of the box differs by rounding
+    r.area_fraction = area_fraction;  // the box differs by rounding
     rates.push_back(r);
     std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.area_fraction, r.rate,
                 r.setup_seconds, r.bytes_per_disk);
@@ -92,12 +92,12 @@ Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<E
   return json;
 }
 
-// Gases whose disks lie in clusters, beside those of the same number and mean density at the start,
-// which are homogeneous.
+// Gases with clusters of disks. Each is compared with a homogeneous gas of the same number and mean
+// density.
 struct Inhomogeneous {
   const char* name;
   Scene scene;
-  std::uint64_t after;  // collisions of each disk
+  std::uint64_t after;  // collisions per disk
 };
 
 std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
@@ -158,8 +158,9 @@ int bench_engine(const std::string& json, int count, double area_fraction) {
   std::vector<std::pair<int, double>> cells;
   if (count > 0) {
     if (!has_room(count, area_fraction)) {
-      throw UserError({"--area-fraction", 0, 0}, "no square box holds so many disks so densely",
-                      "choose a smaller one, or another --count");
+      throw UserError({"--area-fraction", 0, 0},
+                      "no square box holds this number of disks at this area fraction",
+                      "choose a smaller fraction, or another --count");
     }
     cells = {{count, area_fraction}};
   } else {
@@ -174,7 +175,7 @@ int bench_engine(const std::string& json, int count, double area_fraction) {
 }
 
 int bench_growth(const std::string& json, const std::string& plot, int count) {
-  constexpr double kMiddle = 0.5;  // area fraction that is followed to the largest numbers
+  constexpr double kMiddle = 0.5;  // area fraction with the largest numbers
   std::vector<std::pair<int, double>> cells;
   for (const double phi : {0.01, 0.1, 0.3, kMiddle, 0.7, 0.88}) {
     for (const int disks : {100, 1'000, 10'000, 100'000, 1'000'000, 4'000'000}) {
@@ -186,7 +187,7 @@ int bench_growth(const std::string& json, const std::string& plot, int count) {
   if (!plot.empty()) require_writable_file(plot, "--plot");
   std::vector<EngineRate> rates;
   Json rows = print_rates(cells, rates);
-  // Few disks cool into one cluster, in which hardly any two collide any more.
+  // A small gas cools into one cluster with hardly any collisions.
   for (Json& row : print_inhomogeneous(count > 0 ? std::clamp(count, 20'000, 100'000) : 100'000)) {
     rows.push_back(std::move(row));
   }

@@ -31,18 +31,18 @@ constexpr double kAreaFraction = 0.3;
 constexpr int kRounds = 7;
 constexpr std::uint64_t kPerDisk = 200;  // collisions in a round
 
-// A gas with one thing more than the bare one.
+// A gas with one feature more than the bare gas.
 struct Feature {
   const char* name;
-  std::function<void(Scene&)> add;       // to the bare scene
-  std::vector<Field> fields = {};        // taken while it runs
-  std::optional<double> snapshots = {};  // apart by this time; absent: exact
-  double frames = 0.0;                   // published a time unit
-  bool balance = false;                  // whether all balance equations are booked
-  bool checkpoint = false;               // whether one is written after each round
+  std::function<void(Scene&)> add;       // modifies the bare scene
+  std::vector<Field> fields = {};        // measured during the run
+  std::optional<double> snapshots = {};  // interval of snapshots; absent: exact
+  double frames = 0.0;                   // published per time unit
+  bool balance = false;                  // whether all balance equations are measured
+  bool checkpoint = false;               // whether each round ends with a checkpoint
 };
 
-// A run of a feature, from which a batch of collisions is timed again and again.
+// A run of a feature. Times batches of collisions repeatedly.
 class Trial {
  public:
   Trial(const Feature& feature, const Scene& scene)
@@ -61,7 +61,7 @@ class Trial {
     }
   }
 
-  // Collisions with disks and walls per CPU second.
+  // Collisions with disks and walls, per CPU second.
   double rate(std::uint64_t batch) {
     const std::uint64_t before = collisions();
     const double began = cpu_seconds();
@@ -120,7 +120,7 @@ void add_walls(Scene& scene, Side near, const Wall& wall) {
   scene.walls[near] = scene.walls[near + 1] = wall;
 }
 
-// Little enough for a gas that nothing drives to stay what it was while it is timed.
+// Weak dissipation: an undriven gas hardly changes while it is timed.
 void lose_energy(Scene& scene) {
   scene.particles.restitution = 0.999;
 }
@@ -193,10 +193,9 @@ int bench_features(const std::string& json, int count) {
   bare.box.setConstant(std::sqrt(bare.particles.count * 0.25 * std::numbers::pi / kAreaFraction));
   const auto batch = kPerDisk * static_cast<std::uint64_t>(bare.particles.count);
   std::fprintf(stderr,
-               "%d disks, phi = %g; each %d rounds of %llu collisions, interleaved; rate: "
-               "collisions with disks and walls per CPU second over those of the bare run "
-               "(elastic, periodic) in the "
-               "same round, median\n",
+               "%d disks, phi = %g; %d rounds of %llu collisions each, interleaved; rate: "
+               "collisions with disks and walls per CPU second, relative to the bare run (elastic, "
+               "periodic) of the same round, median\n",
                bare.particles.count, kAreaFraction, kRounds,
                static_cast<unsigned long long>(batch));
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double kBurnIn = 200.0;
 constexpr int kRepetitions = 3;
 
-// How a run is observed: no fields and no balance, no observer.
+// The measurement of a run. Without fields and balance there is no observer.
 struct Observation {
   const char* name;
   std::vector<Field> fields;
@@ -82,7 +82,8 @@ Outcome observe(const Scene& scene, double duration, const Observation& how) {
   return outcome;
 }
 
-// One after the other again and again, so that all meet the same load; the least time counts.
+// Runs all settings in turn, repeatedly, so that the load of the machine affects them equally. The
+// least time counts.
 std::vector<Outcome> observe_all(const Scene& scene, double duration,
                                  const std::vector<Observation>& ways) {
   std::vector<Outcome> outcomes(ways.size());
@@ -97,7 +98,7 @@ std::vector<Outcome> observe_all(const Scene& scene, double duration,
   return outcomes;
 }
 
-// All averages that a smooth gas has.
+// All averages of a smooth gas.
 std::vector<Field> averages_without_spins() {
   std::vector<Field> fields = all_fields(2);
   std::erase_if(fields, [](Field field) { return of_spins(field) || is_residual(field); });
@@ -108,7 +109,7 @@ std::vector<Field> averages_without_spins() {
 
 int bench_fields(double duration, const std::string& json) {
   Scene scene = load_scene("vibrated", {});
-  scene.measure.cells = {20, 25};  // of one diameter
+  scene.measure.cells = {20, 25};  // cells of one diameter
   const std::vector<Field> temperature = {Quantity::Temperature};
   const std::vector<Observation> ways = {{"bare run", {}},
                                          {"exact, all fields", averages_without_spins()},
@@ -120,9 +121,9 @@ int bench_fields(double duration, const std::string& json) {
                                          {"snapshot 10", temperature, 10.0},
                                          {"balance", {}, {}, true}};
   std::fprintf(stderr,
-               "vibrated scene, cells of one diameter, %g time units; the field is T but for the "
-               "second row, and the last books all balance equations\ncost: CPU time over that of "
-               "a bare run; variance: of the profile of T, mean over its columns\n",
+               "vibrated scene, cells of one diameter, %g time units; the second row measures all "
+               "fields, the last row all balance equations, the others T\ncost: CPU time relative "
+               "to a bare run; variance: of the profile of T, mean over its columns\n",
                duration);
   const std::vector<Outcome> outcomes = observe_all(scene, duration, ways);
   const Outcome& bare = outcomes.front();

@@ -43,7 +43,7 @@ ParameterSweep estimators(const Scene& scene) {
   return sweep;
 }
 
-// Cells along the axis of profiles, as many as divide the columns that are compared.
+// Numbers of cells along the axis of profiles. They divide the number of compared columns.
 ParameterSweep cell_sizes(const Scene& scene) {
   const auto axis = static_cast<int>(compared_axis(scene));
   ParameterSweep sweep{"cells", "fields: width of cells", {}};
@@ -74,7 +74,7 @@ bool is_driven(const std::optional<Wall>& wall) {
   return wall && wall->kind == WallKind::Driven && wall->drive_speed > 0.0;
 }
 
-// Saw-teeth of the speed whose limit a driven wall is: v_dr = (1 + alpha_w) stroke frequency.
+// Saw-tooth motions with the limit of a driven wall: v_dr = (1 + alpha_w) stroke frequency.
 ParameterSweep strokes(const Scene& scene) {
   ParameterSweep sweep{"stroke", "stroke of the shaking walls", {plain("limit", scene)}, true};
   for (const double stroke : {0.02, 0.05, 0.1, 0.2}) {
@@ -90,7 +90,7 @@ ParameterSweep strokes(const Scene& scene) {
   return sweep;
 }
 
-// More or fewer disks at the same number per length of the walls.
+// Other numbers of disks at the same number per length of the walls.
 ParameterSweep counts(const Scene& scene) {
   const int along = 1 - static_cast<int>(compared_axis(scene));
   ParameterSweep sweep{"count", "number of disks at equal line density", {}};
@@ -108,7 +108,7 @@ ParameterSweep time_steps(const Scene& scene) {
   for (const double step : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1}) {
     Setting stepped = setting(step, scene);
     stepped.time_step = step;
-    stepped.duration = std::min(1.0, step / 1e-2);  // fine steps take their time
+    stepped.duration = std::min(1.0, step / 1e-2);  // fine steps are slow
     sweep.settings.push_back(stepped);
   }
   return sweep;

@@ -19,7 +19,8 @@ namespace {
 constexpr Size kLarge{1920, 1080}, kMedium{1280, 720};
 constexpr int kMaxSamples = 4;
 
-// Particles in their plain colour on a plain ground, so that a centre is that of their light.
+// Particles in one colour on a uniform background, so that the light of a particle gives its
+// centre.
 View plain_view() {
   View view;
   view.colour_by = ColourBy::None;
@@ -42,7 +43,7 @@ Drawn draw(const Gl& gl, const Snapshot& snapshot, Size size, int samples) {
   Drawn drawn{{}, {renderer.fit(snapshot, size, view, {}), size}, 0.0};
   double began = 0.0;
   for (int k = 0; k <= kFrames; ++k) {
-    if (k == 1) began = cpu_seconds();  // the first warms caches up
+    if (k == 1) began = cpu_seconds();  // the first picture fills the caches
     canvas.bind();
     renderer.draw(snapshot, drawn.projection.camera, size, view, {});
     drawn.image = canvas.read();
@@ -51,7 +52,7 @@ Drawn draw(const Gl& gl, const Snapshot& snapshot, Size size, int samples) {
   return drawn;
 }
 
-// Particles that stand apart, at all places within a pixel.
+// Isolated particles, at all positions relative to the pixel grid.
 Snapshot apart(const Snapshot& snapshot) {
   constexpr double kSpacing = 2.5;
   Snapshot sparse = snapshot;
@@ -69,7 +70,7 @@ Snapshot apart(const Snapshot& snapshot) {
   return sparse;
 }
 
-// The centre of the light around a place, pixels from the upper left corner.
+// The centroid of the light around a position, in pixels from the upper left corner.
 Vec2 centre_of_light(const Image& image, const Vec2& place, double radius) {
   const auto brightness = [&](int x, int y) {
     const auto at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.size.width) +
@@ -93,7 +94,7 @@ Vec2 centre_of_light(const Image& image, const Vec2& place, double radius) {
   return light > 0.0 ? Vec2(sum / light) : place;
 }
 
-// Root mean square distance of centres in a picture from where disks are, in its pixels.
+// Root mean square distance between the centres in a picture and the disks, in its pixels.
 double centre_error(const Drawn& drawn, const Snapshot& snapshot) {
   double squares = 0.0;
   for (const auto& position : snapshot.positions.colwise()) {
@@ -132,7 +133,7 @@ PictureTable sizes(const Gl& gl, const Snapshot& snapshot) {
   return table;
 }
 
-// A frame stays until the next, so that what is seen is on average half a frame old.
+// Each frame stays until the next. The shown gas is on average half a frame old.
 PictureTable frame_rates(const Gl& gl, Simulation<2>& simulation, double speed) {
   PictureTable table{
       "frame_rate", "frames a second of film, at 1280x720; ms for a second of film", {}};

@@ -7,29 +7,29 @@
 
 namespace clatter {
 
-/// What a picture drawn at a setting costs, and how far it is off the best.
+/// The cost of a picture at a setting, and its deviation from the best.
 struct PictureRow {
   std::string setting;
-  double value = 0.0;         ///< on the dial
-  double cpu_seconds = 0.0;   ///< a picture, all threads; of frame rates a second of film
-  double ssim = 1.0;          ///< structural similarity to the best, 1: equal
-  double centre_error = 0.0;  ///< root mean square, of a disk's centre; pixels of the best
-  bool dominated = false;     ///< whether another setting costs less and is closer
+  double value = 0.0;         ///< of the parameter
+  double cpu_seconds = 0.0;   ///< per picture, all threads; for frame rates per second of film
+  double ssim = 1.0;          ///< structural similarity to the best; 1: equal
+  double centre_error = 0.0;  ///< root mean square error of a disk's centre, in pixels of the best
+  bool dominated = false;     ///< whether another setting is cheaper and closer
 };
 
-/// A dial of pictures with its settings, from the finest.
+/// A parameter of pictures with its settings, from the finest.
 struct PictureTable {
   std::string dial;
   std::string title;
   std::vector<PictureRow> rows;
 };
 
-/// Names of the dials.
+/// Names of the parameters.
 inline constexpr const char* kPictureDials[] = {"antialiasing", "picture_size", "frame_rate"};
 
-/// Draws a gas after `time` at each setting of a dial and compares with what 4 x 4 samples a pixel
-/// give: antialiasing at 1280x720; the size of pictures, enlarged to 1920x1080; and the frame rate,
-/// each frame with the gas half way to the next.
+/// Draws a gas after `time` at each setting of a parameter. Compares with pictures of 4 x 4 samples
+/// per pixel: antialiasing at 1280x720, picture sizes enlarged to 1920x1080. For the frame rate,
+/// compares each frame with the gas half a frame later.
 PictureTable measure_pictures(const std::string& dial, const Scene& scene, double time);
 
 }  // namespace clatter

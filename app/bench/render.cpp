@@ -30,8 +30,7 @@ namespace {
 constexpr int kFrames = 10;
 constexpr double kFps = 30.0;
 
-// What a frame passes through. Disks, heatmap and overlay are parts of the drawing, done once more
-// by themselves.
+// The stages of a frame. Disks, heatmap and overlay are parts of the drawing, repeated separately.
 enum Task {
   kSimulate,
   kSnapshot,
@@ -48,9 +47,9 @@ enum Task {
 constexpr std::array<const char*, kTasks> kNames = {"simulate", "snapshot", "draw", "disks",
                                                     "heatmap",  "overlay",  "read", "png",
                                                     "x264",     "veryfast"};
-using Times = std::array<double, kTasks>;  // milliseconds of CPU a frame
+using Times = std::array<double, kTasks>;  // CPU milliseconds per frame
 
-// Of child processes that have ended.
+// CPU time of the child processes that have ended.
 double children_milliseconds() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
@@ -60,7 +59,7 @@ double children_milliseconds() {
   return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
 }
 
-// Adds to `times` what a task takes, once its drawing is done: of all threads of the program, since
+// Adds the CPU time of a task to `times`, up to the end of its drawing. Counts all threads, because
 // OpenGL may draw on several.
 template <class Work>
 void spend(Times& times, Task task, const Gl& gl, Work work) {
@@ -70,7 +69,8 @@ void spend(Times& times, Task task, const Gl& gl, Work work) {
   times[task] += 1e3 * (cpu_seconds() - began) / kFrames;
 }
 
-// Elastic disks at half the area of a periodic box as wide as a film, coloured over a heatmap.
+// Elastic disks with an area fraction of 0.5 in a periodic box of the shape of a film, coloured
+// over a heatmap.
 Scene scene_of(int count) {
   Scene scene;
   scene.title = "Bench";
@@ -86,13 +86,13 @@ std::filesystem::path temporary_file(const char* extension) {
          ("clatter-bench-" + std::to_string(getpid()) + extension);
 }
 
-// The milliseconds of CPU that ffmpeg takes.
+// The CPU milliseconds of an ffmpeg process.
 double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> images = {}) {
   const double before = children_milliseconds();
   std::vector<std::string> command = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-f", "rawvideo"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   ChildProcess process(command);
-  // On a thread that may write to an ffmpeg that is gone.
+  // This thread may write to an ffmpeg process that has ended.
   WorkQueue queue(1, 1);
   for (const Image& image : images) queue.add([&] { process.write(image.rgba); });
   queue.finish();
@@ -100,8 +100,8 @@ double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> 
   return children_milliseconds() - before;
 }
 
-// The milliseconds of CPU a frame that x264 takes by its preset "veryfast", for pictures of which
-// it gets the very colours it encodes, and without its start.
+// The CPU milliseconds of x264 per frame, with the preset "veryfast". The pictures have the pixel
+// format of the encoder, and the start-up time is subtracted.
 double encode_veryfast(std::span<const Image> images) {
   const std::filesystem::path colours = temporary_file(".yuv");
   const Size size = images.front().size;
@@ -119,7 +119,7 @@ double encode_veryfast(std::span<const Image> images) {
   return (all - first) / static_cast<double>(images.size() - 1);
 }
 
-// The milliseconds of CPU that the encoder takes for a film.
+// The CPU milliseconds of the encoder for one film.
 double encode(std::vector<Image> images) {
   const std::filesystem::path film = temporary_file(".mp4");
   const double before = children_milliseconds();
@@ -132,7 +132,7 @@ double encode(std::vector<Image> images) {
   return children_milliseconds() - before;
 }
 
-// A film of the simulation from now on.
+// A film of the simulation from its present time.
 class Filming {
  public:
   Filming(const Gl& gl, Simulation<2>& simulation, LiveField<2>& field, const View& view, Size size)
@@ -146,7 +146,7 @@ class Filming {
         heatmap_(gl),
         overlay_(gl) {}
 
-  // The first frame, which warms caches up, does not count.
+  // Excludes the first frame, which fills the caches.
   Times measure() {
     frame(simulation_.time());
     times_ = {};
@@ -215,10 +215,10 @@ int bench_render(const std::string& json, int count) {
   const auto context = open_context(Backend::Auto);
   std::fprintf(
       stderr,
-      "elastic disks at phi = 0.5 over a heatmap, %g frames a time unit, %s\n"
-      "milliseconds of CPU a frame, all threads; draw: the whole picture, of which disks, "
-      "heatmap and overlay are parts; x264: as films are encoded, veryfast: by that preset\n"
-      "of x264 from its own colours\n",
+      "elastic disks at phi = 0.5 over a heatmap, %g frames per time unit, %s\n"
+      "CPU milliseconds per frame, all threads; draw: the whole picture, with its parts disks, "
+      "heatmap and overlay;\nx264: the encoder of films; veryfast: x264 with this preset and "
+      "pictures in yuv420p\n",
       kFps, context->description().c_str());
   std::printf("%8s %10s", "N", "size");
   for (const char* name : kNames) std::printf(" %8s", name);

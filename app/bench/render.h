@@ -4,9 +4,9 @@
 
 namespace clatter {
 
-/// Prints the CPU time that each viewport of a film takes a frame, for numbers of disks and sizes
-/// of pictures; to a JSON file, too, unless `json` is empty. `count` is one number of disks, 0 all
-/// of the table. Returns the exit code.
+/// Prints the CPU time of each viewport of a film per frame, by number of disks and picture size.
+/// `count` is the number of disks; 0: all of the table. Writes the table also to `json`, unless it
+/// is empty. Returns the exit code.
 int bench_render(const std::string& json, int count);
 
 }  // namespace clatter

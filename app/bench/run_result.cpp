@@ -14,7 +14,7 @@ namespace clatter {
 
 namespace {
 
-// The fields along an axis that are compared.
+// The compared fields along an axis.
 std::vector<Field> fields_along(Axis axis) {
   const int along = static_cast<int>(axis);
   return {Quantity::Density, Field(Quantity::Stress, along, along),
@@ -27,7 +27,7 @@ double mean_of(const std::vector<Estimate>& columns) {
   return sum / static_cast<double>(columns.size());
 }
 
-// Values of columns of equal width on the columns that are compared.
+// Converts values of columns of equal width to the compared columns.
 template <class Value>
 ProfileValues compared(std::size_t columns, const Value& value) {
   ProfileValues profile{};
@@ -99,7 +99,7 @@ RunResult observe_stepped(const Scene& scene, double step, const Effort& effort,
   const auto exact = simulation_of<2>(scene, seed);
   exact->run_until(effort.burn_in);
   TimeStepped stepped(scene, exact->state(), step, columns);
-  stepped.run(0.2 * effort.duration);  // the way to its own stationary state
+  stepped.run(0.2 * effort.duration);  // relaxation to the stationary state of this engine
   stepped.restart_sums();
   const double began = cpu_seconds();
   stepped.run(effort.duration);

@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-// The axis of the only pair of walls; -1: there is none, or another one.
+// The axis of the only pair of walls; -1: no such pair.
 static int walled_axis(const Scene& scene) {
   const bool x = scene.walls[kLeft].has_value(), y = scene.walls[kBottom].has_value();
   if (x == y) return -1;
@@ -17,7 +17,8 @@ static int walled_axis(const Scene& scene) {
 }
 
 bool TimeStepped::can_run(const Scene& scene) {
-  constexpr double kNarrowest = 3.0;  // cells of a diameter, for pairs to be neighbours once
+  // Least width of the box in cells of one diameter. Each pair of cells then occurs once.
+  constexpr double kNarrowest = 3.0;
   const auto known = [](const std::optional<Wall>& wall) {
     return !wall || wall->kind == WallKind::Static || wall->kind == WallKind::Driven;
   };
@@ -108,7 +109,7 @@ void TimeStepped::sort_into_cells() {
   for (std::size_t i = positions_.size(); i-- > 0;) {
     sorted_[--starts_[cell_of(positions_[i]) + 1]] = static_cast<std::uint32_t>(i);
   }
-  // Each start has come down to that of its own cell, which is now one further on.
+  // The loop has moved each start to the start of its cell, which is one index too late.
   std::shift_left(starts_.begin(), starts_.end(), 1);
   starts_.back() = static_cast<int>(positions_.size());
 }
@@ -168,7 +169,7 @@ int TimeStepped::column_of(double place) const {
   return std::clamp(static_cast<int>(place / box_[axis_] * columns), 0, columns - 1);
 }
 
-// Shares heat out among the columns along a line, by what of it lies in each.
+// Distributes heat over the columns along a line, by the length in each column.
 void TimeStepped::add_heat(double from, double to, double heat) {
   const auto [low, high] = std::minmax(from, to);
   if (low == high) return;

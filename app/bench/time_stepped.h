@@ -8,38 +8,39 @@
 
 namespace clatter {
 
-/// What a time-stepped run adds up.
+/// The sums of a time-stepped run.
 struct SteppedSums {
   double time = 0.0;
   std::uint64_t collisions = 0;      ///< of disks
   double squares = 0.0;              ///< time integral of sum v^2
   double wall_impulse = 0.0;         ///< of both walls
-  double stress = 0.0;               ///< time integral of that along the axis, times area
-  double dissipated = 0.0;           ///< energy
+  double stress = 0.0;               ///< time integral of the stress along the axis, times area
+  double dissipated = 0.0;           ///< dissipated energy
   double deepest_overlap = 0.0;      ///< of two disks, in diameters, before it is resolved
-  std::vector<double> particles;     ///< [columns] time integral of the disks in each
-  std::vector<double> heat_carried;  ///< [columns] likewise of the heat flux times the area
+  std::vector<double> particles;     ///< [columns] time integral of the number of disks
+  std::vector<double> heat_carried;  ///< [columns] time integral of the heat flux times the area
 };
 
-/// A gas moved as games and first courses do it: all disks fly for a time step, and then those that
-/// overlap bounce and are put side by side. Smooth disks between two static or driven walls,
-/// periodic along them; what is measured against the exact engine, no mode of the program.
+/// A gas in fixed time steps, as in games and introductory courses. All disks move for one time
+/// step; then overlapping disks collide and are separated. Smooth disks between two static or
+/// driven walls, periodic along them. Serves as a reference for the exact engine, not as a mode of
+/// the program.
 class TimeStepped {
  public:
-  /// Whether a scene has only what this engine knows.
+  /// Whether this engine supports all features of a scene.
   static bool can_run(const Scene& scene);
 
-  /// Starts at a state; `columns` are those of profiles along the axis from wall to wall.
+  /// Starts from a state. `columns` is the number of columns of the profiles from wall to wall.
   TimeStepped(const Scene& scene, const State<2>& state, double step, int columns);
 
-  /// Goes on for a time, rounded to whole steps.
+  /// Runs for a time, rounded to whole steps.
   void run(double time);
-  /// Forgets what has been added up so far.
+  /// Sets all sums to zero.
   void restart_sums();
 
-  /// What has been added up since then.
+  /// The sums since restart_sums().
   const SteppedSums& sums() const { return sums_; }
-  /// Memory of its arrays, bytes.
+  /// Memory of the arrays, bytes.
   double bytes() const;
 
  private:
@@ -63,7 +64,7 @@ class TimeStepped {
   std::vector<Vec2> positions_, velocities_;
   std::array<int, 2> cells_;
   std::vector<int> starts_;            // [cells + 1] into sorted_
-  std::vector<std::uint32_t> sorted_;  // disks by cell
+  std::vector<std::uint32_t> sorted_;  // disks sorted by cell
   SteppedSums sums_;
 };
 

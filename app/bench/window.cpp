@@ -23,7 +23,7 @@ namespace clatter {
 
 namespace {
 
-// A function of that type which does nothing.
+// A function of this type without any effect.
 template <class R, class... Arguments>
 auto idle(R (*)(Arguments...)) -> R (*)(Arguments...) {
   return [](Arguments...) -> R {
@@ -31,7 +31,8 @@ auto idle(R (*)(Arguments...)) -> R (*)(Arguments...) {
   };
 }
 
-// An OpenGL that takes everything and draws nothing; it has what programs ask before they go on.
+// An OpenGL that accepts all calls and draws nothing. It answers the queries of the program's
+// start.
 Gl idle_gl() {
   Gl gl;
 #define CLATTER_IDLE(name) gl.name = idle(gl.name);
@@ -53,7 +54,7 @@ double thread_cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// The vibrated box, as much larger as it has more disks, over its temperature.
+// The vibrated box over a heatmap of its temperature. Its area grows with the number of disks.
 Scene bench_scene(int count) {
   Scene scene = load_scene("vibrated");
   scene.box *= std::sqrt(static_cast<double>(count) / scene.particles.count);
@@ -62,7 +63,7 @@ Scene bench_scene(int count) {
   return scene;
 }
 
-// In seconds, each of a picture that shows a new frame of the engine, sorted.
+// The times of pictures with a new frame of the engine, in seconds, sorted.
 std::vector<double> picture_times(const Scene& scene, Size size) {
   constexpr int kWarmUp = 30, kPictures = 300;
   const GlfwContext context;

@@ -13,11 +13,11 @@ namespace clatter {
 
 namespace {
 
-// Flags of tables that have no options of their own.
+// Flags of the tables without options of their own.
 struct TableOptions {
   std::string json;
   std::string plot;
-  int count = 0;  // of disks; 0: the table's own
+  int count = 0;  // of disks; 0: default of the table
   double area_fraction = 0.5;
   double duration = 10000.0;  // simulated time of each run
 };

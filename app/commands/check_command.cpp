@@ -21,9 +21,7 @@ void print_parts(const Scene& scene) {
   double bytes = 0.0;
   for (const FeatureCost& part : parts) bytes += part.bytes;
   std::fprintf(stderr,
-               "Memory: about %.3g MB. Modelled, with bytes a particle, and what CPU time with it "
-               "is to that "
-               "without:\n",
+               "Memory: about %.3g MB. Features, with bytes per particle and relative CPU time:\n",
                1e-6 * bytes);
   for (const FeatureCost& part : parts) {
     const double share = part.bytes / std::max(1, scene.particles.count);
@@ -41,7 +39,7 @@ void print_events(const Scene& scene, double end) {
     std::fprintf(stderr, ", %.3g kicks of all particles",
                  std::floor(end / scene.bulk_drive->interval));
   }
-  std::fprintf(stderr, "; at the start's temperature %g.\n", temperature);
+  std::fprintf(stderr, "; at the start temperature %g.\n", temperature);
 }
 
 int check(const CommonOptions& options) {
@@ -49,7 +47,7 @@ int check(const CommonOptions& options) {
   print(scene_to_toml(scene));
   if (options.quiet) return kOk;
   const bool disks = scene.dimension() == 2;
-  std::fprintf(stderr, "The scene is sound: %d %s, %s fraction %.4f", scene.particles.count,
+  std::fprintf(stderr, "The scene is valid: %d %s, %s fraction %.4f", scene.particles.count,
                disks ? "disks" : "spheres", disks ? "area" : "volume", scene.packing_fraction());
   if (options.seed) std::fprintf(stderr, ", seed %s", std::to_string(*options.seed).c_str());
   std::fputs(".\n", stderr);

@@ -10,7 +10,7 @@ namespace clatter {
 
 namespace {
 
-// Between the name of a type and the description of its check, which is a noun.
+// The separator between the name of a type and the description of its check, which is a noun.
 constexpr const char* kCheck = ":a ";
 
 std::vector<std::string> split_words(const std::string& text) {

@@ -6,16 +6,16 @@
 
 namespace clatter {
 
-/// The kind of text that a flag or an argument expects.
+/// The kind of value of a flag or an argument.
 enum class Expects { Nothing, Text, Word, File, Folder, Scene, Setting, Key, Command };
 
-/// A flag of a command, or an argument without a flag.
+/// A flag of a command, or a positional argument.
 struct FlagInfo {
-  std::vector<std::string> names;  ///< "-q", "--quality"; empty: an argument
-  std::string label;               ///< of its value: "FILE", "l|m|h"; empty: it takes none
-  std::string help;                ///< in sentences
+  std::vector<std::string> names;  ///< "-q", "--quality"; empty: a positional argument
+  std::string label;               ///< of its value: "FILE", "l|m|h"; empty: no value
+  std::string help;                ///< one or more sentences
   Expects expects = Expects::Nothing;
-  std::vector<std::string> words = {};  ///< those that a Word or a Command may be
+  std::vector<std::string> words = {};  ///< allowed values of a Word or a Command
 };
 
 /// A command of the program with its flags and subcommands.
@@ -27,18 +27,18 @@ struct CommandInfo {
   std::vector<CommandInfo> commands;
 };
 
-/// The tree of commands that the program parses.
+/// The tree of all commands of the program.
 CommandInfo command_tree(const CLI::App& program);
 
-/// All commands of a tree, the program itself first.
+/// All commands of a tree. The program itself comes first.
 std::vector<const CommandInfo*> all_commands(const CommandInfo& tree);
 
 /// The label of an option's value, such as FILE or NUMBER.
 std::string value_label(const CLI::Option& option);
-/// The values that the check of an option allows, in words; empty without a check.
+/// The values that the check of an option allows, in words. Empty without a check.
 std::string allowed_values(const CLI::Option& option);
 
-/// The subcommand of that name. Throws UserError where there is none; `what` is the noun for it.
+/// The subcommand of this name. Throws UserError if there is none. `what` is a noun for the error.
 const CLI::App& find_command(const CLI::App& parent, const std::string& name, const char* what);
 
 }  // namespace clatter

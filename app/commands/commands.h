@@ -6,7 +6,7 @@ class App;
 
 namespace clatter {
 
-/// Each adds its subcommand to the program; choosing it runs it and stores its exit code.
+/// Each function adds one subcommand. A selected subcommand runs and stores its exit code.
 void add_view_command(CLI::App& program, int& exit_code);
 void add_measure_command(CLI::App& program, int& exit_code);
 void add_render_command(CLI::App& program, int& exit_code);
@@ -16,7 +16,7 @@ void add_bench_command(CLI::App& program, int& exit_code);
 void add_help_command(CLI::App& program, int& exit_code);
 void add_completions_command(CLI::App& program, int& exit_code);
 
-/// Runs the program: parses the command line, runs the command, turns every error into a message on
+/// Runs the program: parses the command line and runs the command. Each error becomes a message on
 /// stderr and an exit code.
 int run_program(int argc, const char* const* argv);
 

@@ -42,7 +42,7 @@ Words gallery_names() {
   return names;
 }
 
-// All keys of a scene. The keys of a wall are there for each side of a box of disks.
+// All keys of a scene. A box of disks has the keys of walls once per side.
 Words key_names() {
   constexpr std::size_t kSidesOfDisks = 4;
   Words names;
@@ -64,7 +64,7 @@ Words child_names(const CommandInfo& command) {
   return names;
 }
 
-// What scripts call a kind of text.
+// The name of a kind of value in the scripts.
 const char* kind_name(Expects expects) {
   switch (expects) {
     case Expects::Nothing:
@@ -108,7 +108,7 @@ std::string bash_case(const CommandInfo& command) {
       joined(command.path), joined(flags), kind, joined(words), values);
 }
 
-// A text within single quotes of a shell.
+// A text in single quotes of a shell.
 std::string quoted(const std::string& text) {
   return "'" + replaced(text, "'", "'\\''") + "'";
 }
@@ -121,7 +121,7 @@ std::string zsh_description(const std::string& help) {
   return text;
 }
 
-// The part of a specification of _arguments that completes a value.
+// The part of a specification of _arguments for the value of a flag.
 std::string zsh_value(const FlagInfo& flag) {
   if (flag.expects == Expects::Nothing) return "";
   const std::string label = ":" + replaced(flag.label, ":", "\\:") + ":";
@@ -180,7 +180,7 @@ std::string zsh_function(const CommandInfo& command) {
   return text + "      esac ;;\n  esac\n}\n\n";
 }
 
-// The words that fish offers for a value, as it reads them between quotes.
+// The words that fish offers for a value, in one argument of `complete -a`.
 std::string fish_words(const FlagInfo& flag) {
   switch (flag.expects) {
     case Expects::Word:
@@ -227,7 +227,7 @@ std::string fish_lines(const CommandInfo& command) {
   return text;
 }
 
-// All commands that have a parent, as "bench engine".
+// All commands except the program itself, as in "bench engine".
 Words paths(const CommandInfo& program) {
   Words paths;
   for (const CommandInfo* command : all_commands(program)) {

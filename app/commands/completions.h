@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-// Scripts that complete the program's command lines: commands, flags, choices, gallery names, keys
+// Shell scripts that complete command lines: commands, flags, choices, scenes of the gallery, keys
 // of scenes, and files.
 std::string bash_completions(const CommandInfo& program);
 std::string zsh_completions(const CommandInfo& program);

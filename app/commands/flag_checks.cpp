@@ -12,7 +12,7 @@
 
 namespace clatter {
 
-// The whole of a text as a finite number; NaN where it is none.
+// The finite number that the whole text represents; otherwise NaN.
 static double number_in(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
@@ -93,9 +93,9 @@ Size parse_size(const std::string& text, Size least) {
       return {*width, *height};
     }
   }
-  throw UserError({"--size", 0, 0}, "'" + text + "' is no size that there can be",
+  throw UserError({"--size", 0, 0}, "'" + text + "' is not a valid size",
                   "write WIDTHxHEIGHT, from " + size_text(least) + " to " +
-                      size_text({kMax, kMax}) + ", for instance 1280x720");
+                      size_text({kMax, kMax}) + ", for example 1280x720");
 }
 
 }  // namespace clatter

@@ -6,23 +6,23 @@
 
 namespace clatter {
 
-/// Checks of the values of flags, whose messages say what to give. NaN and infinity never pass.
+/// Checks of flag values. Their messages name the allowed values. NaN and infinity are errors.
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 CLI::Validator number_between(double low, double high);
 CLI::Validator whole_number_between(int low, int high);
-/// Any text but an empty one.
+/// Any non-empty text.
 CLI::Validator named_file();
-/// Turns a share such as 1% or 0.01, more than 0 and less than 1, into its number.
+/// Converts a share such as 1% or 0.01 to a number between 0 and 1, both excluded.
 CLI::Validator share();
-/// Whole, and one of 64 bits: CLI11 itself takes -1 for the largest.
+/// A whole number of 64 bits. CLI11 itself would read -1 as the largest number.
 CLI::Validator seed_number();
 
-/// The value WIDTHxHEIGHT of --size, in pixels. Throws UserError where it is none, or an extent is
-/// not from the least to the largest one that an image has.
+/// Parses the value WIDTHxHEIGHT of --size, in pixels. Throws UserError if the form is wrong.
+/// Throws it also if a side is less than `least` or more than the largest picture size.
 Size parse_size(const std::string& text, Size least);
 
-/// A flag whose value is one of a few words, each of which stands for a value.
+/// A flag with a fixed set of words as values.
 template <class E>
 CLI::Validator one_of(std::vector<std::pair<std::string, E>> words) {
   std::string wanted;
@@ -33,7 +33,7 @@ CLI::Validator one_of(std::vector<std::pair<std::string, E>> words) {
       text = std::to_string(static_cast<int>(value));
       return "";
     }
-    return "'" + text + "' is none of " + wanted;
+    return "'" + text + "' is unknown; give one of " + wanted;
   };
   return CLI::Validator(convert, "");
 }

@@ -9,7 +9,7 @@ void add_scene_flags(CLI::App& command, CommonOptions& options) {
   command
       .add_option("scene", options.scene,
                   "A scene file, a scene of the gallery, or a picture (.png) of this program. A "
-                  "picture has its scene and its seed.")
+                  "picture contains its scene and its seed.")
       ->required()
       ->type_name("SCENE");
   command
@@ -60,7 +60,7 @@ void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
       ->type_name("FILE");
   CLI::Option* file = command
                           .add_option("--checkpoint", options.file,
-                                      "Keep a checkpoint up to date. The one before is "
+                                      "Keep a checkpoint up to date. The previous one is "
                                       "FILE.previous. Default: a checkpoint beside the result, "
                                       "only after an interrupt or a stop.")
                           ->check(named_file())

@@ -8,13 +8,12 @@
 
 namespace clatter {
 
-// Each adds flags that several commands have, or that belong together; what they are put into
-// outlives the command.
+// Flags that several commands share. The options must outlive the command.
 
 /// SCENE, --set, --seed.
 void add_scene_flags(CLI::App& command, CommonOptions& options);
 
-/// Those and --until, --quiet.
+/// The scene flags, --until, --quiet.
 void add_common_flags(CLI::App& command, CommonOptions& options);
 
 /// --progress.

@@ -13,7 +13,7 @@ namespace {
 
 void print_help(const CLI::App& program, const std::vector<std::string>& names) {
   const CLI::App* command = &program;
-  std::string path;  // before the command's name
+  std::string path;  // precedes the command's name
   for (const std::string& name : names) {
     path += (path.empty() ? "" : " ") + command->get_name();
     command = &find_command(*command, name, command == &program ? "command" : "table");

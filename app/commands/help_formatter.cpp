@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kDescriptionColumn = 28;
 constexpr std::size_t kDescriptionWidth = kTextWidth - kDescriptionColumn;
 
-// " Needs --checkpoint." in alphabetical order.
+// " Needs --checkpoint.", with the flags in alphabetical order.
 std::string about_others(const std::string& what, const std::set<CLI::Option*>& others) {
   std::set<std::string> names;
   for (const CLI::Option* option : others) names.insert(option->get_name());

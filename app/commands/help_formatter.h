@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-/// The layout of help: a label for each value, then sentences, in lines of bounded length.
+/// The layout of help: a label for each value, then sentences, in lines of limited width.
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter();
@@ -16,11 +16,11 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_subcommand(const CLI::App* command) const override;
 };
 
-/// The first sentence about a command.
+/// The first sentence of a command's description.
 std::string command_summary(const CLI::App& command);
 
-/// The sentences about an option: its description, allowed values, default, and the flags that it
-/// needs or excludes.
+/// The text of an option: description, allowed values, default, and the flags that it needs or
+/// excludes.
 std::string option_help(const CLI::Option& option);
 
 }  // namespace clatter

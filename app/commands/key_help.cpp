@@ -21,7 +21,7 @@ namespace clatter {
 
 namespace {
 
-// Longer lists of choices stand below a table of a page.
+// A longer list of choices follows the table of a page.
 constexpr std::size_t kChoicesInTable = 8;
 
 std::vector<std::string> commands_of(const KeyDoc& doc) {
@@ -53,7 +53,7 @@ std::string meaning_of(const KeyDoc& doc) {
   return std::string(doc.key.meaning) + (doc.conditions.empty() ? "" : " " + doc.conditions);
 }
 
-// The text in lines that begin with `indent` blanks, but for the first.
+// The text with an indent of `indent` spaces, except for the first line.
 std::string indented(const std::string& text, std::size_t indent) {
   std::string lines;
   for (const char letter : wrapped(text, kTextWidth - indent)) {
@@ -137,8 +137,8 @@ std::string key_help(const std::string& name) {
   if (text.empty()) {
     const std::string near(near_miss(wanted, paths));
     throw UserError(
-        {}, "there is no key " + in_quotes(name),
-        near.empty() ? "`clatter help keys` prints all keys" : "did you mean '" + near + "'?");
+        {}, "there is no key '" + name + "'",
+        near.empty() ? "`clatter help keys` lists all keys" : "did you mean '" + near + "'?");
   }
   return text + "\nunits: " + kUnits + ", s: second of film\n";
 }

@@ -12,7 +12,7 @@ namespace clatter {
 
 namespace {
 
-// A text as roff prints it. A line must not begin with a control character.
+// The text with roff escapes. A line must not begin with a control character.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char letter : text) {
@@ -29,7 +29,7 @@ std::string roff(const std::string& text) {
   return escaped;
 }
 
-// A paragraph for each line. Lines that begin with blanks are examples.
+// A paragraph for each line. Lines that begin with spaces are examples.
 std::string paragraphs(const std::string& text) {
   std::istringstream lines(text);
   std::string page;

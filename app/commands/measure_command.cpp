@@ -36,24 +36,24 @@ struct MeasureOptions {
   CheckpointOptions checkpoints;
   AccuracyGoal accuracy;
   int replicas = 1;
-  std::optional<int> threads;  // replicas at once; absent: as many as there are processors
+  std::optional<int> threads;  // parallel replicas; absent: the number of processors
   std::string out;             // result file; empty: stdout
   std::string csv;             // folder for tables; empty: none
   std::string vtk;             // folder for maps; empty: none
-  std::string hdf5;            // file for all of it; empty: none
+  std::string hdf5;            // file for all results; empty: none
   std::string save_state;      // file for the state at the end; empty: none
 };
 
-// Samples of a series: some GB of result file.
+// Maximum length of a series: some GB of result file.
 constexpr double kMaxSamples = 1e7;
 
-// Where t_c makes nearly all collisions elastic, it may be as long as the time between those of a
-// gas of this density and temperature, so that the gas does not dissipate any more; or short, and
-// grains at rest bounce for ever within it, on which the run spends its time.
+// A large share of elastic collisions shows a wrong t_c. A t_c near the time between collisions
+// suppresses dissipation. A very short t_c lets grains at rest bounce for ever, which takes most of
+// the CPU time.
 void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   constexpr double kMaxElastic = 0.9;
-  constexpr double kLong = 0.1;    // of the time between collisions
-  constexpr double kShort = 1e-3;  // likewise: short against it
+  constexpr double kLong = 0.1;    // in units of the time between collisions
+  constexpr double kShort = 1e-3;  // in the same unit
   const auto elastic = static_cast<double>(measured.elasticised + measured.elasticised_wall);
   const auto all = static_cast<double>(measured.pair_collisions + measured.wall_collisions);
   if (!scene.contact_time || elastic <= kMaxElastic * all) return;
@@ -61,17 +61,20 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
                100.0 * elastic / all);
   const double rate = enskog_rate(scene.packing_fraction(), measured.temperature.mean);
   if (*scene.contact_time * rate > kLong) {
-    std::fprintf(stderr,
-                 "for the gas collides as often; a smaller one, say %.1g, would let it dissipate\n",
-                 kShort / rate);
+    std::fprintf(
+        stderr,
+        "because it is near the time between collisions; a smaller value, for example %.1g, "
+        "restores the dissipation\n",
+        kShort / rate);
   } else {
     std::fprintf(stderr,
-                 "as of grains that rest on each other; a larger one, say %s, would run faster\n",
+                 "because grains rest on each other; a larger value, for example %s, makes the run "
+                 "faster\n",
                  number_text(10.0 * *scene.contact_time).c_str());
   }
 }
 
-// Sees to it, before a long run, that its results can be written.
+// Throws before a long run if its results cannot be written.
 void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
   const Measure& spec = scene.measure;
   const std::string& checkpoint = options.checkpoints.file;
@@ -92,8 +95,8 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
   add_files("--vtk", options.vtk, vtk_names());
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   if (!options.vtk.empty() && spec.fields.empty()) {
-    throw UserError({"--vtk", 0, 0}, "the scene asks for no fields",
-                    "--set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
+    throw UserError({"--vtk", 0, 0}, "the scene measures no fields",
+                    "add --set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
@@ -148,11 +151,11 @@ void require_bounded_samples(const Measure& spec, double end) {
   }
 }
 
-// Seeds alone differ, so that nothing else can be asked of a single run.
+// Replicas differ in the seed only, so that the outputs of a single run are not available.
 int measure_replicas(const MeasureOptions& options, const Scene& scene, double end) {
   if (!scene.changes.empty()) {
-    throw UserError({"--replicas", 0, 0}, "the scene's laws change",
-                    "measure it seed by seed, or take out [[change]]");
+    throw UserError({"--replicas", 0, 0}, "the laws of this scene change",
+                    "measure each seed separately, or remove [[change]]");
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   catch_interrupts();
@@ -164,20 +167,20 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
   return all ? kOk : kInterrupted;
 }
 
-// A run that was killed between its last checkpoint and its results is at its end, and has only
-// these to give.
+// Whether a resumed run can continue to `end`. After a kill between the last checkpoint and the
+// results, `end` is the time of the checkpoint, and only the results are missing.
 bool goes_on_to(double end, const Resumed& resumed) {
   if (end != resumed.time()) return end > resumed.time();
   return !resumed.checkpoint.measurement.empty() && changed_laws(resumed).empty();
 }
 
-// A run that ends within the burn-in gets a shorter one, which is as large a share of it as that of
-// the scene, unless both times were given as flags.
+// Shortens the burn-in of a run that would end within it. The burn-in keeps its share of the whole
+// time. Exception: flags give both times.
 void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
   if (end > measure.burn_in) return;
   if (options.sets("measure.burn_in")) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
-                    "go beyond measure.burn_in = " + number_text(measure.burn_in));
+                    "give a time after measure.burn_in = " + number_text(measure.burn_in));
   }
   const double shorter = end * (measure.burn_in / (measure.burn_in + measure.duration));
   if (!options.quiet) {
@@ -199,7 +202,7 @@ int measure(const MeasureOptions& options) {
     throw UserError({"--until", 0, 0},
                     "the checkpoint is at t = " + number_text(resumed->time()) +
                         ", and the run ends at " + number_text(end),
-                    "go beyond that");
+                    "give a time after the checkpoint");
   }
   require_bounded_samples(spec, end);
   if (options.replicas > 1) return measure_replicas(options, scene, end);

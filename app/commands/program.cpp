@@ -17,13 +17,13 @@ static int report(const char* message, int code) {
   return code;
 }
 
-// CLI11 itself would only say that a command is missing.
+// The error of CLI11 would not list the commands.
 static void require_command(const CLI::App& parent, const std::string& word, const char* what) {
   if (!word.starts_with('-')) find_command(parent, word, what);
 }
 
-// What was typed, with the command where there is none: alone the program opens a window, and
-// `bench` prints the table of the engine.
+// The arguments with the default command, if none is given. The program alone opens the window.
+// `bench` alone prints the table of the engine.
 static std::vector<const char*> with_commands(int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2) words.push_back("view");
@@ -54,7 +54,7 @@ int run_program(int argc, const char* const* argv) {
     program.set_version_flag("--version", version_text(), "Print the version and the commit.");
     program.require_subcommand(1);
     program.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` has the flags\n";
+      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` lists the flags\n";
     });
     add_view_command(program, exit_code);
     add_render_command(program, exit_code);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr Size kMinSize = {16, 16};
 
-// Presets of size and rate.
+// Presets of picture size and frame rate.
 enum class Quality { Low, Medium, High };
 
 struct Preset {
@@ -49,15 +49,15 @@ struct RenderOptions {
   CheckpointOptions checkpoints;
   std::string out;
   std::optional<Quality> quality;   // absent: medium
-  std::optional<std::string> size;  // absent: that of the quality
-  std::optional<double> fps;        // likewise
+  std::optional<std::string> size;  // absent: size of the quality
+  std::optional<double> fps;        // absent: rate of the quality
   std::optional<double> from;       // absent: 0, or the time of the checkpoint
   std::optional<double> to;
   std::optional<double> speed;
   std::optional<std::string> frames;  // absent: all
   std::optional<int> supersample;     // absent: 1
   std::optional<double> shutter;      // absent: 0
-  int threads = 2;                    // that encode pictures
+  int threads = 2;                    // number of encoding threads
   bool no_overlay = false;
   bool transparent = false;
   bool overwrite = false;
@@ -74,11 +74,11 @@ FrameRange parse_frames(const std::string& text) {
     const auto end = after.empty() ? std::numeric_limits<long>::max() : whole_number<long>(after);
     if (begin && end && *begin >= 0 && *begin < *end) return {*begin, *end};
   }
-  throw UserError({"--frames", 0, 0}, "'" + text + "' is no range of frames",
-                  "write FIRST:END, 0 or more and END the larger, for instance 100:200; or FIRST:");
+  throw UserError({"--frames", 0, 0}, "'" + text + "' is not a range of frames",
+                  "write FIRST:END with 0 <= FIRST < END, for example 100:200, or FIRST:");
 }
 
-// The film has `from`, `speed` and `fps`; its end is asked for, or as it was.
+// Number of frames. `from`, `speed` and `fps` are known. The end is `to`, or the previous end.
 long count_frames(const FrameTimes& times, const std::optional<double>& to) {
   constexpr double kFilmSeconds = 20.0;
   constexpr double kMaxFrames = 1e7;
@@ -89,9 +89,10 @@ long count_frames(const FrameTimes& times, const std::optional<double>& to) {
                   "choose a larger --speed, or an earlier --to");
 }
 
-// The run is at `start`, 0 or the time of a checkpoint, and the film begins there or at --from.
+// A new film. The run is at `start`, 0 or the time of a checkpoint. The film begins there or at
+// --from.
 FilmState new_film(const RenderOptions& options, const View& view, double start) {
-  constexpr double kPictureSeconds = 10.0;  // into the film, where one picture is asked for
+  constexpr double kPictureSeconds = 10.0;  // film time of a single picture
   const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
   FilmState film;
   film.size = parse_size(options.size.value_or(preset.size), kMinSize);
@@ -103,13 +104,13 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
                 options.fps.value_or(preset.fps), 1};
   if (film.times.from < start) {
     throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
-                    "give a time after that, or leave --from out");
+                    "give a later time, or omit --from");
   }
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to && *to < film.times.from) {
     throw UserError(
-        {"--to", 0, 0}, "the film would end before it begins",
-        "give a time after " + number_text(film.times.from) + ", that of --from or --resume");
+        {"--to", 0, 0}, "the film would end before its beginning",
+        "give a time after " + number_text(film.times.from) + ", the time of --from or --resume");
   }
   if (!options.one_picture()) {
     film.times.count = count_frames(film.times, to);
@@ -119,17 +120,17 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   return film;
 }
 
-// Films have no transparency.
+// Film formats have no transparency.
 void require_pictures(const RenderOptions& options) {
   const auto extension = std::filesystem::path(options.out).extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
-  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be without a background",
-                  "write to a FILE.png or to a folder, or leave --transparent out");
+  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
+                  "write to a FILE.png or to a folder, or omit --transparent");
 }
 
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
-  throw UserError({flag, 0, 0}, "the film that goes on has " + before,
-                  "leave the flag out, or begin another film by --from");
+  throw UserError({flag, 0, 0}, "the film of the checkpoint has " + before,
+                  "omit the flag, or begin another film with --from");
 }
 
 template <class T, class Text>
@@ -137,7 +138,7 @@ void keep(const std::optional<T>& asked, const T& before, const char* flag, cons
   if (asked && !(*asked == before)) refuse_change(flag, text(before));
 }
 
-// A film goes on as it began, but that it may end at another time.
+// A resumed film keeps its settings, except for its end.
 FilmState continued_film(const RenderOptions& options, FilmState film) {
   const FrameTimes& times = film.times;
   std::optional<Size> size;
@@ -158,13 +159,13 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   if (to) film.times.count = count_frames(times, to);
   if (film.times.count < film.next) {
     throw UserError({"--to", 0, 0},
-                    "the film is at t = " + number_text(film.times.of(film.next - 1)),
-                    "give a time after that, or leave --to out");
+                    "the film is already at t = " + number_text(film.times.of(film.next - 1)),
+                    "give a later time, or omit --to");
   }
   return film;
 }
 
-// The film that a run is to make: that of its checkpoint, unless another beginning is asked for.
+// The film to draw: from the checkpoint, unless the flags give another beginning.
 FilmState film_asked_for(const RenderOptions& options, const View& view,
                          const std::optional<Resumed>& resumed) {
   if (!resumed) return new_film(options, view, 0.0);
@@ -182,13 +183,13 @@ FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film)
   if (frames.begin >= film.times.count) {
     throw UserError({"--frames", 0, 0},
                     "the film has " + std::to_string(film.times.count) + " frames",
-                    "begin before, or give a later --to");
+                    "give a smaller FIRST, or a later --to");
   }
   frames.end = std::min(frames.end, film.times.count);
   if (film.next > frames.end) {
     throw UserError({"--frames", 0, 0},
-                    "the checkpoint is at frame " + std::to_string(film.next) + " already",
-                    "give an earlier checkpoint, or leave --resume out");
+                    "the checkpoint is already at frame " + std::to_string(film.next),
+                    "resume an earlier checkpoint, or omit --resume");
   }
   return frames;
 }
@@ -219,8 +220,8 @@ void require_few_windows(const View& view, double last) {
                   "choose at least " + number_text(last / kMaxWindows));
 }
 
-// Whether there is anything in the sink. Where that cannot be written, the run is kept all the
-// same.
+// Returns whether the sink has frames. A checkpoint keeps the run even if the sink cannot be
+// written.
 bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progress& progress) {
   try {
     const long next = film.draw(frames, sink, progress);
@@ -270,10 +271,10 @@ void add_render_command(CLI::App& program, int& exit_code) {
   add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command
-      ->add_option("--out", options->out,
-                   "The ending decides the format. Films end in .mp4, .webm, .gif, or .mkv "
-                   "(without loss). One "
-                   "picture ends in .png. A folder gets a picture for each frame.")
+      ->add_option(
+          "--out", options->out,
+          "The file extension selects the format. Films end in .mp4, .webm, .gif, or .mkv "
+          "(without loss). One picture ends in .png. A folder gets a picture for each frame.")
       ->required()
       ->type_name("FILE|DIR");
   command

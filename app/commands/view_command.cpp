@@ -20,8 +20,8 @@ struct ViewOptions {
 
 int view(const ViewOptions& options) {
   if (options.backend == Backend::Egl || options.backend == Backend::Osmesa) {
-    throw UserError({"--backend", 0, 0}, "there OpenGL draws off screen, without a window",
-                    "write glfw, or let `clatter render` film the scene");
+    throw UserError({"--backend", 0, 0}, "this backend has no window",
+                    "give glfw, or film the scene with `clatter render`");
   }
   WindowOptions window;
   window.scene = load_disks(options.common);

@@ -9,7 +9,7 @@ std::string wrapped(const std::string& text, std::size_t width) {
   std::istringstream paragraphs(text);
   for (std::string paragraph; std::getline(paragraphs, paragraph);) {
     if (!lines.empty()) lines += '\n';
-    // A line that begins with a blank is an example.
+    // A line that begins with a space is an example.
     if (paragraph.starts_with(' ')) {
       lines += paragraph;
       continue;

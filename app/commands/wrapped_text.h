@@ -5,10 +5,11 @@
 
 namespace clatter {
 
-/// Columns of the texts that the program prints for people.
+/// Width of printed texts, in columns.
 inline constexpr std::size_t kTextWidth = 96;
 
-/// Breaks a text between words into lines of at most `width` columns. New lines in the text stay.
+/// Breaks a text between words into lines of at most `width` columns. Keeps the line breaks of the
+/// text.
 std::string wrapped(const std::string& text, std::size_t width);
 
 }  // namespace clatter

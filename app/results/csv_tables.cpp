@@ -46,7 +46,7 @@ static std::string profile_table(const Profile& profile) {
   return table;
 }
 
-// A line for each cell, which its middle tells.
+// One line per cell, with the position of its centre.
 static std::string maps_table(const FieldMaps& maps) {
   const std::vector<int>& cells = maps.maps.front().cells;
   std::string units = std::string("# units, ") + kUnits;
@@ -79,7 +79,7 @@ static std::string maps_table(const FieldMaps& maps) {
 
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
   const auto [series, profile, maps] = kTableNames;
-  // Of what this run has not, an earlier one's table would pass for it.
+  // Removes the tables of an earlier run that this run may not replace.
   for (const char* name : kTableNames) std::filesystem::remove(folder / name);
   write_file(folder / series, series_table(measured));
   if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));

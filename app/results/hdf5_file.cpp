@@ -26,7 +26,7 @@ H5::StrType text_type() {
   return type;
 }
 
-// True and false as h5py and pandas know them.
+// The Boolean type that h5py and pandas recognise.
 H5::EnumType flag_type() {
   H5::EnumType type(H5::PredType::NATIVE_INT8);
   std::int8_t value = 0;
@@ -88,7 +88,7 @@ void write_object(const H5::Group& group, const Json& object) {
     } else if (value.is_number_integer()) {
       write_value(group, name, H5::PredType::NATIVE_INT64, value.get<std::int64_t>());
     } else {
-      // What is not finite, JSON may have as null.
+      // JSON has null for a number that is not finite.
       const double number =
           value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
       write_value(group, name, H5::PredType::NATIVE_DOUBLE, number);
@@ -134,13 +134,14 @@ void write_profile(const H5::Group& group, const Profile& profile) {
   }
 }
 
-// The edges of a grid's cells along every axis.
+// The edges of the cells along every axis.
 void write_edges(const H5::Group& group, const FieldMaps& maps) {
   for (std::size_t axis = 0; axis < maps.cell.size(); ++axis) {
     const int cells = maps.maps.front().cells[axis];
     const double length = cells * maps.cell[axis];
     std::vector<double> edges;
-    for (int i = 0; i <= cells; ++i) edges.push_back(length * i / cells);  // as those of profiles
+    for (int i = 0; i <= cells; ++i)
+      edges.push_back(length * i / cells);  // equal to the edges of profiles
     write_dataset(group, std::string(kAxes[axis].name) + "_edges", "a", edges);
   }
 }
@@ -192,7 +193,7 @@ void write_all(const H5::H5File& file, const Json& result, const Measured& measu
   write_map_series(file.createGroup("map_series"), measured.map_series);
 }
 
-// The bytes of the file. It is made in memory, so that it comes whole under its name or not at all.
+// The bytes of the file. The file is made in memory, so that a complete file or no file appears.
 std::string image_of(const Json& result, const Measured& measured) {
   constexpr std::size_t kGrowth = std::size_t{1} << 20;
   H5::FileAccPropList in_memory;

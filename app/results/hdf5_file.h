@@ -7,11 +7,12 @@
 
 namespace clatter {
 
-/// Writes a measurement as an HDF5 file. It has the names of the result file: objects are groups,
-/// numbers, texts and lists their attributes, so that the group "scene" holds the resolved scene;
-/// but series and profile are datasets. Where there are fields, the group "maps" has datasets
-/// [cells along y][cells along x], averaged over the whole time, and "map_series" their course,
-/// [parts][y][x]. Each dataset has its unit as the attribute "units"; NaN in gaps.
+/// Writes a measurement as an HDF5 file with the names of the result file. Objects are groups;
+/// numbers, texts and lists are attributes. The group "scene" thus has the complete scene. `series`
+/// and `profile` are datasets. With fields, the group "maps" has datasets [cells along y][cells
+/// along x], averages over the whole time. The group "map_series" has datasets [parts][y][x],
+/// averages over parts of the time. The attribute "units" of a dataset has its unit. Cells without
+/// data have NaN.
 void write_hdf5(const std::filesystem::path& path, const nlohmann::ordered_json& result,
                 const Measured& measured);
 

@@ -55,7 +55,7 @@ static Json profile_json(const Profile& profile) {
   for (const Field field : profile.fields) {
     const std::string name = name_of(field);
     for (const Estimate& e : profile.at(field)) {
-      // A column that was never visited has no temperature: null.
+      // A column without particles has no temperature: null.
       json[name].push_back(std::isfinite(e.mean) ? Json(e.mean) : Json(nullptr));
       errors[name].push_back(e.standard_error);
     }
@@ -64,7 +64,8 @@ static Json profile_json(const Profile& profile) {
   return json;
 }
 
-// The largest of each equation (theory 9.1-9.3), of momentum that of its components.
+// The largest residual of each equation (theory 9.1-9.3). For momentum, the largest of all
+// components.
 static Json balance_json(const Residuals& residuals) {
   const std::vector<double> largest = residuals.largest();
   return {{"mass", largest.front()},
@@ -85,7 +86,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
                     {"disk_wall", measured.wall_collisions}};
   if (scene.bulk_drive) json["events"]["kicks"] = measured.kicks;
   if (scene.contact_time) json["events"]["elasticised"] = measured.elasticised;
-  // A run that was interrupted in its burn-in has no averages, and nor have no disks.
+  // A run interrupted during the burn-in has no averages. A run without disks has none either.
   const bool averaged = measured.duration > 0.0;
   if (averaged) {
     for (const auto& [name, estimate] : estimates_of(measured)) {

@@ -12,21 +12,21 @@
 
 namespace clatter {
 
-/// What a run cost.
+/// The cost of a run.
 struct Performance {
   double cpu_seconds = 0.0;
   double wall_seconds = 0.0;
-  std::uint64_t collisions = 0;  ///< of disks, in that time
+  std::uint64_t collisions = 0;  ///< of disks, in this time
   std::uint64_t peak_memory_bytes = 0;
 };
 
-/// The means of a result by their dotted names in the result file, e.g. "energy.dissipated".
+/// The means of a result, by dotted names as in the result file, for example "energy.dissipated".
 std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measured);
 
-/// Where in a result a mean of that name stands.
+/// The place of this mean in a result.
 nlohmann::ordered_json::json_pointer estimate_pointer(std::string name);
 
-/// The result file of `clatter measure`: parts that the scene does not have are absent.
+/// The result file of `clatter measure`. Parts that do not apply to the scene are absent.
 nlohmann::ordered_json result_json(const Scene& scene, std::uint64_t seed,
                                    const Simulation<2>& simulation, const Measured& measured,
                                    const Performance& performance);

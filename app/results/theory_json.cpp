@@ -31,7 +31,8 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
 static void add_vibrated(Json& json, const VibratedGas& gas, double start_temperature) {
   json["psi"] = gas.psi();
   json["epsilon_effective"] = gas.epsilon_effective();
-  // Without a drive the gas cools by Haff's law, or diverges at a finite time (theory 7.15).
+  // Without a drive the gas cools by Haff's law, or its temperature diverges at a finite time
+  // (theory 7.15).
   if (gas.drive_speed == 0.0) {
     const double rate = gas.haff_rate_corrected(start_temperature);
     json["haff_rate"] = rate;
@@ -46,12 +47,12 @@ static void add_vibrated(Json& json, const VibratedGas& gas, double start_temper
   add("temperature_corrected", gas.temperature_corrected());
 }
 
-// Whether nothing makes one place another than the next.
+// Whether the system is invariant under translations.
 static bool is_homogeneous_gas(const Scene& scene) {
   return scene.periodic(0) && scene.periodic(1) && scene.particles.count > 1 && !scene.gravity;
 }
 
-// Smooth particles, and rough ones where friction has no limit, so that beta is constant.
+// Smooth particles, and rough particles with unlimited friction, so that beta is constant.
 static void add_homogeneous(Json& json, const Scene& scene) {
   const Particles& particles = scene.particles;
   const double phi = scene.packing_fraction();
@@ -74,7 +75,7 @@ static void add_homogeneous(Json& json, const Scene& scene) {
   json["bulk_drive_power"] = power;
   if (!constant_beta || !(power > 0.0) || drive.kick_spin > 0.0) return;
   const double temperature = gas.driven_temperature(phi, power);
-  if (!std::isfinite(temperature)) return;  // nothing dissipates
+  if (!std::isfinite(temperature)) return;  // no dissipation
   json["temperature_driven"] = temperature;
   if (rough) json["temperature_ratio"] = gas.driven_ratio();
 }

@@ -8,12 +8,12 @@
 
 namespace clatter {
 
-/// The gas that theory knows, where the scene is one: smooth disks between two walls that are
-/// alike, driven or at rest, on which nothing else acts.
+/// The gas of the theory of vibrated boxes. Absent unless the scene has smooth disks between two
+/// equal walls, driven or static, without any other force.
 std::optional<VibratedGas> vibrated_gas(const Scene& scene);
 
-/// What kinetic theory predicts of a scene, as far as it is one of the systems that the theories of
-/// physics/theory.h describe: a gas between two vibrated walls, or one in a periodic box.
+/// The predictions of kinetic theory for a scene. Empty unless physics/theory.h covers the scene: a
+/// gas between two vibrated walls, or a gas in a periodic box.
 nlohmann::ordered_json theory_json(const Scene& scene);
 
 }  // namespace clatter

@@ -20,15 +20,15 @@ namespace {
 constexpr const char* kFieldsFile = "fields.vti";
 constexpr const char* kSeriesFile = "series.pvd";
 
-// How VTK calls the components of a field, in its order: of a number, a vector, or a symmetric
-// tensor. Those off the plane are 0.
+// The names of the components of a field in the order of VTK: of a scalar, a vector, or a symmetric
+// tensor. Components outside the plane are 0.
 std::vector<const char*> components_of(Field field) {
   if (joint_name_of(field) == name_of(field)) return {""};
   if (field.j == Field::kNone) return {"X", "Y", "Z"};
   return {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 }
 
-// Where a component stands among them.
+// The index of a component in this order.
 std::size_t place_of(Field field) {
   if (joint_name_of(field) == name_of(field)) return 0;
   std::string axes = axes_of(field);
@@ -54,7 +54,7 @@ std::vector<DataArray> arrays_of(const FieldMaps& maps) {
   return arrays;
 }
 
-// A block of appended data: its length in bytes, then all components cell by cell.
+// Appends a block of data: its length in bytes, then all components of each cell.
 void append_values(std::string& data, const DataArray& array) {
   const std::size_t stride = components_of(array.components.front()->field).size();
   const std::size_t cells = array.components.front()->values.size();
@@ -86,7 +86,8 @@ std::string head(const std::string& type, const std::string& origin) {
          (little ? "LittleEndian" : "BigEndian") + "\" header_type=\"UInt64\">\n";
 }
 
-// The values stand raw behind the XML, as VTK's own writer may put them: exact, NaN included.
+// The values follow the XML as raw binary data, as in files of VTK's own writer. They are exact,
+// NaN included.
 std::string image_data(const FieldMaps& maps, const std::string& origin) {
   const auto dimension = static_cast<int>(maps.cell.size());
   std::string extent, spacing;
@@ -136,7 +137,7 @@ void write_series(const std::filesystem::path& folder, const std::vector<FieldMa
   write_file(folder / kSeriesFile, collection + "  </Collection>\n</VTKFile>\n");
 }
 
-// The parts that a series in a folder has, from number `first` on.
+// The parts of a series in a folder, from number `first` on.
 std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& folder,
                                                 std::size_t first) {
   std::ifstream stream(folder / kSeriesFile);
@@ -161,7 +162,7 @@ std::vector<std::string> vtk_names() {
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin) {
   if (!measured.maps) return;
-  // ParaView opens series_*.vti as one: those of a longer series would pass for this one's.
+  // ParaView opens series_*.vti as one series, with the remaining parts of an earlier, longer one.
   std::vector<std::filesystem::path> stale = parts_listed(folder, measured.map_series.size());
   write_file(folder / kFieldsFile, image_data(*measured.maps, origin));
   if (!measured.map_series.empty()) {

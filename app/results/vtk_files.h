@@ -8,16 +8,16 @@
 
 namespace clatter {
 
-/// Writes the maps of a measurement as VTK ImageData with cell data into a folder: fields.vti, the
-/// averages over the whole time, and residuals; series.pvd, the averages' course, and
-/// series_00.vti,
-/// ..., which it lists. Velocity and heat flux are vectors, stress is a symmetric tensor; NaN in
-/// gaps. `origin` says in every file what made it; no "--" in it. Writes nothing of what there is
-/// not, and removes the parts of an earlier series in the folder that this one does not replace.
+/// Writes the maps of a measurement into a folder, as VTK ImageData with cell data. The file
+/// fields.vti has the averages over the whole time, and the residuals. The file series.pvd lists
+/// series_00.vti, ..., the averages over parts of the time. Velocity and heat flux are vectors,
+/// stress is a symmetric tensor, and cells without data have NaN. Every file contains `origin`,
+/// which must not contain "--". Omits absent fields. Removes the remaining parts of an earlier
+/// series.
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin);
 
-/// The names of all files that it may write.
+/// The names of all files that write_vtk() can write.
 std::vector<std::string> vtk_names();
 
 }  // namespace clatter

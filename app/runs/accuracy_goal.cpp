@@ -27,7 +27,7 @@ double relative_error(const Estimate& estimate) {
   return estimate.cautious_error() / std::fabs(estimate.mean);
 }
 
-// The measured time after which an error that falls with the root of time is small enough.
+// The measured time at which the error reaches the goal if it falls with the square root of time.
 static double needed_time(const AccuracyGoal& goal, const Measured& measured) {
   const double excess = relative_error(estimate_for(goal, measured)) / goal.relative;
   return measured.duration * excess * excess;
@@ -37,8 +37,8 @@ static std::string percent(double share) {
   return fmt::format("{:.3g} %", 100.0 * share);
 }
 
-// The time of the first look at the error from a time on: each is about a sixteenth later than the
-// last.
+// The time of the next test of the error. The intervals grow by about one sixteenth from test to
+// test.
 static double look_from(const Measurement<2>& measurement, double from) {
   double windows = 256.0;
   const auto time = [&] { return measurement.averages_start() + windows * measurement.window(); };
@@ -48,7 +48,7 @@ static double look_from(const Measurement<2>& measurement, double from) {
 
 void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measurement, double end,
                  Progress& progress) {
-  // A run that goes on may have been put aside when it had come to a look, but not looked.
+  // A checkpoint may have the time of a test that has not been done yet.
   double look = look_from(measurement, run.simulation().time());
   while (run.until(std::min(end, look), progress) && look < end) {
     const Measured measured = measurement.means();
@@ -64,11 +64,11 @@ void tell_accuracy(const AccuracyGoal& goal, const Measured& measured) {
   if (!(measured.duration > 0.0)) return;
   const Estimate estimate = estimate_for(goal, measured);
   const double error = relative_error(estimate);
-  std::fprintf(stderr, "note: %s = %.6g, known within %s after %g time units", goal.of.c_str(),
+  std::fprintf(stderr, "note: %s = %.6g, relative error %s after %g time units", goal.of.c_str(),
                estimate.mean, percent(error).c_str(), measured.duration);
   if (error > goal.relative) {
-    std::fprintf(stderr, "; for %s the run would end about t = %.2g: give that to --until",
-                 percent(goal.relative).c_str(), measured.burn_in + needed_time(goal, measured));
+    std::fprintf(stderr, "; for %s, give about --until %.2g", percent(goal.relative).c_str(),
+                 measured.burn_in + needed_time(goal, measured));
   }
   std::fputs("\n", stderr);
 }

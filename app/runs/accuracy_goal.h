@@ -9,34 +9,34 @@
 
 namespace clatter {
 
-/// How precisely a measurement is to know one of its means.
+/// The required precision of a mean.
 struct AccuracyGoal {
-  double relative = 0.0;           ///< standard error over mean; 0: not asked for
+  double relative = 0.0;           ///< standard error over mean; 0: no goal
   std::string of = "temperature";  ///< dotted name of the mean in the result file
 
-  /// Whether a run is to end once it is that precise.
+  /// Whether a goal is set.
   bool asked_for() const { return relative > 0.0; }
 };
 
-/// The estimate that the goal is about. Throws UserError where the result will have none.
+/// The estimate of the goal. Throws UserError if the result has no mean of this name.
 Estimate estimate_for(const AccuracyGoal& goal, const Measured& measured);
 
-/// The mean's standard error over its size, the error as cautious_error() has it: where blocks
-/// are still too short to show all correlations, it is not taken for less than it may be. Infinite
-/// where the mean is 0.
+/// The relative standard error of a mean, with the error of cautious_error(). This error is not too
+/// small if the blocks are still shorter than the correlations. Infinite if the mean is 0.
 double relative_error(const Estimate& estimate);
 
-/// Runs until the goal is reached, or to `end` at the latest. Looks at the end of certain windows
-/// of the measurement, the 256th the first, so that where the run ends depends on nothing but
-/// scene, seed and `end`.
+/// Runs until the goal is reached, or to `end` at the latest. Tests the error at the ends of
+/// certain windows, first of window 256. The end of the run thus depends on scene, seed and `end`
+/// only.
 void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measurement, double end,
                  Progress& progress);
 
-/// Says on stderr how precise the mean is, and if that is not enough, how long a run would be.
+/// Prints the precision of the mean to stderr. If the goal is missed, also prints the necessary
+/// duration.
 void tell_accuracy(const AccuracyGoal& goal, const Measured& measured);
 
-/// Says on stderr if the temperature, or what the goal is about, differs between the halves of the
-/// measured time by more than 3 combined errors.
+/// Warns on stderr of a drift. The test compares the two halves of the measured time, for the
+/// temperature and for the mean of the goal. The limit is 3 combined standard errors.
 void warn_of_drift(const AccuracyGoal& goal, const Measured& measured);
 
 }  // namespace clatter

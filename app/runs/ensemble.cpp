@@ -24,7 +24,7 @@ struct Replica {
   std::vector<std::pair<std::string, Estimate>> estimates;
 };
 
-// Hands the replicas to threads and keeps what they bring.
+// Distributes the replicas over threads and collects their results.
 class Replicas {
  public:
   Replicas(const Scene& scene, const Ensemble& ensemble, Progress& progress)
@@ -69,8 +69,8 @@ class Replicas {
     return next_++;
   }
 
-  // Replicas are taken in order, so that none before the first that fails is left out: which one it
-  // is does not depend on the threads.
+  // Replicas are started in order, and all before the first failure are complete. The reported seed
+  // thus does not depend on the threads.
   [[noreturn]] void rethrow() const {
     const std::string seed = "seed " + std::to_string(ensemble_.first_seed + failed_) + ": ";
     try {
@@ -83,7 +83,7 @@ class Replicas {
   }
 
   void measure(std::size_t index) {
-    constexpr std::uint64_t kSlice = 1 << 16;  // steps between looks at interrupts
+    constexpr std::uint64_t kSlice = 1 << 16;  // steps between tests for an interrupt
     const std::uint64_t seed = ensemble_.first_seed + index;
     const auto simulation = simulation_of<2>(scene_, seed);
     Measurement measurement(*simulation, scene_.measure, ensemble_.end);
@@ -99,7 +99,7 @@ class Replicas {
     done_[index] = Replica{std::move(result), estimates_of(measured)};
   }
 
-  // Shows how far all are; whether this one is still wanted.
+  // Shows the progress of all replicas. Returns whether this replica is still needed.
   bool tell(std::size_t index, double time) {
     const std::scoped_lock lock(mutex_);
     times_[index] = time;
@@ -112,11 +112,11 @@ class Replicas {
   const Scene& scene_;
   Ensemble ensemble_;
   Progress& progress_;
-  std::mutex mutex_;  // of all below
+  std::mutex mutex_;  // protects all members below
   std::size_t next_ = 0;
   std::vector<std::optional<Replica>> done_;
   std::vector<double> times_;
-  std::size_t failed_;  // the first that has; the number of all: none
+  std::size_t failed_;  // the first failed replica; the number of replicas if none failed
   std::exception_ptr failure_;
 };
 

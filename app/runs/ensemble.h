@@ -9,19 +9,19 @@
 
 namespace clatter {
 
-/// Runs of a scene that differ in their seed alone.
+/// Runs of one scene with different seeds.
 struct Ensemble {
   int replicas = 1;
-  std::uint64_t first_seed = 1;  ///< the others follow it
+  std::uint64_t first_seed = 1;  ///< the other seeds follow it
   double end = 0.0;              ///< simulation time of each
-  std::optional<int> threads;    ///< that run them; absent: as many as there are processors
+  std::optional<int> threads;    ///< number of threads; absent: the number of processors
 };
 
-/// Measures the replicas. The result has the means over
-/// replicas with the standard errors that these scatter by, by the names that results have, and
-/// under "results" what `clatter measure --seed` would write for each, without performance. After
-/// an interrupt it has the replicas that were done. Where one stops, or is not sound, the rest is
-/// left out: throws PhysicalStop or RunError, which name the first such seed.
+/// Measures the replicas. The result has the means over the replicas, with standard errors from
+/// their scatter, under the usual names. The array "results" has the result of `clatter measure
+/// --seed` for each replica, without performance. After an interrupt the result has the finished
+/// replicas. If a replica stops or fails a check, throws PhysicalStop or RunError, which names the
+/// first failed seed.
 nlohmann::ordered_json measure_ensemble(const Scene& scene, const Ensemble& ensemble,
                                         Progress& progress);
 

@@ -42,7 +42,8 @@ FeatureCost fields_of(const Scene& scene) {
           cells_memory<2>(measure, scene.spins()), price};
 }
 
-// A kick of a disk costs about half a collision of two; at the start's temperature.
+// A kick of one disk costs about half a collision of two disks. Valid at the temperature of the
+// start.
 double kick_cost(const Scene& scene) {
   constexpr double kKick = 0.45;
   const double rate =

@@ -7,25 +7,25 @@
 
 namespace clatter {
 
-// Prices are CPU time with something over that without it, as `clatter bench features` has it for
-// 1000 disks at phi = 0.3.
+// A price is a ratio of CPU times, with and without the feature. The values are from `clatter bench
+// features` with 1000 disks at phi = 0.3.
 
-/// Something that a scene may have the program model.
+/// An optional feature of a scene.
 struct FeatureCost {
   const char* name;
-  std::string extent;  ///< "no", "yes", or what of it
-  double bytes;        ///< in all
-  double price;        ///< NaN: it depends on what is not there
+  std::string extent;  ///< "no", "yes", or the used part of the feature
+  double bytes;        ///< total
+  double price;        ///< NaN: depends on an absent feature
 };
 
-/// All that a scene may have, and what of it this one has.
+/// All optional features, with their use in this scene.
 std::vector<FeatureCost> feature_costs(const Scene& scene);
 
-/// Of the averages of fields, by how disks count in them.
+/// Price of field averages, by estimator.
 double cost_of(Estimator estimator);
-/// Of balances.
+/// Price of balances.
 inline constexpr double kBalanceCost = 2.0;
-/// Of a contact time.
+/// Price of a contact time.
 inline constexpr double kContactTimeCost = 1.0;
 
 /// "x1.4", or "-" for NaN.

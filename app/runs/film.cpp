@@ -60,7 +60,7 @@ Film::Film(Run& run, const Scene& scene, const View& view, FilmState state, cons
   if (state_.ranges) renderer_.fix(*state_.ranges);
 }
 
-// A single picture is drawn anew.
+// A single picture needs no film state; it is drawn again.
 std::string Film::state_now() const {
   if (state_.times.count == 1) return "";
   FilmState state = state_;
@@ -79,8 +79,7 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
       state_.checksums = sink.checksums();
       run_.mark();
     }
-    // Also of frames that are not drawn: averages are the same to the last bit only where they are
-    // looked at as often.
+    // Skipped frames take a snapshot as well. Bitwise equal averages need the same snapshot times.
     const Snapshot snapshot = run_.scheduled().snapshot();
     if (!state_.camera) state_.camera = renderer_.fit(snapshot, canvas_.size(), view_, text_);
     if (frame < first) continue;
@@ -104,15 +103,16 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
 bool Film::choose_ranges(Progress& progress) {
   if (state_.ranges || state_.times.count == 1) return true;
   const RangeEnds ends = look_ahead();
-  if (!run_.until(run_.simulation().time(), progress)) return false;  // interrupted meanwhile
+  // The look-ahead may have been interrupted.
+  if (!run_.until(run_.simulation().time(), progress)) return false;
   state_.ranges = ends;
   renderer_.fix(ends);
   return true;
 }
 
-// The largest of what disks show at the ends of the window's parts, and what its average shows.
+// The largest values at the ends of the parts of the window, and of its average.
 RangeEnds Film::look_ahead() const {
-  constexpr std::uint64_t kSteps = 50'000;  // between looks for an interrupt
+  constexpr std::uint64_t kSteps = 50'000;  // between tests for an interrupt
   const ScheduledRun<2>& run = run_.scheduled();
   ScheduledRun<2> ahead(scene_, run.seed(), run.simulation().save());
   ahead.show(view_, run.save_shown(), state_.exposure());
@@ -130,7 +130,7 @@ RangeEnds Film::look_ahead() const {
       ends.disks = std::max(ends.disks, disks);
     }
   } catch (const PhysicalStop&) {
-    // The film will come to it by itself.
+    // The film itself runs into the same stop later.
   }
   return ends;
 }

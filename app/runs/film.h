@@ -12,61 +12,60 @@
 
 namespace clatter {
 
-/// Frames of a film, from number `begin` on and before `end`.
+/// Frames of a film: `begin` <= number < `end`.
 struct FrameRange {
   long begin = 0;
   long end = 0;
 };
 
-/// When a film's frames are: the k-th at from + k speed/fps.
+/// The times of frames. Frame k is at from + k speed/fps.
 struct FrameTimes {
-  double from = 0.0;   ///< simulation time of the first
+  double from = 0.0;   ///< simulation time of the first frame
   double speed = 1.0;  ///< simulation time per second of film
   double fps = 30.0;   ///< frames per second of film
-  long count = 1;      ///< of the whole film, of which parts may be made elsewhere
+  long count = 1;      ///< of the whole film, including parts made elsewhere
 
   double of(long frame) const { return from + static_cast<double>(frame) * (speed / fps); }
   double last() const { return of(count - 1); }
 };
 
-/// All that the pictures of a film depend on beside the scene and the run, so that films made in
-/// parts are one film.
+/// All settings that the pictures of a film depend on, besides the scene and the run. Parts made
+/// with the same settings form one film.
 struct FilmState {
   FrameTimes times;
   Size size;                        ///< of the pictures
-  int samples = 1;                  ///< drawn along each axis for a pixel
-  double shutter = 0.0;             ///< share of the time between frames that each of them shows
+  int samples = 1;                  ///< samples per pixel along each axis
+  double shutter = 0.0;             ///< exposure as a share of the time between two frames
   bool transparent = false;         ///< without a background
-  bool overlay = true;              ///< whether anything is written on them
-  long next = 0;                    ///< number of the frame that comes next
-  std::optional<long> begin;        ///< of the part that is being drawn; absent: none is
-  std::optional<RangeEnds> ranges;  ///< absent: not chosen yet
-  std::optional<Camera> camera;     ///< that shows the whole box; absent: not chosen yet
-  std::string shown;                ///< of the time before, see ScheduledRun::save_shown()
+  bool overlay = true;              ///< whether pictures have text
+  long next = 0;                    ///< number of the next frame
+  std::optional<long> begin;        ///< of the part in progress; absent: none
+  std::optional<RangeEnds> ranges;  ///< colour ranges; absent: not chosen yet
+  std::optional<Camera> camera;     ///< shows the whole box; absent: not chosen yet
+  std::string shown;                ///< fields of the past, see ScheduledRun::save_shown()
   std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`, see FrameSink
   std::vector<PngText> notes = {};            ///< of the picture before `next`
 
-  /// The time up to a frame that it shows.
+  /// The simulation time that a frame averages over, before its own time.
   double exposure() const { return shutter * times.speed / times.fps; }
 };
 
-/// A film's state as checkpoints keep it.
+/// The bytes of a film's state in a checkpoint.
 std::string to_bytes(FilmState state);
 
-/// The film of a checkpoint, if there is one. Throws UserError where it is damaged.
+/// The film of a checkpoint. Absent without a film. Throws UserError if it is damaged.
 std::optional<FilmState> film_of(const Resumed& resumed);
 
-/// Films a run: draws one frame after the other. Automatic colour ranges are chosen once, by what
-/// is shown in the first averaging window of the whole film, which the run goes through ahead.
+/// Films a run, frame by frame. Automatic colour ranges are chosen once, from the first averaging
+/// window of the whole film. The run computes this window in advance.
 class Film {
  public:
-  /// Of a run that has come to frame `state.next`. A film of a single frame chooses its ranges by
-  /// that.
+  /// A film of a run at frame `state.next`. A film of one frame takes its ranges from this frame.
   Film(Run& run, const Scene& scene, const View& view, FilmState state, const Gl& gl);
 
-  /// Draws those of the frames that are still to come into a sink, and only goes through those
-  /// before; ends early where the run does. Returns the number of the frame that comes next.
-  /// Checkpoints go on from the last frame whose number is a multiple of FrameSink::kPiece.
+  /// Draws the remaining frames of the range into a sink. Earlier frames are simulated, not drawn.
+  /// Ends early if the run does. Returns the number of the next frame. Checkpoints continue from
+  /// the last frame whose number is a multiple of FrameSink::kPiece.
   long draw(const FrameRange& frames, FrameSink& sink, Progress& progress);
 
  private:

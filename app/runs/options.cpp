@@ -23,7 +23,7 @@ Scene load(const CommonOptions& options, StartFile start_file) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw UserError({"--set " + setting, 0, 0}, "no value is set",
-                      "write --set key=value, for instance --set particles.count=500");
+                      "write --set KEY=VALUE, for example --set particles.count=500");
     }
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
@@ -34,8 +34,8 @@ Scene load_disks(const CommonOptions& options, StartFile start_file) {
   Scene scene = load(options, start_file);
   if (scene.dimension() == 2) return scene;
   throw UserError({options.scene},
-                  "the box has three dimensions, and this command takes disks only",
-                  "give box.size two numbers, or read the scene with `clatter check`");
+                  "the box has three dimensions, and this command supports disks only",
+                  "give box.size two numbers, or use `clatter check`");
 }
 
 std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,

@@ -12,38 +12,38 @@
 
 namespace clatter {
 
-/// Flags that say what runs and how much is told about it.
+/// Flags that select the run and the amount of messages.
 struct CommonOptions {
   std::string scene;                  ///< path of a scene or picture, or gallery name
   std::vector<std::string> settings;  ///< "key=value" of each --set
   std::optional<std::uint64_t> seed;  ///< absent: the checkpoint's, or 1
   std::optional<double> until;        ///< simulation time at which the run ends
-  bool quiet = false;                 ///< nothing on stderr but errors
+  bool quiet = false;                 ///< errors only on stderr
   ProgressStyle progress = ProgressStyle::Auto;
 
-  /// The progress to show, given --quiet.
+  /// The form of the progress, with --quiet taken into account.
   ProgressStyle shown_progress() const { return quiet ? ProgressStyle::None : progress; }
-  /// Whether a --set gives this key of the scene, a table around it or a part of it.
+  /// Whether a --set gives this key of the scene, its table, or a part of it.
   bool sets(std::string_view key) const;
 };
 
-/// Flags of commands that can put a run aside and take it up again.
+/// Flags of commands that write and resume checkpoints.
 struct CheckpointOptions {
   std::string resume;    ///< checkpoint to resume; empty: the run starts at time 0
   std::string file;      ///< checkpoint that is kept up to date; empty: none
-  double every = 600.0;  ///< how often, in seconds of wall time
+  double every = 600.0;  ///< interval in seconds of wall time
 
   /// A resumed run does not read the file of its start state.
   StartFile start_file() const { return resume.empty() ? StartFile::Read : StartFile::Skip; }
 };
 
-/// The scene with the flags' settings. Throws UserError.
+/// The scene with the settings of the flags. Throws UserError.
 Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
-/// The same of a command that takes disks only. Throws UserError for spheres, too.
+/// The same for a command that supports disks only. Throws UserError for spheres too.
 Scene load_disks(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
-/// The files that a command reads and must not write: its scene, start state and checkpoint; not a
-/// checkpoint that it is to keep up to date.
+/// The files that a command reads and must not overwrite: scene, start state and resumed
+/// checkpoint. A checkpoint that the command keeps up to date is not in the list.
 std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,
                                              const CheckpointOptions& checkpoints,
                                              const Scene& scene);

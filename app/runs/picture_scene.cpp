@@ -10,12 +10,12 @@ Scene load_any_scene(const std::string& path_or_name, const std::vector<Override
   if (!is_png(path_or_name)) return load_scene(path_or_name, overrides, start_file);
   const auto inside = png_text(path_or_name, "Scene");
   if (!inside) {
-    throw UserError({path_or_name}, "this picture has no scene inside",
-                    "give a picture that clatter drew, or a scene file");
+    throw UserError({path_or_name}, "this picture contains no scene",
+                    "give a picture made by clatter, or a scene file");
   }
   if (inside->size() > kLargestScene) {
-    throw UserError({path_or_name}, "the scene inside is larger than 1 MB",
-                    "give a picture that clatter drew");
+    throw UserError({path_or_name}, "the scene in this picture is larger than 1 MB",
+                    "give a picture made by clatter");
   }
   return parse_scene(*inside, path_or_name, overrides, start_file);
 }

@@ -19,14 +19,15 @@ static std::string shown(const std::string& value) {
                   advice);
 }
 
-// What a run cannot change: where its disks are, and which sides hold them.
+// Properties that a resumed run must keep: the box, the disks and the walled sides.
 static bool is_fixed(const KeyDifference& difference) {
   const bool wall_of_one = difference.before.empty() || difference.now.empty();
   return difference.key == "box.size" || difference.key == "particles.count" ||
          (wall_of_one && difference.key.starts_with("walls.") && difference.key.ends_with(".kind"));
 }
 
-// Whether it is what happens to the disks, and not what is measured, shown or said of them.
+// Whether a key changes the dynamics. The other keys concern measurement, pictures and
+// descriptions.
 static bool is_law(const KeyDifference& difference) {
   const std::string& key = difference.key;
   return !key.starts_with("measure.") && !key.starts_with("view.") &&
@@ -52,10 +53,10 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
   }
   resumed.differences = differences(resumed.checkpoint.scene, scene_to_toml(scene), file);
   for (const KeyDifference& key : resumed.differences) {
-    if (is_fixed(key)) refuse(resumed, key, "give the scene that the checkpoint is of");
+    if (is_fixed(key)) refuse(resumed, key, "give the scene of the checkpoint");
     if (is_law(key) && !common.sets(key.key)) {
       refuse(resumed, key,
-             "give that scene; or change the law from here on, --set " + key.key + "=" +
+             "give the scene of the checkpoint, or change the law with --set " + key.key + "=" +
                  shown(key.now));
     }
   }
@@ -63,23 +64,24 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
   if (common.seed.value_or(seed) != seed) {
     throw UserError(
         {file}, "this checkpoint has the seed " + std::to_string(seed),
-        "leave --seed out, or resume the checkpoint of seed " + std::to_string(*common.seed));
+        "omit --seed, or resume a checkpoint with the seed " + std::to_string(*common.seed));
   }
   return resumed;
 }
 
 void require_same_measure(const Resumed& resumed) {
   for (const KeyDifference& key : resumed.differences) {
-    // How long it goes on is another matter.
+    // The duration may change.
     if (!key.key.starts_with("measure.") || key.key == "measure.duration") continue;
-    refuse(resumed, key, "averages go on as they began only: --set " + key.key + "=" + key.before);
+    refuse(resumed, key,
+           "keep the value for the averages with --set " + key.key + "=" + key.before);
   }
 }
 
 void require_same_view(const Resumed& resumed) {
   for (const KeyDifference& key : resumed.differences) {
     if (!key.key.starts_with("view.") || key.key == "view.speed") continue;
-    refuse(resumed, key, "a film goes on as it began; begin another one by --from");
+    refuse(resumed, key, "keep the value for this film, or begin another film with --from");
   }
 }
 

@@ -11,31 +11,30 @@
 
 namespace clatter {
 
-/// A checkpoint that fits the scene under which its run goes on.
+/// A checkpoint that is compatible with the scene of the resumed run.
 struct Resumed {
   std::string file;
   Checkpoint checkpoint;
-  std::vector<KeyDifference> differences;  ///< of the scene from that of the checkpoint
+  std::vector<KeyDifference> differences;  ///< between the scene and the scene of the checkpoint
 
-  /// Simulation time at which it was written.
+  /// Simulation time of the checkpoint.
   double time() const;
 };
 
-/// Reads the checkpoint that `--resume` names, if any, and gives a scene whose start state was not
-/// read what it lacks. Throws UserError unless the checkpoint has the scene's box, disks and walled
-/// sides, the seed if one is given, and the laws but for those that --set gives.
+/// Reads the checkpoint of `--resume`, if any. Fills in the parts of the scene that come from an
+/// unread start state. Throws UserError if the box, the disks or the walled sides differ from the
+/// checkpoint. Throws it also for another seed, and for other laws unless --set gives them.
 std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptions& options,
                               Scene& scene);
 
-/// Throws UserError where the scene's [measure] block asks for something else than averages that
-/// have begun.
+/// Throws UserError if [measure] of the scene differs from the averages in the checkpoint.
 void require_same_measure(const Resumed& resumed);
 
-/// Throws UserError where the scene's [view] block asks for another film than that which has begun,
-/// but for its speed.
+/// Throws UserError if [view] of the scene differs from the film in the checkpoint. The speed may
+/// differ.
 void require_same_view(const Resumed& resumed);
 
-/// All laws that differ, by their keys, separated by commas; empty: none.
+/// The keys of all laws that differ, separated by commas. Empty if none differs.
 std::string changed_laws(const Resumed& resumed);
 
 /// Whether a key of the scene differs.

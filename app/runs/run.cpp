@@ -15,10 +15,10 @@
 
 namespace clatter {
 
-// Whether averages can go on under a model. Under another gravity they cannot, for what flights
-// contribute is booked at their end, by the gravity of that time; nor where walls move otherwise,
-// which starts flights anew; nor where spins come or go or get another inertia, for fields then
-// need other sums and cells hold another energy.
+// Whether averages can continue under a new model. They cannot under another gravity: a flight is
+// booked at its end, with the gravity of that time. They cannot under another wall motion, which
+// restarts flights. They cannot if spins appear, disappear or change their inertia: the fields need
+// other sums, and the energy of cells changes.
 static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Model<2>& model,
                            const Measure& measure) {
   const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
@@ -27,8 +27,8 @@ static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Mo
          saved.wall_motions == wall_motions<2>(model);
 }
 
-// Where a checkpoint goes that nobody asked for: beside what the command writes, where that is a
-// file or folder. Else runs of other seeds in the same folder have others.
+// Path of an automatic checkpoint: beside the output if this is a file or folder. Otherwise the
+// name contains the seed, so that runs in one folder use different files.
 static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene,
                                                std::uint64_t seed) {
   if (out.empty() || is_special(out)) {
@@ -43,7 +43,7 @@ static void require_checkpoint_place(const CheckpointOptions& options) {
   if (options.file.empty()) return;
   require_writable_file(options.file, "--checkpoint");
   if (std::filesystem::exists(options.file) && !is_checkpoint(options.file)) {
-    throw UserError({"--checkpoint", 0, 0}, options.file + " is there and is no checkpoint",
+    throw UserError({"--checkpoint", 0, 0}, options.file + " exists and is not a checkpoint",
                     "give another name");
   }
 }
@@ -69,10 +69,10 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
-  saved = {};  // some memory
+  saved = {};  // frees memory
   const std::string laws = changed_laws(*resumed_);
   if (!laws.empty() && !quiet_) {
-    std::fprintf(stderr, "clatter: from t = %g on other laws hold: %s\n", simulation().time(),
+    std::fprintf(stderr, "clatter: laws changed at t = %g: %s\n", simulation().time(),
                  laws.c_str());
   }
 }
@@ -105,13 +105,13 @@ void Run::measure_on(Simulation<2>& next) {
 
 void Run::tell_new_averages() const {
   if (quiet_) return;
-  std::fprintf(stderr, "clatter: averages start anew at t = %g\n",
+  std::fprintf(stderr, "clatter: averages restart at t = %g\n",
                std::max(run_->simulation().time(), scene_.measure.burn_in));
 }
 
 bool Run::until(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
-  std::uint64_t slice = 1024;  // steps, found while running
+  std::uint64_t slice = 1024;  // steps; adapted while running
   ended_early_ = true;
   try {
     for (bool arrived = false; !arrived; progress.update(simulation().time())) {
@@ -126,7 +126,7 @@ bool Run::until(double time, Progress& progress) {
     stop_ = stop;
     return false;
   }
-  // Also where an interrupt came meanwhile: a run that has arrived has nothing to go on with.
+  // An interrupt after the end has no effect: the run is complete.
   ended_early_ = false;
   return true;
 }
@@ -146,7 +146,7 @@ void Run::mark() {
   marked_ = checkpoint();
 }
 
-// A run does not fail for a checkpoint on the way: the next may succeed.
+// A failed checkpoint does not end a run. The next may succeed.
 void Run::write() {
   try {
     if (marked_) {
@@ -164,14 +164,14 @@ void Run::write() {
 
 std::string Run::rescue() {
   write();
-  return failure_.empty() ? "; go on with --resume " + file_.string() : "";
+  return failure_.empty() ? "; continue with --resume " + file_.string() : "";
 }
 
 void Run::put_aside() {
   if (!ended_early_ && options_.file.empty()) return;
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
-    std::fprintf(stderr, "clatter: interrupted at t = %g; go on with --resume %s\n",
+    std::fprintf(stderr, "clatter: interrupted at t = %g; continue with --resume %s\n",
                  simulation().time(), file_.c_str());
   }
 }
@@ -179,22 +179,22 @@ void Run::put_aside() {
 void require_no_overlap(const RunChecks& checks) {
   constexpr double kRounding = 1e-9;  // diameters
   if (checks.deepest_overlap <= kRounding) return;
-  throw PhysicalStop(fmt::format(
-      "disks overlapped by {:.3g} diameters: events were lost; please report this scene "
-      "and seed",
-      checks.deepest_overlap));
+  throw PhysicalStop(
+      fmt::format("disks overlapped by {:.3g} diameters, so events were lost; please report the "
+                  "scene and the seed",
+                  checks.deepest_overlap));
 }
 
 int Run::end() {
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
     throw PhysicalStop(stop_->what() + (failure_.empty()
-                                            ? "; go on with --resume " + file_.string() + remedy
-                                            : "; no checkpoint is left: " + failure_));
+                                            ? "; continue with --resume " + file_.string() + remedy
+                                            : "; no checkpoint was written: " + failure_));
   }
   require_no_overlap(simulation().checks());
-  // Also of a run that was interrupted: its exit code would say that all there is has been saved.
-  if (!failure_.empty()) throw RunError("no checkpoint is left: " + failure_);
+  // An interrupted run throws too: its exit code would claim that the state has been saved.
+  if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }
 

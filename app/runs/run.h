@@ -16,42 +16,44 @@
 
 namespace clatter {
 
-/// Throws PhysicalStop where the disks of a run have overlapped by more than rounding: then events
-/// were lost.
+/// Throws PhysicalStop if disks have overlapped by more than rounding errors. An overlap proves
+/// lost events.
 void require_no_overlap(const RunChecks& checks);
 
-/// A run that a command makes of a scene: from its start or from a checkpoint, with checkpoints as
-/// asked for, and one where it ends before its time.
+/// The run of a command, from its start or from a checkpoint. Writes the requested checkpoints, and
+/// one at an early end.
 class Run {
  public:
-  /// `out` is what the command writes; empty: stdout. Throws UserError where no checkpoint can go
-  /// where one is asked for.
+  /// `out` is the output of the command; empty: stdout. Throws UserError if a requested checkpoint
+  /// has no possible place.
   Run(const std::string& command, const Scene& scene, const CommonOptions& options,
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
 
-  /// The run itself, at the time from which it goes on.
+  /// The run, at its first simulation time.
   ScheduledRun<2>& scheduled() { return *run_; }
-  /// Its simulation, until laws change.
+  /// The simulation. Valid until the laws change.
   Simulation<2>& simulation() { return run_->simulation(); }
-  /// The flag's, or that of the checkpoint, or 1.
+  /// The seed of the flag, or of the checkpoint, or 1.
   std::uint64_t seed() const { return seed_; }
-  /// What [measure] asks for, averaged to `end`, or on from where the checkpoint left it; its
-  /// checkpoints keep it. Throws UserError where the block asks for something else than before.
+  /// The measurement of [measure], up to `end`. Continues the averages of the checkpoint.
+  /// Checkpoints include it. Throws UserError if [measure] differs from the block of the
+  /// checkpoint.
   Measurement<2>& measure(double end);
 
-  /// Runs up to a simulation time in slices of about a tenth of a second, between which progress is
-  /// shown and interrupts are seen; false where the run was interrupted or stopped first.
+  /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
+  /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
   bool until(double time, Progress& progress);
-  /// What checkpoints keep of a film, at the run's time; empty: there is none.
+  /// The film state for checkpoints, at the time of the run. Empty without a film.
   std::function<std::string()> film_state;
-  /// From now on checkpoints are of the run as it is now, until the next call.
+  /// Until the next call, checkpoints have the present state of the run.
   void mark();
-  /// Leaves a checkpoint where what the command writes has failed; what to tell about it.
+  /// Writes a checkpoint after a failed output. Returns a sentence about it for the error.
   std::string rescue();
-  /// Leaves the checkpoint that the run's end calls for; to be called before anything else is asked
-  /// of the measurement.
+  /// Writes the checkpoint that the end of the run requires. To be called before the results of the
+  /// measurement are read.
   void put_aside();
-  /// The exit code, or the exception, that the run ends with once its results are written.
+  /// Returns the exit code, or throws the error of the run. To be called after the results are
+  /// written.
   int end();
 
  private:
@@ -66,16 +68,16 @@ class Run {
   Scene scene_;
   bool quiet_;
   CheckpointOptions options_;
-  std::filesystem::path file_;  // the checkpoint, asked for or not
+  std::filesystem::path file_;  // path of the requested or the automatic checkpoint
   std::optional<Resumed> resumed_;
-  bool averages_go_on_ = false;  // those of the run that is resumed
+  bool averages_go_on_ = false;  // whether the averages of the checkpoint continue
   std::uint64_t seed_;
   std::optional<ScheduledRun<2>> run_;
   double measure_end_ = 0.0;
   std::optional<Measurement<2>> measurement_;
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
-  std::string failure_;  // of the last checkpoint
+  std::string failure_;  // failure of the last checkpoint
   bool ended_early_ = false;
   std::optional<PhysicalStop> stop_;
 };

@@ -2,8 +2,8 @@
 
 namespace clatter {
 
-/// The commit of the checkout that the program was built from; empty where there was none. Defined
-/// by cmake/Commit.cmake.
+/// The commit of the checkout from which the program was built. Empty if there was no checkout.
+/// Defined by cmake/Commit.cmake.
 extern const char* const kCommit;
 
 }  // namespace clatter

@@ -2,7 +2,7 @@
 
 namespace clatter {
 
-/// What the program returns to the shell.
+/// The exit codes of the program.
 enum ExitCode {
   kOk = 0,
   kFailed = 1,        ///< a run or a check failed

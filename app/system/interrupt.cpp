@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-// When the run was asked to end, in milliseconds; 0: it was not. A signal handler may touch no more
-// than this: it needs no lock.
+// Time of the request to end the run, in milliseconds; 0: no request. A signal handler may write a
+// lock-free atomic only.
 static std::atomic<long long> asked_to_end = 0;
 static_assert(decltype(asked_to_end)::is_always_lock_free);
 
@@ -18,8 +18,8 @@ static long long milliseconds() {
   return 1000LL * now.tv_sec + now.tv_nsec / 1'000'000 + 1;
 }
 
-// timeout(1) signals the program and then its process group, the program again: signals that close
-// together are one.
+// timeout(1) signals the program and then its process group, which contains the program. Two
+// signals within a short time are one request.
 static void ask_to_end(int signal) {
   constexpr long long kOneSignal = 300;
   const long long now = milliseconds();

@@ -2,12 +2,13 @@
 
 namespace clatter {
 
-/// Installs the signal handlers. SIGINT, SIGTERM and SIGHUP ask the run to end: it saves its
-/// results and exits with 130. A second signal, 0.3 s later or more, ends the program at once.
-/// SIGXFSZ is ignored: a file beyond the system's size limit is a write error.
+/// Installs the signal handlers. SIGINT, SIGTERM and SIGHUP request the end of the run. The run
+/// then saves its results and exits with code 130. A second signal at least 0.3 s later ends the
+/// program at once. SIGXFSZ is ignored, so that a file beyond the size limit of the system is a
+/// write error.
 void catch_interrupts();
 
-/// Whether the run has been asked to end.
+/// Whether a signal has requested the end of the run.
 bool interrupted();
 
 }  // namespace clatter

@@ -25,18 +25,18 @@ void print(std::string_view text) {
 
 void require_folder_of(const std::filesystem::path& path, const char* flag) {
   if (path.empty()) throw UserError({flag, 0, 0}, "the name is empty", "name a file or folder");
-  // "frames/" names the folder frames.
+  // The path "frames/" names the folder frames.
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
   if (std::filesystem::is_directory(folder)) return;
   throw UserError({flag, 0, 0}, "there is no folder " + folder.string(),
-                  "make it first, or name a file elsewhere");
+                  "create it, or choose another folder");
 }
 
 void require_writable_file(const std::filesystem::path& path, const char* flag) {
   require_folder_of(path, flag);
   if (!path.has_filename() || std::filesystem::is_directory(path)) {
-    throw UserError({flag, 0, 0}, path.string() + " is a folder", "name a file in it");
+    throw UserError({flag, 0, 0}, path.string() + " is a folder", "give a file in it");
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const std::filesystem::path& written = is_special(path) ? path : folder;
@@ -47,11 +47,13 @@ void make_folder(const std::filesystem::path& folder, const char* flag) {
   require_folder_of(folder, flag);
   std::error_code error;
   std::filesystem::create_directory(folder, error);
-  if (error) throw RunError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (error)
+    throw RunError("cannot make the folder " + folder.string() + ": " + error.message() +
+                   "; choose another folder");
   if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
 }
 
-// One name of a place, however it is written.
+// The same text for all paths to one place.
 static std::filesystem::path whole_name(const std::filesystem::path& path) {
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
@@ -73,7 +75,7 @@ void require_distinct(std::span<const Output> outputs,
           names.emplace(name.string() + suffix, std::string(flag) + " writes");
       if (first) continue;
       throw UserError({flag, 0, 0}, path.string() + suffix + " is the file that " + other->second,
-                      "give each a name of its own");
+                      "choose different names");
     }
   }
 }

@@ -10,8 +10,8 @@ void replace_part(std::string& page, const std::string& file, const std::string&
   const std::size_t from = page.find(begin);
   const std::size_t to = page.find(end, from == std::string::npos ? page.size() : from);
   if (to == std::string::npos) {
-    throw UserError({"--markdown", 0, 0}, file + " has no place for the " + name,
-                    "write the lines <!-- " + name + " --> and " + end + " into it");
+    throw UserError({"--markdown", 0, 0}, file + " has no part for the " + name,
+                    "add the lines <!-- " + name + " --> and " + end);
   }
   const std::size_t first = from + begin.size();
   page.replace(first, to - first, text);

@@ -5,8 +5,8 @@
 
 namespace clatter {
 
-// Not getrusage(), which shares the time out between program and system by ticks: what takes less
-// than one may then seem to take nothing.
+// getrusage() divides the time between program and system by ticks. A run shorter than one tick can
+// then have zero CPU time.
 double cpu_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

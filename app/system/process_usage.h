@@ -4,10 +4,10 @@
 
 namespace clatter {
 
-/// CPU time of this process so far, seconds.
+/// CPU time of this process up to now, in seconds.
 double cpu_seconds();
 
-/// Largest resident size of this process so far, or since restart_peak_memory(), bytes.
+/// Largest resident size of this process, in bytes, since its start or restart_peak_memory().
 std::uint64_t peak_memory_bytes();
 
 }  // namespace clatter

@@ -29,7 +29,7 @@ void Progress::expect(double end, std::string doing) {
 }
 
 static std::string spell_seconds(double seconds) {
-  constexpr double kLongest = 1e9;  // some thirty years
+  constexpr double kLongest = 1e9;  // about thirty years
   if (!(seconds < kLongest)) return "ages";
   const auto whole = std::lround(seconds);
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);

@@ -5,22 +5,23 @@
 
 namespace clatter {
 
-/// How progress is shown: a bar on a terminal and a line every few seconds elsewhere (Auto), a JSON
-/// line every few seconds, or not at all.
+/// Form of the progress. Auto shows a bar on a terminal, and a line every few seconds elsewhere.
+/// Json prints a JSON line every few seconds. None prints nothing.
 enum class ProgressStyle { Auto, Json, None };
 
-/// Tells on stderr how far a run has come and how long it will take.
+/// Prints the progress of a run and the remaining time to stderr.
 class Progress {
  public:
-  /// A run from `start` to `end` in simulation time; `doing` names it ("measuring").
+  /// A run from `start` to `end` in simulation time. `doing` names the activity, for example
+  /// "measuring".
   Progress(ProgressStyle style, std::string doing, double start, double end);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// The run is now expected to end at `end`; `doing` names it from now on.
+  /// Sets a new end of the run and a new name of the activity.
   void expect(double end, std::string doing);
-  /// The run has come to `time`; prints if it is time to.
+  /// Sets the current simulation time, and prints the progress if a new line is due.
   void update(double time);
 
  private:

@@ -2,9 +2,9 @@
 
 namespace clatter {
 
-/// Opens /dev/null as each of the standard input, output and error that the program was started
-/// without, for reading only: writing fails as it did. Else the first file that the program opens
-/// would get that number, and messages would go into it.
+/// Opens /dev/null for reading in place of each closed standard stream: input, output or error.
+/// Writes to it fail, as on a closed stream. Otherwise the first opened file would get the number
+/// of the stream, and messages would go into this file.
 void open_standard_streams();
 
 }  // namespace clatter

@@ -13,7 +13,7 @@ namespace clatter {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-// Between press, move and release a person takes a while, and the program a picture.
+// A person pauses between press, move and release. The program needs a new picture in between.
 static constexpr const char* kPause = " sleep 0.15 ";
 
 GuiDriver::GuiDriver(const std::string& arguments, const std::string& size) {

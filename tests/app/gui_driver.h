@@ -9,53 +9,53 @@
 
 namespace clatter {
 
-/// A display without a screen, the program in a window on it, and the driver of its mouse and keys.
-/// The program tells what it does in its script log.
+/// A virtual display with the program in a window, and a driver of its mouse and keys. The program
+/// writes its state to the script log.
 class GuiDriver {
  public:
-  /// Opens `clatter view` with these arguments on a screen of this size, and waits until it shows
-  /// a gas and all that it shows has its place.
+  /// Opens `clatter view` with these arguments on a screen of this size. Waits until the gas and
+  /// all widgets are drawn.
   explicit GuiDriver(const std::string& arguments, const std::string& size = "1280x800");
 
-  /// Runs a line of the shell on the display.
+  /// Runs a shell line on the display.
   Outcome run(const std::string& line) const;
   /// Runs a line of xdotool.
   void tool(const std::string& line) const;
-  /// Presses and lets go of a key, as xdotool calls it.
+  /// Presses and releases a key with this xdotool name.
   void key(const std::string& name) const;
-  /// Moves the mouse to a share of the way across a widget.
+  /// Moves the mouse to this share of the width of a widget.
   void point_at(const std::string& widget, double share = 0.5) const;
   void click(const std::string& widget) const;
-  /// Drags a slider's grip from one share of its width to another, in steps.
+  /// Drags the grip of a slider from one share of its width to another, in steps.
   void drag(const std::string& widget, double from, double to) const;
-  /// Drags a widget by so many pixels.
+  /// Drags a widget by this number of pixels.
   void pull(const std::string& widget, int right, int down) const;
 
-  /// The newest event of a name after the `after` first events for which `is_it` holds; waits for
-  /// it, for some seconds, and fails where it does not come.
+  /// The newest event of a name for which `is_it` holds, without the first `after` events. Waits
+  /// for it for some seconds, then fails.
   nlohmann::json wait_for(
       const std::string& event, std::size_t after = 0,
       const std::function<bool(const nlohmann::json&)>& is_it = [](auto&) { return true; }) const;
-  /// The events logged so far, or those of one name.
+  /// The events in the log, or the events of one name.
   std::vector<nlohmann::json> events(const std::string& name = "") const;
-  /// How many there are.
+  /// The number of events in the log.
   std::size_t told() const { return events().size(); }
-  /// The colour of a pixel of the screen: red, green, blue.
+  /// The colour of a screen pixel: red, green, blue.
   std::vector<int> pixel(int x, int y) const;
-  /// The mean over a widget's pixels of how much brighter they are than the darkest, 0..255.
+  /// The mean excess of brightness over the darkest pixel of a widget, 0..255.
   double brightness(const std::string& widget) const;
-  /// The program's exit code, once it has ended; -1 where it has not within some seconds.
+  /// The exit code of the program; -1 if it has not ended within some seconds.
   int exit_code() const;
   const Shell& shell() const { return shell_; }
 
  private:
-  /// Ends the screen and the program on it, also where the driver does not come about.
+  /// Closes the screen and its program, also after a failed construction of the driver.
   struct Screen {
     const Shell& shell;
     ~Screen() { shell.run("kill $(cat xvfb)"); }
   };
 
-  /// Place of a widget: left, top, width, height.
+  /// Rectangle of a widget: left, top, width, height.
   std::vector<double> place(const std::string& widget) const;
 
   Shell shell_;

@@ -15,7 +15,7 @@ namespace clatter {
 
 using namespace testing;
 
-// Enough for all panels, so that nothing is cut off.
+// Large enough for all panels, so that nothing is clipped.
 static constexpr float kWidth = 900.0f, kHeight = 4000.0f, kTextSize = 14.0f;
 
 PanelDriver::PanelDriver(const Scene& scene, Panel panel)
@@ -77,7 +77,7 @@ std::array<float, 4> PanelDriver::place(const std::string& widget, std::size_t n
   std::vector<std::array<float, 4>> all = places();
   CAPTURE(widget);
   REQUIRE_FALSE(all.empty());
-  // Only widgets that share a key are told anew in a picture that is like the last.
+  // In an unchanged picture, only widgets that share a key are logged again.
   if (all.size() == before) return all.back();
   all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before));
   std::ranges::sort(all, {}, [](const auto& place) { return place[1]; });
@@ -97,7 +97,7 @@ void PanelDriver::drag(float x, float y, float to_x) {
   const auto press = [&](bool down) {
     const CurrentContext current(context_.get());
     ImGui::GetIO().MouseDown[0] = down;
-    // A second click soon after would be a double one, which types.
+    // An early second click would be a double click, which opens the text input.
     ImGui::GetIO().DeltaTime = 1.0f;
   };
   point_at(x, y);

@@ -11,27 +11,27 @@
 
 namespace clatter {
 
-/// Panels of the window without a window: Dear ImGui lays them out and takes a mouse that the test
-/// moves; what they write is read as text.
+/// Tests panels without a window. Dear ImGui lays them out and receives the mouse of the test. The
+/// text is read from the draw lists.
 class PanelDriver {
  public:
   using Panel = std::function<void(Session&, Controls&)>;
 
-  /// Opens a scene, whose gas halts, and shows a panel.
+  /// Opens a scene with a halted gas, and shows a panel.
   PanelDriver(const Scene& scene, Panel panel);
 
-  /// The lines of the panel from top to bottom, down to a tooltip where there is one: names,
-  /// symbols and values; what sliders and lists hold in braces.
+  /// The lines of the panel from top to bottom: names, symbols and values. Values of sliders and
+  /// lists are in braces. A tooltip, if any, comes last.
   std::vector<std::string> lines();
-  /// Where a widget is, as the script log tells it: left, top, width, height. Of several under one
-  /// key the one of that number from the top.
+  /// The rectangle of a widget as in the script log: left, top, width, height. `number` counts
+  /// widgets with the same key from the top.
   std::array<float, 4> place(const std::string& widget, std::size_t number = 0);
-  /// Clicks on a place, or presses there, moves the mouse to another and lets go.
+  /// Clicks at a position, or drags the mouse from there to another.
   void click(float x, float y) { drag(x, y, x); }
   void drag(float x, float y, float to_x);
-  /// Moves the mouse to a place, where it rests.
+  /// Moves the mouse to a position.
   void point_at(float x, float y);
-  /// Takes the engine's frames until one holds.
+  /// Takes frames of the engine until the condition holds.
   void wait_for(const std::function<bool(const Frame&)>& holds);
 
   const Session& session() const { return session_; }
@@ -46,7 +46,7 @@ class PanelDriver {
   Controls controls_{session_, log_};
   GuiContext context_ = make_gui_context();
   Panel panel_;
-  std::string text_;  // of the last picture
+  std::string text_;  // of the last frame
 };
 
 }  // namespace clatter

@@ -1,4 +1,4 @@
-"""Prints as JSON what h5py finds in a file: groups with their attributes, datasets with theirs."""
+"""Prints the contents of a file as JSON, read by h5py: groups and datasets with attributes."""
 
 import json
 import sys

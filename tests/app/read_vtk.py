@@ -1,4 +1,4 @@
-"""Prints as JSON what VTK's own reader finds in a .vti file, or in those that a .pvd file lists."""
+"""Prints a .vti file, or all files of a .pvd file, as JSON, read by VTK's own reader."""
 
 import json
 import pathlib

@@ -11,27 +11,27 @@ namespace clatter {
 
 using testing::says;
 
-/// What a command line left: its exit code and what it wrote.
+/// The result of a command line: its exit code and its output.
 struct Outcome {
   int code = 0;
   std::string out;
   std::string err;
 };
 
-/// A folder of its own, gone afterwards, in which command lines run as a person types them; the
-/// program just built is `clatter` there.
+/// A temporary folder in which command lines run as in a terminal. `clatter` is the program of this
+/// build.
 class Shell {
  public:
   Shell();
 
-  /// Runs a line of POSIX shell, for so many seconds at most (exit code 124).
+  /// Runs a line of POSIX shell, for at most `seconds` (then exit code 124).
   Outcome run(const std::string& line, int seconds = 60) const;
 
   /// Writes a file into the folder.
   void write(const std::string& name, const std::string& text) const;
   /// The bytes of a file in the folder.
   std::string read(const std::string& name) const;
-  /// Where a file of the folder is.
+  /// The path of a file in the folder.
   std::filesystem::path path(const std::string& name) const { return folder_ / ("here/" + name); }
   /// The names in the folder, sorted.
   std::vector<std::string> files() const;
@@ -40,7 +40,7 @@ class Shell {
   testing::TemporaryFolder folder_;
 };
 
-/// Runs a line that must be refused: exit code 2, a message that holds all of `parts`, nothing on
+/// Runs a line that must fail as wrong use: exit code 2, a message with all of `parts`, an empty
 /// stdout and no file.
 void check_refused(const Shell& shell, const std::string& line,
                    const std::vector<std::string>& parts);

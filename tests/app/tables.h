@@ -9,9 +9,10 @@
 
 namespace clatter::testing {
 
-/// A table of a measurement: its columns by name, null for nan, and what its first line tells.
+/// A table of a measurement: its columns by name with null for nan, and the contents of its first
+/// line.
 struct Table {
-  std::string symbols;                       ///< what the letters in units stand for
+  std::string symbols;                       ///< meaning of the letters in units
   std::map<std::string, std::string> units;  ///< by column
   nlohmann::json columns;
 };

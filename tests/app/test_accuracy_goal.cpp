@@ -11,7 +11,7 @@ TEST_CASE("Accuracy goal: the error that counts rises as it did, and is relative
   CHECK(std::isinf(relative_error({.mean = 0.0, .standard_error = 0.1})));
 }
 
-TEST_CASE("Accuracy goal: each name of a mean is that of the result file") {
+TEST_CASE("Accuracy goal: the names of means are the names in the result file") {
   Measured measured;
   const auto number = [](double mean) { return Estimate{.mean = mean}; };
   measured.temperature = number(1.0);

@@ -1,4 +1,4 @@
-// What `clatter bench accuracy` found, in all the forms that it is written in.
+// The results of `clatter bench accuracy` in all output formats.
 
 #include <doctest/doctest.h>
 
@@ -21,7 +21,7 @@ using namespace testing;
 
 namespace {
 
-// No number is like another.
+// All numbers are different.
 AccuracyTable gas_table() {
   AccuracyRow row{.setting = "1e-3",
                   .value = 1e-3,
@@ -54,7 +54,7 @@ std::vector<std::string> words_of(const std::string& text, char gap) {
 
 }  // namespace
 
-TEST_CASE("Accuracy tables: each number of a setting stands under its own heading") {
+TEST_CASE("Accuracy tables: each number of a setting is under its own heading") {
   const std::vector<std::string> lines = words_of(accuracy_text(gas_table()), '\n');
   REQUIRE(lines.size() == 4);
   CHECK(lines[1] == "Contact time t_c");
@@ -178,7 +178,7 @@ TEST_CASE("Accuracy tables: a page gets them between its two lines, the starred 
   CHECK(page.ends_with("\n<!-- end of tables -->\nb\n"));
 }
 
-// Along y, between walls that are not alike.
+// Along y, between two different walls.
 TEST_CASE("Accuracy tables: a run's means are those that a measurement has") {
   Scene scene;
   scene.box = Vec2(9.0, 8.0);
@@ -219,7 +219,7 @@ TEST_CASE("Accuracy tables: a run's means are those that a measurement has") {
         doctest::Approx(0.5 * (measured.pressure[kBottom]->mean + measured.pressure[kTop]->mean)));
   CHECK(found.means[kStress] == doctest::Approx(mean(Field(Quantity::Stress, 1, 1))));
   CHECK(found.means[kDissipation] == doctest::Approx(mean(Quantity::Dissipation)));
-  // Sixty columns are compared, two to each.
+  // Sixty compared columns, two per column of the profile.
   for (std::size_t k = 0; k < 60; ++k) {
     CHECK(found.density[k] == column(Quantity::Density, k / 2));
     CHECK(found.heat_flux[k] == column(Field(Quantity::HeatFlux, 1), k / 2));
@@ -227,7 +227,7 @@ TEST_CASE("Accuracy tables: a run's means are those that a measurement has") {
 }
 
 TEST_CASE("Accuracy tables: biases are differences of runs of one seed, over the finest") {
-  // Two replicas each, whose numbers are a straight line.
+  // Two replicas each, with numbers on a straight line.
   std::vector<RunResult> reference(2), replicas(2);
   for (int r : {0, 1}) {
     for (int k = 0; k < kComparedMeans; ++k) {
@@ -254,7 +254,7 @@ TEST_CASE("Accuracy tables: biases are differences of runs of one seed, over the
 }
 
 TEST_CASE("Accuracy tables: a straight line is extrapolated to 0 by its errors") {
-  // Through (1, 5) and (3, 9): 3 at 0, with errors 1.5 * 0.1 and 0.5 * 0.2.
+  // A line through (1, 5) and (3, 9): 3 at 0, with errors 1.5 * 0.1 and 0.5 * 0.2.
   const Estimate found = extrapolate(
       {1.0, 3.0}, {{.mean = 5.0, .standard_error = 0.1}, {.mean = 9.0, .standard_error = 0.2}});
   CHECK(found.mean == doctest::Approx(3.0));

@@ -1,4 +1,4 @@
-// The balance equations of mass, momentum and energy, as a person asks for them.
+// The balance equations of mass, momentum and energy, from the command line.
 
 #include <doctest/doctest.h>
 
@@ -75,8 +75,8 @@ TEST_CASE("Balance: it continues from a checkpoint, or restarts where cells hold
   CHECK(json::parse(shell.read("r.json")).at("balance").at("energy") <= 1e-10);
 }
 
-// A lone disk far from all faces, to which nothing is booked but what gravity does: less than the
-// last digit of its velocity, or more.
+// A lone disk far from all faces: only gravity contributes, by less or more than the last digit of
+// its velocity.
 TEST_CASE("Balance: the equations close under a gravity too weak to change velocities") {
   const Shell shell;
   for (const std::string gravity : {"1e-20", "1e-17", "1e-13", "1e-10", "1e-7", "1e-3"}) {

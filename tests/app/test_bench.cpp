@@ -35,7 +35,7 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
   CHECK(table[8].at("estimator") == "balance");
   CHECK(table[8].at("cost") > 0.0);
   CHECK_FALSE(table[8].contains("variance"));
-  // Thirty snapshots know less than whole flights.
+  // Thirty snapshots have less information than complete flights.
   CHECK(table[1].at("variance") == table[2].at("variance"));
   CHECK(table[7].at("variance") > table[2].at("variance"));
 }
@@ -76,7 +76,7 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
   REQUIRE(contact_time.size() == 7);
   CHECK(contact_time[0].at("setting") == "off");
   CHECK(contact_time[0].at("elasticised_share").is_null());
-  // The finest t_c is none. 8 runs: 7 standard errors of as few as that happen once in 5000
+  // The finest t_c is none. With 8 runs, a deviation of 7 standard errors occurs once in 5000
   // numbers.
   CHECK(contact_time[1].at("bias").size() == 6);
   for (const auto& [quantity, off] : contact_time[1].at("bias").items()) {
@@ -117,14 +117,14 @@ TEST_CASE("Bench: a time-stepped gas is exact only in the limit of short steps")
   const json& steps = dial_of(table, "time_step");
   CHECK(steps[0].at("deepest_overlap") < 1e-12);
   for (std::size_t k = 1; k < steps.size(); ++k) {
-    // Bounces of elastic disks conserve their energy at any step.
+    // Collisions of elastic disks conserve energy at any time step.
     CHECK(std::fabs(bias(steps[k], "temperature")) < 1e-9);
     CHECK(steps[k].at("deepest_overlap") > steps[k - 1].at("deepest_overlap"));
-    // The error leaves out dissipation: the exact gas has none.
+    // The error excludes dissipation, which is zero in the exact gas.
     CHECK(steps[k].at("error").is_number());
   }
   CHECK_FALSE(says(outcome.out, "inf"));
-  // 8 runs, as above, and the remaining error at dt = 0.001 and 0.003.
+  // 8 runs, as above, plus the remaining error at dt = 0.001 and 0.003.
   CHECK(std::fabs(bias(steps[2], "pressure")) < 7.0 * error(steps[2], "pressure") + 0.02);
   CHECK(std::fabs(bias(steps[2], "stress")) < 7.0 * error(steps[2], "stress") + 0.02);
   CHECK(bias(steps[6], "stress") < -0.1);

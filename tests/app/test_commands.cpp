@@ -35,7 +35,7 @@ TEST_CASE("Commands: check prints a scene that it prints again unchanged") {
   }
 }
 
-TEST_CASE("Commands: check says what a scene models, what not, and how much it computes") {
+TEST_CASE("Commands: check prints the used and unused features of a scene, and its cost") {
   const Shell shell;
   const std::string plain = shell.run("clatter check cooling").err;
   CAPTURE(plain);
@@ -59,8 +59,8 @@ TEST_CASE("Commands: check says what a scene models, what not, and how much it c
   CHECK(std::regex_search(all, std::regex("\n  gravity +0 +x1.15  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  bulk drive +0 +x[0-9.]+  yes\n")));
   CHECK(std::regex_search(all, std::regex("\n  t_c +8 +x1  yes\n")));
-  // Three numbers for each of 100 cells in 66 windows, and in 65 maps; and for each of 10 columns
-  // in 1000 windows.
+  // Three numbers for each of 100 cells in 66 windows, and in 65 maps. Also three for each of 10
+  // columns in 1000 windows.
   CHECK(std::regex_search(all, std::regex("\n  fields +5544 +x1.4  density, velocity\n")));
 }
 

@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-// The candidates that bash offers for the last of these words.
+// The candidates of bash for the last of these words.
 std::vector<std::string> candidates(const Shell& shell, const std::string& words) {
   shell.write("complete.bash",
               "source <(clatter completions bash)\n"
@@ -82,7 +82,8 @@ TEST_CASE("Completions: every command has the scripts of zsh and fish") {
     CHECK(says(zsh, "_clatter_" + command + "() {"));
     CHECK(says(fish, "'__clatter_command_is' -a " + command + " "));
   }
-  check_refused(shell, "clatter completions csh", {"'csh' is none of bash, zsh, fish"});
+  check_refused(shell, "clatter completions csh",
+                {"'csh' is unknown; give one of bash, zsh, fish"});
 }
 
 }  // namespace clatter

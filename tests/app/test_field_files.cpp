@@ -1,5 +1,4 @@
-// Files of fields, as the readers of those who use them find them: VTK's own, which is ParaView's,
-// and h5py.
+// Files of fields, read by VTK's own reader (as in ParaView) and by h5py.
 
 #include <doctest/doctest.h>
 
@@ -17,7 +16,7 @@ using namespace testing;
 
 namespace {
 
-// Vectors, tensors, scalars, and what spins, on cells of unequal edges. In so short a time some
+// Vectors, tensors, scalars and spin fields, on cells with unequal edges. In this short time some
 // cells are never visited.
 const std::string kMeasure =
     "clatter measure vibrated --quiet --set measure.burn_in=20 --until 22 "
@@ -28,7 +27,7 @@ constexpr int kColumns = 40, kRows = 20;
 
 json read(const Shell& shell, const std::string& reader, const std::string& file) {
   const Outcome outcome = shell.run(CLATTER_READERS + reader + " " + file);
-  CAPTURE(outcome.err);  // where a module is missing: ./run test installs it
+  CAPTURE(outcome.err);  // names a missing module, which ./run test installs
   REQUIRE(outcome.code == 0);
   return json::parse(outcome.out);
 }
@@ -47,7 +46,7 @@ json flat(const json& rows) {
   return values;
 }
 
-// Averages over y of a map without gaps agree with the profile along x of the same field.
+// Averages over y of a map without gaps agree with the profile of the same field along x.
 void check_columns(const json& map, const json& profile) {
   REQUIRE(map.size() == kColumns * kRows);
   REQUIRE(profile.size() == kColumns);
@@ -158,7 +157,7 @@ TEST_CASE("Field files: a series of maps replaces a longer one, and leaves the f
       "clatter measure vibrated --quiet --set measure.burn_in=0 --until 5.2 --out r.json "
       "--vtk maps --set measure.series_interval=0.01 --set measure.fields=";
   SUBCASE("of more parts") {
-    // Of 520 windows, 16 to a part.
+    // 520 windows, 16 per part.
     REQUIRE(shell.run(line + "'[\"density\"]'").code == 0);
     CHECK(read(shell, "read_vtk.py", "maps/series.pvd").size() == 33);
     CHECK(shell.run("cd maps; ls | tail -n 3").out ==

@@ -1,4 +1,4 @@
-// Films that are cut and taken up again, and films made in parts, as a person makes them.
+// Films that are interrupted and resumed, and films made in parts, with the command line.
 
 #include <doctest/doctest.h>
 
@@ -11,8 +11,8 @@ namespace clatter {
 
 namespace {
 
-// 150 frames of a gas, blurred and with trails, under a heatmap with automatic ranges, one of whose
-// walls swings wider later, so that a camera would show more; this one goes to a disk.
+// 150 frames with motion blur and trails over a heatmap with automatic ranges. The stroke of one
+// wall grows later, so that an automatic camera would show more. The camera follows a disk.
 const std::string kFilm =
     "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --shutter 0.7 --to 15 ";
 
@@ -27,7 +27,7 @@ void write_scene(const Shell& shell) {
               "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }
 
-// A line that lists the pixels of each frame of a film, or of the pictures of a folder.
+// One line per frame of a film, or per picture of a folder, with a hash of its pixels.
 std::string hashes(const Shell& shell, const std::string& input) {
   return shell
       .run("ffmpeg -v error " + input +
@@ -35,7 +35,7 @@ std::string hashes(const Shell& shell, const std::string& input) {
       .out;
 }
 
-// Films until the second piece has begun; then `act` is done to the run, which is $pid.
+// Films until the second piece has begun, then applies `act` to the run $pid.
 Outcome film_into_second_piece(const Shell& shell, const std::string& act,
                                const std::string& flags = "") {
   return shell.run(
@@ -61,8 +61,8 @@ TEST_CASE(
   const std::string whole = hashes(shell, "-i whole.mkv");
   CHECK(std::ranges::count(whole, '\n') == 150);
 
-  // The first and the last by themselves, the second with a checkpoint, from which the third goes
-  // on.
+  // The first and the last part are separate runs. The second writes a checkpoint, from which the
+  // third continues.
   for (const std::string part :
        {"--frames 0:37 --out frames", "--frames 37:80 --out frames --checkpoint c",
         "--frames 90:120 --out frames --resume c", "--frames 80:90 --out frames --resume c",
@@ -88,7 +88,7 @@ TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses
   REQUIRE(shell.run(kFilm + "--out whole.mp4").code == 0);
   REQUIRE(shell.run(kFilm + "--frames 0:60 --out film --checkpoint c").code == 0);
   const std::string on = "clatter render scene.toml --quiet --resume c ";
-  check_refused(shell, on + "--out film --fps 20", {"--fps", "the film that goes on has 10"});
+  check_refused(shell, on + "--out film --fps 20", {"--fps", "the film of the checkpoint has 10"});
   check_refused(shell, on + "--out film --size 320x240", {"--size", "160x120"});
   check_refused(shell, on + "--out film --speed 2", {"--speed"});
   check_refused(shell, on + "--out film --shutter 0.2", {"--shutter", "has 0.7"});
@@ -102,7 +102,7 @@ TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses
   check_refused(shell, on + "--out other.mp4", {"other.mp4", "000000.mp4", "--frames 60:"});
   CHECK(shell.run(on + "--out film").code == 0);
   CHECK(shell.run("ls film | wc -l").out == "150\n");
-  // Another beginning is another film.
+  // Another start time begins another film.
   CHECK(shell.run(on + "--from 7 --to 7.2 --out other.mp4").code == 0);
 }
 
@@ -116,14 +116,14 @@ TEST_CASE(
   CAPTURE(killed.err);
   CHECK(killed.code == 1);
   CHECK(says(killed.err,
-             "Killed; earlier pictures are in film.mp4.part; go on with --resume "
+             "Killed; earlier pictures are in film.mp4.part; continue with --resume "
              "film.checkpoint"));
   CHECK(hashes(shell, "-i film.mp4.part/000000.mp4").size() == 60 * 33);
   check_refused(shell, kFilm + "--out film.mp4", {"film.mp4.part", "--resume", "--overwrite"});
   check_goes_on_to_whole(shell);
 }
 
-// The first run's encoder opens its file only when the second has filmed the same frames.
+// The first run's encoder opens its file only after the second run has filmed the same frames.
 TEST_CASE(
     "Film parts: an encoder that outlives a killed run does not touch the film made after it") {
   const Shell shell;
@@ -160,7 +160,7 @@ TEST_CASE("Film parts: a film whose encoder is ended with it plays, and can be r
 
 TEST_SUITE_BEGIN("slow");
 
-// Instants drawn from the film's usual time, seed 6; some fall before the first frame.
+// Random times within the usual duration of the film, seed 6. Some precede the first frame.
 TEST_CASE("Film parts: a film interrupted or killed at any time is resumed to the same bytes") {
   const Shell shell;
   write_scene(shell);
@@ -181,7 +181,7 @@ TEST_CASE("Film parts: a film interrupted or killed at any time is resumed to th
               .code;
       CHECK((code == 0 || code == 130 || code == 137));
       const std::string compare = "diff -r " + out + " kept";
-      // One that is killed at once has no checkpoint yet, one that is killed last is whole.
+      // A run killed at once has no checkpoint yet. A run killed late is complete.
       if (code != 0 && shell.run(compare).code != 0) {
         const bool kept = std::ranges::count(shell.files(), "c") > 0;
         const Outcome outcome = shell.run(line + (kept ? "--resume c" : "--overwrite"));

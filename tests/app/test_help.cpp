@@ -20,7 +20,7 @@ TEST_CASE("Help: a page without the table of a key is refused") {
   const Shell shell;
   shell.write("page.md", "# Keys\n");
   check_refused(shell, "clatter help keys --markdown page.md",
-                {"page.md has no place for the keys of the scene"});
+                {"page.md has no part for the keys of the scene"});
 }
 
 TEST_CASE("Help: a key is printed with its unit, default, values and conditions") {

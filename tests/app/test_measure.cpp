@@ -86,7 +86,7 @@ TEST_CASE("Measure: it prints one JSON object, with everything that the scene ha
   CHECK(result.at("performance").at("peak_memory_bytes") > 1'000'000);
 }
 
-TEST_CASE("Measure: a result has only what its scene has") {
+TEST_CASE("Measure: a result has only the parts of its scene") {
   const Shell shell;
   const json cooling =
       json::parse(shell.run("clatter measure cooling --until 5 --set measure.fields=[]").out);
@@ -106,12 +106,12 @@ TEST_CASE("Measure: the result has the predictions of theory for a gas in a peri
     REQUIRE(outcome.code == 0);
     return json::parse(outcome.out).at("theory");
   };
-  // Evaluated outside of this program: 1011 disks in 63 x 63 with alpha = .95 (theory 6).
+  // Independently computed: 1011 disks in 63 x 63 with alpha = .95 (theory 6).
   const json cooling = theory("cooling");
   CHECK(cooling.size() == 3);
   CHECK(cooling.at("compressibility").get<double>() == doctest::Approx(1.5562883561));
   CHECK(cooling.at("haff_rate").get<double>() == doctest::Approx(0.0313852095953));
-  // alpha = .9, beta = .3, q = 1/2: by bisection of the energies that collisions pass on.
+  // alpha = .9, beta = .3, q = 1/2: by bisection of the energy transfers in collisions.
   CHECK(theory("rough_cooling").at("temperature_ratio").get<double>() ==
         doctest::Approx(0.652744303614));
 
@@ -123,7 +123,7 @@ TEST_CASE("Measure: the result has the predictions of theory for a gas in a peri
   CHECK(driven.at("temperature_ratio").get<double>() == doctest::Approx(0.25 / (1.0 - 0.5)));
   CHECK_FALSE(theory("equilibrium --set particles.restitution=1 "
                      "--set 'bulk_drive={interval=1,kick_speed=1}' --set measure.burn_in=0")
-                  .contains("temperature_driven"));  // nothing dissipates
+                  .contains("temperature_driven"));  // no dissipation
   CHECK_FALSE(theory("vibrated --set measure.burn_in=0").contains("compressibility"));
 }
 
@@ -223,7 +223,7 @@ TEST_CASE("Measure: profiles have every field that was asked for, and no other")
       "--set measure.kernel=gaussian --set measure.width=2.5");
   double disks = 0.0;
   for (const json& density : snapshots.at("density")) disks += density.get<double>() * 50.0;
-  CHECK(disks < 200.0);  // some lies beyond the walls
+  CHECK(disks < 200.0);  // the remaining density is behind the walls
   CHECK(disks > 150.0);
 }
 
@@ -238,7 +238,7 @@ TEST_CASE("Measure: a run can start from a saved state") {
       "box.size = [20, 25]\nparticles.start = { layout = 'file', file = 'start.csv' }\n"
       "walls.left = { kind = 'driven', drive_speed = 1 }\nwalls.right = { kind = 'static' }\n"
       "measure.burn_in = 0\n");
-  // So short a run moves no disk by as much as the last bit.
+  // The run is so short that no position changes by even the last bit.
   const std::string instant = " --quiet --until 1e-300 --save-state again.csv";
   for (const std::string scene : {"from/s.toml",
                                   "vibrated --set measure.burn_in=0 --set "
@@ -259,7 +259,7 @@ TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is adv
   const Outcome frozen = shell.run(
       "clatter measure cooling --set collapse.contact_time=100 --set measure.burn_in=1 --until 20");
   CHECK(frozen.code == 0);
-  CHECK(says(frozen.err, "a smaller one, say "));
+  CHECK(says(frozen.err, "a smaller value, for example "));
   shell.write("pile.toml",
               "box.size = [10, 20]\nparticles = { count = 20, restitution = 0.5 }\n"
               "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
@@ -267,10 +267,10 @@ TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is adv
               "collapse.contact_time = 1e-2\nmeasure.burn_in = 20\n");
   const Outcome resting = shell.run("clatter measure pile.toml --until 40");
   CHECK(resting.code == 0);
-  CHECK(says(resting.err, "a larger one, say 0.1, would run faster"));
+  CHECK(says(resting.err, "a larger value, for example 0.1, makes the run faster"));
 }
 
-TEST_CASE("Measure: an interrupted measurement keeps what it has") {
+TEST_CASE("Measure: an interrupted measurement keeps its results so far") {
   const Shell shell;
   const std::string interrupted = "timeout --preserve-status -s INT 3 clatter measure vibrated ";
   SUBCASE("while it averages") {
@@ -313,7 +313,7 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   CHECK(reached >= temperature.at("standard_error").get<double>() / mean(temperature));
   const double measured = result.at("time").at("measured");
   CHECK(measured >= 256.0);
-  CHECK(measured < 2000.0);  // the scene's duration
+  CHECK(measured < 2000.0);  // the duration of the scene
   CHECK(says(enough.err, "note: temperature = "));
 
   const Outcome more = shell.run(line + "--accuracy 0.01 --accuracy-of pressure.left --until 800");
@@ -326,14 +326,14 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   CHECK(late.at("accuracy").at("of") == "pressure.left");
   double told_mean = 0.0, told_error = 0.0, time = 0.0, aim = 0.0, end = 0.0;
   REQUIRE(std::sscanf(more.err.substr(more.err.find("note: pressure")).c_str(),
-                      "note: pressure.left = %lf, known within %lf %% after %lf time units; for "
-                      "%lf %% the run would end about t = %lf: give that to --until",
+                      "note: pressure.left = %lf, relative error %lf %% after %lf time units; for "
+                      "%lf %%, give about --until %lf",
                       &told_mean, &told_error, &time, &aim, &end) == 5);
   CHECK(told_mean == doctest::Approx(mean(late.at("pressure").at("left"))).epsilon(1e-5));
   CHECK(told_error == doctest::Approx(100.0 * known).epsilon(0.01));
   CHECK(time == doctest::Approx(300.0));
   CHECK(aim == 1.0);
-  // The error falls with the root of the time after the burn-in.
+  // The error falls with the square root of the time after the burn-in.
   CHECK(end == doctest::Approx(500.0 + 300.0 * std::pow(known / 0.01, 2.0)).epsilon(0.05));
 
   check_refused(shell, line + "--accuracy 1% --accuracy-of pressure.top",
@@ -355,7 +355,7 @@ TEST_CASE("Measure: replicas measured at once have the numbers of those measured
     one.erase("performance");
     CHECK(all.at("results")[k] == one);
   }
-  // Every mean is one over the replicas, whose scatter is its error.
+  // Each mean is an average over the replicas, and their scatter gives its error.
   const json flat = all.at("results")[0].flatten();
   std::size_t means = 0;
   for (const auto& [place, value] : flat.items()) {
@@ -380,8 +380,8 @@ TEST_CASE("Measure: replicas measured at once have the numbers of those measured
   check_refused(shell, line + "--replicas 2 --checkpoint c", {"--replicas", "--checkpoint"});
 }
 
-// At alpha = 0.9975 disks lose what walls give to a gas as dense everywhere, but not what they give
-// to one that is denser at the walls.
+// At alpha = 0.9975 the dissipation balances the walls' energy for a gas of uniform density. It
+// does not for a gas that is denser at the walls.
 TEST_CASE("Measure: theory has no temperature for a gas that its walls heat without bound") {
   const Shell shell;
   const auto theory = [&](const std::string& settings) {
@@ -397,12 +397,12 @@ TEST_CASE("Measure: theory has no temperature for a gas that its walls heat with
   CHECK(layered.at("epsilon_effective") > 0.0);
   CHECK(layered.contains("temperature_refined"));
   CHECK_FALSE(layered.contains("temperature_corrected"));
-  // No gravity is none that acts.
+  // Zero gravity is equivalent to no gravity.
   CHECK(theory("--set gravity.acceleration=[0,0]").contains("psi"));
   CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
 }
 
-// Seed 7 gets through, seed 8 collapses. Were all that follow run, too, it would take hours.
+// Seed 7 finishes, seed 8 collapses. All later seeds together would take hours.
 TEST_CASE("Measure: where replicas stop, the first seed is named, and no more are run") {
   const Shell shell;
   for (const std::string replicas : {"2", "100000"}) {
@@ -462,7 +462,7 @@ TEST_CASE("Measure: check predicts the memory that a measurement takes") {
     const double megabytes = std::stod(told.substr(told.find(memory) + memory.size()));
     REQUIRE(shell.run("clatter measure --quiet --out r.json" + rest).code == 0);
     const double peak = json::parse(shell.read("r.json")).at("performance").at("peak_memory_bytes");
-    // There may be half as many parts of the run as there may be at most.
+    // The number of parts of the run may be half of its maximum.
     CHECK(1e6 * megabytes < 1.5 * peak);
     CHECK(1e6 * megabytes > 0.7 * peak);
   }

@@ -1,4 +1,4 @@
-// What the panels of the window write and set: each name with the value of its own key.
+// The texts and the settings of the window's panels: each name with the value of its own key.
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ using testing::says;
 
 namespace {
 
-// Every slider has another number.
+// All sliders have different values.
 Scene uneven_scene() {
   Scene scene;
   scene.box = Vec2(19.0, 23.0);
@@ -62,7 +62,7 @@ void all_panels(Session& session, Controls& controls) {
   accuracy_panel(session, controls);
 }
 
-// What the panels have made of the scene: values by their places in a scene file.
+// The scene as changed by the panels: values by their positions in a scene file.
 json settings(const PanelDriver& driver) {
   Scene scene = driver.session().scene();
   scene.view = driver.session().view();
@@ -84,12 +84,12 @@ using Places = std::vector<std::string>;
 
 struct SliderMeaning {
   const char* key;
-  const char* place;  // in the scene
+  const char* place;  // position in the scene
   double low, high;
-  const char* line;  // with its value, as the scene is opened
-  const char* help;  // a part of it
+  const char* line;  // with its value when the scene is opened
+  const char* help;  // a part of the help text
   bool logarithmic = false;
-  std::size_t number = 0;  // of those under one key
+  std::size_t number = 0;  // among widgets with the same key
 };
 
 const std::vector<SliderMeaning> kSliders = {
@@ -132,7 +132,7 @@ std::string text_of(PanelDriver& driver) {
   return text;
 }
 
-// The word of a line that is a number.
+// The number in a line, as a word.
 std::string number_in(const std::string& line) {
   std::istringstream words(line);
   for (std::string word; words >> word;) {
@@ -143,7 +143,7 @@ std::string number_in(const std::string& line) {
   return "none";
 }
 
-// Opens a list and chooses a word of it.
+// Opens a list and selects an item.
 void choose(PanelDriver& driver, const std::string& key, const std::string& word) {
   for (const std::string& widget : {key, key + '.' + word}) {
     const auto [x, y, width, height] = driver.place(widget);
@@ -165,7 +165,7 @@ void check_lines(const std::vector<std::string>& lines, const std::vector<std::s
 
 }  // namespace
 
-TEST_CASE("Panels: every name stands beside the value of its own key, in its unit") {
+TEST_CASE("Panels: every name is beside the value of its own key, in its unit") {
   PanelDriver driver(uneven_scene(), all_panels);
   check_lines(driver.lines(), {"### Gas ###",
                                "Disks N 14",
@@ -267,13 +267,13 @@ TEST_CASE("Panels: every slider sets the value of its own key, within its range,
       CHECK(std::fabs(value - slider.low - 0.75 * (slider.high - slider.low)) <
             0.02 * (slider.high - slider.low));
     }
-    // While the mouse is on it, its help and the value that the scene was opened with.
+    // While the mouse is over it: its help, and the value from the opening of the scene.
     const std::string told = text_of(driver);
     CHECK(says(told, slider.help));
     CHECK(says(told, "Here: " + number_in(slider.line)));
     CHECK_FALSE(says(told, slider.line));
 
-    // The round arrow above its right end.
+    // The round reset arrow above its right end.
     driver.click(x + width - 7.0f, y - 10.0f);
     CHECK(changes(before, settings(driver)).empty());
   }
@@ -312,7 +312,7 @@ TEST_CASE("Panels: every word of a list sets its own key to itself") {
   }
 }
 
-TEST_CASE("Panels: lists take away what their first word says") {
+TEST_CASE("Panels: the first item of a list removes the feature") {
   PanelDriver driver(uneven_scene(), all_panels);
   const json before = settings(driver);
   choose(driver, "view.arrows", "none");
@@ -321,7 +321,7 @@ TEST_CASE("Panels: lists take away what their first word says") {
   CHECK_FALSE(settings(driver).contains("/view/field_palette"));
   choose(driver, "view.field", "none");
   CHECK_FALSE(settings(driver).contains("/view/field"));
-  // Periodic goes with the side opposite.
+  // The opposite side becomes periodic too.
   choose(driver, "walls.bottom", "periodic");
   CHECK_FALSE(settings(driver).contains("/walls/bottom/kind"));
   CHECK_FALSE(settings(driver).contains("/walls/top/kind"));
@@ -379,7 +379,7 @@ TEST_CASE("Panels: spins go with their keys, and come back with the numbers that
         Places{"/particles/friction", "/particles/tangential_restitution"});
 }
 
-TEST_CASE("Panels: what is switched on starts with the usual numbers") {
+TEST_CASE("Panels: a feature starts with its usual numbers when switched on") {
   Scene scene = uneven_scene();
   scene.particles.roughness = {};
   scene.contact_time.reset();
@@ -409,12 +409,12 @@ TEST_CASE("Panels: a number of disks is set once its slider is let go") {
   const auto [x, y, width, height] = driver.place("particles.count");
   driver.drag(x + 0.5f * width, y + 0.5f * height, x + 0.75f * width);
   CHECK(changes(before, settings(driver)) == Places{"/particles/count"});
-  // Over the most that there is room for, logarithmically.
+  // Logarithmic, up to the largest number that fits.
   CHECK(settings(driver).at("/particles/count") > 80);
   CHECK(settings(driver).at("/particles/count") < 110);
 }
 
-TEST_CASE("Panels: a picked disk tells its own state, and what it has hit and will hit") {
+TEST_CASE("Panels: a picked disk shows its state, its last and its next collision") {
   Frame frame;
   frame.snapshot.positions.resize(2, 3);
   frame.snapshot.positions << 1.25, 2.5, 3.75, 4.125, 5.25, 6.5;
@@ -435,7 +435,7 @@ TEST_CASE("Panels: a picked disk tells its own state, and what it has hit and wi
   CHECK(driver.lines().back() == "followed; Esc lets go");
 }
 
-TEST_CASE("Panels: the bar above tells the time and sets the speed by steps of the root of 2") {
+TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of the root of 2") {
   Scene scene = uneven_scene();
   scene.title = "Uneven";
   scene.view.speed = 2.0;
@@ -460,13 +460,13 @@ TEST_CASE("Panels: the bar above tells the time and sets the speed by steps of t
   CHECK(says(text_of(driver), "2.83 /s"));
   click("slower");
   driver.wait_for(speed_is(2.0));
-  // A frame is a sixtieth of a second.
+  // A frame lasts 1/60 s.
   for (int k = 1; k <= 3; ++k) {
     click("frame");
     driver.wait_for(
         [&](const Frame& frame) { return std::fabs(frame.snapshot.time - k * 2.0 / 60.0) < 1e-9; });
   }
-  driver.point_at(0.0f, 3000.0f);  // away from buttons, whose help would end the text
+  driver.point_at(0.0f, 3000.0f);  // away from buttons, whose help would be the last text
   CHECK(says(text_of(driver), "t = 0.10"));
   click("plots");
   CHECK(shown.plots);

@@ -1,4 +1,4 @@
-// What the window plots: curves with their names and units, also where there is nothing to plot.
+// The plots of the window: curves with names and units, also without data.
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,7 @@ void check_finite(const LivePlot& plot) {
   }
 }
 
-// As far as it gets: a wall of temperature 0 lets no disk go.
+// Runs as far as possible: a wall of temperature 0 keeps the disks.
 void go_on(WatchedRun& run, double time) {
   try {
     run.run_until(time, kNoLimit, kNoLimit);
@@ -38,8 +38,8 @@ void go_on(WatchedRun& run, double time) {
   }
 }
 
-// A gas that its walls drive, and two frames of it: what the sums gained between them is each
-// another number.
+// A gas with driven walls, and two frames of it. The sums gain different numbers between the
+// frames.
 struct TwoFrames {
   TwoFrames() {
     scene->box = Vec2(13.0, 11.0);
@@ -64,7 +64,8 @@ struct TwoFrames {
     end.snapshot.time = 12.0;
     end.ledger_residual = -3e-15;
     end.deepest_overlap = 4e-13;
-    // Each component's standard deviation is 2, of the one with two signs, of the other with one.
+    // The standard deviation of each component is 2, from values with two signs, and from values
+    // with one sign.
     end.snapshot.positions = Vectors::Zero(2, 4);
     end.snapshot.velocities.resize(2, 4);
     end.snapshot.velocities << 2.0, 2.0, 2.0, -2.0, 0.0, 0.0, 0.0, 4.0;
@@ -102,7 +103,7 @@ const Curve& curve_of(const LivePlot& plot, const std::string& name) {
   return plot.curves.front();
 }
 
-// Where a plot's curve is at the end.
+// The end point of a plot's curve.
 void check_last(const LivePlot& plot, const std::string& name, double x, double y) {
   CAPTURE(name);
   const Vec2 last = curve_of(plot, name).points.back();
@@ -112,14 +113,14 @@ void check_last(const LivePlot& plot, const std::string& name, double x, double 
 
 }  // namespace
 
-TEST_CASE("Plots: curves over time are what was gained since the frame before, under its name") {
+TEST_CASE("Plots: curves over time are gains since the previous frame, with their names") {
   const TwoFrames frames;
   const LivePlot temperature = frames.plot("Temperature");
   check_axes(temperature, "time t", "m a²/t²", false, false);
   check_last(temperature, "T_x", 11.0, 3.0);
   check_last(temperature, "T_y", 11.0, 5.0);
   check_last(temperature, "T", 11.0, 4.0);
-  // Theory's levels reach over the whole time.
+  // The levels of the theory extend over the whole time.
   const nlohmann::json theory = theory_json(*frames.scene);
   for (const std::string name : {"simple", "refined", "corrected"}) {
     const Curve& curve = curve_of(temperature, name);
@@ -145,7 +146,7 @@ TEST_CASE("Plots: curves over time are what was gained since the frame before, u
   CHECK(residuals.curves.size() == 2);
 }
 
-TEST_CASE("Plots: a sample has what was gained under its own name, and the size of residuals") {
+TEST_CASE("Plots: a sample has each gain under its own name, and the size of residuals") {
   const TwoFrames frames;
   REQUIRE(frames.history.samples().size() == 2);
   const Sample& sample = frames.history.samples()[1];
@@ -164,7 +165,7 @@ TEST_CASE("Plots: where samples become too many, two are joined to their mean or
   History history;
   Frame frame = frames.begin;
   frame.speed = 0.0;
-  // Sums of sums, so that sample k has k times as much as the first.
+  // Sample k of these cumulative sums is k times the first.
   for (int k = 1; k <= 1201; ++k) {
     frame.tally.time = frame.snapshot.time = k;
     const double sum = 0.5 * k * (k + 1);
@@ -173,7 +174,7 @@ TEST_CASE("Plots: where samples become too many, two are joined to their mean or
     frame.tally.bulk_in = 4.0 * sum;
     frame.tally.gravity_in = 5.0 * sum;
     frame.tally.dissipated = 6.0 * sum;
-    // The larger is the first of a pair's, or the second.
+    // The larger residual is the first or the second of a pair.
     frame.ledger_residual = k % 2 ? 7.0 + k : k;
     frame.deepest_overlap = k % 2 ? k : 8.0 + k;
     history.add(frame);
@@ -232,10 +233,10 @@ TEST_CASE("Plots: Fig. 3.1 has the gas among the curves of theory, over 1/(eps p
   const LivePlot plot = frames.plot("Fig. 3.1");
   check_axes(plot, "1/(ε ψ)", "T/(m v_dr²)", true, true);
   const double psi = theory_json(*frames.scene).at("psi"), epsilon = 1.0 - 0.85 * 0.85;
-  // The later half of two samples is the second.
+  // The second half of two samples is the second sample.
   check_last(plot, "this gas", 1.0 / (epsilon * psi), 4.0 / (1.7 * 1.7));
   CHECK(curve_of(plot, "this gas").as_point);
-  // At the curves' left end disks keep no normal velocity: eps = 1.
+  // At the left end of the curves disks lose all normal velocity: eps = 1.
   Scene sticky = *frames.scene;
   sticky.particles.restitution = 0.0;
   const nlohmann::json theory = theory_json(sticky);
@@ -340,7 +341,7 @@ TEST_CASE("Plots: the copied numbers of a plot are its curves, a table each") {
   CHECK(csv_of(plot) == "x in a,one,standard error\n1,2,0.5\n3,4,0.25\n\nx in a,Title\n5,6\n\n");
 }
 
-TEST_CASE("Plots: axes hold what they show, with room above, or from decade to decade") {
+TEST_CASE("Plots: axes contain their curves with a margin above, or go from decade to decade") {
   LivePlot plot{"", "", false, false, {{"", {}, {{-1.0, 2.0}, {3.0, 20.0}}}}, ""};
   auto [x, y] = scales_of(plot);
   CHECK(x.low == -1.0);
@@ -359,7 +360,7 @@ TEST_CASE("Plots: axes hold what they show, with room above, or from decade to d
   CHECK(logarithmic.place(100.0) == doctest::Approx(2.0));
 }
 
-// Draws a plot without a window, and reads what stands in it.
+// Draws a plot without a window, and reads its texts.
 class DrawnPlot {
  public:
   explicit DrawnPlot(const LivePlot& plot) {
@@ -382,7 +383,7 @@ class DrawnPlot {
     }
   }
 
-  // The middle of what has that colour, but for the legend above.
+  // The centre of all marks of this colour, without the legend.
   Vec2 mark() const {
     ImVec2 low(1e9f, 1e9f), high(0.0f, 0.0f);
     for (const ImVec2& place : marks_) {
@@ -413,7 +414,7 @@ class DrawnPlot {
   std::vector<ImVec2> marks_;
 };
 
-TEST_CASE("Plots: numbers at the axes are those of the places where they stand") {
+TEST_CASE("Plots: numbers at the axes have the values of their positions") {
   LivePlot plot{"Title", "the x axis", false, false, {}, "unit of y"};
   plot.curves = {{"mark", DrawnPlot::kMarked, {{3.0, 50.0}}, false, true},
                  {"line", {1, 2, 3}, {{0.0, 0.0}, {4.0, 100.0}}}};
@@ -422,12 +423,12 @@ TEST_CASE("Plots: numbers at the axes are those of the places where they stand")
     CAPTURE(text);
     CHECK(drawn.has(text));
   }
-  // A mark at x = 3 and y = 50, three quarters of the way along x.
+  // A mark at x = 3 and y = 50, at three quarters of the x axis.
   CHECK(drawn.mark().x() == doctest::Approx(drawn.text("3").middle_x()).epsilon(0.01));
   CHECK(drawn.mark().y() == doctest::Approx(drawn.text("50").middle_y()).epsilon(0.01));
   CHECK(drawn.text("1").middle_x() < drawn.text("3").middle_x());
   CHECK(drawn.text("100").middle_y() < drawn.text("50").middle_y());
-  // The name of x stands below its numbers, those of y left of the marks.
+  // The name of x is below its numbers. The numbers of y are to the left of the marks.
   CHECK(drawn.text("the x axis").top > drawn.text("3").bottom - 1.0f);
   CHECK(drawn.text("50").right < drawn.text("1").left);
   CHECK(drawn.text("Title").right < drawn.text("unit of y").left);

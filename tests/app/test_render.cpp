@@ -10,7 +10,7 @@ using Files = std::vector<std::string>;
 
 static const std::string kRender = "clatter render vibrated --size 160x120 --quiet ";
 
-// Width, height and number of decoded pictures, as ffprobe sees them.
+// Width, height and number of decoded pictures, from ffprobe.
 static std::string probe(const Shell& shell, const std::string& file) {
   return shell
       .run(
@@ -20,7 +20,7 @@ static std::string probe(const Shell& shell, const std::string& file) {
       .out;
 }
 
-// The pixels of a picture, as a hash of what ffmpeg decodes.
+// The pixels of a picture, as a hash of the decoded data of ffmpeg.
 static std::string pixels_of(const Shell& shell, const std::string& file) {
   return shell.run("ffmpeg -v error -i " + file + " -f md5 -").out;
 }
@@ -65,8 +65,7 @@ TEST_CASE("Render: a picture has the size asked for and says which scene and see
   CHECK(shell.files() == Files{"picture.png"});
 }
 
-TEST_CASE(
-    "Render: pictures and films say which scene, seed and state they show, and what drew them") {
+TEST_CASE("Render: pictures and films contain their scene, seed, state and program") {
   const Shell shell;
   const Outcome measured = shell.run(
       "clatter measure vibrated --seed 5 --set measure.burn_in=0 --until 2 --quiet | "
@@ -96,13 +95,13 @@ TEST_CASE("Render: a picture holds the scene and seed to draw it again") {
   shell.run(kRender + "--to 1 --seed 7 --set particles.count=50 --out a.png");
   REQUIRE(shell.run("clatter render a.png --size 160x120 --quiet --to 1 --out b.png").code == 0);
   CHECK(shell.read("a.png") == shell.read("b.png"));
-  // What is said on the command line goes before.
+  // The command line overrides the picture.
   CHECK(shell.run("clatter render a.png --size 160x120 --quiet --to 1 --seed 8 --out b.png").code ==
         0);
   CHECK(says(shell.read("b.png"), std::string("Seed\0\0\0\0\0", 9) + "8"));
   CHECK(pixels_of(shell, "a.png") != pixels_of(shell, "b.png"));
   CHECK(says(shell.run("clatter check a.png --set particles.count=51").out, "count = 51"));
-  // A picture from elsewhere.
+  // A picture of another program.
   shell.run("ffmpeg -v error -f lavfi -i color -frames:v 1 other.png");
   const Outcome other = shell.run("clatter check other.png");
   CHECK(other.code == 2);
@@ -150,7 +149,7 @@ TEST_CASE("Render: a film begins with its title where a card is asked for") {
 TEST_CASE("Render: a picture may have no background, a film must have one") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --transparent --out a.png").code == 0);
-  // Some of it is seen through, some not.
+  // Parts are transparent, parts are opaque.
   const std::string alpha =
       "ffmpeg -v error -i a.png -vf alphaextract -f rawvideo - | od -An -v -tu1 -w1 | sort -nu | ";
   CHECK(says(shell.run(alpha + "head -1").out, " 0\n"));
@@ -178,7 +177,7 @@ TEST_CASE("Render: arrows need no heatmap, and take none along") {
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
   }
-  // Most of the picture lies beside the arrows and does not change.
+  // Most of the picture is beside the arrows and stays unchanged.
   const std::string ssim =
       shell
           .run(
@@ -213,7 +212,7 @@ TEST_CASE(
   CHECK(shell.run("ls -l --full-time frames").out != before);
 }
 
-TEST_CASE("Render: without ffmpeg a film fails, says what to install and leaves nothing") {
+TEST_CASE("Render: without ffmpeg a film fails, names the package and leaves no file") {
   const Shell shell;
   const Outcome outcome = shell.run(
       "program=$(command -v clatter); PATH=/nowhere\n"
@@ -223,9 +222,9 @@ TEST_CASE("Render: without ffmpeg a film fails, says what to install and leaves 
   CHECK(shell.files().empty());
 }
 
-TEST_CASE("Render: on a full disk it fails, says so and keeps what can be used") {
+TEST_CASE("Render: on a full disk it fails with an error and keeps the usable frames") {
   const Shell shell;
-  // In a namespace of its own, so that the mount goes with the command.
+  // A private namespace, so that the mount ends with the command.
   const std::string small_disk =
       "mkdir -p small; exec unshare --mount sh -c 'mount -t tmpfs -o size=96k none small || exit "
       "77; ";

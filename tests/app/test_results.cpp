@@ -1,4 +1,4 @@
-// Every value of a result and of its files, against one found another way.
+// Every value of a result and of its files, compared with an independent computation.
 
 #include <doctest/doctest.h>
 
@@ -28,8 +28,8 @@ constexpr int kColumns = 3, kRows = 5, kCells = kColumns * kRows;
 const Vec2 kBox(9.0, 8.0);
 constexpr double kBurnIn = 0.76, kDuration = 12.0, kContactTime = 0.05;
 
-// Nothing in it is like anything else: four kinds of walls, oblique gravity, rough disks that are
-// kicked, start at one side and drift.
+// A scene without symmetry: four kinds of walls, oblique gravity, and kicked rough disks that start
+// at one side and drift.
 Scene uneven_scene() {
   Scene scene;
   scene.box = kBox;
@@ -75,7 +75,7 @@ State<2> uneven_start() {
   return state;
 }
 
-// A run that is measured and, beside that, witnessed.
+// A run with its measurement and an independent witness.
 class Witnessed {
  public:
   explicit Witnessed(const Scene& scene)
@@ -101,7 +101,7 @@ class Witnessed {
   Measured measured;
 };
 
-// Checks that two documents have the same keys, and numbers that are equal but for rounding.
+// Checks that two documents have the same keys, and numbers that are equal within rounding errors.
 void check_same(const json& actual, const json& expected, const std::string& place = "") {
   CAPTURE(place);
   if (expected.is_object()) {
@@ -132,8 +132,8 @@ json estimate(const WitnessedMean& mean) {
   return {{"mean", mean.mean}, {"standard_error", mean.standard_error}};
 }
 
-// The gas in a cell, or in a row of them, by the definitions of chapter 4. Where no disk came by,
-// collisions alone pass something on, to a gas at rest, and what disks carry is no number.
+// The gas in a cell, or in a row of cells, by the definitions of chapter 4. In a cell without
+// disks, the transfer by collisions refers to a gas at rest, and the kinetic parts are not numbers.
 struct CellGas {
   CellGas(const Numbers& sums, double area_and_time) {
     const Numbers s = sums / area_and_time;
@@ -204,7 +204,7 @@ const std::map<std::string, FieldMeaning>& fields() {
   return all;
 }
 
-// The sums of cells that `chosen` lists, in every window.
+// The sums of the cells in `chosen`, in every window.
 std::vector<Numbers> joined(const std::vector<std::vector<Numbers>>& sums,
                             const std::vector<int>& chosen) {
   std::vector<Numbers> joined;
@@ -215,7 +215,7 @@ std::vector<Numbers> joined(const std::vector<std::vector<Numbers>>& sums,
   return joined;
 }
 
-// A profile as the result file has it.
+// A profile as in the result file.
 json profile_of(const std::vector<std::vector<Numbers>>& sums, const Windows& windows, int axis) {
   const int places = axis == 0 ? kColumns : kRows;
   json profile = {{"axis", axis == 0 ? "x" : "y"}};
@@ -238,7 +238,7 @@ json profile_of(const std::vector<std::vector<Numbers>>& sums, const Windows& wi
   return profile;
 }
 
-// Each field's values in all cells over some windows: null where no disk came by.
+// The values of each field in all cells over some windows: null in cells without disks.
 std::map<std::string, json> maps_of(const std::vector<std::vector<Numbers>>& sums, int from, int to,
                                     const Windows& windows) {
   std::map<std::string, json> maps;
@@ -266,7 +266,7 @@ json read(const Shell& shell, const std::string& reader, const std::string& file
 const std::array<const char*, 4> kResiduals = {"balance_mass", "balance_momentum_x",
                                                "balance_momentum_y", "balance_energy"};
 
-// Residuals that no run has: each equation's and each cell's is another.
+// Artificial residuals, different for each equation and each cell.
 Residuals made_up_residuals() {
   Residuals residuals;
   for (int equation = 0; equation < 4; ++equation) {
@@ -294,7 +294,7 @@ json time_series(const Witness& witness, double end, double interval) {
   return series;
 }
 
-// All keys of a result that follow from what happened to the gas as a whole.
+// All keys of a result that follow from totals of the gas.
 json totals_json(const Witnessed& run) {
   const std::vector<Numbers> windows = totals_of(run.witness, run.windows);
   const auto mean = [&](auto function) { return mean_of(windows, function); };
@@ -359,7 +359,8 @@ json totals_json(const Witnessed& run) {
   return expected;
 }
 
-// Takes out of a result what is rounding or no measurement, and looks whether it is small.
+// Removes rounding errors and non-physical values from a result, and checks that the errors are
+// small.
 void take_out_rounding(json& result) {
   for (const char* number : {"deepest_overlap", "clock_steps_back"}) {
     CHECK(result.at("checks").at(number) < 1e-9);
@@ -375,7 +376,7 @@ void take_out_rounding(json& result) {
 
 }  // namespace
 
-TEST_CASE("Results: every value of a walled gas is that of its events, counted again") {
+TEST_CASE("Results: every value of a walled gas follows from its events") {
   const Witnessed run(uneven_scene());
   json result = run.result();
   take_out_rounding(result);
@@ -385,14 +386,14 @@ TEST_CASE("Results: every value of a walled gas is that of its events, counted a
   check_same(result, expected);
 }
 
-TEST_CASE("Results: every value of a periodic gas is that of its events, counted again") {
+TEST_CASE("Results: every value of a periodic gas follows from its events") {
   const Witnessed run(periodic_scene());
   json result = run.result();
   take_out_rounding(result);
   check_same(result, totals_json(run));
 }
 
-TEST_CASE("Results: what tells of the run itself stands under its own key") {
+TEST_CASE("Results: each number about the run itself has its own key") {
   Scene scene = uneven_scene();
   scene.measure.fields = residual_fields(2);
   RunState<2> saved = Simulation<2>(model_of<2>(scene, 11), uneven_start()).save();
@@ -404,8 +405,9 @@ TEST_CASE("Results: what tells of the run itself stands under its own key") {
   measured.residuals = made_up_residuals();
   measured.residuals->equations[1][3] = 200.0;
   measured.residuals->equations[2][4] = -400.0;
-  const json result = result_json(scene, 17, simulation, measured,
-                                  {.cpu_seconds = 2.5, .wall_seconds = 3.25, .collisions = 40, .peak_memory_bytes = 96});
+  const json result = result_json(
+      scene, 17, simulation, measured,
+      {.cpu_seconds = 2.5, .wall_seconds = 3.25, .collisions = 40, .peak_memory_bytes = 96});
   CHECK(result.at("schema") == 1);
   CHECK(result.at("seed") == 17);
   CHECK(result.at("program") == "clatter " CLATTER_VERSION);
@@ -423,7 +425,7 @@ TEST_CASE("Results: what tells of the run itself stands under its own key") {
                                          {"peak_memory_bytes", 96}});
 }
 
-TEST_CASE("Results: every column of the tables is that of its events, with its unit") {
+TEST_CASE("Results: every column of the tables follows from the events, with its unit") {
   for (const Axis axis : {Axis::X, Axis::Y}) {
     Scene scene = uneven_scene();
     scene.measure.profile_axis = axis;
@@ -461,10 +463,10 @@ TEST_CASE("Results: every column of the tables is that of its events, with its u
   }
 }
 
-TEST_CASE("Results: every cell of the maps is that of its events, in all files") {
+TEST_CASE("Results: every cell of the maps follows from its events, in all files") {
   Witnessed run(uneven_scene());
   const auto sums = cell_sums_of(run.witness, run.windows, kBox, {kColumns, kRows});
-  // Residuals are rounding: those of the run could be anyone's.
+  // Real residuals are rounding errors, and could come from any run.
   const Residuals residuals = made_up_residuals();
   for (FieldMap& map : run.measured.maps->maps) {
     for (std::size_t k = 0; k < kResiduals.size(); ++k) {
@@ -496,7 +498,7 @@ TEST_CASE("Results: every cell of the maps is that of its events, in all files")
   check_same(table.columns, columns);
   CHECK(table.units == units);
 
-  // Where VTK has each field: an array and the place in its tuples.
+  // The position of each field in VTK: an array and a component.
   const std::map<std::string, std::pair<std::string, std::size_t>> places = {
       {"velocity_x", {"velocity", 0}},
       {"velocity_y", {"velocity", 1}},
@@ -559,7 +561,7 @@ TEST_CASE("Results: every cell of the maps is that of its events, in all files")
   check_same(file.at("maps").at("y_edges"),
              {{"values", {0.0, 1.6, 3.2, 4.8, 6.4, 8.0}}, {"units", "a"}});
 
-  // Of 512 windows, 8 to a part.
+  // 512 windows, 8 per part.
   const json series = read(shell, "read_vtk.py", "series.pvd");
   REQUIRE(series.size() == 64);
   CHECK(file.at("map_series").size() == fields().size() + 3);

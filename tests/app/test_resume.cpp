@@ -1,4 +1,4 @@
-// Runs that are put aside and taken up again, as a person does it.
+// Interrupted and resumed runs, with the command line.
 
 #include <doctest/doctest.h>
 
@@ -19,8 +19,8 @@ json result_of(const Shell& shell, const std::string& name) {
   return result;
 }
 
-// Starts a line with `--checkpoint c` in the background and ends it by a signal as soon as there is
-// a checkpoint, however fast the machine.
+// Starts a line with `--checkpoint c` in the background. A signal ends it as soon as a checkpoint
+// exists, on any machine.
 Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal) {
   return shell.run(line +
                    " --checkpoint c --checkpoint-every 0.02 & pid=$!\n"
@@ -29,7 +29,7 @@ Outcome cut_off(const Shell& shell, const std::string& line, const std::string& 
                    signal + " $pid; wait $pid");
 }
 
-// Most of a second.
+// Most of a second of CPU time.
 const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --until 6000 --quiet ";
 
 }  // namespace
@@ -45,7 +45,7 @@ TEST_CASE("Resume: a measurement that was interrupted or killed ends in the same
     code = cut_off(shell, kRun + "--seed 7 --out part.json", "KILL").code;
   }
   REQUIRE((code == 130 || code == 137));
-  // Its seed comes from the checkpoint.
+  // The seed comes from the checkpoint.
   const Outcome outcome = shell.run(kRun + "--resume c --out resumed.json --vtk resumed");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
@@ -73,7 +73,7 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
     const Outcome outcome = shell.run("timeout --preserve-status -s " + signal + " 1 " + line);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 130);
-    CHECK(says(outcome.err, "go on with --resume " + file + "\n"));
+    CHECK(says(outcome.err, "continue with --resume " + file + "\n"));
     CHECK_FALSE(shell.read(file).empty());
   };
   shell.run("mkdir folder && clatter check vibrated > folder/mine.toml");
@@ -100,13 +100,14 @@ TEST_CASE("Resume: a run that is continued for longer equals one long run") {
   CHECK(resumed.at("time").at("measured").get<double>() == doctest::Approx(100.0));
   CHECK(resumed.at("temperature_series") == whole.at("temperature_series"));
   CHECK(resumed.at("events") == whole.at("events"));
-  check_refused(shell, line + "--until 59 --resume c", {"--until", "t = 60", "go beyond"});
-  // As after a kill between the last checkpoint and the results.
+  check_refused(shell, line + "--until 59 --resume c",
+                {"--until", "t = 60", "give a time after the checkpoint"});
+  // The same state as after a kill between the last checkpoint and the results.
   CHECK(shell.run(line + "--until 60 --resume c --out d.json").code == 0);
   CHECK(result_of(shell, "d.json") == result_of(shell, "a.json"));
-  // Of other laws it has nothing to tell.
+  // With other laws there are no averages to write.
   check_refused(shell, line + "--until 60 --resume c --set particles.restitution=0.8",
-                {"--until", "t = 60", "go beyond"});
+                {"--until", "t = 60", "give a time after the checkpoint"});
 }
 
 TEST_CASE(
@@ -120,7 +121,7 @@ TEST_CASE(
                  "--checkpoint c")
             .code == 0);
   CHECK(shell.run(render + "--to 30 --resume c --out resumed.png").code == 0);
-  // The field's average differs: it begins with the checkpoint.
+  // The average of the field differs: it begins at the checkpoint.
   CHECK(shell.run(render + "--to 30 --set view.window=0.5 --out whole.png").code == 0);
   CHECK(shell.run(render + "--to 30 --set view.window=0.5 --resume c --out resumed.png").code == 0);
   CHECK(shell.read("resumed.png") == shell.read("whole.png"));
@@ -134,7 +135,7 @@ TEST_CASE(
   const Outcome measured = shell.run(
       "clatter measure vibrated --set measure.burn_in=1 --until 40 --resume d --out m.json");
   CHECK(measured.code == 0);
-  CHECK(says(measured.err, "averages start anew at t = 25.75"));
+  CHECK(says(measured.err, "averages restart at t = 25.75"));
   CHECK(result_of(shell, "m.json").at("time").at("burn_in") == 25.75);
 }
 
@@ -146,32 +147,32 @@ TEST_CASE("Resume: laws may change at a checkpoint, and are named") {
                                     "--until 9 --resume c --set particles.restitution=0.8 "
                                     "--set walls.left.drive_speed=2 --set view.speed=7");
   CHECK(outcome.code == 0);
-  CHECK(says(outcome.err,
-             "from t = 5 on other laws hold: particles.restitution, walls.left.drive_speed\n"));
+  CHECK(
+      says(outcome.err, "laws changed at t = 5: particles.restitution, walls.left.drive_speed\n"));
 
-  // Another seed or another scene is another run, whose checkpoint was meant.
+  // Another seed or another scene would be another run, with its own checkpoint.
   const Outcome seed = shell.run(line + "--until 9 --resume c --seed 3");
   CHECK(seed.code == 2);
-  CHECK(says(seed.err, "c: this checkpoint has the seed 1; leave --seed out"));
+  CHECK(says(seed.err, "c: this checkpoint has the seed 1; omit --seed"));
   shell.run("clatter check vibrated --set walls.right.restitution=0.5 > other.toml");
   const Outcome other =
       shell.run("clatter measure other.toml --set measure.burn_in=1 --until 9 --resume c");
   CHECK(other.code == 2);
   CHECK(says(other.err,
              "c: walls.right.restitution is 1.0 in the checkpoint and 0.5 in the scene; "
-             "give that scene; or change the law from here on, --set "
+             "give the scene of the checkpoint, or change the law with --set "
              "walls.right.restitution=0.5"));
 
-  // What flights contribute is booked at their end, so averages cannot span two gravities.
+  // A flight is booked at its end. Averages therefore cannot include two gravities.
   const Outcome fallen =
       shell.run(line + "--until 9 --resume c --set gravity.acceleration=[0.1,0]");
   CHECK(fallen.code == 0);
-  CHECK(says(fallen.err, "other laws hold: gravity.acceleration\n"));
-  CHECK(says(fallen.err, "averages start anew at t = 5\n"));
+  CHECK(says(fallen.err, "laws changed at t = 5: gravity.acceleration\n"));
+  CHECK(says(fallen.err, "averages restart at t = 5\n"));
   CHECK(json::parse(fallen.out).at("time").at("burn_in") == 5.0);
 }
 
-// A wall that moves differently starts new flights; one with another gain does not.
+// A wall with another motion restarts flights. A wall with another gain does not.
 TEST_CASE(
     "Resume: averages continue if a wall changes its gain, and restart if it moves differently") {
   const Shell shell;
@@ -188,14 +189,14 @@ TEST_CASE(
     const Outcome outcome = resumed(change);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(says(outcome.err, "averages start anew at t = 5\n"));
+    CHECK(says(outcome.err, "averages restart at t = 5\n"));
     CHECK(json::parse(outcome.out).at("time").at("burn_in") == 5.0);
   }
   for (const std::string change : {"right.restitution=0.5", "left.restitution=0.9"}) {
     CAPTURE(change);
     const Outcome outcome = resumed(change);
     CHECK(outcome.code == 0);
-    CHECK_FALSE(says(outcome.err, "anew"));
+    CHECK_FALSE(says(outcome.err, "averages restart"));
     CHECK(json::parse(outcome.out).at("time").at("burn_in") == 1.0);
   }
 }
@@ -216,13 +217,14 @@ TEST_CASE("Resume: a run continues without the file of its start state") {
   const json resumed = result_of(shell, "on.json"), whole = result_of(shell, "whole.json");
   CHECK(resumed.at("state_hash") == whole.at("state_hash"));
   CHECK(resumed.at("scene") == whole.at("scene"));
-  // From the temperature that the file gave.
+  // The temperature comes from the file.
   CHECK(resumed.at("theory").at("haff_rate") == whole.at("theory").at("haff_rate"));
   check_refused(shell, "clatter measure s.toml --until 20 --resume c --set particles.count=7",
                 {"c: ", "particles.count is 200 in the checkpoint and 7 in the scene"});
 }
 
-// What a run has found of itself goes with it, so a checkpoint may stand for a run that overlapped.
+// The checks of a run are part of its checkpoint, so that a checkpoint can represent a run with an
+// overlap.
 TEST_CASE("Resume: a picture of disks that overlapped is written, and the run fails") {
   const Shell shell;
   REQUIRE(shell.run("clatter measure vibrated --until 501 --checkpoint c --out r.json").code == 0);
@@ -265,14 +267,14 @@ TEST_CASE("Resume: a checkpoint that does not fit is refused") {
   check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "cut short"});
   shell.write("c", "no checkpoint");
   check_refused(shell, line, {"c: ", "this is no checkpoint"});
-  check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c is there"});
+  check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c exists"});
   check_refused(shell, "clatter measure vibrated --checkpoint no/c", {"--checkpoint", "folder no"});
   check_refused(shell, "clatter measure vibrated --checkpoint-every 5", {"--checkpoint"});
   check_refused(shell, "clatter measure vibrated --checkpoint d --checkpoint-every 0",
                 {"--checkpoint-every"});
 }
 
-// Cools without end: at a restitution of 0.1 disks soon collide without end in a finite time.
+// Endless cooling: at a restitution of 0.1 an inelastic collapse occurs at an early finite time.
 TEST_CASE("Resume: a collapse leaves results, a checkpoint and the command that continues") {
   const Shell shell;
   const std::string scene =
@@ -287,12 +289,12 @@ TEST_CASE("Resume: a collapse leaves results, a checkpoint and the command that 
   CHECK(time > 0.0);
   CHECK(time < 1000.0);
 
-  // As the message says, to the letter.
+  // The continuation of the message is a valid command line.
   const Outcome resumed =
       shell.run("clatter measure " + scene + "--out s.json " + stopped.err.substr(way));
   CAPTURE(resumed.err);
   CHECK(resumed.code == 0);
-  CHECK(says(resumed.err, "other laws hold: collapse.contact_time\n"));
+  CHECK(says(resumed.err, ": collapse.contact_time\n"));
   CHECK(json::parse(shell.read("s.json")).at("temperature_series").at("time").back() == 1000.0);
 
   const Outcome film =
@@ -308,7 +310,8 @@ TEST_CASE("Resume: a checkpoint that cannot be written costs no result") {
       "mkdir vibrated-seed1.checkpoint.part; timeout --preserve-status -s INT 1 clatter measure "
       "vibrated --until 1e6");
   CHECK(outcome.code == 1);
-  CHECK(says(outcome.err, "no checkpoint is left: cannot write vibrated-seed1.checkpoint.part"));
+  CHECK(
+      says(outcome.err, "no checkpoint was written: cannot write vibrated-seed1.checkpoint.part"));
   CHECK(json::accept(outcome.out));
 }
 

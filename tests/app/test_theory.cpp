@@ -1,4 +1,4 @@
-// The theory of a result, against the formulas of kinetic theory, evaluated again.
+// The theory in a result, compared with independent evaluations of kinetic theory.
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 namespace {
 
-// No number is that of another quantity.
+// All numbers are different.
 constexpr double kCount = 60.0, kLength = 13.0, kHeight = 11.0, kStart = 1.3;
 
 Scene scene_of(double restitution) {
@@ -44,7 +44,7 @@ void check_numbers(const json& actual, const json& expected) {
   }
 }
 
-// What the formulas have in common.
+// Common terms of the formulas.
 const double kPhi = kCount * pi / (4.0 * kLength * kHeight);
 const double kChi = (1.0 - 7.0 * kPhi / 16.0) / std::pow(1.0 - kPhi, 2.0);    // Eq. (3.6)
 const double kPsi = std::sqrt(2.0) * kChi * kCount / kHeight;                 // Eq. (3.9)
@@ -91,7 +91,7 @@ TEST_CASE("Theory: without a drive a gas between walls cools or diverges by Eq. 
   }
 }
 
-TEST_CASE("Theory: walls that are not alike have no theory") {
+TEST_CASE("Theory: unequal walls have no theory") {
   const auto has_psi = [](auto change) {
     Scene scene = walled_scene(0.85, 0.95, 1.7);
     change(scene);
@@ -142,7 +142,7 @@ TEST_CASE("Theory: rough gases have the ratio of their temperatures, and kicked 
   expected["temperature_ratio"] = eta / (1.0 - eta / q);
   check_numbers(theory_json(scene), expected);
 
-  // Where the spins are kicked too, no formula holds.
+  // With kicks of spins, no formula applies.
   scene.bulk_drive->kick_spin = 0.1;
   expected.erase("temperature_driven");
   expected.erase("temperature_ratio");

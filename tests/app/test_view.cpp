@@ -1,4 +1,4 @@
-// The window, driven by mouse and keys on a display of its own.
+// The window, controlled by mouse and keys on a virtual display.
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ bool halted(const json& status) {
   return !status["plays"] && status.contains("hash");
 }
 
-// The hash that a run without a window has at the time of a status.
+// The hash of a run without a window at the time of a status.
 json hash_of_run(const GuiDriver& driver, const std::string& scene, const json& status) {
   char line[256];
   std::snprintf(line, sizeof line,
@@ -31,7 +31,7 @@ json hash_of_run(const GuiDriver& driver, const std::string& scene, const json& 
   return json::parse(outcome.out)["state_hash"];
 }
 
-// Saves the scene of a gas that halts: a run of it comes to the same bits.
+// Saves the scene of a halted gas. A run of it must give the same bits.
 void check_saved_scene(const GuiDriver& driver) {
   const std::size_t told = driver.told();
   driver.key("ctrl+s");
@@ -40,7 +40,7 @@ void check_saved_scene(const GuiDriver& driver) {
   CHECK(hash_of_run(driver, scene, now) == now["hash"]);
 }
 
-// The file of the disks with which the gas has started.
+// The file of the disks at the start of the gas.
 std::string saved_start(const GuiDriver& driver) {
   const std::size_t told = driver.told();
   driver.key("ctrl+s");
@@ -48,7 +48,7 @@ std::string saved_start(const GuiDriver& driver) {
   return driver.shell().read(file.replace(file.rfind('.'), file.size(), ".csv"));
 }
 
-// A column of a table, whose first line names them.
+// A column of a table with column names in the first line.
 std::vector<double> column_of(const std::string& table, const std::string& name) {
   std::istringstream lines(table);
   std::string line;
@@ -120,7 +120,7 @@ TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") 
   driver.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
 }
 
-// Grains at rest on a floor that hardly moves: with a long stroke it would lie in them.
+// Grains at rest on a floor with a small stroke. With a long stroke the floor would overlap them.
 TEST_CASE("Window: a refused change stays neither in the panels nor in the saved scene") {
   const GuiDriver driver(
       "shaker --set walls.bottom.stroke=0.1 --set view.speed=20 --set collapse.contact_time=1e-3 "
@@ -143,7 +143,7 @@ TEST_CASE("Window: a refused change stays neither in the panels nor in the saved
 
 TEST_CASE("Window: a scene of the gallery is found by its name") {
   const GuiDriver driver("");
-  // Files of these names are other scenes, or none.
+  // Scene files with the names of gallery scenes, and files of other content.
   driver.shell().run("echo none | tee cooling cradle rough_cooling equilibrium");
   std::size_t told = driver.told();
   driver.key("g");
@@ -162,19 +162,19 @@ TEST_CASE("Window: a scene of the gallery is found by its name") {
   CHECK(driver.wait_for("open", told)["title"] == "Haff's cooling");
 }
 
-TEST_CASE("Window: a screenshot shows what is on the screen, and its scene plays it again") {
+TEST_CASE("Window: a screenshot equals the screen, and its scene plays it again") {
   const GuiDriver driver("");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 2.0; });
   driver.drag("walls.left.drive_speed", 0.3, 0.8);
   driver.key("space");
   std::size_t told = driver.told();
-  // Those that a scene of that name would write, too.
+  // Also the files that a scene of this name would write.
   driver.shell().run("touch clatter-1.csv clatter-2.mp4");
   driver.key("F2");
   const std::string file = driver.wait_for("screenshot", told)["file"];
   CHECK(file == "clatter-3.png");
   CHECK(driver.shell().read(file).starts_with("\x89PNG"));
-  // Above the left wall there is background, on the wall there is not.
+  // Background above the left wall, wall colour on the wall.
   CHECK(corner_colour(driver) == std::vector<int>{0x10, 0x14, 0x18});
 
   check_saved_scene(driver);
@@ -201,7 +201,7 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
     const char* wall;
     int right, down;  // outwards
     int axis;
-    const char* column;  // of the disks' places along it
+    const char* column;  // of the positions of the disks along it
   };
   for (const auto& [wall, right, down, axis, column] :
        {Case{"wall.right", 75, 0, 0, "x"}, Case{"wall.left", -75, 0, 0, "x"},
@@ -216,7 +216,7 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
     const double grown = wider["box"][axis].get<double>() - before["box"][axis].get<double>();
     CHECK(grown > 1.0);
     CHECK(wider["box"][1 - axis] == before["box"][1 - axis]);
-    // The disks are where they were: the new part of the box is empty.
+    // The disks keep their positions. The new part of the box is empty.
     const std::string saved = saved_start(driver);
     const bool low = right + down == (axis == 0 ? -75 : 75);
     const auto [least, most] = std::ranges::minmax(column_of(saved, column));
@@ -263,7 +263,7 @@ TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a pro
   std::size_t told = driver.told();
   driver.click("close_lesson");
   CHECK(height(told) > before + 20.0);
-  // An edit of the view, to be taken back in the lecture.
+  // A change of the view, to be undone in lecture mode.
   driver.click("view.grid");
   told = driver.told();
   driver.key("l");
@@ -279,7 +279,7 @@ TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a pro
 }
 
 TEST_CASE("Window: trails appear with their slider, vanish with undo, and are saved") {
-  // Few disks on a dark ground, so that most of the light is that of trails, some disks long each.
+  // Few disks on a dark background: most of the light comes from trails, some diameters long.
   const GuiDriver driver(
       "equilibrium --set particles.area_fraction=0.03 --set view.overlay=false --set view.speed=5",
       "1280x1500");
@@ -292,13 +292,13 @@ TEST_CASE("Window: trails appear with their slider, vanish with undo, and are sa
   const json with = driver.wait_for("status", told, [&](const json& status) {
     return status["time"].get<double>() > begun["time"].get<double>() + 5.0;
   });
-  // Nothing but the picture is another.
+  // Only the picture changes.
   CHECK(with["run"] == before["run"]);
   CHECK(with["changes"] == 0);
   driver.key("space");
   driver.wait_for("status", told, halted);
   const double bright = driver.brightness("viewport");
-  // A drag is one step to take back.
+  // A drag is one undo step.
   told = driver.told();
   driver.key("ctrl+z");
   driver.wait_for("status", told, [](const json& status) { return status["flights"] == 0; });
@@ -332,13 +332,13 @@ TEST_CASE("Window: the effect of a contact time is shown, and fields may come fr
   CHECK(says(scene, "estimator = \"snapshot\"\ninterval = 0.1"));
 }
 
-TEST_CASE("Window: its film of a changed gas is that of the command it shows") {
+TEST_CASE("Window: its film of a changed gas equals the film of the command that it shows") {
   const GuiDriver driver("--set view.speed=4", "1280x1700");
   driver.drag("particles.restitution", 0.88, 0.7);
   driver.drag("walls.left.drive_speed", 0.2, 0.4);
   driver.drag("walls.right.restitution", 0.9, 0.8);
   driver.key("space");
-  // A short film, of few pictures.
+  // A short film with few pictures.
   for (int i = 0; i < 6; ++i) driver.key("plus");
   check_saved_scene(driver);
   const std::size_t told = driver.told();
@@ -363,7 +363,7 @@ TEST_CASE("Window: it halts at the time of --until") {
   CHECK(hash_of_run(driver, "vibrated", there) == there["hash"]);
 }
 
-TEST_CASE("Window: if OpenGL is too old, it says what to do instead") {
+TEST_CASE("Window: if OpenGL is too old, it names an alternative") {
   const GuiDriver driver("");
   const Outcome old = driver.run("MESA_GL_VERSION_OVERRIDE=2.1 clatter view");
   CHECK(old.code == 1);
@@ -374,9 +374,9 @@ TEST_CASE("Window: if OpenGL is too old, it says what to do instead") {
   CHECK(says(off_screen.err, "clatter render"));
 }
 
-TEST_CASE("Window: if its OpenGL context is lost, it says what to do instead") {
+TEST_CASE("Window: if its OpenGL context is lost, it names an alternative") {
   const GuiDriver driver("");
-  // The sanitizers would rather come first themselves.
+  // The sanitizers require the first position in the preload order.
   const Outcome lost = driver.run("ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" +
                                   std::string(CLATTER_LOST_CONTEXT) + " clatter view");
   CHECK(lost.code == 1);
@@ -391,7 +391,7 @@ TEST_CASE("Window: it closes while it films, and the film plays as far as it got
   std::this_thread::sleep_for(std::chrono::seconds(2));
   driver.key("ctrl+q");
   driver.wait_for("quit");
-  // It is found by its name while it is on the screen.
+  // The window is found by its name while it is visible.
   CHECK(driver.run("xdotool search --onlyvisible --name 'Vibrated box'").code != 0);
   CHECK(driver.exit_code() == 0);
   CHECK(driver.shell().run("ffmpeg -v error -i clatter-1.mp4 -f null - </dev/null").code == 0);
@@ -415,7 +415,7 @@ TEST_CASE("Window: it quits amid a collapse") {
   CHECK(driver.exit_code() == 0);
 }
 
-TEST_CASE("Window: without a display, it says what to do instead") {
+TEST_CASE("Window: without a display, it names an alternative") {
   const Shell shell;
   for (const char* line : {"DISPLAY= clatter view vibrated", "DISPLAY= clatter"}) {
     const Outcome outcome = shell.run(line);

@@ -1,5 +1,5 @@
-// Whatever a person gets wrong is refused with exit code 2, a message that says where, what and
-// what to do, and nothing written.
+// Every wrong use gives exit code 2, a message with the place, the problem and the fix, and no
+// output.
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@ namespace clatter {
 
 namespace {
 
-// A scene that is right: a mistake is put in by writing another line 4 or 5.
+// A valid scene. A mistake replaces line 4 or 5.
 std::string scene(const std::string& line_4 = "count = 10",
                   const std::string& line_5 = "restitution = 0.9") {
   return "[box]\nsize = [20, 20]\n[particles]\n" + line_4 + "\n" + line_5 + "\n";
@@ -75,8 +75,8 @@ TEST_CASE("Wrong use: scenes that do not exist are refused") {
 
 TEST_CASE("Wrong use: wrong flags are refused") {
   const Shell shell;
-  check_refused(shell, "clatter check vibrated --set particles.count", {"--set key=value"});
-  check_refused(shell, "clatter check vibrated --set =5", {"--set key=value"});
+  check_refused(shell, "clatter check vibrated --set particles.count", {"--set KEY=VALUE"});
+  check_refused(shell, "clatter check vibrated --set =5", {"--set KEY=VALUE"});
   check_refused(shell, "clatter check vibrated --set particles.cuont=5",
                 {"--set particles.cuont", "did you mean 'count'?"});
   check_refused(shell, "clatter check vibrated --colour", {"--colour"});
@@ -136,7 +136,7 @@ TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a messa
   }
 }
 
-TEST_CASE("Wrong use: outputs that would replace what the command reads are refused") {
+TEST_CASE("Wrong use: outputs that would replace inputs are refused") {
   const Shell shell;
   shell.run("clatter check vibrated > s.toml");
   shell.run(
@@ -150,13 +150,13 @@ TEST_CASE("Wrong use: outputs that would replace what the command reads are refu
       {"measure s.toml --until 2 --resume c --out c", "--out"},
       {"measure vibrated --until 2 --csv d --out d/x --hdf5 d/x.part", "--hdf5"}};
   for (const auto& [line, flag] : lines) {
-    check_refused(shell, "clatter " + line, {flag, "is the file that", "name of its own"});
+    check_refused(shell, "clatter " + line, {flag, "is the file that", "choose different names"});
   }
   check_refused(shell, "clatter measure s.toml --resume ''", {"--resume", "the name is empty"});
   check_refused(shell, "clatter measure s.toml --checkpoint ''", {"--checkpoint", "name a file"});
 }
 
-// A device stays what it is, and so does an open file, to which others may write too.
+// A device keeps its type. An open file is kept too, because others may write to it.
 TEST_CASE("Outputs: devices, links and open files are written into") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --until 1 --quiet --out ";
@@ -190,7 +190,7 @@ TEST_CASE("Wrong use: a picture without a scene is refused as a picture") {
   const Shell shell;
   REQUIRE(shell.run("ffmpeg -v error -f lavfi -i color=red:16x16 -frames:v 1 red.png").code == 0);
   check_refused(shell, "clatter check red.png",
-                {"red.png: this picture has no scene inside", "a picture that clatter drew"});
+                {"red.png: this picture contains no scene", "a picture made by clatter"});
   check_refused(shell, "clatter check vibrated --set particles.count=1e3", {"cannot be 1000.0"});
 }
 
@@ -204,7 +204,7 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
       check_refused(shell,
                     "clatter measure vibrated --until 1e6 " + flags[k] + " link/x " + flags[other] +
                         " ./folder/../folder/x",
-                    {flags[k], flags[other], "/x is the file that", "name of its own"});
+                    {flags[k], flags[other], "/x is the file that", "choose different names"});
     }
   }
   check_refused(shell, "clatter measure vibrated --until 1e6 --csv x/ --vtk x", {"--vtk", "--csv"});
@@ -216,7 +216,7 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
         "--vtk d --checkpoint d/series.pvd", "--vtk d --out d/series_63.vti"}) {
     const std::string name = file.substr(file.rfind("d/"));
     check_refused(shell, "clatter measure vibrated --until 1e6 " + file,
-                  {file.substr(0, 5), name + " is the file that", "name of its own"});
+                  {file.substr(0, 5), name + " is the file that", "choose different names"});
   }
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.mp4 --checkpoint x.mp4",
                 {"--checkpoint", "--out"});

@@ -14,7 +14,7 @@ double kinetic_energy(const Vec2& v, double spin, double moment_of_inertia) {
   return 0.5 * v.squaredNorm() + 0.5 * moment_of_inertia * spin * spin;
 }
 
-// Adds the times between `from` and `to` at which a coordinate is `place`.
+// Adds the times between `from` and `to` at which a coordinate equals `place`.
 void add_crossings(std::vector<double>& times, double from, double to, double coordinate, double v,
                    double acceleration, double place) {
   const double c = coordinate - place;
@@ -31,7 +31,7 @@ void add_crossings(std::vector<double>& times, double from, double to, double co
   add((-v - std::sqrt(root)) / acceleration);
 }
 
-// The cell of a place; what lies beyond the box belongs to the cells at its edge.
+// The cell of a position. Positions outside the box belong to the cells at its edge.
 std::size_t cell_of(const Vec2& place, const Vec2& box, const IntVec<2>& cells) {
   const auto along = [&](int axis) {
     const auto index = static_cast<int>(std::floor(place[axis] / box[axis] * cells[axis]));
@@ -40,7 +40,8 @@ std::size_t cell_of(const Vec2& place, const Vec2& box, const IntVec<2>& cells) 
   return static_cast<std::size_t>(along(0) + along(1) * cells[0]);
 }
 
-// Calls visit(middle, from, to) for each part of a motion in one cell; `crossings` has its times.
+// Calls visit(middle, from, to) for each part of a motion inside one cell. `crossings` has its
+// border times.
 template <class Visit>
 void in_parts(std::vector<double> crossings, double from, double to, Visit&& visit) {
   crossings.push_back(from);
@@ -51,7 +52,7 @@ void in_parts(std::vector<double> crossings, double from, double to, Visit&& vis
   }
 }
 
-// Integrates numbers that are polynomials of time of at most the fifth degree.
+// Integrates polynomials of time of degree five or less.
 template <class Rate>
 Numbers integral(double from, double to, Rate&& rate) {
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from), place = std::sqrt(0.6);
@@ -87,7 +88,7 @@ Vec2 Witness::velocity(const WitnessedFlight& flight, double time) const {
   return flight.velocity + (time - flight.from) * model_.gravity;
 }
 
-// Ends a disk's flight; the energy that it gains.
+// Ends a disk's flight. Returns the energy gain of the disk.
 double Witness::gain(const ParticleChange<2>& change, double time) {
   WitnessedFlight& flight = now_[change.particle];
   flight.to = time;
@@ -106,7 +107,7 @@ double Witness::gain(const ParticleChange<2>& change, double time) {
   return gained;
 }
 
-// Walton's model, with beta limited by Coulomb's law.
+// Walton's model: beta limited by Coulomb's law.
 double Witness::loss_by_law(const WitnessedFlight& a, const WitnessedFlight& b, double time,
                             const Vec2& separation) const {
   const Vec2 n = separation.normalized(), t(-n.y(), n.x());
@@ -219,7 +220,7 @@ std::vector<Numbers> totals_of(const Witness& witness, const Windows& windows) {
   for (const WitnessedGain& fall : witness.falls()) book(fall.time, kGravityIn, fall.energy);
   for (int k = 0; k < windows.count; ++k) {
     Numbers& window = totals[static_cast<std::size_t>(k)];
-    // The last window's end is that of the run.
+    // The last window ends with the run.
     witness.at(windows.begin + (k + 1) * windows.length - 1e-9, [&](const Vec2& v, double) {
       const Vec2 squares = v.cwiseAbs2();
       window[kSecondX] += squares.x() / count;
@@ -241,7 +242,7 @@ std::vector<std::vector<Numbers>> cell_sums_of(const Witness& witness, const Win
     if (window < 0) return nullptr;
     return &sums[static_cast<std::size_t>(window)][cell_of(place, box, cells)];
   };
-  // The borders that a motion with these coordinates crosses.
+  // Adds the borders that a motion with these coordinates crosses.
   const auto add_borders = [&](std::vector<double>& times, double from, double to,
                                const Vec2& position, const Vec2& v, const Vec2& acceleration) {
     for (int axis : {0, 1}) {
@@ -283,7 +284,8 @@ std::vector<std::vector<Numbers>> cell_sums_of(const Witness& witness, const Win
   }
   for (const WitnessedTouch& touch : witness.touches()) {
     const Vec2 branch = touch.first - touch.second;
-    // Along its branch two disks pass on half the difference; a wall gives all.
+    // A collision of two disks transfers half the difference along the branch. A wall transfers
+    // all.
     const double passed =
         touch.side >= 0 ? touch.gains[0] : 0.5 * (touch.gains[0] - touch.gains[1]);
     std::vector<double> borders;
@@ -314,8 +316,8 @@ struct Blocked {
   double error = 0.0, rise = 1.0;
 };
 
-// Flyvbjerg and Petersen 1989: the largest error over the blocks of 1, 2, 4, ... values that are at
-// least 32, and how much its square rose over the last two doublings.
+// Flyvbjerg and Petersen 1989: the largest error over the blockings of 1, 2, 4, ... values with at
+// least 32 blocks. Also the rise of its square over the last two doublings.
 Blocked blocked(const std::vector<double>& values) {
   std::vector<double> errors;
   for (std::size_t length = 1; values.size() / length >= 32; length *= 2) {

@@ -1,5 +1,5 @@
-// What parts that a scene has but switches off cost: the median over interleaved slices of two
-// runs, with and without them. It is 1 within 2 % where they cost nothing.
+// Cost of features that are present but switched off: the median ratio over interleaved slices of
+// two runs, with and without them. A ratio of 1 within 2 % means no cost.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 using namespace clatter;
 
-// CPU time of some collisions.
+// CPU time of a number of collisions.
 static double slice(Simulation<2>& simulation) {
   constexpr std::uint64_t kCollisions = 40'000;
   const std::clock_t began = std::clock();

@@ -1,5 +1,5 @@
-// Time of one full prediction (all neighbours, walls, borders), of a particle alone and of two at
-// once, by area fraction and number of particles.
+// Time of one full prediction (all neighbours, walls, borders), for a single particle and for two
+// at once, by area fraction and number of particles.
 
 #include <cmath>
 #include <cstdint>

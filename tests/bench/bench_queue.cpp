@@ -1,6 +1,6 @@
-// Time of one push and one pop, in the steady state of a gas: an event is taken out and its
-// particle's next one put in, at an exponential delay. A priority_queue does the same work beside
-// it.
+// Time of one push and one pop in the steady state of a gas: the first event is removed, and the
+// next event of its particle is added after an exponential delay. A priority_queue does the same
+// for comparison.
 
 #include <cmath>
 #include <cstdint>

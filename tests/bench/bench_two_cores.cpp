@@ -1,5 +1,5 @@
-// What two cores could share in one run: how many successive collisions are independent, and how
-// long one core waits for the other.
+// Possible gain from two cores in one run: the number of successive independent collisions, and the
+// waiting time of one core for the other.
 
 #include <atomic>
 #include <cmath>
@@ -25,7 +25,7 @@ class Places : public Observer<2> {
   std::vector<Vec2> places;
 };
 
-// Whether two collisions lie so near each other that what one changes the other may look at.
+// Whether two collisions are so near that the second may depend on the first.
 bool depend(const Vec2& a, const Vec2& b, const Vec2& box) {
   constexpr double kReach = 4.0;  // diameters
   Vec2 x = a - b;
@@ -58,7 +58,7 @@ double independent_collisions(int count, double area_fraction) {
   return static_cast<double>(places.size()) / groups;
 }
 
-// Seconds from a write on one core until another core has seen it.
+// Seconds from a write on one core until another core reads it.
 double hand_over() {
   constexpr int kTurns = 200'000;
   std::atomic<int> turn = 0;

@@ -4,7 +4,7 @@
 
 namespace clatter::bench {
 
-/// Seconds that work() takes: the least of three tries, which others on the machine disturb least.
+/// Seconds of work(): the least of three runs, which has the least disturbance by other processes.
 template <typename Work>
 double seconds(const Work& work) {
   double least = 1e300;

@@ -5,7 +5,7 @@
 
 namespace clatter::testing {
 
-/// A figure for the table, to two digits.
+/// A number for the table, with two digits.
 inline std::string brief(double figure) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", figure);

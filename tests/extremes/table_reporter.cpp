@@ -13,7 +13,7 @@ std::string escaped(const std::string& text) {
   return cell;
 }
 
-// The name of a case is "<Subject>: <what happens>".
+// The name of a case is "<Subject>: <behaviour>".
 struct Name {
   std::string subject, event;
 };
@@ -23,8 +23,8 @@ Name parted(const std::string& name) {
   return {name.substr(0, colon), name.substr(colon + 2)};
 }
 
-/// Writes what was run as tables in Markdown: each case, the invariant that it checks, which is its
-/// description, and the figures that it reached, which are its messages.
+/// Writes the cases as Markdown tables: each case, its invariant (the description), and the reached
+/// numbers (the messages).
 class TableReporter : public doctest::IReporter {
  public:
   explicit TableReporter(const doctest::ContextOptions& options) : out_(*options.cout) {}

@@ -14,8 +14,9 @@ using namespace clatter::testing;
 
 TEST_CASE("Coincidences: Newton's cradle of ten touching particles between walls" *
           doctest::description("exact to the last bit for fifty passes, overlap 0")) {
-  // Every number is a multiple of 1/4, so nothing is rounded: the eleventh particle flies 2, hands
-  // on its velocity through ten that touch, the last flies 3 to the wall and 3 back, and so on.
+  // Every number is a multiple of 1/4, so that nothing is rounded. The eleventh particle flies 2
+  // and passes its velocity on through ten touching particles. The last flies 3 to the wall and 3
+  // back, and so on.
   constexpr int kParticles = 11;
   constexpr double kSpeed = 0.5;
   Model<2> model = with_walls(periodic_box(16.5, 6.0), 0, kStatic);
@@ -54,7 +55,7 @@ TEST_CASE("Coincidences: Newton's cradle of ten touching particles between walls
 
 namespace {
 
-// The state is that by brute force: ties have one order.
+// Compares with brute force. Ties have a defined order.
 void compare_by_brute_force(const Model<2>& model, const State<2>& start,
                             std::uint64_t collisions) {
   Simulation<2> simulation(model, start);
@@ -106,7 +107,7 @@ TEST_CASE("Coincidences: one particle hits two that touch, at once" *
       CAPTURE(restitution);
       CAPTURE(height);
       const Model<2> model = inelastic(periodic_box(40.0, 40.0), restitution);
-      // Both at a distance of 1 from (20, 20) when the first arrives there.
+      // Both are at a distance of 1 from (20, 20) when the first arrives there.
       const double up = 0.5, along = 0.5 * std::sqrt(3.0);
       const State<2> start{
           {{17.0, 20.0 + height}, {20.0 + along, 20.0 - up}, {20.0 + along, 20.0 + up}},
@@ -162,13 +163,14 @@ TEST_CASE("Coincidences: a particle flies into a corner" *
               "it comes back on its way, speed and place exact; so does a particle whose "
               "way through the corner two walls share with another particle")) {
   const Model<2> model = four(kStatic, kStatic);  // 9 x 8
-  // Along the diagonal into the corner at (0, 0), in steps that are exact.
+  // Along the diagonal into the corner at (0, 0), with exact numbers.
   Simulation<2> alone(model, State<2>{{{2.5, 2.5}}, {{-1.0, -1.0}}});
   alone.run_until(4.0);
   CHECK(alone.counts().wall_collisions == 2);
   CHECK(alone.state().positions[0] == Vec2(2.5, 2.5));
   CHECK(alone.state().velocities[0] == Vec2(1.0, 1.0));
-  // One lies in the corner when another comes along the floor and along the wall at the same time.
+  // One rests in the corner. Two others arrive at the same time, along the floor and along the
+  // wall.
   const State<2> crowd{{{0.5, 0.5}, {3.5, 0.5}, {0.5, 3.5}},
                        {{0.0, 0.0}, {-1.0, 0.0}, {0.0, -1.0}}};
   Simulation<2> three(model, crowd);
@@ -177,7 +179,7 @@ TEST_CASE("Coincidences: a particle flies into a corner" *
   CHECK(three.state().positions[2] == Vec2(0.5, 5.5));
   CHECK(three.kinetic_energy() == 1.0);
   compare_by_brute_force(model, crowd, three.counts().collisions());
-  // From everywhere into every corner, by rounding one wall first or the other.
+  // From many positions into every corner. Rounding decides which wall comes first.
   double energy_off = 0.0, deepest = 0.0;
   for (int k = 0; k < 64; ++k) {
     const Vec2 corner(k % 2 ? 8.5 : 0.5, k % 4 < 2 ? 7.5 : 0.5);

@@ -14,15 +14,15 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Where collisions go on without end: piles, rows and bouncing balls that collapse are reported,
-// t_c carries them on, and what only looks like them runs through.
+// Inelastic collapse: piles, rows and bouncing balls that collapse are reported. A t_c continues
+// them. Similar systems without a collapse run through.
 
 namespace {
 
-// Its acceleration is .18 at most, so that what lies on it under gravity 1 stays.
+// Its acceleration is .18 at most. Particles on it stay there under gravity 1.
 const Wall kGentle{
     .kind = WallKind::Sinusoidal, .restitution = 0.9, .stroke = 0.1, .frequency = 0.3};
-// A row of particles along x that all fall upon the first.
+// A row of particles along x that all move towards the first.
 State<2> row(int count, double spacing) {
   State<2> start;
   for (int i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ State<2> row(int count, double spacing) {
   return start;
 }
 
-// The t_c that a message advises.
+// The t_c that a message recommends.
 double advised_contact_time(const std::string& message) {
   const std::string key = "collapse.contact_time = ";
   const std::size_t at = message.find(key);
@@ -61,7 +61,7 @@ TEST_CASE(
       REQUIRE(simulation.deepest_overlap() < 1e-9);
     }
     CHECK(simulation.checks().deepest_overlap < 1e-9);
-    // What t_c leaves: hops of some t_c, of speed g t_c. Sideways they slide without friction.
+    // Motion that t_c leaves: hops of some t_c with a speed of g t_c, and sliding without friction.
     double vertical = 0.0;
     for (const Vec2& v : simulation.state().velocities)
       vertical = std::max(vertical, std::fabs(v.y()));
@@ -75,7 +75,8 @@ TEST_CASE(
 TEST_CASE("Collapse: the cascade of a bouncing ball" *
           doctest::description(
               "a stop within 1e-5 of when it must end, and the t_c advised carries on")) {
-  // Dropped from h it lands after t_0 = sqrt(2h/g); the bounces sum to t_0 (1 + alpha)/(1 - alpha).
+  // Dropped from h, the ball lands after t_0 = sqrt(2h/g). The bounces sum to t_0 (1 + alpha)/(1 -
+  // alpha).
   for (const double restitution : {0.9, 0.5, 0.0}) {
     CAPTURE(restitution);
     Model<2> model = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = restitution});
@@ -89,7 +90,7 @@ TEST_CASE("Collapse: the cascade of a bouncing ball" *
     MESSAGE("alpha = ", restitution, ": off by ", brief(simulation.time() / end - 1.0));
     CHECK(std::fabs(simulation.time() / end - 1.0) < 1e-5);
     CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
-    // With the t_c that the message advises it hops on.
+    // With the recommended t_c the ball continues to hop.
     model.contact_time = advised_contact_time(message);
     Simulation<2> on(model, start);
     CHECK(stop_of(on, end + 1e5 * *model.contact_time) == "");
@@ -129,7 +130,7 @@ TEST_CASE("Collapse: rows of particles in one dimension" *
           doctest::description(
               "a clean stop that says who, and the t_c advised carries on; overlap below 1e-11")) {
   // In one dimension three free particles collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara &
-  // Young 1992), longer rows above.
+  // Young 1992), longer rows at larger alpha.
   struct Row {
     int count;
     double restitution;
@@ -153,7 +154,8 @@ TEST_CASE("Collapse: rows of particles in one dimension" *
   }
 }
 
-// The resumed run stands still from its first collision; its own mean time would be far too short.
+// The resumed run stands still from its first collision. Its own mean time between collisions would
+// be far too short.
 TEST_CASE("Collapse: a run that goes on from where time stood still" *
           doctest::description("it stops again, advised the same t_c")) {
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
@@ -172,9 +174,9 @@ TEST_CASE("Collapse: a run that goes on from where time stood still" *
 TEST_CASE(
     "Collapse: the t_c that is advised" *
     doctest::description("1e-3 of the time between collisions before, within a factor of ten")) {
-  // However early the collapse comes; a t_c of a thousandth of it would make grains at rest hop a
-  // thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time, the row has
-  // some ten collisions per particle before it collapses.
+  // The time of the collapse does not matter. A t_c of a thousandth of it would make resting grains
+  // hop a thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time. The
+  // row has some ten collisions per particle before it collapses.
   Model<2> ball = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.9});
   ball.gravity = {0.0, -0.5};
   Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
@@ -199,8 +201,9 @@ TEST_CASE(
 
 TEST_CASE("Collapse: a standstill is looked for" *
           doctest::description("the run is the same, bit for bit, as by brute force without")) {
-  // The reference does not look. Rows with a t_c far below the time of the collapse come close to
-  // it; a thermal wall's restitution is not used, but makes a run be looked at.
+  // The reference does not detect a standstill. Rows with a very small t_c come close to a
+  // collapse. A thermal wall does not use its restitution, but the restitution enables the
+  // detection.
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
   model.restitution = 0.3;
   model.contact_time = 1e-9;
@@ -228,9 +231,9 @@ TEST_CASE("Collapse: a standstill is looked for" *
 TEST_CASE(
     "Collapse: dense, fast and hot gases" *
     doctest::description("they are no standstill: 2e5 collisions each, overlap below 1e-11")) {
-  // 2 10^5 collisions each, three times what a standstill takes: 72 inelastic particles at phi =
-  // .68, kicked; between walls of T_w = 1e16 from T = 1 on; between walls that give more than they
-  // take, for which inelastic particles make up.
+  // 2 10^5 collisions each, three times the limit of a standstill. The gases: 72 inelastic kicked
+  // particles at phi = .68; a gas from T = 1 between walls of T_w = 1e16; inelastic particles
+  // between walls with gain.
   Model<2> dense = periodic_box(9.2, 9.0);
   dense.restitution = 0.9;
   dense.bulk_drive = BulkDrive{0.01, 0.1, 0.0};

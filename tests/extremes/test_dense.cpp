@@ -33,7 +33,7 @@ struct Crystal {
   }
 };
 
-// Spacing of the triangular lattice at which particles cover a share phi.
+// Spacing of a triangular lattice with area fraction phi.
 double spacing_of(double phi) {
   return std::sqrt(std::numbers::pi / (2.0 * std::sqrt(3.0) * phi));
 }
@@ -74,8 +74,8 @@ TEST_CASE("Dense: a hexagonal crystal at spacing 1 + 1e-11" *
   check_elastic(Crystal(1.0 + 1e-11));
 }
 
-// Kolafa & Rottner 2006: Z(.69) = 10.23. Relaxation is slow at the edge of freezing, and
-// finite-size effects of 4000 particles are below .1 %.
+// Kolafa & Rottner 2006: Z(.69) = 10.23. Relaxation is slow near freezing. Finite-size effects of
+// 4000 particles are below .1 %.
 TEST_CASE("Dense: equation of state at phi = .69, by the edge of freezing" *
           doctest::test_suite("slow") *
           doctest::description("Z within .5 % of 10.23 (Kolafa & Rottner 2006)")) {

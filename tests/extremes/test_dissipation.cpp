@@ -20,17 +20,17 @@ double temperature(const Simulation<2>& simulation) {
   return simulation.kinetic_energy() / static_cast<double>(simulation.particles().size());
 }
 
-// What the rounding of a + b has added, exactly (Knuth 1969).
+// The exact rounding error of a + b (Knuth 1969).
 Vec2 rounding(const Vec2& a, const Vec2& b) {
   const Vec2 sum = a + b, b_in_sum = sum - a;
   return (b_in_sum - b) - (a - (sum - b_in_sum));
 }
 
-/// Books the momentum that the rounding of velocities after collisions gives.
+/// Sums the momentum changes by rounding errors in collisions.
 class Roundings : public Observer<2> {
  public:
   Vec2 momentum = Vec2::Zero();
-  Vec2 variance = Vec2::Zero();  // of a walk of steps that are even over a unit in the last place
+  Vec2 variance = Vec2::Zero();  // of a random walk with even steps in one unit in the last place
 
   void on_collision(const PairCollision<2>& c) override {
     for (const ParticleChange<2>& particle : c.particles) {
@@ -56,7 +56,7 @@ Vec2 exact_momentum(const State<2>& state) {
 
 }  // namespace
 
-// Of 200 particles each T(4) varies by some 16 %, the ratio of means over 16000 seeds by .18 %: 2 %
+// T(4) of 200 particles varies by some 16 %, a mean ratio over 16000 seeds by .18 %. A limit of 2 %
 // is more than 5 standard errors from a ratio that is 1 % off.
 TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" *
           doctest::test_suite("slow") *
@@ -105,8 +105,9 @@ TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5 without t_c" *
   CHECK(deepest < 1e-9);
 }
 
-// While velocities are 1, each collision rounds four of their components by some 3e-17; at the end
-// they are 3e-16, and what those roundings added up to remains as a drift of the centre.
+// At velocities of 1, each collision rounds four components by some 3e-17. At the end the
+// velocities are 3e-16, and the accumulated rounding errors remain as a drift of the centre of
+// mass.
 TEST_CASE(
     "Dissipation: Haff's cooling down to T = 1e-30" *
     doctest::description("T = T_0/(1 + k t)^2, so T t^2 = T_0/k^2 below T = 1e-10 within 5 "
@@ -117,7 +118,7 @@ TEST_CASE(
   Simulation<2> simulation(model_of<2>(scene, 951), start);
   Roundings roundings;
   simulation.add_observer(roundings);
-  // T swings about the law, and half of that is left when time has doubled.
+  // T oscillates about the law. Half of the deviation is left when time has doubled.
   Sample scaled;
   double time = 1.0;
   while (temperature(simulation) > 1e-30) {

@@ -17,7 +17,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Follows every pair along its flights, through every image, between all collisions.
+/// Tracks every pair between collisions, through every image.
 class GapWatch : public Observer<2> {
  public:
   explicit GapWatch(const Simulation<2>& simulation) : simulation_(simulation) {}
@@ -40,7 +40,7 @@ class GapWatch : public Observer<2> {
     }
   }
 
-  // Whole box lengths k with which low <= x + k box <= high for an x of the range.
+  // The whole numbers k of box lengths with low <= x + k box <= high for an x of the range.
   static std::pair<double, double> images(double x_low, double x_high, double box) {
     return {std::ceil((-1.0 - x_high) / box), std::floor((1.0 - x_low) / box)};
   }
@@ -52,7 +52,7 @@ class GapWatch : public Observer<2> {
     const auto [first, last] =
         images(x.x() + std::min(0.0, way.x()), x.x() + std::max(0.0, way.x()), box.x());
     for (double kx = first; kx <= last; ++kx) {
-      // While the image is a diameter off along x, it may be near along y.
+      // An image one diameter away along x may be near along y.
       const double at = x.x() + kx * box.x();
       const double into = (-at - std::copysign(1.0, v.x())) / v.x();
       const double out = (-at + std::copysign(1.0, v.x())) / v.x();
@@ -118,7 +118,7 @@ TEST_CASE(
         if (wall) CAPTURE(static_cast<int>(wall->kind));
         Simulation<2> simulation(model, clear_gas(model, count, 901));
         const std::string stop = stop_of(simulation, 50.0);
-        // Grains may come to rest under gravity; with t_c that is no end.
+        // Grains may come to rest under gravity. With t_c the run continues.
         CHECK_MESSAGE((stop.empty() || (features & 5) == 1), stop);
         if (stop.empty()) {
           CHECK(simulation.time() == 50.0);
@@ -151,8 +151,8 @@ TEST_CASE("Few particles: kicks of one particle, and of two" *
 
 TEST_CASE("Few particles: rough particles touch through images that are not the nearest" *
           doctest::description("same bits as brute force; contacts within 1e-12 of a diameter")) {
-  // In a box lower than two diameters: each collision is whole (the separation one diameter, the
-  // loss that of theory 3.6), whichever image it is through.
+  // In a box lower than two diameters: each collision is complete, through any image. The
+  // separation is one diameter, and the loss follows theory 3.6.
   class Images : public Observer<2> {
    public:
     explicit Images(const Model<2>& model) : model_(model) {}
@@ -171,7 +171,7 @@ TEST_CASE("Few particles: rough particles touch through images that are not the 
     }
 
    private:
-    // Through the image that touches in the end, when the later of the two flights began.
+    // Separation through the touching image, at the start of the later of the two flights.
     static Vec2 separation_at_prediction(const PairCollision<2>& c) {
       const Flight<2>&a = c.particles[0].before, &b = c.particles[1].before;
       const double time = std::max(a.time, b.time);
@@ -217,7 +217,7 @@ TEST_CASE("Few particles: no particle, and one particle between four walls" *
   start.velocities = {{1.0, 0.25}};
   const Model<2> walled = with_walls(with_walls(periodic_box(10.0, 10.0), 0, Wall{}), 1, Wall{});
   Simulation<2> one(walled, start);
-  one.run_until(180.0);  // to and fro over 9: 10 periods along x, 2.5 along y
+  one.run_until(180.0);  // back and forth over 9: 10 periods along x, 2.5 along y
   CHECK(one.counts().wall_collisions == 25);
   const double off = (one.state().positions[0] - Vec2(5.0, 5.0)).norm();
   MESSAGE("off by ", brief(off));
@@ -238,7 +238,7 @@ TEST_CASE("Few particles: a free flight through many boxes" *
     simulation.run_until(1234.75);
     const Vec2 r = simulation.state().positions[0];
     for (int k = 0; k < 2; ++k) {
-      // Twice the rounding of the way, from which whole lengths of the box are subtracted.
+      // Twice the rounding error of the path, from which whole box lengths are subtracted.
       const double way = start.positions[0][k] + v[k] * 1234.75;
       const double off = std::remainder(r[k] - way, model.box[k]);
       CHECK(std::fabs(off) <= 0x1p-52 * std::fabs(way));

@@ -79,8 +79,8 @@ TEST_CASE("Heating: one elastic particle between elastic walls that drive, or mo
   }
 }
 
-// A drive that is nothing to the particles is no growth; nor is one whose particles, or walls,
-// lose.
+// No divergence: a drive that is negligible for the particles, and a gas with dissipative particles
+// or walls.
 TEST_CASE("Heating: gases that do not heat without bound" *
           doctest::description("hot ones of a weak drive, swung ones and lossy ones run on")) {
   Wall weak{.kind = WallKind::Driven, .drive_speed = 1e-9};

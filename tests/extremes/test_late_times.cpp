@@ -49,7 +49,7 @@ TEST_CASE("Late times: moving walls at t = 1e9" *
       Simulation<2> early(model, start), late(model, start, 1e9);
       early.run_until(kNever, 3000);
       late.run_until(kNever, 3000);
-      // Of .7 the double is meant: 1e9 times it is no whole number of periods.
+      // .7 is rounded to a double. 1e9 times this double is not a whole number of periods.
       if (frequency != 0.7) CHECK(late.state_hash() == early.state_hash());
       deepest = std::max(deepest, late.checks().deepest_overlap);
       CHECK(late.deepest_overlap() <= 1e-12);

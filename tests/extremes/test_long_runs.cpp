@@ -13,7 +13,7 @@ using namespace clatter::testing;
 
 namespace {
 
-// What walls give, and the sum of its sizes.
+// Momentum from walls, and the sum of its magnitudes.
 class WallMomentum : public Observer<2> {
  public:
   Vec2 given = Vec2::Zero();
@@ -50,7 +50,7 @@ void conserve(std::uint64_t events) {
   check_sound(simulation);
 }
 
-// What each type of event gives to the energy of motion and spin.
+// Energy of motion and spin from each type of event.
 class Ledger : public Observer<2> {
  public:
   double particles = 0.0, walls = 0.0, kicks = 0.0;

@@ -17,8 +17,8 @@ using namespace clatter::testing;
 TEST_CASE(
     "Scales: a graze at b = 1 - 1e-12" *
     doctest::description("deflected as theory 3.2 says within 1e-4, which is the rounding of b")) {
-  // The impulse (1 + alpha)/2 |g_n| along n has the part (1 + alpha)/2 sqrt((1-b)(1+b)) b across
-  // the flight. b is the stored one; 1 - b is exact.
+  // The impulse (1 + alpha)/2 |g_n| along n has the component (1 + alpha)/2 sqrt((1-b)(1+b)) b
+  // across the flight. b is the stored number; 1 - b is exact.
   double worst = 0.0;
   for (const double restitution : {1.0, 0.9, 0.0}) {
     for (const double distance : {1.25, 3.0, 25.0}) {
@@ -53,7 +53,7 @@ TEST_CASE(
 TEST_CASE("Scales: particles that meet, or miss, after 1000 diameters" *
           doctest::description("contact within 1e-10 of a diameter, none missed or invented beyond "
                                "rounding of b")) {
-  // The discriminant is the difference of two numbers of 10^6; b is within 10^-k of grazing.
+  // The discriminant is the difference of two numbers near 10^6. b is within 10^-k of grazing.
   double worst = 0.0;
   int met = 0;
   for (int k = 1; k <= 12; ++k) {
@@ -68,7 +68,8 @@ TEST_CASE("Scales: particles that meet, or miss, after 1000 diameters" *
       const Model<2> model = with_walls(periodic_box(3000.0, 3000.0), 0, kStatic);
       Simulation<2> simulation(model, State<2>{{far, middle}, {3.0 * along, {0.0, 0.0}}});
       simulation.run_until(340.0);
-      // What is stored is rounded to 2e-13 in place and 2e-16 in direction, so 1e-12 over the way.
+      // Stored numbers have rounding errors of 2e-13 in position and 2e-16 in direction: 1e-12 over
+      // the path.
       if (std::fabs(beside) > 1e-12) {
         CAPTURE(beside);
         CHECK(simulation.counts().pair_collisions == (beside > 0.0 ? 1 : 0));
@@ -125,8 +126,8 @@ TEST_CASE("Scales: lengths scaled by 2^+-40 and speeds by 2^+-30, everything at 
   MESSAGE(plain.counts().collisions(), " collisions, four scalings, the same bits");
 }
 
-// The first particles reach the walls late after the start and leave them fast: times there are
-// rounded by as much as these particles fly in 1e-10 diameters' time, unless the base moves.
+// The first particles reach the walls late and leave them fast. Without a move of the time base,
+// rounding errors of the times correspond to paths of 1e-10 diameters.
 TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
           doctest::description("same bits as brute force, overlap below 1e-12")) {
   double deepest = 0.0;
@@ -152,8 +153,8 @@ TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at
 TEST_CASE("Scales: speeds that differ by 1e12" *
           doctest::description("same bits as brute force; energy 1e-12, overlap below 1e-10")) {
   double energy_off = 0.0, deepest = 0.0;
-  // One particle at 1e6 among others at 1e-6, which it sets in motion one after the other; and with
-  // a wall that swings at a speed of order 1.
+  // One particle of speed 1e6 among others of speed 1e-6, which it hits one after the other. Also
+  // with a wall that oscillates at a speed of order 1.
   for (const bool walled : {false, true}) {
     Model<2> model = periodic_box(9.0, 8.0);
     if (walled) {

@@ -12,8 +12,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Walls that move far faster than the particles, or far slower; far, or often. That a contact is
-// the first root is shown case by case in tests/engine/physics/test_wall_motion.cpp.
+// Walls much faster or much slower than the particles, with large strokes or high frequencies.
+// tests/engine/physics/test_wall_motion.cpp tests that a contact is the first root.
 
 namespace {
 
@@ -22,7 +22,7 @@ struct Figures {
   std::uint64_t hits = 0;
 };
 
-// 10 particles, by the simulation and by brute force.
+// Compares 10 particles with brute force.
 void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   const State<2> start = clear_gas(model, 10, 956);
   Simulation<2> simulation(model, start);
@@ -32,8 +32,7 @@ void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   reference.run_until_collisions(collisions);
   CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
   CHECK(simulation.checks().clock_steps_back < 1e-13);
-  // Brute force knows walls in their resting place only; of particles with particles it looks at
-  // all.
+  // Brute force supports walls at their rest positions only. It tests all pairs of particles.
   Model<2> open = model;
   for (auto& wall : open.walls) wall.reset();
   open.box.array() += 20.0;
@@ -61,7 +60,7 @@ Model<2> between(WallKind kind, double stroke, double frequency, double length =
   return model;
 }
 
-// By short and long strokes, at speeds of the wall.
+// Short and long strokes, at given wall speeds.
 void shake_at(std::initializer_list<double> speeds) {
   Figures figures;
   for (const WallKind kind : kMoving) {
@@ -103,8 +102,8 @@ TEST_CASE("Shaken: strokes as long as the box leaves" *
   Figures figures;
   for (const WallKind kind : kMoving) {
     for (const double frequency : {0.01, 1.0, 100.0}) {
-      // Two columns of particles are left where both walls are farthest in; in the second case one
-      // wall comes to where a lone particle just fits.
+      // Two columns of particles remain free when both walls are farthest inside. In the second
+      // case a lone particle just fits in front of one wall.
       const double reach = kind == WallKind::Sawtooth ? 1.0 : 2.0;
       shake(between(kind, 4.9 * reach, frequency), 500, figures);
       Model<2> narrow = between(kind, 10.9 * reach, frequency);

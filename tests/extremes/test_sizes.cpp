@@ -11,7 +11,7 @@ using namespace clatter;
 using namespace clatter::testing;
 using nlohmann::json;
 
-// What is very large, long, high or small either runs, or is refused with the reason.
+// Extreme sizes, lengths, times and numbers either run, or are an error with a reason.
 
 namespace {
 
@@ -105,8 +105,8 @@ TEST_CASE("Sizes: windows of 1 x 1 and 16384 x 64 pixels" *
           doctest::description("refused with what a size is, before a window opens")) {
   const Shell shell;
   check_refused(shell, "clatter view vibrated --size 1x1",
-                {"is no size that there can be", "from 320x240 to 16384x16384"});
+                {"is not a valid size", "from 320x240 to 16384x16384"});
   check_refused(shell, "clatter view vibrated --size 16384x64",
-                {"is no size that there can be", "from 320x240 to 16384x16384"});
+                {"is not a valid size", "from 320x240 to 16384x16384"});
   MESSAGE("refused");
 }

@@ -55,7 +55,7 @@ namespace {
 
 using nlohmann::json;
 
-// How many numbers a result has; null would stand for NaN.
+// Number of numeric values in a result. null would mean NaN.
 int numbers_in(const json& value) {
   int numbers = value.is_number() ? 1 : 0;
   REQUIRE_FALSE(value.is_null());
@@ -64,7 +64,7 @@ int numbers_in(const json& value) {
   return numbers;
 }
 
-// The cells of a profile that no particle ever visited have a density of 0 and nothing else.
+// Removes the cells of a profile without particles. Their only defined value is a density of 0.
 void take_out_unvisited(json& profile) {
   const json density = profile.at("density");
   for (const auto& take : {&profile, &profile.at("standard_error")}) {
@@ -114,7 +114,7 @@ TEST_CASE(
       std::istringstream text(shell.read(table));
       for (std::string line; std::getline(text, line); ++lines) {
         CHECK_FALSE(says(line, "inf"));
-        // Place or edges, and then the density.
+        // Position or edges, then the density.
         if (says(line, "nan")) CHECK_MESSAGE(says(line, ",0,"), line);
       }
     }

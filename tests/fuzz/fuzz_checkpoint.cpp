@@ -1,5 +1,5 @@
-// libFuzzer: a checkpoint of a run and of what it measures, with numbers of its body replaced and
-// the checksum made right again; it is read, and the run goes on for a while.
+// libFuzzer target: a checkpoint of a run with its measurement, with changed numbers in its body
+// and a valid checksum. The target reads it and continues the run for a while.
 
 #include <unistd.h>
 
@@ -71,7 +71,7 @@ void put(std::string& bytes, std::size_t at, double number) {
   if (at + sizeof number <= bytes.size()) std::memcpy(&bytes[at], &number, sizeof number);
 }
 
-// Each four bytes of the input are a place in the file and a number to stand there.
+// Each four bytes of the input are a position in the file and a number to write there.
 std::string spoilt(const std::uint8_t* data, std::size_t size) {
   constexpr std::array<double, 16> kNumbers = {0.0,  -0.0,  5e-324, -1.0,     1.0, 1e-300,
                                                1e15, 1e300, -1e300, HUGE_VAL, NAN, 2.5,

@@ -1,7 +1,7 @@
-// libFuzzer: the text of a scene, read and validated, run for a thousand collisions, drawn and
-// measured. The JSON of the result is parsed again and has finite numbers only. Lines
-// "#set key=value" in it are settings, as --set gives them; a mutator of our own adds these, of
-// every key and with the ends of all ranges.
+// libFuzzer target: reads the text of a scene, validates it, runs a thousand collisions, draws a
+// picture and measures. The JSON of the result is parsed again and has finite numbers only. Lines
+// "#set key=value" are settings of --set. A custom mutator adds these lines for all keys, with
+// extreme values.
 
 #include <algorithm>
 #include <array>
@@ -31,10 +31,10 @@ using namespace clatter;
 
 namespace {
 
-// More are no other, only slower.
+// More particles would only be slower.
 constexpr int kMaxParticles = 1000;
 constexpr std::uint64_t kCollisions = 1000, kSteps = 20000;
-// Averages take time where nothing moves, too.
+// Averages also take time without motion.
 constexpr double kWindows = 100.0;
 constexpr double kMaxCells = 4000.0, kSamples = 100.0;
 

@@ -1,6 +1,6 @@
-// The state hashes of scenes after thousands of collisions. They are the same for every compiler,
-// optimisation level, processor and C library. Where a change is meant to change the results of
-// runs, the hashes that the failing tests print become the new ones.
+// The state hashes of scenes after thousands of collisions. They are equal for every compiler,
+// optimisation level, processor and C library. After an intended change of results, replace them by
+// the hashes that the failing tests print.
 
 #include <doctest/doctest.h>
 
@@ -46,7 +46,7 @@ struct SceneHash {
   const char* scene;
 };
 
-// What the gallery lacks.
+// Features without a scene in the gallery.
 constexpr SceneHash kScenes[] = {
     {"thermal walls and spins", 0xd05c972192f3640c, R"(
         box.size = [16, 12]
@@ -148,7 +148,7 @@ TEST_CASE("Hashes: every scene of the gallery has its pinned hash") {
   }
 }
 
-TEST_CASE("Hashes: scenes with what the gallery lacks have their pinned hashes") {
+TEST_CASE("Hashes: scenes with features outside the gallery have their pinned hashes") {
   for (const SceneHash& row : kScenes) {
     compare(row.what, hash_of(parse_scene(row.scene, row.what)), row.hash);
   }

@@ -46,7 +46,7 @@ inline Canvas blank_canvas(const Gl& gl, Size size, Colour background = kDarkThe
   return canvas;
 }
 
-/// Nothing, as a background.
+/// A transparent background.
 inline constexpr Colour kClear{0, 0, 0, 0};
 
 /// A 20 x 25 box driven from left and right and periodic in y, with a lattice of moving disks and a
@@ -71,11 +71,11 @@ inline Snapshot driven_box() {
   return snapshot;
 }
 
-/// For tests that measure shapes: a picture in which a world unit is a pixel.
+/// For tests of shapes: a picture with one pixel per world unit.
 inline constexpr Size kUnitSize{200, 120};
 inline const Projection kUnitProjection{{{100.0, 60.0}, 200.0}, kUnitSize};
 
-/// One disk at rest in a walled box that fills that picture.
+/// One disk at rest in a walled box of the size of this picture.
 inline Snapshot one_disk(Vec2 centre, double diameter) {
   Snapshot snapshot;
   snapshot.box = Vec2(kUnitSize.width, kUnitSize.height);
@@ -86,11 +86,11 @@ inline Snapshot one_disk(Vec2 centre, double diameter) {
   return snapshot;
 }
 
-/// What overlays of pictures say.
+/// The texts of picture overlays.
 inline const OverlayText kText{"Vibrated box",
                                "Watch the cold dense band form between the hot walls."};
 
-/// What a renderer draws.
+/// The picture of a renderer.
 inline Image draw(Renderer& renderer, const Gl& gl, const Snapshot& snapshot, const Camera& camera,
                   Size size, const View& view) {
   const Canvas canvas(gl, size);
@@ -99,7 +99,7 @@ inline Image draw(Renderer& renderer, const Gl& gl, const Snapshot& snapshot, co
   return canvas.read();
 }
 
-/// Shows the density.
+/// A view with the density field.
 inline View view_with_field() {
   View view;
   view.field = Quantity::Density;

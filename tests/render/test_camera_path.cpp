@@ -40,7 +40,7 @@ TEST_CASE("Camera path: a zoom keeps a point where it is on the picture") {
   const std::vector<CameraKey> keys = {
       {.time = 0.0, .centre = {}, .follow = {}, .width = {}},
       {.time = 1.0, .centre = Vec2(2.0, 3.0), .follow = {}, .width = 10.0}};
-  // That for which (p - c_0) / w_0 = (p - c_1) / w_1.
+  // The fixed point of the zoom: (p - c_0) / w_0 = (p - c_1) / w_1.
   const Vec2 point = (40.0 * Vec2(2.0, 3.0) - 10.0 * kWhole.centre) / 30.0;
   const Vec2 place = (point - kWhole.centre) / 40.0;
   for (double time = 0.0; time <= 1.0; time += 0.125) {
@@ -53,7 +53,7 @@ TEST_CASE("Camera path: a camera goes to a disk and follows it") {
   const std::vector<CameraKey> keys = {
       {.time = 0.0, .centre = Vec2(0.0, 0.0), .follow = {}, .width = 8.0},
       {.time = 2.0, .centre = {}, .follow = 1, .width = 8.0}};
-  check(camera_at(keys, at(1.0), kWhole), {2.0, 2.0}, 8.0);  // half way to where it is now
+  check(camera_at(keys, at(1.0), kWhole), {2.0, 2.0}, 8.0);  // half way to the present position
   check(camera_at(keys, at(2.0), kWhole), {5.0, 4.0}, 8.0);
   check(camera_at(keys, at(7.0), kWhole), {10.0, 4.0}, 8.0);
   const std::vector<CameraKey> nobody = {{.time = 0.0, .centre = {}, .follow = 5, .width = 3.0}};

@@ -52,7 +52,7 @@ TEST_CASE("Colour range: a steady extent moves only when it must") {
 TEST_CASE("Colour range: a held extent stays as it was first seen") {
   SteadyExtent extent;
   CHECK(extent.follow(0.0, true) == 1.0);
-  CHECK_FALSE(extent.held());  // nothing seen yet
+  CHECK_FALSE(extent.held());  // no value yet
   CHECK(extent.follow(0.9) == 1.0);
   CHECK_FALSE(extent.held());
   CHECK(extent.follow(1.9, true) == 2.0);
@@ -66,10 +66,10 @@ TEST_CASE("Colour range: a held extent stays as it was first seen") {
 TEST_CASE("Colour range: ticks are round and say no more digits than they need") {
   CHECK(round_ticks(0.0, 3.0, 4) == std::vector<double>{0, 1, 2, 3});
   CHECK(round_ticks(-2.0, 2.0, 5) == std::vector<double>{-2, -1, 0, 1, 2});
-  // Steps of 5 would leave 0 alone.
+  // Steps of 5 would give the single tick 0.
   CHECK(round_ticks(-4.0, 4.0, 3) == std::vector<double>{-4, -2, 0, 2, 4});
   CHECK_FALSE(std::signbit(round_ticks(0.0, 3.0, 4).front()));
-  // A range of two roundings.
+  // A range of two spacings of doubles.
   const std::vector<double> close = round_ticks(1e16, 1e16 + 4.0, 5);
   CHECK(close.size() > 1);
   CHECK(close.size() <= 12);

@@ -13,7 +13,7 @@
 #include "tests/render/picture.h"
 #include "tests/support/messages.h"
 
-// What can be measured in a picture is what the snapshot says.
+// Measurements in a picture agree with the snapshot.
 
 namespace clatter {
 
@@ -24,7 +24,7 @@ namespace {
 constexpr Size kSize{640, 480};
 constexpr double kFastest = 4.0;  // end of the colours' range
 
-// A gas between walls, its disks drawn a fifth smaller so that none touches another.
+// A gas between walls. Disks are drawn one fifth smaller, so that none touches another.
 Snapshot gas() {
   const Scene scene = parse_scene(R"(
       box.size = [16.0, 12.0]
@@ -49,14 +49,14 @@ View white_view() {
   return view;
 }
 
-// A spot of the picture: what hangs together and is no background.
+// A spot of the picture: connected pixels outside the background.
 struct Spot {
   Vec2 centre;    // pixels from the lower left corner
   double radius;  // of a disk of its area, pixels
   Colour colour;  // in its middle
 };
 
-// More than half covered: by a rim, which is dark, or by a disk, which is coloured.
+// More than half covered by a rim, which is dark, or by a disk, which is coloured.
 bool covered(const Image& image, int x, int y) {
   const Colour colour = pixel(image, x, y);
   return std::min({colour.red, colour.green, colour.blue}) < 188;
@@ -107,9 +107,9 @@ std::vector<Spot> spots_in(const Image& image, const Vec2& low, const Vec2& high
   return spots;
 }
 
-// What in the picture does not agree with the snapshot; empty: nothing.
+// Differences between the picture and the snapshot; empty: none.
 std::string disagreement(const Image& image, const Snapshot& snapshot, const Camera& camera) {
-  constexpr double kOff = 0.3;  // pixels; a spot's pixels are counted whole
+  constexpr double kOff = 0.3;  // pixels; the size of a spot is a whole number of pixels
   const Projection projection{camera, kSize};
   const Vec2 line(3.0, 3.0);  // the faces of the walls
   std::vector<Spot> spots =
@@ -175,7 +175,7 @@ TEST_CASE("Geometry: OSMesa draws centres, radii, colours and count of the snaps
   check_geometry(Backend::Osmesa);
 }
 
-// CTest reports the case as skipped where it says so.
+// CTest reports this case as skipped if it prints so.
 TEST_CASE("Geometry: EGL draws centres, radii, colours and count of the snapshot") {
   try {
     open_context(Backend::Egl);

@@ -104,7 +104,7 @@ Image read_png(const std::filesystem::path& path) {
   return image;
 }
 
-// Whether the pixels about one have not all the same colour.
+// Whether the pixels around a pixel have different colours.
 bool on_edge(const Image& image, int x, int y) {
   constexpr int kFlat = 4;
   for (int v = std::max(0, y - 1); v <= std::min(y + 1, image.size.height - 1); ++v) {
@@ -115,8 +115,8 @@ bool on_edge(const Image& image, int x, int y) {
   return false;
 }
 
-// How many pixels differ by more than a driver's rounding: where a picture has no edge a level or
-// two, and on an edge what a thirtieth of a pixel makes of the strongest one.
+// Number of pixels that differ by more than a driver's rounding error. Limits: a level or two away
+// from edges, and a shift of 1/30 pixel of the strongest edge.
 int wrong_pixels(const Image& golden, const Image& image) {
   constexpr int kOffEdges = 2, kOnEdges = 8;
   int wrong = 0;
@@ -152,7 +152,7 @@ TEST_CASE("Golden pictures: OSMesa draws them") {
   compare(open_context(Backend::Osmesa)->gl());
 }
 
-// CTest reports the case as skipped where it says so.
+// CTest reports this case as skipped if it prints so.
 TEST_CASE("Golden pictures: EGL draws them") {
   std::unique_ptr<GlContext> context;
   try {

@@ -68,7 +68,7 @@ TEST_CASE("Label: every field has its title, the axes of its component and its u
   }
 }
 
-TEST_CASE("Label: a disk's colour has the name, component, sign and unit of what it shows") {
+TEST_CASE("Label: a disk's colour has the name, component, sign and unit of its quantity") {
   CHECK(label_of(ColourBy::None) == Label{""});
   CHECK(label_of(ColourBy::Speed) == Label{"speed |v|", "", Sign::Positive, "a/t"});
   CHECK(label_of(ColourBy::VelocityX) == Label{"velocity v", "x", Sign::Either, "a/t"});

@@ -8,7 +8,7 @@ namespace clatter {
 
 namespace {
 
-// A picture with its own colours laid over a background by its opacity, as programs do it.
+// A picture composited over a background by its opacity, as in other programs.
 Colour over(Colour picture, Colour background) {
   const auto channel = [&](int c, int b) {
     return static_cast<std::uint8_t>((c * picture.alpha + b * (255 - picture.alpha) + 127) / 255);
@@ -38,7 +38,7 @@ TEST_CASE(
         with_own_colours(draw(renderer, context->gl(), snapshot, camera, {300, 300}, view));
     CHECK(pixel(image, 70, 70).alpha == 0);
     CHECK(pixel(image, 150, 150) == kDarkTheme.disk);
-    // A disk's rim does not change its colour where it ends: no fringe of any background.
+    // The rim of a disk keeps its colour at the edge: no fringe of a background.
     double area = 0.0;
     for (int y = 100; y < 200; ++y) {
       for (int x = 100; x < 200; ++x) {
@@ -48,7 +48,7 @@ TEST_CASE(
       }
     }
     CHECK(area == doctest::Approx(M_PI * 12.5 * 12.5).epsilon(0.003));
-    // Laid over the background it is the picture with it, but for how edges are blended.
+    // Composited, it equals the opaque picture, except for the blending of edges.
     Renderer opaque(context->gl(), samples);
     const Image whole = draw(opaque, context->gl(), snapshot, camera, {300, 300}, view);
     int off = 0;
@@ -74,7 +74,7 @@ TEST_CASE(
   View view;
   view.colour_by = ColourBy::None;
   view.overlay = false;
-  // The colours seen left of `end`, but for faint ones, which are stored in few levels.
+  // Checks the colours left of `end`, except for faint ones, which have few levels.
   const auto check = [&](Size size, int end, int samples) {
     CAPTURE(samples);
     Renderer renderer(context->gl(), samples, true);

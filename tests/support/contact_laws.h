@@ -13,7 +13,7 @@
 
 namespace clatter::testing {
 
-/// Dimensions, for templated cases.
+/// Dimensions of templated cases.
 using Plane = std::integral_constant<int, 2>;
 using Space = std::integral_constant<int, 3>;
 
@@ -24,8 +24,8 @@ Vector random_vector(Random& random) {
   return v;
 }
 
-/// Laws of all kinds: elastic or not, without, with finite and with infinite friction (from hardly
-/// any to more than any slip can use), smooth, rough and perfectly rough.
+/// Random contact laws: elastic or inelastic, smooth, rough or perfectly rough. Friction is zero,
+/// finite (from very small to larger than any slip needs) or infinite.
 inline ContactLaw random_law(Random& random) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   ContactLaw law;
@@ -37,22 +37,22 @@ inline ContactLaw random_law(Random& random) {
   return law;
 }
 
-/// Whether contacts under this law keep the energy of slip and spins: there is no friction, or so
-/// much that it turns the slip round.
+/// Whether contacts under this law conserve the energy of slip and spins: without friction, or with
+/// enough friction to reverse the slip.
 inline bool keeps_spin_and_slip_energy(const ContactLaw& law) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double beta_0 = law.tangential_restitution;
   return law.friction == 0.0 || beta_0 == -1.0 || (law.friction == kInfinity && beta_0 == 1.0);
 }
 
-/// Uniform particle, sphere, or anything.
+/// Inertia of a uniform disk, of a uniform sphere, or a random value.
 inline double random_inertia(Random& random) {
   return std::array{0.5, 0.4, 0.01 + random.uniform()}[random.below(3)];
 }
 
-/// The tangential impulse by the laws themselves, without beta's and eta's formulas: what turns the
-/// slip into -beta_0 times itself, or as much of it as Coulomb allows. An impulse J changes the
-/// slip by (sum of 1/m) (1 + 1/q) J; the sum is 2 for two particles and 1 for a particle at a wall.
+/// The tangential impulse directly from the contact laws, without the formulas of beta and eta. It
+/// changes the slip to -beta_0 times its value, limited by Coulomb's law. An impulse J changes the
+/// slip by (sum of 1/m) (1 + 1/q) J. The sum is 2 for two particles and 1 for a particle at a wall.
 template <int D>
 Vec<D> friction_by_law(const Vec<D>& n, const Vec<D>& surface_velocity, double normal_impulse,
                        const ContactLaw& law, double inertia, double inverse_masses) {

@@ -8,10 +8,10 @@
 
 namespace clatter::testing {
 
-/// A text in a draw list, read back from the letters' places in the font's texture.
+/// A text in a draw list, recovered from the texture coordinates of its letters.
 struct DrawnText {
   std::string text;
-  float left = 0.0f, top = 0.0f, right = 0.0f, bottom = 0.0f;  ///< of its letters
+  float left = 0.0f, top = 0.0f, right = 0.0f, bottom = 0.0f;  ///< rectangle of its letters
   ImU32 colour = 0;
 
   float middle_x() const { return 0.5f * (left + right); }
@@ -31,8 +31,8 @@ inline void append_utf8(std::string& text, unsigned letter) {
   }
 }
 
-/// The texts of a draw list in the order in which they were drawn. Letters that follow each other
-/// in a line are one text; gaps in it are spaces.
+/// The texts of a draw list in drawing order. Consecutive letters in a line form one text. Gaps are
+/// spaces.
 inline std::vector<DrawnText> texts_in(const ImDrawList& list) {
   struct Letter {
     const ImFontGlyph* glyph = nullptr;
@@ -52,7 +52,7 @@ inline std::vector<DrawnText> texts_in(const ImDrawList& list) {
     return Letter{};
   };
   std::vector<DrawnText> texts;
-  float next = 0.0f, baseline = 0.0f;  // where the text goes on
+  float next = 0.0f, baseline = 0.0f;  // position of the next letter
   for (int k = 0; k + 3 < list.VtxBuffer.Size;) {
     const ImDrawVert* corner = &list.VtxBuffer[k];
     const Letter letter = letter_at(corner);

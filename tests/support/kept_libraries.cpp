@@ -1,6 +1,6 @@
-// Keeps libraries loaded to the end of a program under the address sanitizer. A driver unloaded
-// before the search for leaks would take along the pointers to its memory, and the names of its
-// functions, by which leaks.supp recognises its leaks.
+// Keeps libraries loaded to the end of a program under the address sanitizer. Unloading a driver
+// before the leak search would remove its pointers to its memory. It would also remove its function
+// names, which leaks.supp needs.
 
 #include <dlfcn.h>
 

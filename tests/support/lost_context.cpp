@@ -1,4 +1,4 @@
-// Loaded into a program before GLFW, it makes OpenGL say that the driver has dropped its context.
+// A library to preload before GLFW. OpenGL then reports a lost context.
 
 #include <dlfcn.h>
 

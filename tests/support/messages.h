@@ -6,12 +6,12 @@
 
 namespace clatter::testing {
 
-/// Whether a text has a part.
+/// Whether a text contains a part.
 inline bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The message of the UserError that `action()` ends with; empty where there is none.
+/// The message of the UserError that `action()` throws; empty without an error.
 template <class Action>
 std::string refusal_of(const Action& action) {
   try {

@@ -13,12 +13,12 @@ inline Scene gas(double lx, double ly, int count, double restitution) {
   return scene;
 }
 
-/// The same wall at both ends of an axis (0: x, 1: y, 2: z).
+/// Puts the same wall at both ends of an axis (0: x, 1: y, 2: z).
 inline void wall_in(Scene& scene, int axis, const Wall& wall) {
   scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;
 }
 
-/// Rough spheres under gravity between six walls, each of another kind or temperature.
+/// Rough spheres under gravity between six walls of different kinds or temperatures.
 inline Scene rough_spheres(int count) {
   Scene scene = default_scene(3);
   scene.box = Vec<3>(6.0, 5.0, 7.0);

@@ -6,16 +6,16 @@
 
 namespace clatter::testing {
 
-/// Probability that a chi^2 of `freedom` degrees of freedom is at least as large, after Wilson &
-/// Hilferty 1931: its cube root is nearly normal. Good to a few per cent of p where p > 1e-4 and
-/// freedom >= 5.
+/// Probability of at least this chi^2 with `freedom` degrees of freedom, by the approximation of
+/// Wilson & Hilferty 1931: its cube root is nearly normal. Accurate to a few percent of p for p >
+/// 1e-4 and freedom >= 5.
 inline double chi_squared_p(double chi_squared, double freedom) {
   const double width = 2.0 / (9.0 * freedom);
   const double z = (std::cbrt(chi_squared / freedom) - (1.0 - width)) / std::sqrt(width);
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-/// The same for counts against what was expected; the total is fixed, which takes one degree of
+/// The same for counts and their expected values. The total is fixed, which removes one degree of
 /// freedom.
 inline double counts_p(std::span<const double> observed, std::span<const double> expected) {
   double sum = 0.0;
@@ -26,15 +26,15 @@ inline double counts_p(std::span<const double> observed, std::span<const double>
   return chi_squared_p(sum, static_cast<double>(observed.size()) - 1.0);
 }
 
-/// The probability below which a statistical test of many numbers at once fails.
+/// A statistical test of many numbers fails below this probability.
 inline constexpr double kMinProbability = 1e-3;
 
-/// Mean of a sample, as its distance from the mean expected in standard errors.
+/// Distance of a sample mean from its expected value, in standard errors.
 inline double standard_errors_off(double sum, double samples, double mean, double variance) {
   return (sum / samples - mean) / std::sqrt(variance / samples);
 }
 
-/// Independent values, one of each seed say: their mean and its standard error.
+/// Independent values, for example one per seed: their mean and its standard error.
 struct Sample {
   double count = 0.0;
   double sum = 0.0;

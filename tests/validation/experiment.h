@@ -11,15 +11,15 @@ namespace clatter::testing {
 /// A gas of the given area fraction in a square, periodic box.
 Scene gas_of_fraction(double area_fraction, int count, double restitution);
 
-/// The gas of these tests, N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
+/// The standard gas of these tests: N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
 Scene vibrated_gas(double restitution, double wall_restitution);
 
-/// Runs a scene through its [measure] block, which is `burn_in` and `duration` here.
+/// Runs the [measure] block of a scene, with the given `burn_in` and `duration`.
 Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
 
-/// What walls, kicks and gravity give is what collisions of so many particles lose where the gas is
-/// stationary: within 5 standard errors, and but for the energy that the gas itself holds, which
-/// bounds the difference far more tightly.
+/// Checks the energy balance of a stationary gas with `count` particles: the energy from walls,
+/// kicks and gravity equals the loss in collisions. The limits are 5 standard errors, and the
+/// energy of the gas. The second limit is much tighter.
 void check_energy_balance(const Measured& measured, int count);
 
 /// Deviation from an expected value, relative to it.

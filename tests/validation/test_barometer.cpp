@@ -15,8 +15,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Elastic particles under gravity on a thermal floor, below an elastic lid: canonical equilibrium
-// at T_w, so that everything is known exactly, or by the equation of state.
+// Elastic particles under gravity between a thermal floor and an elastic lid: canonical equilibrium
+// at T_w. All results are known, exactly or from the equation of state.
 
 namespace {
 
@@ -31,8 +31,8 @@ Scene column(double lx, double ly, int count, double gravity) {
   return scene;
 }
 
-// ln rho + pi rho + g y/T is the same at all heights (second virial coefficient pi/2; the third
-// changes a density of .015 by 1e-3 of itself): the density where it is `potential`.
+// The density at a given `potential`: ln rho + pi rho + g y/T is the same at all heights. The
+// second virial coefficient is pi/2. The third changes a density of .015 by a relative 1e-3.
 double virial_density(double potential) {
   double rho = std::exp(potential);
   for (int step = 0; step < 50; ++step) {
@@ -41,8 +41,8 @@ double virial_density(double potential) {
   return rho;
 }
 
-// Mean densities of equal layers of the given thickness, by Simpson's rule, at the constant of the
-// barometric law that gives `total` per area in all.
+// Mean densities of equal layers, by Simpson's rule. The constant of the barometric law gives
+// `total` particles per length.
 std::vector<double> virial_layers(int layers, double thickness, double slope, double total) {
   const auto layer = [&](double constant, int i) {
     const auto at = [&](double y) { return virial_density(constant - slope * y); };
@@ -62,14 +62,14 @@ std::vector<double> virial_layers(int layers, double thickness, double slope, do
   return densities;
 }
 
-// A gas in layers of one diameter, watched over a window of time.
+// A gas in layers of one diameter, averaged over a time window.
 struct Layers {
   std::vector<double> pressure;  // -sigma_yy, mean over each layer
-  std::vector<double> weight;    // of what lies above, per width, mean over each layer
+  std::vector<double> weight;    // weight of the gas above, per width, mean over each layer
 };
 
-// The density is known in sub-layers. A particle weighs on a layer by the share of it that lies
-// below.
+// The density is measured in sub-layers. A particle adds weight to a layer by its share below the
+// particle.
 Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
                  const CellSums& density, const MomentLayout<2>& density_layout, double width,
                  double gravity) {
@@ -95,9 +95,10 @@ Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
 }  // namespace
 
 TEST_CASE("Barometer: the height of one particle on a thermal floor is exponentially distributed") {
-  // Height above the floor over T/g: exponential of mean 1. The lid at 40 of these is never met
-  // (e^-40). Bounces take 2.5 sqrt(T)/g on average; samples every 40 sqrt(T)/g are independent,
-  // for a bounce that long has the probability e^-200. 40 bins of equal probability.
+  // The height above the floor in units of T/g is exponential with mean 1. The particle never meets
+  // the lid at 40 of these (e^-40). Bounces take 2.5 sqrt(T)/g on average. Samples every 40
+  // sqrt(T)/g are independent: a bounce of this length has the probability e^-200. 40 bins of equal
+  // probability.
   constexpr int kSamples = 20000;
   constexpr int kBins = 40;
   constexpr double kGravity = 0.5;
@@ -157,7 +158,7 @@ TEST_CASE("Barometer: a dense gas presses on the floor with its weight, and has 
           " +- ", error, ", weight per length ", weight);
   CHECK(error < 0.02 * weight);
   CHECK(std::fabs(floor.mean - lid.mean - weight) < 5.0 * error);
-  // The rest is the change of momentum from begin to end: variance 2 N T, 5 standard errors.
+  // The remainder is the change of momentum from start to end: variance 2 N T, 5 standard errors.
   CHECK(std::fabs(floor.mean - lid.mean - weight) * 15.0 * result.duration <
         5.0 * std::sqrt(2.0 * kCount * kTemperature));
   CHECK(relative_error(result.temperature) < 0.006);
@@ -167,18 +168,18 @@ TEST_CASE("Barometer: a dense gas presses on the floor with its weight, and has 
 }
 
 TEST_CASE("Barometer: a thin gas has the barometric profile at one temperature") {
-  // 100 particles over 200 wide, T/g = 20: rho = .025 at the floor, 1.5 e^-8 of it at the lid. 16
-  // layers of 10; those that hold less than a particle on average are left out. The two virial
-  // coefficients of the law change a layer by up to 8 %, the next one by .3 %; the layers next to
-  // the floor hold no centres in its lowest half diameter.
+  // 100 particles in a width of 200, T/g = 20: rho = .025 at the floor, and e^-8 times smaller at
+  // the lid. Layers with less than one particle on average are omitted, of 16 layers of height 10.
+  // The two virial coefficients of the law change a layer by up to 8 %, the next one by .3 %. The
+  // lowest half diameter above the floor has no centres.
   constexpr int kLayers = 16;
   constexpr int kWindows = 400;
   constexpr double kGravity = 0.1;
   constexpr double kCount = 100.0;
   const Scene scene = column(200.0, 160.5, 100, kGravity);
   const Model<2> model = model_of<2>(scene, 404);
-  // Layers counted from the lowest centres at y = 1/2, by samples every 100: almost three times the
-  // time of a bounce, and there are enough collisions to mix.
+  // Layers begin at the lowest centres, y = 1/2. Samples every 100: almost three times the time of
+  // a bounce, with enough collisions for mixing.
   Simulation<2> simulation(model, start_state<2>(scene, 404));
   std::vector<Sample> densities(kLayers), temperatures(kLayers);
   for (int window = -20; window < kWindows; ++window) {
@@ -204,11 +205,11 @@ TEST_CASE("Barometer: a thin gas has the barometric profile at one temperature")
 }
 
 TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
-  // dp/dy = -rho g. 160 particles over 20 wide, T/g = 10: phi falls from 0.3 at the floor to 0.04
-  // below the lid, at four of these. 150 windows of 100 time units, 100 apart: a layer's momentum
-  // forgets itself within some collisions, the column its swinging. Densities in sub-layers of
-  // 1/16, which miss the weight within a layer by some 1e-4 of it where contacts with the floor
-  // order the gas.
+  // dp/dy = -rho g. 160 particles in a width of 20, T/g = 10: phi falls from 0.3 at the floor to
+  // 0.04 below the lid, at a height of 4 T/g. 150 windows of 100 time units, 100 apart: the
+  // momentum of a layer decorrelates within some collisions, the oscillation of the column more
+  // slowly. Densities are in sub-layers of 1/16. Near the floor, where the gas is layered, they
+  // neglect about 1e-4 of the weight within a layer.
   constexpr int kLayers = 40;
   constexpr int kParts = 16;
   constexpr int kWindows = 150;
@@ -225,8 +226,8 @@ TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
   simulation.add_observer(stresses);
   simulation.add_observer(densities);
   simulation.add_observer(totals);
-  // Of each layer: what its pressure exceeds that on the lid and the weight above by, and the same
-  // from layer to layer.
+  // For each layer: its pressure minus the pressure on the lid and the weight above. Also the same
+  // difference from layer to layer.
   std::vector<Sample> excesses(kLayers), steps(kLayers), pressures(kLayers), weights(kLayers);
   for (int window = 0; window < kWindows; ++window) {
     simulation.run_until(simulation.time() + kSpan);
@@ -247,7 +248,7 @@ TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
       below = excess;
     }
   }
-  // A step is about the particles of two layers: every other has its own.
+  // A step concerns the particles of two layers. Every second step is independent.
   double chi_squared = 0.0, least = 1.0, most = 0.0;
   for (std::size_t i = 0; i < kLayers; ++i) {
     CAPTURE(i);

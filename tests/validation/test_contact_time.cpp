@@ -7,13 +7,13 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// What the TC model changes (theory 5.3; Luding & McNamara 1998), in the vibrated gas
-// with alpha = .9, elastic walls: its shares go with t_c, and T is that of t_c = 0 where they
-// vanish.
+// Effects of the TC model (theory 5.3; Luding & McNamara 1998) in the vibrated gas with alpha = .9
+// and elastic walls. The share of elastic collisions is proportional to t_c. At a small share, T
+// equals T at t_c = 0.
 
 namespace {
 
-// Between a particle's collisions with others.
+// Mean time between collisions of a particle with others.
 double mean_collision_time() {
   return 1.0 / run(vibrated_gas(0.9, 1.0), 100.0, 500.0, 701).collision_rate.mean;
 }
@@ -27,15 +27,15 @@ Measured with_contact_time(double contact_time, double duration, std::uint64_t s
 }  // namespace
 
 TEST_CASE("Contact time: its effect vanishes with it, in proportion") {
-  // A particle meets another within a short t_c after the last with a probability proportional to
-  // it, either of two: the share of elasticised collisions is about 2 t_c/(mean time), and thrice
-  // as long gives about thrice the share. (From .3 on the gas runs away: hotter, it collides more
-  // often, so that more of its collisions are elastic.)
+  // The probability of another collision within a short t_c is proportional to t_c, for each of two
+  // particles. The share of elastic collisions is about 2 t_c/(mean time): a three times longer t_c
+  // gives about three times the share. From .3 on the gas runs away: it heats up, collides more
+  // often, and more collisions are elastic.
   const double unit = mean_collision_time();
   double share = 1.0, undissipated = 1e9;
   std::uint64_t seed = 702;
   for (const double t_c : {0.03, 0.01, 0.003, 0.001, 0.0003}) {
-    // Long enough for some hundred elasticised collisions.
+    // Long enough for some hundred elastic collisions.
     const Measured result = with_contact_time(t_c * unit, t_c < 0.002 ? 4000.0 : 1000.0, seed++);
     const double next_share = static_cast<double>(result.elasticised) / result.pair_collisions;
     MESSAGE("t_c = ", t_c, ": share elasticised ", next_share, ", undissipated ",

@@ -12,8 +12,8 @@ using namespace clatter;
 using namespace clatter::testing;
 
 TEST_CASE("Cooling gas: Haff's law holds down to a hundredth of the temperature, within 4 %") {
-  // phi = .1, alpha = .9, N = 100, periodic. T = T0/(1 + k t)^2 with k = eps omega_E(T0)/4,
-  // refined (theory 6.6); 1 + k t = 10 at the end. Mean over 64 seeds.
+  // phi = .1, alpha = .9, N = 100, periodic. T = T0/(1 + k t)^2 with the refined k = eps
+  // omega_E(T0)/4 (theory 6.6). 1 + k t = 10 at the end. Mean over 64 seeds.
   constexpr int kSeeds = 64;
   constexpr int kTimes = 20;
   const Scene scene = gas_of_fraction(0.1, 100, 0.9);
@@ -37,8 +37,8 @@ TEST_CASE("Cooling gas: Haff's law holds down to a hundredth of the temperature,
 }
 
 TEST_CASE("Cooling gas: walls that lose heat cool elastic particles by theory 7.15") {
-  // The refined rate with the wall layer: k = kappa (1 - alpha_w^2)/(pi Lx) sqrt(pi T0/2), where
-  // kappa = (1 + 2 phi chi) Lx/(Lx - a) counts the hits of dense particles on walls.
+  // The refined rate with the wall layer: k = kappa (1 - alpha_w^2)/(pi Lx) sqrt(pi T0/2). Here
+  // kappa = (1 + 2 phi chi) Lx/(Lx - a) is the enhanced wall collision rate of a dense gas.
   constexpr int kSeeds = 64;
   constexpr double kRestitution = 0.98;
   Scene scene = gas(20.0, 25.0, 100, 1.0);

@@ -14,8 +14,8 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Z of an elastic periodic gas of 4000 particles, checked to a standard error of at most 0.1 % and
-/// a deviation of at most 0.3 %, three of these.
+/// Z of an elastic periodic gas of 4000 particles. The standard error must be at most 0.1 %, the
+/// deviation at most 0.3 %, three standard errors.
 void check_compressibility(double area_fraction, double literature, double duration,
                            std::uint64_t seed) {
   const Measured result =
@@ -31,16 +31,16 @@ void check_compressibility(double area_fraction, double literature, double durat
 }  // namespace
 
 // Kolafa & Rottner 2006, Mol. Phys. 104, 3435: molecular dynamics and virial series of hard disks.
-TEST_CASE("Elastic gas: Z is that of the literature at phi = .31416") {
+TEST_CASE("Elastic gas: Z agrees with the literature at phi = .31416") {
   check_compressibility(0.31416, 2.15144, 240.0, 101);
 }
 
-TEST_CASE("Elastic gas: Z is that of the literature at phi = .47124") {
+TEST_CASE("Elastic gas: Z agrees with the literature at phi = .47124") {
   check_compressibility(0.47124, 3.66369, 160.0, 102);
 }
 
 TEST_CASE("Elastic gas: the collision rate is Enskog's at phi = .1") {
-  // Henderson's chi is good to 0.05 % here; at T = E/N (N = 4000) the rate is exact up to 1/N.
+  // Henderson's chi is accurate to 0.05 % here. At T = E/N (N = 4000) the rate is exact up to 1/N.
   const Measured result = run(gas_of_fraction(0.1, 4000, 1.0), 20.0, 1200.0, 103);
   const double expected = enskog_rate(0.1, 1.0);
   MESSAGE("omega = ", result.collision_rate.mean, " +- ", result.collision_rate.standard_error,
@@ -49,8 +49,8 @@ TEST_CASE("Elastic gas: the collision rate is Enskog's at phi = .1") {
   CHECK(std::fabs(relative(result.collision_rate, expected)) < 0.005);
 }
 
-TEST_CASE("Elastic gas: the kurtosis of the velocities is that of a Gaussian") {
-  // Energy and both momenta are fixed, so each component is one coordinate on a sphere in n =
+TEST_CASE("Elastic gas: the kurtosis of the velocities is Gaussian") {
+  // Energy and momentum are fixed. Each component is therefore one coordinate on a sphere in n =
   // 2(N-1) dimensions: <v^4>/(3 <v^2>^2) - 1 = -2/(n + 2) = -1/N exactly.
   const Measured result = run(gas_of_fraction(0.3, 400, 1.0), 20.0, 1000.0, 104);
   for (const Estimate& kurtosis : {result.kurtosis_excess[0], result.kurtosis_excess[1]}) {
@@ -62,9 +62,9 @@ TEST_CASE("Elastic gas: the kurtosis of the velocities is that of a Gaussian") {
 }
 
 TEST_CASE("Elastic gas: speeds have Maxwell's distribution") {
-  // Of 2000 particles every 5 time units, some ten collisions of each, 100 times: 200,000 speeds in
-  // 40 bins of equal probability, exp(-v^2/2T) = k/40. The 1/N of the fixed energy is below chi^2's
-  // resolution: it shifts a bin by at most 0.05 %, a seventh of a standard error.
+  // 2000 particles, 100 samples every 5 time units, some ten collisions of each: 200,000 speeds in
+  // 40 bins of equal probability, exp(-v^2/2T) = k/40. The 1/N of the fixed energy shifts a bin by
+  // at most 0.05 %, a seventh of a standard error, which chi^2 cannot resolve.
   constexpr int kBins = 40;
   constexpr int kSamples = 100;
   const Scene scene = gas_of_fraction(0.3, 2000, 1.0);
@@ -86,7 +86,7 @@ TEST_CASE("Elastic gas: speeds have Maxwell's distribution") {
 
 TEST_CASE("Elastic gas: both components have the same temperature") {
   const Measured result = run(gas(30.0, 20.0, 200, 1.0), 20.0, 1000.0, 106);
-  // The energy is constant, so T_x and T_y have opposite deviations, and their errors add up.
+  // The energy is constant. T_x and T_y thus have opposite deviations, and their errors add up.
   const double error =
       result.axis_temperatures[0].standard_error + result.axis_temperatures[1].standard_error;
   MESSAGE("T_x - T_y = ", result.axis_temperatures[0].mean - result.axis_temperatures[1].mean,
@@ -97,10 +97,10 @@ TEST_CASE("Elastic gas: both components have the same temperature") {
   CHECK(result.temperature.mean == doctest::Approx(1.0).epsilon(1e-12));
 }
 
-TEST_CASE("Elastic gas: the pressure on walls is that of the equation of state") {
-  // Between two walls p = Z rho T with the density of the middle, where no wall is near: 60 long,
-  // 12 of them at each end left out. Z from Kolafa & Rottner's table would need the density it
-  // holds; Henderson's is good to 0.1 % at phi = .25.
+TEST_CASE("Elastic gas: the pressure on walls follows the equation of state") {
+  // Between two walls p = Z rho T with the density of the central part: 60 long without 12 at each
+  // end. Z from Kolafa & Rottner's table would need a listed density. Henderson's Z is accurate to
+  // 0.1 % at phi = .25.
   Scene scene = gas(60.0, 30.0, 573, 1.0);
   wall_in(scene, 0, Wall{});
   scene.measure.fields = {Quantity::Density};

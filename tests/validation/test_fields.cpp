@@ -25,7 +25,8 @@ const std::vector<Field> kFields = {Quantity::Density,
                                     Field(Quantity::HeatFlux, 1),
                                     Quantity::Dissipation};
 
-/// Probability of the columns' distances from an expected value, in their standard errors.
+/// Probability of the deviations of columns from an expected value, in units of their standard
+/// errors.
 double flatness_p(const std::vector<Estimate>& columns, double expected) {
   double sum = 0.0;
   for (const Estimate& e : columns) {
@@ -35,7 +36,7 @@ double flatness_p(const std::vector<Estimate>& columns, double expected) {
   return chi_squared_p(sum, static_cast<double>(columns.size()));
 }
 
-/// Probability of two profiles' differences, where both errors are independent.
+/// Probability of the differences of two profiles with independent errors.
 double agreement_p(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
   double sum = 0.0, freedom = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -50,7 +51,7 @@ double agreement_p(const std::vector<Estimate>& a, const std::vector<Estimate>& 
 }  // namespace
 
 TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to wall") {
-  // Cells of a quarter: in the outermost two columns no centre ever is.
+  // Cells of a quarter diameter: the outermost two columns never contain a centre.
   Scene scene = vibrated_gas(0.9, 1.0);
   scene.measure.fields = kFields;
   scene.measure.cells = {80, 1};
@@ -58,8 +59,8 @@ TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to 
   const Profile& profile = *result.profile;
   const double width = 0.25, height = 25.0;
 
-  // Momentum piles up nowhere: what the columns differ by is the change of what they hold, over the
-  // run's duration, far below the errors of the mean pressure itself.
+  // Momentum does not accumulate. Columns differ by the change of their momentum over the duration
+  // of the run, far below the errors of the mean pressure.
   const double pressure = 0.5 * (result.pressure[kLeft]->mean + result.pressure[kRight]->mean);
   const std::vector<Estimate>& stress = profile.at(Field(Quantity::Stress, 0, 0));
   double largest = 0.0;
@@ -80,15 +81,15 @@ TEST_CASE("Fields: momentum and energy of the vibrated gas balance from wall to 
   CHECK(balance < 1e-3);
   CHECK(dissipation == doctest::Approx(-result.dissipated.mean).epsilon(1e-9));
 
-  // Into the gas at either end.
+  // Heat flows into the gas at both ends.
   const std::vector<Estimate>& q = profile.at(Field(Quantity::HeatFlux, 0));
   const double in = (q.front().mean - q.back().mean) * height;
   MESSAGE("heat flux at the walls over their power is 1 within ", in / result.walls_in->mean - 1.0);
   CHECK(in == doctest::Approx(result.walls_in->mean).epsilon(1e-9));
   CHECK(std::fabs(q.front().mean + q.back().mean) <
         5.0 * std::hypot(q.front().standard_error, q.back().standard_error));
-  // dq_x/dx = zeta, between the middles of neighbours and away from the walls' own columns; V = 0
-  // there but for the change of density over the run.
+  // dq_x/dx = zeta between the centres of neighbouring columns, without the wall columns. V = 0
+  // there, except for the change of density over the run.
   for (std::size_t i = 10; i + 11 < q.size(); i += 10) {
     double lost = 0.5 * (profile.at(Quantity::Dissipation)[i].mean +
                          profile.at(Quantity::Dissipation)[i + 10].mean);
@@ -115,8 +116,8 @@ TEST_CASE("Fields: an elastic gas at rest conducts and dissipates nothing") {
           ", T_x = T_y: ", equal);
   CHECK(std::min({q_x, q_y, s_xy, equal}) > kMinProbability);
 
-  // p = rho T (1 + 2 phi chi), T = 1 being that of all particles. Two momenta are fixed, which
-  // makes contacts rarer and softer by some 1/N of their share of the pressure, 0.1 %.
+  // p = rho T (1 + 2 phi chi), with T = 1 of all particles. The fixed momentum makes collisions
+  // rarer and softer: the pressure contribution of collisions decreases by some 1/N, 0.1 %.
   const double phi = 0.1;
   const double density = 4.0 * phi / std::numbers::pi;
   const double expected = density * (1.0 + 2.0 * phi * contact_correlation(phi));
@@ -127,14 +128,14 @@ TEST_CASE("Fields: an elastic gas at rest conducts and dissipates nothing") {
       CHECK(e.standard_error < 0.01 * expected);
       mean += e.mean / 10.0;
     }
-    // Columns share the particles, so that their mean is far better known than each.
+    // Columns share particles. Their mean is far more precise than each column.
     CHECK(std::fabs(mean / expected + 1.0) < 0.003);
   }
 }
 
 TEST_CASE("Fields: temperature and stress are those about the mean velocity") {
-  // Two halves of a gas that stream against each other mix; T stays that about V, and the stress
-  // of the flow is none of the gas.
+  // Two halves of a gas with opposite flows mix. T is measured relative to V, so that the flow does
+  // not contribute to the stress.
   Scene scene = gas_of_fraction(0.1, 200, 1.0);
   scene.measure.fields = kFields;
   scene.measure.cells = {1, 1};
@@ -192,7 +193,7 @@ TEST_CASE("Fields: the stress along y carries the weight above it") {
   const Profile& profile = *result.profile;
   REQUIRE(profile.edges.size() == 13);
   CHECK(profile.edges.back() == doctest::Approx(12.0));
-  // Isothermal, and the stress carries what lies above: -sigma_yy(y) = p_top + g sum of rho above,
+  // Isothermal. The stress carries the weight above: -sigma_yy(y) = p_top + g sum of rho above,
   // within 1e-3, the change of momentum over the run.
   const double p_top = result.pressure[kTop]->mean, p_bottom = result.pressure[kBottom]->mean;
   CHECK(p_bottom - p_top == doctest::Approx(0.3 * 60.0 / 15.0).epsilon(1e-3));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStroke = 0.01;
 
-// The gas of the figures between saw-tooth walls of that stroke, whose gain (1 + alpha_w) stroke
+// The standard gas between saw-tooth walls of this stroke. Their gain (1 + alpha_w) stroke
 // frequency is v_dr = 1 (theory 4.4).
 Scene sawtooth_gas(double restitution, double wall_restitution) {
   Scene scene = vibrated_gas(restitution, wall_restitution);
@@ -23,7 +23,7 @@ Scene sawtooth_gas(double restitution, double wall_restitution) {
   return scene;
 }
 
-// T between the saw-tooth walls and between the driven ones of their limit, to `precision` each.
+// T between saw-tooth walls and between driven walls, their limit, each to `precision`.
 void compare_with_limit(double restitution, double wall_restitution, double start_temperature,
                         double duration, std::uint64_t seed, double precision, double width) {
   Scene limit = vibrated_gas(restitution, wall_restitution);
@@ -64,8 +64,8 @@ TEST_CASE("Moving walls: sinusoidal walls give the energy that collisions dissip
 }
 
 TEST_CASE("Moving walls: a shaken floor carries the weight of a rough, kicked gas") {
-  // Everything that gives or takes energy at once; gravity gives nothing on average. t_c keeps
-  // particles from collapsing onto the floor while it recedes.
+  // All sources and sinks of energy at once. Gravity contributes zero on average. t_c prevents a
+  // collapse of particles onto the receding floor.
   Scene scene = gas(12.0, 30.0, 40, 0.9);
   scene.walls[kBottom] = {.kind = WallKind::Sinusoidal,
                           .restitution = 0.9,
@@ -83,7 +83,7 @@ TEST_CASE("Moving walls: a shaken floor carries the weight of a rough, kicked ga
   CHECK(result.walls_in->mean > 10.0 * result.walls_in->standard_error);
   CHECK(result.bulk_in->mean > 10.0 * result.bulk_in->standard_error);
   check_energy_balance(result, 40);
-  // The floor bears the weight, but for what the lid is pushed with.
+  // The floor carries the weight plus the force on the lid.
   const Estimate &floor = *result.pressure[kBottom], &lid = *result.pressure[kTop];
   const double weight = 40.0 * 0.5 / 12.0;
   CHECK(std::fabs(floor.mean - lid.mean - weight) <

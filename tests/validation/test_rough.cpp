@@ -13,10 +13,9 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Rough particles of constant beta (infinite friction), q = 1/2, against (theory 6.9-6.11).
-// It takes both velocity distributions for Gaussian and independent; the deviations that this makes
-// are a few per cent in dilute gases that are not too inelastic (Luding, Huthmann, McNamara &
-// Zippelius 1998).
+// Rough particles of constant beta (infinite friction), q = 1/2, compared with (theory 6.9-6.11).
+// The theory assumes independent Gaussian velocities and spins. The resulting error is a few
+// percent in dilute, weakly inelastic gases (Luding, Huthmann, McNamara & Zippelius 1998).
 
 namespace {
 
@@ -54,8 +53,8 @@ State<2> spinning_start(const Scene& scene, double spin_temperature, std::uint64
 
 TEST_CASE("Rough gas: free cooling tends to one ratio of the temperatures, from both sides") {
   // phi = .1, N = 100, 32 seeds: half start without spin, half with T_rot = 3 T_tr. The ratio is
-  // looked at five times from 40 to 60 collisions per particle: by then the slowest of these pairs
-  // is within e^-5 of its limit, and nothing has clustered in so small a box.
+  // measured five times, from 40 to 60 collisions per particle. Then the slowest pair is within
+  // e^-5 of its limit, and a box of this size has no clusters.
   constexpr int kSeeds = 32;
   for (const Pair& pair : {Pair{0.9, 0.0}, Pair{0.9, 0.5}, Pair{0.95, -0.5}, Pair{0.8, 0.9}}) {
     const Scene scene = rough_gas(pair);

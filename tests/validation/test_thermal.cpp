@@ -25,18 +25,18 @@ Scene between(double left, double right) {
   return scene;
 }
 
-// Dense elastic particles, perfectly rough or smooth, all round between walls of one temperature.
+// Dense elastic particles, smooth or perfectly rough, between four walls of one temperature.
 Scene thermal_box(double temperature, bool rough) {
   Scene scene = gas(15.0, 12.0, 60, 1.0);
   for (const int axis : {0, 1}) {
     wall_in(scene, axis, {.kind = WallKind::Thermal, .temperature = temperature});
   }
   if (rough) scene.particles.roughness = {std::numeric_limits<double>::infinity(), 1.0};
-  scene.particles.start.temperature = 0.5 * temperature;  // to be forgotten in the burn-in
+  scene.particles.start.temperature = 0.5 * temperature;  // relaxes during the burn-in
   return scene;
 }
 
-// Counts, in bins of equal probability, what comes to walls of a temperature and what leaves them.
+// Histograms of velocities before and after hits of thermal walls, in bins of equal probability.
 class WallSpeeds : public Observer<2> {
  public:
   static constexpr int kBins = 20;
@@ -85,13 +85,14 @@ class WallSpeeds : public Observer<2> {
 TEST_CASE("Thermal walls: a gas between two of one temperature takes it") {
   constexpr double kTemperature = 2.0;
   Scene scene = between(kTemperature, kTemperature);
-  scene.particles.start.temperature = 0.5;  // to be forgotten in the burn-in
+  scene.particles.start.temperature = 0.5;  // relaxes during the burn-in
   const Measured result = run(scene, 300.0, 30000.0, 121);
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error, ", walls ",
           kTemperature);
   CHECK(relative_error(result.temperature) < 0.003);
   CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.01);
-  // Canonical: each component is Gaussian, everywhere alike, without the 1/N of a fixed energy.
+  // Canonical ensemble: each component is Gaussian, uniform in space, without the 1/N of a fixed
+  // energy.
   for (const Estimate& kurtosis : {result.kurtosis_excess[0], result.kurtosis_excess[1]}) {
     CHECK(kurtosis.standard_error < 0.02);
     CHECK(std::fabs(kurtosis.mean) < 3.0 * kurtosis.standard_error);
@@ -102,7 +103,7 @@ TEST_CASE("Thermal walls: a gas between two of one temperature takes it") {
       CHECK(std::fabs(local.mean - kTemperature) < 5.0 * local.standard_error);
     }
   }
-  // In equilibrium the walls give nothing on average.
+  // In equilibrium the mean energy from the walls is zero.
   CHECK(std::fabs(result.walls_in->mean) < 3.0 * result.walls_in->standard_error);
 }
 
@@ -117,7 +118,7 @@ TEST_CASE("Thermal walls: heat flows from the hot one to the cold one, matter do
           profile.at(Field(Quantity::Temperature, 1))[i + 1].mean);
     CHECK(profile.at(Quantity::Density)[i].mean < profile.at(Quantity::Density)[i + 1].mean);
   }
-  // Both walls bear the same pressure, and what one gives the other takes: nothing is left over.
+  // Both walls have the same pressure. The energy from one wall goes into the other.
   const Estimate& left = *result.pressure[kLeft];
   const Estimate& right = *result.pressure[kRight];
   const double error = std::hypot(left.standard_error, right.standard_error);
@@ -129,7 +130,7 @@ TEST_CASE("Thermal walls: heat flows from the hot one to the cold one, matter do
 }
 
 TEST_CASE("Thermal walls: a gas among four takes their temperature, in motion and in spin") {
-  // alpha = beta = 1 conserves energy, so that spins have T_w too, however they get it.
+  // alpha = beta = 1 conserves energy. The spins therefore have T_w too.
   constexpr double kTemperature = 2.0;
   for (const bool rough : {false, true}) {
     CAPTURE(rough);
@@ -154,8 +155,8 @@ TEST_CASE("Thermal walls: a gas among four takes their temperature, in motion an
 }
 
 TEST_CASE("Thermal walls: arriving particles are distributed like leaving ones") {
-  // Detailed balance: normal velocities have the flux-weighted law, those along the wall and the
-  // spins are Gaussian, before a hit as after it. Some 20,000 hits, every seventh; 6 laws.
+  // Detailed balance: normal velocities are flux-weighted; tangential velocities and spins are
+  // Gaussian, before and after a hit. Every seventh of some 20,000 hits; 6 distributions.
   constexpr double kTemperature = 2.0;
   const Scene scene = thermal_box(kTemperature, true);
   Simulation<2> simulation(model_of<2>(scene, 125), start_state<2>(scene, 125));

@@ -10,7 +10,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Stationary temperature of this gas (theory 7.11).
+/// Stationary temperature of the standard gas (theory 7.11).
 double refined(double restitution, double wall_restitution) {
   return VibratedGas{100.0, 20.0, 25.0, restitution, wall_restitution, 1.0}.temperature_refined();
 }
@@ -23,8 +23,8 @@ void report(const Measured& result, double expected) {
 }  // namespace
 
 TEST_CASE("Vibrated gas: theory 7.11 holds for elastic particles between lossy walls, within 1 %") {
-  // All the loss is at the walls, so that the density there, which theory takes for uniform,
-  // cancels from the balance (theory 7.1).
+  // All loss is at the walls. The density at the walls, uniform in theory, therefore cancels from
+  // the balance (theory 7.1).
   const double expected = refined(1.0, 0.9);
   Scene scene = vibrated_gas(1.0, 0.9);
   scene.particles.start.temperature = expected;
@@ -58,7 +58,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Vibrated gas: it is hottest along x at the walls, and densest in the middle") {
-  // The walls only heat the x direction, so it is the hotter one, and the middle is the coldest.
+  // The walls heat the x direction only: T_x > T_y, and the centre is coldest.
   Scene scene = vibrated_gas(0.9, 1.0);
   scene.measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0)};
   scene.measure.cells = {10, 1};
@@ -72,7 +72,7 @@ TEST_CASE("Vibrated gas: it is hottest along x at the walls, and densest in the 
   CHECK(profile.at(Field(Quantity::Temperature, 0)).back().mean >
         1.2 * profile.at(Field(Quantity::Temperature, 0))[5].mean);
   CHECK(profile.at(Quantity::Density)[5].mean > 1.2 * profile.at(Quantity::Density).front().mean);
-  // Mirror images of each other, within 5 standard errors.
+  // Mirror symmetry, within 5 standard errors.
   for (int i = 0; i < 5; ++i) {
     const Estimate& left = profile.at(Quantity::Density)[i];
     const Estimate& right = profile.at(Quantity::Density)[9 - i];

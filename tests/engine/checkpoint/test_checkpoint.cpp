@@ -20,7 +20,7 @@ std::string archived(Checkpoint& checkpoint) {
   return writer.written();
 }
 
-// Every number is another, so that none can stand in for its neighbour.
+// All numbers are different, so that a swap changes the file.
 Checkpoint example() {
   RunState<2> saved;
   saved.gravity = {0.5, -1.5};
@@ -45,7 +45,7 @@ RunState<2>& disks(Checkpoint& checkpoint) {
   return std::get<RunState<2>>(checkpoint.saved);
 }
 
-// What reading the file says; empty where it is read.
+// The error message for a file; empty if it is valid.
 std::string refusal(const std::filesystem::path& file) {
   return refusal_of([&] { read_checkpoint(file); });
 }
@@ -96,7 +96,7 @@ TEST_CASE("Checkpoint: a run of spheres is read back as one of spheres") {
   CHECK(archived(read) == archived(written));
 }
 
-// Each member is changed alone: a forgotten one would leave the file the same.
+// Changes each member alone. A forgotten member would leave the file unchanged.
 TEST_CASE("Checkpoint: a change of any one member changes the file") {
   const std::vector<std::function<void(Checkpoint&)>> changes = {
       [](Checkpoint& c) { c.program += '!'; },
@@ -140,7 +140,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
   }
 }
 
-// The checksum is right and the content is not: nobody but a person with bad intent writes these.
+// The checksum is valid, the content is not. Only malicious files are like this.
 TEST_CASE("Checkpoint: a state that no run has is refused") {
   const double nan = std::nan("");
   const std::vector<std::function<void(RunState<2>&)>> spoilt = {
@@ -220,7 +220,7 @@ TEST_CASE("Checkpoint: a file with any byte changed, cut off or added is refused
   CHECK(refusal(folder / "a").empty());
 }
 
-TEST_CASE("Checkpoint: a refusal says what is wrong, and where the previous one is") {
+TEST_CASE("Checkpoint: an error names the problem and the previous checkpoint") {
   const TemporaryFolder folder;
   CHECK(says(refusal(folder / "a"), "there is no such file"));
   CHECK(says(refusal(folder / ""), "this is no file"));
@@ -263,7 +263,7 @@ TEST_CASE("Checkpoint: a file of another version names the program that wrote it
   CHECK(says(refusal(folder / "a"), "resume it with clatter 9.8"));
 }
 
-// As a file of another program's structs would, were its checksum right.
+// As in a file with another layout of structs and a valid checksum.
 TEST_CASE("Checkpoint: lengths beyond the end of the file are refused, not allocated") {
   std::uint64_t length = ~std::uint64_t{0} / 16;
   ArchiveWriter writer;

@@ -1,4 +1,4 @@
-// A run that is put aside and taken up again is the run that was never put aside, bit for bit.
+// A resumed run equals the uninterrupted run, bit for bit.
 
 #include <doctest/doctest.h>
 
@@ -26,13 +26,13 @@ RunState<2> through_file(const Simulation<2>& simulation) {
   return std::get<RunState<2>>(read_checkpoint(folder / "a").saved);
 }
 
-// Which laws, and a model of them.
+// Laws with a name, and their model.
 struct Laws {
   std::string name;
   Model<2> model;
 };
 
-// At t = 0 and at t = 1e9 the walls are at their places: they do whole periods in between.
+// At t = 0 and at t = 1e9 the walls are at their rest positions, after whole periods.
 std::vector<Laws> all_laws() {
   Model<2> gas = periodic_box(20.0, 25.0);
   gas.restitution = 0.9;
@@ -136,7 +136,7 @@ TEST_CASE("Resume: every scene of the gallery continues from halfway to the same
   }
 }
 
-// Positions and velocities differ by no more than the rounding of a flight taken up midway.
+// Positions and velocities differ by no more than the rounding error of an interrupted flight.
 TEST_CASE("Resume: laws may change, and the particles stay where they are") {
   for (const auto& [before, old_model] : all_laws()) {
     Simulation<2> simulation(old_model, random_gas(old_model, 100, 303), 1e9);
@@ -145,7 +145,7 @@ TEST_CASE("Resume: laws may change, and the particles stay where they are") {
     for (const auto& [now, laws] : all_laws()) {
       CAPTURE(before);
       CAPTURE(now);
-      // The walls remain: where they moved, they would lie within particles.
+      // The walls keep their motion: with another motion they would overlap particles.
       Model<2> model = laws;
       model.walls = old_model.walls;
       Simulation<2> resumed(model, simulation.save());
@@ -206,8 +206,8 @@ TEST_CASE("Resume: a run that collapsed continues with a contact time") {
   check_sound(resumed);
 }
 
-// A ball comes to rest on the floor. Of 64 runs that differ in when the base moves, one stops just
-// where it does.
+// A ball comes to rest on the floor. 64 runs move the base at different times, and one stops at a
+// move.
 TEST_CASE("Resume: a run that stops when its base should move can be resumed") {
   Model<2> model =
       with_walls(periodic_box(20.0, 20.0), 1, {.kind = WallKind::Static, .restitution = 0.5});

@@ -26,7 +26,7 @@ std::multiset<Image> near(const CellGrid<2>& grid, const IntVec<2>& cell) {
   return images;
 }
 
-// Whether each list that holds somebody round a periodic border says so.
+// Whether each list with a particle across a periodic border is marked.
 bool wraps_are_told(const CellGrid<2>& grid, const IntVec<2>& cell) {
   for (const auto* list = &grid.near(cell); list; list = grid.next(*list)) {
     for (std::uint32_t k = 0; k < list->count; ++k) {
@@ -37,7 +37,7 @@ bool wraps_are_told(const CellGrid<2>& grid, const IntVec<2>& cell) {
   return true;
 }
 
-// A box from wide to narrower than two diameters, with either pair of sides walled or periodic.
+// A box of random size, down to less than two diameters, with walled or periodic pairs of sides.
 Model<2> random_box(Random& random) {
   constexpr double kEdges[] = {1.001, 1.2, 2.0, 2.05, 2.1, 2.2, 3.15, 3.2, 4.0, 7.3};
   Model<2> model;
@@ -49,7 +49,7 @@ Model<2> random_box(Random& random) {
   return model;
 }
 
-// A place in the box; one in four lies on a corner of a cell or of the box.
+// A position in the box. One in four is at a corner of a cell or of the box.
 Vec2 random_place(const Model<2>& model, const CellGrid<2>& grid, Random& random) {
   Vec2 r;
   for (int axis = 0; axis < 2; ++axis) {
@@ -65,7 +65,7 @@ Vec2 random_place(const Model<2>& model, const CellGrid<2>& grid, Random& random
   return r;
 }
 
-// A particle in a grid: its cell, and its place in the frame of that cell.
+// A particle in a grid: its cell, and its position in the frame of this cell.
 struct Guest {
   IntVec<2> cell;
   Vec2 r;
@@ -80,7 +80,7 @@ bool belongs(const CellGrid<2>& grid, const Guest& guest) {
   return within;
 }
 
-// Where the particle is after a step to a neighbouring cell, or nowhere if there is a wall.
+// The particle after a step to a neighbouring cell; nothing if there is a wall.
 std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Guest guest, int axis,
                              int step) {
   const int next = guest.cell[axis] + step;
@@ -91,7 +91,8 @@ std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Gue
   return guest;
 }
 
-// Moves a particle over borders of its cell, at most so many, where `may(there)` lets it; how many.
+// Moves a particle over at most `most` cell borders, as far as `may(there)` allows. Returns the
+// number of crossed borders.
 template <typename May>
 int wander(const Model<2>& model, CellGrid<2>& grid, std::uint32_t particle, Guest& guest, int most,
            Random& random, const May& may) {
@@ -136,10 +137,10 @@ TEST_CASE("CellGrid: a list holds the particles about its cell, however many") {
   }
 }
 
-TEST_CASE("CellGrid: a list marks that some particles lie across a periodic border") {
+TEST_CASE("CellGrid: a list marks particles across a periodic border") {
   CellGrid<2> grid(periodic_box(10.0, 10.0), 50.0);
   const IntVec<2> first = {0, 2}, last = {6, 2};
-  // Those beyond the border come where others were.
+  // Particles beyond the border reuse the places of others.
   for (std::uint32_t particle = 0; particle < 20; ++particle) grid.insert(particle, first);
   for (std::uint32_t particle = 20; particle < 40; ++particle) grid.insert(particle, last);
   for (std::uint32_t particle = 0; particle < 20; ++particle) {
@@ -172,7 +173,7 @@ TEST_CASE("CellGrid: a particle that moves is listed as if inserted there") {
   }
 }
 
-TEST_CASE("CellGrid: every position lies in a cell, within its borders") {
+TEST_CASE("CellGrid: every position is in a cell, within its borders") {
   Random random(62, Stream::Placement, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     const Model<2> model = random_box(random);
@@ -190,7 +191,7 @@ TEST_CASE("CellGrid: every position lies in a cell, within its borders") {
       for (int axis = 0; axis < 2; ++axis) {
         REQUIRE(cell[axis] >= 0);
         REQUIRE(cell[axis] < grid.counts()[axis]);
-        // On a border rounding may name the cell on either side.
+        // On a border, rounding decides the cell.
         REQUIRE(r[axis] >= grid.border(axis, cell[axis], false) - 1e-14);
         REQUIRE(r[axis] <= grid.border(axis, cell[axis], true) + 1e-14);
       }
@@ -198,7 +199,7 @@ TEST_CASE("CellGrid: every position lies in a cell, within its borders") {
   }
 }
 
-TEST_CASE("CellGrid: no image within one diameter is missed, and none comes twice") {
+TEST_CASE("CellGrid: every image within one diameter is found exactly once") {
   Random random(63, Stream::Placement, 0, 0);
   int overhanging = 0;
   for (int i = 0; i < 10000; ++i) {
@@ -210,7 +211,7 @@ TEST_CASE("CellGrid: no image within one diameter is missed, and none comes twic
       const Vec2 r = random_place(model, grid, random);
       guests.push_back({grid.cell_at(r), r});
       grid.insert(k, guests[k].cell);
-      // Any cell will do within whose borders it lies.
+      // Any cell that contains the particle within its borders is allowed.
       overhanging += wander(model, grid, k, guests[k], 4, random,
                             [&](const Guest& there) { return belongs(grid, there); });
     }

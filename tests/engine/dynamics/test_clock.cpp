@@ -8,7 +8,7 @@
 
 using namespace clatter;
 
-// Bits beyond the 64 that ISO C++ has; what follows is exact arithmetic in units of a power of two.
+// 128-bit integers, which ISO C++ does not have, for exact arithmetic in units of a power of two.
 __extension__ typedef __int128 Integer;
 
 TEST_CASE("Clock: a simulation time comes back from the base unchanged") {
@@ -23,8 +23,8 @@ TEST_CASE("Clock: a simulation time comes back from the base unchanged") {
   }
 }
 
-// Moves of whole multiples of 2^-40 up to 1e12 + 1e5 fit 128 bits, so the base is known exactly:
-// the time on it must be the exact difference, which has few bits.
+// Moves by multiples of 2^-40 up to 1e12 + 1e5 fit 128 bits, so that the base is known exactly. A
+// time relative to it must be the exact difference, which has few bits.
 TEST_CASE("Clock: a time on the base is exact after many moves") {
   for (const std::int64_t start : {0ll, 1000000000ll, 1000000000000ll}) {
     Random random(52, Stream::Velocity, 0, 0);
@@ -43,7 +43,7 @@ TEST_CASE("Clock: a time on the base is exact after many moves") {
 }
 
 TEST_CASE("Clock: start + count * interval is exact up to 1e15 counts") {
-  // .1 is 0x1.999999999999ap-4 = tenth * 2^-56; the base lies at a multiple of 2^-40.
+  // .1 is 0x1.999999999999ap-4 = tenth * 2^-56. The base is a multiple of 2^-40.
   constexpr std::int64_t tenth = 0x1999999999999a;
   REQUIRE(std::ldexp(static_cast<double>(tenth), -56) == 0.1);
   Random random(53, Stream::Velocity, 0, 0);
@@ -52,7 +52,7 @@ TEST_CASE("Clock: start + count * interval is exact up to 1e15 counts") {
     for (const double start : {0.0, 0.5, 1e9}) {
       const Integer exact_time =
           static_cast<Integer>(tenth) * count + (static_cast<Integer>(std::ldexp(start, 20)) << 36);
-      // A base that ends up to 50 before that time.
+      // A base at most 50 before this time.
       Clock clock(start);
       const double near = std::floor(0.1 * static_cast<double>(count));
       const auto below = static_cast<std::int64_t>(random.below(50ull << 40));
@@ -73,8 +73,8 @@ TEST_CASE("Clock: the phase at the base is exact for up to 1e18 periods") {
   CHECK(Clock(1.0).periods(3.5, 0.5) == 0.0);
   CHECK(Clock(1e12).periods(1e6, 0.625) == 0.625);
   CHECK(Clock(-0.25).periods(1.0, 0.0) == 0.75);
-  // Frequencies of whole multiples of 2^-20 below 2^20, a base of multiples of 2^-40: the product
-  // in units of 2^-60 fits 128 bits.
+  // Frequencies are multiples of 2^-20 below 2^20, the base is a multiple of 2^-40. The product in
+  // units of 2^-60 fits 128 bits.
   constexpr Integer period = static_cast<Integer>(1) << 60;
   for (const std::int64_t start : {0ll, 1000000000ll, 1000000000000ll}) {
     Random random(54, Stream::Velocity, 0, 0);

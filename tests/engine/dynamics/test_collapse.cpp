@@ -10,7 +10,7 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Runs that may not go on, or that must although little is left of their motion.
+// Runs that must stop, and runs that must continue although little motion is left.
 
 namespace {
 
@@ -19,7 +19,7 @@ const Wall kShaking{
 
 }  // namespace
 
-// The lone particle's speed grows by the factor in every bounce, long before time can stand still.
+// The speed of the lone particle grows by a factor in every bounce, before time can stand still.
 TEST_CASE("Standstill: speeds that diverge stop the run before numbers lose their meaning") {
   for (const double restitution : {1.2, 2.0, 10.0}) {
     for (const int count : {1, 3, 100}) {
@@ -35,7 +35,7 @@ TEST_CASE("Standstill: speeds that diverge stop the run before numbers lose thei
   }
 }
 
-// The first bounces come late and make particles 10^11 times as fast, and that is all.
+// The first bounces come late and make the particles 10^11 times as fast. This is the only growth.
 TEST_CASE("Standstill: a cold gas between walls that heat it is not mistaken for a divergence") {
   Model<2> model = with_walls(periodic_box(20.0, 25.0), 0,
                               {.kind = WallKind::Driven, .restitution = 1.05, .drive_speed = 0.1});
@@ -48,8 +48,7 @@ TEST_CASE("Standstill: a cold gas between walls that heat it is not mistaken for
   check_sound(simulation);
 }
 
-// The walls give next to nothing; the particles are as fast as their fall, or their kicks, makes
-// them.
+// The walls add almost no energy. The fall or the kicks set the speed of the particles.
 TEST_CASE("Standstill: particles that fall or are kicked between humming walls are no divergence") {
   const Wall hums{.kind = WallKind::Sinusoidal, .stroke = 1e-6, .frequency = 1.0};
   Model<2> falls = with_walls(periodic_box(10.0, 30.0), 1, kStatic);
@@ -92,7 +91,7 @@ TEST_CASE("Standstill: no t_c is advised against a thermal wall that gives no sp
   CHECK_FALSE(says(stop, "contact_time"));
 }
 
-// Kicks, and crossings of cells, are steps although nothing collides.
+// Kicks and cell crossings are steps without a collision.
 TEST_CASE("Standstill: a limit on steps halts a gas that never collides") {
   Model<2> kicked = periodic_box(9.0, 8.0);
   kicked.bulk_drive = BulkDrive{1e-9, 0.1, 0.0};
@@ -105,8 +104,8 @@ TEST_CASE("Standstill: a limit on steps halts a gas that never collides") {
   CHECK(lone.counts().cell_crossings == 1000);
 }
 
-// A t_c of many periods must not add energy of its own: what the walls do within t_c is elastic,
-// no more. Without it T = 8; the bound leaves room for what elastic hits keep.
+// A t_c of many periods must not add energy: it only makes the wall hits within t_c elastic.
+// Without t_c T = 8; the limit allows for the energy that elastic hits conserve.
 TEST_CASE("Standstill: t_c does not heat a gas between walls that shake faster") {
   Model<2> model = with_walls(periodic_box(20.0, 25.0), 0, kShaking);
   model.restitution = 0.9;
@@ -127,8 +126,8 @@ TEST_CASE("Standstill: t_c does not heat a gas between walls that shake faster")
   }
 }
 
-// A wholly inelastic wall lets particles go with its own velocity, so each grazes it at the start
-// of its flight; after a move of the base that must not count as a contact in the past.
+// A wholly inelastic wall releases particles with its own velocity, so that each grazes it at the
+// start of its flight. After a move of the base this must not count as a past contact.
 TEST_CASE("Standstill: the clock never steps back at moving walls that particles just left") {
   for (std::uint64_t seed = 956; seed < 962; ++seed) {
     Model<2> model = with_walls(with_walls(periodic_box(20.0, 25.0), 0, kStatic), 1, kStatic);
@@ -152,13 +151,13 @@ TEST_CASE("Standstill: a run continues between walls that move differently") {
   Model<2> after = before;
   after.walls[kLeft] =
       Wall{.kind = WallKind::Sawtooth, .stroke = 2.0, .frequency = 1.0, .phase = 0.0};
-  Simulation<2> second(after, first.save());  // t = 20: the wall is about to leave its place
+  Simulation<2> second(after, first.save());  // t = 20: the wall is at its rest position
   second.run_until(30.0);
   check_sound(second);
 }
 
-// While the wall stands far back, the particle falls behind its place and comes out again. A static
-// wall that stands in that place from then on was never touched.
+// While the wall is far back, the particle passes its rest position and returns. A new static wall
+// at the rest position has not been hit in the past.
 TEST_CASE("Standstill: a new wall is not hit by the past of a flight") {
   Model<2> before = with_walls(periodic_box(20.0, 25.0), 0, kStatic);
   before.walls[kLeft] =

@@ -17,8 +17,8 @@ struct After {
   bool operator()(const Event& a, const Event& b) const { return before(b, a); }
 };
 
-// The queue beside the standard one. Every event has a particle of its own, so the order is total;
-// the dead are those that the caller's `live` disowns.
+// The queue and the standard queue. Each event has its own particle, so that the order is total.
+// `live` of the caller excludes dead events.
 class TwoQueues {
  public:
   void add(double time, Random& random) {
@@ -35,7 +35,7 @@ class TwoQueues {
     for (auto rest = reference_; !rest.empty(); rest.pop()) events.push_back(rest.top());
     queue_.rebuild(events);
   }
-  // Takes the first event out of both; its time, or a negative number when they are empty.
+  // Removes the first event from both queues. Returns its time; negative if both are empty.
   double take() {
     while (!reference_.empty() && dead_[reference_.top().particle]) reference_.pop();
     const Event* top = queue_.top([&](const Event& event) { return !dead_[event.particle]; });
@@ -62,7 +62,7 @@ class TwoQueues {
 
 using NextTime = std::function<double(double now, Random& random)>;
 
-// Operations on about `pending` events: take the first, add one or a burst, disown one in five.
+// Operations on about `pending` events: remove the first, add one or many, kill one in five.
 void compare(std::size_t pending, const NextTime& next, std::uint32_t seed) {
   TwoQueues queues;
   Random random(71, Stream::Placement, seed, 0);

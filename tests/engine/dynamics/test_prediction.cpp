@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, Scene>> scenes() {
           {"falling between walls", falling(walled(dense), {0.0, -0.5})}};
 }
 
-// A gas after some collisions, and all its particles' plans.
+// A gas after some collisions, with the plans of all its particles.
 struct Planned {
   explicit Planned(const Scene& scene) : model(model_of<2>(scene, 1)) {
     const auto simulation = simulation_of<2>(scene, 1);

@@ -9,8 +9,8 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// N = 1000 at phi = .5. Energy and momentum are of order 1000; each collision rounds them by some
-// 1e-16, with either sign.
+// N = 1000 at phi = .5. Energy and momentum are of order 1000. The rounding error of each collision
+// is some 1e-16, of either sign.
 TEST_CASE("Conservation: 10^6 elastic collisions keep energy and momentum") {
   constexpr int kCount = 1000;
   constexpr std::uint64_t kCollisions = 1000000;
@@ -28,7 +28,8 @@ TEST_CASE("Conservation: 10^6 elastic collisions keep energy and momentum") {
   CHECK(brute_force_overlap(model, simulation.state()) < 1e-12);
 }
 
-// (theory 3.6): an inelastic collision takes (1/4)(1 - alpha^2) g_n^2; the books must balance.
+// An inelastic collision dissipates (1/4)(1 - alpha^2) g_n^2 (theory 3.6). The energy balance must
+// close.
 TEST_CASE("Conservation: collisions take the energy that the gas loses") {
   class Ledger : public Observer<2> {
    public:
@@ -54,8 +55,8 @@ TEST_CASE("Conservation: collisions take the energy that the gas loses") {
   check_sound(simulation);
 }
 
-// A collision that is missed lets two particles pass through each other, which takes them a time of
-// order 1: looking every .1 finds them.
+// After a missed collision two particles pass through each other, in a time of order 1. A test
+// every .1 finds them.
 TEST_CASE("Conservation: particles never overlap, by brute force over all images") {
   const Model<2> models[] = {
       periodic_box(14.0, 13.0), with_walls(periodic_box(14.0, 13.0), 0, kDriven),

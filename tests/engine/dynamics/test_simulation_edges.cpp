@@ -17,7 +17,7 @@ TEST_CASE("Simulation: wholly inelastic particles collide once and move on toget
     model.restitution = 0.0;
     Simulation<2> simulation(model, random_gas(model, 2, seed));
     simulation.run_until(1000.0);
-    // Without tangential losses a pair may meet again after a turn round the box.
+    // Without tangential losses a pair may meet again through a periodic image.
     collisions += static_cast<int>(simulation.counts().pair_collisions);
     REQUIRE(simulation.counts().pair_collisions < 1000);
     REQUIRE(finite_and_inside(model, simulation.state()));
@@ -28,7 +28,7 @@ TEST_CASE("Simulation: wholly inelastic particles collide once and move on toget
 
 namespace {
 
-/// The overlap of particles at contact, as a share of the longest flight that ended there.
+/// The overlap of particles at contact, relative to the longest flight that ended there.
 template <int D>
 class OverlapOfFlights : public Observer<D> {
  public:
@@ -44,9 +44,9 @@ class OverlapOfFlights : public Observer<D> {
   }
 };
 
-// Walls that dissipate slow two particles along x, which drift along the periodic axes: at the end
-// they go thousands of times round the box from one contact to the next. A position is exact to the
-// rounding of the distance flown, 2^-52 of it, and so is the distance of two particles.
+// Dissipative walls slow two particles along x, which drift along the periodic axes. At the end
+// they cross the box thousands of times between contacts. A position has a relative rounding error
+// of 2^-52 of the flight length, and so does the distance of two particles.
 template <int D>
 void check_long_flights(const Model<D>& box) {
   const Model<D> model = with_walls(box, 0, kLossy);
@@ -65,8 +65,8 @@ TEST_CASE("Simulation: contacts after long flights are as exact as these are lon
   check_long_flights(periodic_box(2.6, 2.3, 2.1));
 }
 
-// A disk rattles between two walls 1e-11 diameters farther apart than it is wide, where positions
-// along x are rounded to 1e-10: each of its flights is a tenth of that long.
+// A disk between two walls with a clearance of 1e-11 diameters. Positions along x have rounding
+// errors of 1e-10, so that each flight is a tenth of the rounding error.
 TEST_CASE("Simulation: short flights add up where positions are coarse") {
   const double x = 999900.0, speed = 0.003;
   const Model<2> model = with_walls(periodic_box(1e6, 1.0 + 0x1p-36), 1, Wall{});
@@ -78,7 +78,7 @@ TEST_CASE("Simulation: short flights add up where positions are coarse") {
   const double coarse = std::nextafter(x, 2.0 * x) - x;
   CHECK(std::fabs(simulation.state().positions[0].x() - (x + speed * time)) <= coarse);
 
-  // A run that is put aside goes on with the same remainders.
+  // A resumed run continues with the same remainders.
   Simulation<2> resumed(model, simulation.save());
   simulation.run_until(1.0, 200'000);
   resumed.run_until(1.0, 200'000);
@@ -100,8 +100,8 @@ TEST_CASE("Simulation: a start with overlap is refused, one that touches is not"
   }
 }
 
-// Dropped from rest at the border of two cells, an elastic particle turns there again and again,
-// above or below it by rounding; so late on the base that it may cross twice at one time.
+// An elastic particle, dropped from rest at a cell border, turns there repeatedly, above or below
+// it by rounding errors. At this late time it may cross twice at one time.
 TEST_CASE("Simulation: a particle may turn round on a border of its cell") {
   for (const double height : {1.5, 2.0, 3.0, 4.0, 5.25}) {
     Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, Wall{});
@@ -117,9 +117,9 @@ TEST_CASE("Simulation: a particle may turn round on a border of its cell") {
   }
 }
 
-// As above, where cells are so narrow that they have no overhang, as those about a crystal in a
-// wide box are made (Simulation::fit_cells): all particles lie on borders, rise, and are back
-// within the least time that there is.
+// As above, with cells too narrow for an overhang, as around a crystal in a wide box
+// (Simulation::fit_cells). All particles are on borders, rise, and return within the smallest time
+// step.
 TEST_CASE("Simulation: particles may turn round just beyond a border of narrow cells") {
   Model<2> model = periodic_box(20.2, 20.2);
   model.gravity = {0.0, -1e4};

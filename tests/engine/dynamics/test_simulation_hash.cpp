@@ -22,7 +22,7 @@ std::vector<Model<2>> models() {
   return models;
 }
 
-// Every particle on a square lattice, many moving alike: hundreds of collisions at the same times.
+// Particles on a square lattice, many with equal velocities: hundreds of simultaneous collisions.
 State<2> symmetric_start() {
   State<2> start;
   for (int i = 0; i < 100; ++i) {
@@ -93,8 +93,8 @@ TEST_CASE("State hash: any change of any number changes it, but the sign of a ze
   CHECK(state_hash<2>(zero) == state_hash<2>(negative));
 }
 
-// A crystal flies apart in a wide box: its cells are fine at first and wider later. A resumed run
-// widens them earlier.
+// A crystal expands in a wide box: its cells are small at first and larger later. A resumed run
+// enlarges them earlier.
 TEST_CASE("State hash: it is the same whenever cells are fitted to a cluster") {
   const Model<2> model = periodic_box(150.0, 140.0);
   State<2> start;

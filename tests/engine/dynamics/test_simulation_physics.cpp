@@ -12,11 +12,11 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Every feature of the model, alone and together with others, against the brute-force reference.
+// Every feature of the model, alone and combined, compared with the brute-force reference.
 
 namespace {
 
-// The state after as many collisions must be that of the reference to the last bit.
+// The state after this number of collisions must equal the reference to the last bit.
 void compare(const std::string& name, const Model<2>& model, const std::vector<int>& counts,
              std::uint64_t collisions = 1000) {
   for (const int count : counts) {
@@ -37,8 +37,8 @@ void compare(const std::string& name, const Model<2>& model, const std::vector<i
     CHECK(simulation.deepest_overlap() < 1e-12);
     CHECK(totals.ledger_residual() < 1e-12);
     CHECK(simulation.checks().clock_steps_back < 1e-13);
-    // Two particles may fly a thousand box lengths before they meet, whose rounding is that much
-    // more.
+    // Two particles may fly a thousand box lengths before they meet, with a thousand times the
+    // rounding error.
     CHECK(simulation.checks().deepest_overlap < 1e-11);
   }
 }
@@ -47,7 +47,7 @@ void compare(const std::string& name, const Model<2>& model, const std::vector<i
 
 TEST_CASE("Reference: rough particles and rough walls give the same bits") {
   const Model<2> periodic = inelastic(periodic_box(9.0, 8.0), 0.9);
-  // Not for long: a gas that cools ends with velocities that differ by rounding only.
+  // A short run: velocities in a gas that cools finally differ by rounding errors only.
   compare("constant beta", rough(periodic, kInfinity, 0.4), {3, 12, 30}, 100);
   compare("Coulomb", rough(periodic, 0.2, 1.0), {3, 12, 30}, 100);
   compare("both, one particle high", rough(inelastic(periodic_box(12.0, 1.2), 0.9), 0.3, 0.7),

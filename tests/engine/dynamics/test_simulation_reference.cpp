@@ -22,7 +22,7 @@ struct Case {
   std::vector<int> counts;  // numbers of particles
 };
 
-// The state after 2000 collisions must be that of the reference to the last bit.
+// The state after 2000 collisions must equal the reference to the last bit.
 template <int D>
 void compare(const Model<D>& model, const State<D>& start, std::uint64_t collisions = 2000) {
   Simulation<D> simulation(model, start);
@@ -33,7 +33,7 @@ void compare(const Model<D>& model, const State<D>& start, std::uint64_t collisi
   CHECK(simulation.counts().pair_collisions == reference.collisions());
   CHECK(simulation.counts().wall_collisions == reference.wall_hits());
   CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
-  // Walls that move leave the planes at which brute force looks for them.
+  // Moving walls leave the planes in which the reference looks for them.
   const bool walls_move =
       std::ranges::any_of(model.walls, [](const auto& wall) { return wall && wall->moves(); });
   if (!walls_move) CHECK(brute_force_overlap(model, simulation.state()) < 1e-12);
@@ -92,7 +92,7 @@ TEST_CASE("Reference: wholly inelastic particles between driven walls") {
   for (const int count : {2, 5, 20}) compare(model, random_gas(model, count, 82));
 }
 
-// Particles on a square lattice, four velocities that repeat: several pairs collide at the same
+// Particles on a square lattice with four repeating velocities: several pairs collide at the same
 // times.
 TEST_CASE("Reference: simultaneous collisions") {
   for (const bool walled : {false, true}) {
@@ -126,8 +126,8 @@ TEST_CASE("Reference: a first contact after many box lengths") {
   check_sound(simulation);
 }
 
-// The reference looks at all images that a pair can reach, so boxes of spheres are small: a pair in
-// a wide one flies through thousands of them before it meets.
+// The reference tests all images that a pair can reach. A pair in a wide box passes thousands of
+// images before it meets, so that boxes of spheres are small.
 template <int D>
 void compare_shortly(const Model<D>& model, const std::vector<int>& counts) {
   for (const int count : counts) {
@@ -140,8 +140,8 @@ TEST_CASE("Reference: spheres in periodic boxes") {
   compare_shortly(periodic_box(2.2, 2.3, 2.1), {2, 3});
   compare_shortly(periodic_box(4.0, 5.0, 3.5), {12, 30});
   compare_shortly(periodic_box(3.1, 3.2, 3.3), {20});    // dense
-  compare_shortly(periodic_box(4.0, 3.0, 1.2), {3, 9});  // one sphere high
-  compare_shortly(periodic_box(1.9, 2.05, 1.95), {2});   // one cell in all
+  compare_shortly(periodic_box(4.0, 3.0, 1.2), {3, 9});  // one sphere in height
+  compare_shortly(periodic_box(1.9, 2.05, 1.95), {2});   // a single cell
   compare_shortly(inelastic(periodic_box(4.0, 5.0, 3.5), 0.9), {12, 30});
 }
 

@@ -35,7 +35,7 @@ TEST_CASE("Timers: they fire at start + count * interval, all of them, across ba
     const double start = from + 0.25;
     simulation.every(start, 0.1, [&](double time) {
       times.push_back(time);
-      // The clock's own reading may round once more.
+      // The reading of the clock may add one rounding.
       late += std::fabs(simulation.time() - time) > 0x1p-52 * time;
     });
     simulation.run_until(from + 200.25 - 1e-5);
@@ -49,7 +49,7 @@ TEST_CASE("Timers: they fire at start + count * interval, all of them, across ba
   }
 }
 
-TEST_CASE("Timers: all fire in the order of time, and in that of registration at the same time") {
+TEST_CASE("Timers: all fire in the order of time, then in the order of registration") {
   Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 112));
   std::vector<std::pair<double, int>> log;
   const auto note = [&](int who) { return [&log, who](double t) { log.push_back({t, who}); }; };
@@ -99,7 +99,7 @@ TEST_CASE("Timers: an action may start others") {
     for (int i = 0; i < 20; ++i) {
       simulation.every(2.0 + i, 0.0, [&times](double t) { times.push_back(t); });
     }
-    times.push_back(time);  // through what the action holds, which must still be there
+    times.push_back(time);  // the captures of the action must still be valid
   });
   simulation.run_until(30.0);
   REQUIRE(times.size() == 21);

@@ -33,7 +33,7 @@ Scene rough_box(int count, const Vec<D>& size) {
   return scene;
 }
 
-/// Of each particle that was there before, where it is now.
+/// Pairs of old and new indices of the particles that kept their positions and velocities.
 template <int D>
 std::vector<std::pair<std::size_t, std::size_t>> kept(const State<D>& before, const State<D>& now) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -47,7 +47,7 @@ std::vector<std::pair<std::size_t, std::size_t>> kept(const State<D>& before, co
   return pairs;
 }
 
-/// A scene, and of how many particles at least it keeps the places.
+/// A scene, and the least number of particles that keep their positions in it.
 struct Case {
   Scene scene;
   std::size_t least;

@@ -19,7 +19,7 @@ Random placement(std::uint64_t seed) {
   return {seed, Stream::Placement, 0, 0};
 }
 
-/// How many particles fill this fraction of a room.
+/// Number of particles that fill this fraction of a room.
 template <int D>
 int count_at(double fraction, const Room<D>& room) {
   return static_cast<int>(fraction / packing_fraction(D, 1.0 / room.box.prod()));
@@ -33,7 +33,7 @@ Room<D> room_of(const Vec<D>& box, bool walled) {
   return room;
 }
 
-/// A point as shares of the places along each axis that a centre can take.
+/// A point in units of the range of centres along each axis.
 template <int D>
 Vec<D> shares(const Room<D>& room, const Vec<D>& point) {
   Vec<D> share;
@@ -46,7 +46,7 @@ Vec<D> shares(const Room<D>& room, const Vec<D>& point) {
   return share;
 }
 
-/// Counts of the centres of many seeds on a grid over all of the places that a centre can take.
+/// Histogram of the centres of many seeds, on a grid over the range of centres.
 template <int D>
 std::vector<double> pooled_counts(const Room<D>& room, int count, int seeds, int cells) {
   std::vector<double> counts(static_cast<std::size_t>(std::pow(cells, D)));
@@ -62,7 +62,8 @@ std::vector<double> pooled_counts(const Room<D>& room, int count, int seeds, int
   return counts;
 }
 
-/// Checks that all cells were met alike: chi^2 of all, and none beyond 5 standard errors.
+/// Checks that all cells have equal probability: chi^2 of all, and no deviation above 5 standard
+/// errors.
 void check_uniform(const std::vector<double>& counts) {
   double total = 0.0;
   for (const double count : counts) total += count;
@@ -120,8 +121,8 @@ void check_no_gaps(const Room<D>& room) {
   for (const auto& along : counts) check_uniform(along);
 }
 
-/// In a periodic box the second centre is uniform outside of the first one's disk or ball; `share`
-/// of the seeds have the two nearer than 1.5.
+/// In a periodic box the second centre is uniform outside the first one's disk or ball. In a share
+/// `share` of the seeds the two are closer than 1.5.
 template <int D>
 void check_distances(double share) {
   constexpr int kSeeds = 10000;
@@ -134,7 +135,7 @@ void check_distances(double share) {
   CHECK(std::fabs(near - kSeeds * share) < 5.0 * std::sqrt(kSeeds * share * (1.0 - share)));
 }
 
-/// Seeds are tried at a fraction that the process reaches, and at one that it does not.
+/// Tries seeds at a fraction that the process reaches, and at one that it does not.
 template <int D>
 void check_jamming(double edge, double reached, double out_of_reach) {
   const Room<D> room{Vec<D>::Constant(edge)};
@@ -161,10 +162,10 @@ void check_seeds(const Room<D>& room) {
 
 }  // namespace
 
-TEST_CASE("Random insertion: no two centres overlap, all lie in the room") {
+TEST_CASE("Random insertion: no two particles overlap, and all centres are in the room") {
   check_apart<2>({21.3, 17.9}, {0.1, 0.3, 0.5});
   check_apart<3>({7.3, 5.9, 6.4}, {0.1, 0.2, 0.3});
-  // Sparse, but in a room in which particles meet.
+  // Dilute, but in a room that is narrow enough for contacts.
   check_apart<2>({1.1, 1000.0}, {0.015});
   check_apart<3>({1.1, 1000.0, 1.2}, {0.01});
 }
@@ -176,8 +177,8 @@ TEST_CASE("Random insertion: no two centres overlap in rooms of a few diameters"
 
 TEST_CASE(
     "Random insertion: a single particle is equally likely everywhere, up to walls and corners") {
-  // 20,000 particles, 100 cells of 200 each: 7 % per cell. The room's sides are no multiples of a
-  // cell.
+  // 20,000 particles, 100 cells of 200 each: 7 % per cell. The sides of the room are not multiples
+  // of a cell.
   for (const bool walled : {false, true}) {
     CAPTURE(walled);
     check_uniform(pooled_counts(room_of<2>({5.3, 3.7}, walled), 1, 20000, 10));
@@ -191,17 +192,17 @@ TEST_CASE("Random insertion: there are no gaps between its cells") {
   check_no_gaps<3>({{5.3, 3.7, 2.3}, {false, true, false}});
 }
 
-TEST_CASE("Random insertion: all places of a periodic room are alike, however full it is") {
-  // phi = .44 in a box in which a particle feels its images: 9 particles, 2000 seeds, 36 cells of
-  // 500 each.
+TEST_CASE("Random insertion: positions in a periodic room are uniform at any density") {
+  // phi = .44 in a box in which a particle excludes its own images: 9 particles, 2000 seeds, 36
+  // cells of 500 each.
   check_uniform(pooled_counts<2>({{4.0, 4.0}}, 9, 2000, 6));
   // The same at phi = .27: 14 particles, 2000 seeds, 64 cells of 437 each.
   check_uniform(pooled_counts<3>({{3.0, 3.0, 3.0}}, 14, 2000, 4));
 }
 
 TEST_CASE("Random insertion: walls, edges and corners get their share of a thin gas") {
-  // phi = .004, so that particles hardly keep each other off the middle (the cells' density differs
-  // by about phi). 2 particles, 10,000 seeds, 100 cells of 200 each.
+  // phi = .004, so that particles hardly exclude each other from the centre (the cells' density
+  // differs by about phi). 2 particles, 10,000 seeds, 100 cells of 200 each.
   check_uniform(pooled_counts(room_of<2>({20.0, 20.0}, true), 2, 10000, 10));
   // phi = .0006, 125 cells of 160 each.
   check_uniform(pooled_counts(room_of<3>({12.0, 12.0, 12.0}, true), 2, 10000, 5));

@@ -24,7 +24,7 @@ struct Case {
   const char* how;
 };
 
-/// One of each way in which a random layout is made.
+/// One case for each method of a random layout.
 template <int D>
 std::vector<Case> cases() {
   if (D == 2) {
@@ -35,11 +35,11 @@ std::vector<Case> cases() {
           {0.48, "melting"},  {0.53, "melting"},  {0.58, "lattice"}};
 }
 
-/// A fraction at which the random layout of disks, or of spheres, is melted.
+/// A fraction at which the random layout of disks or spheres starts from a melted lattice.
 template <int D>
 constexpr double kMelted = D == 2 ? 0.6 : 0.45;
 
-/// Sides that binary numbers give exactly, so that places can be moved without a rounding.
+/// Sides that are exact in binary, so that positions can be shifted without rounding.
 template <int D>
 Vec<D> box_of() {
   if constexpr (D == 2) {
@@ -54,7 +54,7 @@ Room<D> room_of(const Scene& scene) {
   return scene.start_room<D>();
 }
 
-/// About 500 disks or 250 spheres, at most as many as a lattice holds, which walls reduce.
+/// About 500 disks or 250 spheres, at most the capacity of a lattice, which walls reduce.
 template <int D>
 Scene scene_of(double fraction, std::array<bool, D> walled, const Vec<D>& box = box_of<D>()) {
   Scene scene = default_scene(D);
@@ -74,7 +74,7 @@ Scene channel(double fraction) {
   return scene_of<D>(fraction, {true});
 }
 
-/// 5000 particles in a thin gas.
+/// 5000 particles in a dilute gas.
 template <int D>
 Scene thin_gas() {
   Scene scene = default_scene(D);
@@ -236,7 +236,7 @@ void check_few() {
   }
 }
 
-/// Beyond random insertion, with nothing that the particle could collide with while melting.
+/// At a density beyond random insertion, with no partner for the particle while the lattice melts.
 template <int D>
 void check_alone(const Vec<D>& box) {
   for (const bool walled : {false, true}) {
@@ -301,7 +301,7 @@ void check_still_spins() {
 template <int D>
 void check_moving_walls() {
   for (const Case& c : cases<D>()) {
-    // The room that other cases fill, and what the walls sweep around it.
+    // The free region of the other cases, surrounded by the range of the walls.
     std::array<bool, D> walled;
     walled.fill(true);
     const Scene still = scene_of<D>(c.fraction, walled);
@@ -396,9 +396,8 @@ TEST_CASE("Start state: places do not depend on the temperature") {
 }
 
 TEST_CASE("Start state: a melted lattice of disks has no more order than a fluid") {
-  // Without order |psi_m| = 1/sqrt(independent bonds), for 500 particles about .03; a hard-particle
-  // fluid near freezing is correlated over some diameters. The lattice that is melted has |psi_4|
-  // near 1.
+  // Without order |psi_m| = 1/sqrt(independent bonds), about .03 for 500 particles. A hard-particle
+  // fluid near freezing is correlated over some diameters. The initial lattice has |psi_4| near 1.
   for (const double fraction : {0.6, 0.69}) {
     for (const std::array<bool, 2> walled : {std::array{false, false}, {true, true}}) {
       const Scene scene = scene_of<2>(fraction, walled);
@@ -415,9 +414,10 @@ TEST_CASE("Start state: a melted lattice of disks has no more order than a fluid
 }
 
 TEST_CASE("Start state: a melted lattice of spheres has no more order than a fluid") {
-  // Without long order the square of the layering is exponentially distributed with mean S(k)/N: at
-  // most 3/200 = .015 at the peak of a fluid near freezing, so that .25 is not met. The first box
-  // holds a cubic lattice of so many spheres, the second one fcc only.
+  // Without long-range order the squared layering is exponentially distributed with mean S(k)/N.
+  // This is at most 3/200 = .015 at the peak of a fluid near freezing, so that .25 is practically
+  // impossible. The first box fits a cubic lattice of this number of spheres, the second fits fcc
+  // only.
   for (const Vec<3>& box : {box_of<3>(), Vec<3>(7.75, 7.8, 7.9)}) {
     for (const bool walled : {false, true}) {
       for (const double fraction : {0.4, 0.48}) {
@@ -443,7 +443,7 @@ TEST_CASE("Start state: a lattice of disks stays a lattice if asked for, or too 
   scene.particles.start.layout = Layout::Lattice;
   const State<2> state = start_state<2>(scene, 80);
   CHECK(least_distance(room_of<2>(scene), state.positions) > 1.5);
-  // Few different heights or few different places along x: the sites lie in rows.
+  // Few different heights or few different positions along x: the sites are in rows.
   std::set<long> x, y;
   for (const Vec2& r : state.positions) {
     x.insert(std::lround(1e6 * r.x()));
@@ -477,8 +477,8 @@ TEST_CASE("Start state: one particle may nearly fill its box") {
 }
 
 TEST_CASE("Start state: spins have exactly their temperature, and a random mean") {
-  // 5000 particles: each component of omega by chi^2; its mean is 0 with standard error
-  // sqrt(T_rot/(I N)), and what is left of it shows that none was taken out; the kurtosis is 3 with
+  // 5000 particles: each component of omega by chi^2. Its mean is 0 with standard error
+  // sqrt(T_rot/(I N)); a nonzero value shows that the mean was not removed. The kurtosis is 3 with
   // standard error sqrt(24/5000), of three components sqrt(24/15000).
   check_spins<2>();
   check_spins<3>();

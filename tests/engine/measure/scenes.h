@@ -9,8 +9,8 @@
 
 namespace clatter::testing {
 
-/// Everything at once: inelastic, a driven wall against a lossy one along x, thermal walls of two
-/// temperatures along y.
+/// Many features in one scene: inelastic particles, a driven and an inelastic wall along x, thermal
+/// walls of two temperatures along y.
 inline Scene rough_mixture(int count) {
   Scene scene = gas(9.0, 8.0, count, 0.8);
   scene.walls[kLeft] = {.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.5};
@@ -20,7 +20,7 @@ inline Scene rough_mixture(int count) {
   return scene;
 }
 
-/// One particle in a box, alone: what it does is known at any time.
+/// A single particle in a box. Its motion is known at any time.
 inline std::unique_ptr<Simulation<2>> lone_particle(const Scene& scene, const Vec2& r,
                                                     const Vec2& v) {
   return std::make_unique<Simulation<2>>(model_of<2>(scene, 1), State<2>{{r}, {v}});
@@ -40,7 +40,7 @@ inline Vec2 squares(const Simulation<2>& simulation) {
   return sum;
 }
 
-/// Notes the simulation time of every event.
+/// Records the simulation time of every event.
 class EventTimes : public Observer<2> {
  public:
   std::vector<double> times;

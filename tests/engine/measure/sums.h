@@ -7,7 +7,7 @@
 
 namespace clatter::testing {
 
-/// Every field that is an average; without spins, every one that a smooth gas has.
+/// All fields that are averages; without spins, all such fields of a smooth gas.
 inline std::vector<Field> average_fields(bool spins = true) {
   std::vector<Field> fields = all_fields(2);
   std::erase_if(fields,
@@ -15,12 +15,12 @@ inline std::vector<Field> average_fields(bool spins = true) {
   return fields;
 }
 
-/// A layout that keeps every sum.
+/// A layout with all sums.
 inline MomentLayout<2> full_layout(bool spins = true) {
   return moment_layout<2>(average_fields(), spins);
 }
 
-/// A cell's sums by name.
+/// The sums of a cell by name.
 struct Sums {
   double count = 0.0;
   Vec2 velocity = Vec2::Zero();
@@ -47,7 +47,7 @@ struct Sums {
   Vec2 squares() const { return products.diagonal(); }
 };
 
-/// The largest difference of any number of two cells.
+/// The largest difference between equal sums of two cells.
 inline double difference(const Sums& a, const Sums& b) {
   double largest = 0.0;
   const auto compare = [&](const auto& x, const auto& y) {
@@ -67,7 +67,7 @@ inline double difference(const Sums& a, const Sums& b) {
 
 using Grid = std::vector<Sums>;
 
-/// The cells of a window that was summed up with a full layout.
+/// The cells of a window with a full layout.
 inline Grid grid_of(const CellSums& sums, const MomentLayout<2>& layout) {
   Grid grid(sums.rows.size() / static_cast<std::size_t>(layout.size));
   const double* row = sums.rows.data();
@@ -91,7 +91,7 @@ inline Grid grid_of(const CellSums& sums, const MomentLayout<2>& layout) {
   return grid;
 }
 
-/// What a CellIntegrals with a full layout has summed up since the last call.
+/// The sums of a CellIntegrals with a full layout since the last call.
 inline Grid close(CellIntegrals<2>& integrals) {
   return grid_of(integrals.close_window(), integrals.layout());
 }

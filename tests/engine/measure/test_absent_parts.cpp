@@ -13,11 +13,11 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// What a scene does not ask for is not stored, not told and changes nothing.
+// A feature that a scene does not use is not stored, has no events and changes nothing.
 
 namespace {
 
-// What making something takes.
+// Cost of the construction of an object.
 template <class Make>
 std::size_t bytes_of(const Make& make) {
   const std::size_t before = allocated_bytes();

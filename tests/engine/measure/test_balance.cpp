@@ -12,7 +12,7 @@ using namespace clatter::testing;
 
 namespace {
 
-// What moves is rough here, so that it also hands on what friction gives.
+// Moving walls are rough here, so that friction contributes too.
 Wall with_friction(Wall wall) {
   wall.roughness = {.friction = 0.3, .tangential_restitution = 0.5};
   return wall;
@@ -41,7 +41,7 @@ Model<D> between(const Wall& wall, int axis) {
   return with_walls(box<D>(), axis, wall);
 }
 
-/// Walls all round; along z those of x.
+/// Walls on all sides. The walls along z equal the walls along x.
 template <int D>
 Model<D> walled(const Wall& sides, const Wall& ends) {
   Model<D> model = with_walls(between<D>(sides, 0), 1, ends);
@@ -86,10 +86,10 @@ struct Watched {
   }
 };
 
-// Every equation must close in every cell and window. The cells: coarse ones, single ones along
-// either axis and in all, halves of a diameter, whose faces lie where particles touch the walls,
-// and ones much smaller than a particle. 1e-15 is typical, and 1e-13 in the shortest window, where
-// gravity or a kick changes velocities by 1e-3.
+// Every equation must close in every cell and window. Cells: coarse ones; single cells along one or
+// both axes; halves of a diameter, with faces at contact positions on walls; cells much smaller
+// than a particle. 1e-15 is typical. 1e-13 occurs in the shortest window, where gravity or a kick
+// changes velocities by 1e-3.
 template <int D>
 void check_closure(const std::string& name, const Model<D>& model, int count = 30,
                    double start_time = 0.0) {
@@ -295,10 +295,9 @@ TEST_CASE("Balance: a watch that begins finds the particles where they are") {
   for (const Booked<2>& face : window.booked.faces[0]) CHECK(face.size[0] == 0.0);
 }
 
-// The faces lie at whole numbers. The particle falls from x = 2.5 at speed 1 under gravity -1: it
-// stands at the face x = 3 at time 1, turns, and comes back to x = 2 with speed sqrt(2) at 1 +
-// sqrt(2).
-TEST_CASE("Balance: a particle carries through a face what it has there and then") {
+// The faces are at whole numbers. The particle starts at x = 2.5 with speed 1 under gravity -1. At
+// time 1 it turns on the face x = 3, and it returns to x = 2 with speed sqrt(2) at 1 + sqrt(2).
+TEST_CASE("Balance: a particle carries its present momentum and energy through a face") {
   const Model<2> model = falling(periodic_box(9.0, 8.0), {-1.0, 0.0});
   Watched<2> run(model, {{{2.5, 4.5}}, {{1.0, 0.1}}}, {9, 8});
   const std::size_t row = 9 * 4;
@@ -308,7 +307,7 @@ TEST_CASE("Balance: a particle carries through a face what it has there and then
   CHECK(rising.booked.sources[row + 2].net[3] == doctest::Approx(-0.4999995));
   CHECK(rising.imbalances.largest().maxCoeff() < 1e-13);
   const BalanceWindow<2> falling = run.close_at(1.5);
-  CHECK(falling.booked.faces[0][row + 2].net.norm() < 1e-12);  // to and fro, or not at all
+  CHECK(falling.booked.faces[0][row + 2].net.norm() < 1e-12);  // back and forth, or no crossing
   CHECK(falling.imbalances.largest().maxCoeff() < 1e-13);
   const BalanceWindow<2> back = run.close_at(2.5);
   const Conserved<2> left = back.booked.faces[0][row + 1].net;
@@ -352,9 +351,10 @@ TEST_CASE("Balance: a collision carries along its branch and dissipates at its e
   CHECK(quiet.booked.faces[0][row + 7].size.norm() == 0.0);
 }
 
-// A particle at (3.5, 0.2) of velocity (1, 0) meets one at rest at (4.5, 1.0), or rather (4.5,
-// -0.2), for the box is 1.2 high: aslant by (-sqrt(0.84), 0.4). From the second the branch goes up
-// through y = 0 and then left through x = 4, and not down through y = 0.8 and y = 0.4.
+// A particle at (3.5, 0.2) of velocity (1, 0) meets one at rest at (4.5, 1.0), or its image (4.5,
+// -0.2), because the box is 1.2 high. Their direction is (-sqrt(0.84), 0.4). From the second, the
+// branch crosses y = 0 upwards and then x = 4 to the left. It does not cross y = 0.8 and y = 0.4
+// downwards.
 TEST_CASE("Balance: a branch passes the faces between images that touch, in order") {
   for (const int moving : {0, 1}) {
     State<2> start{{{4.5, 1.0}, {4.5, 1.0}}, {{0.0, 0.0}, {0.0, 0.0}}};
@@ -377,7 +377,7 @@ TEST_CASE("Balance: a branch passes the faces between images that touch, in orde
 
 // The particle, of velocity (1, 0), touches the far wall with its centre at 8.5; faces
 // at 8.25, 8.5, 8.75. alpha_w = 0.8: it gains momentum -1.8 and energy -0.18.
-TEST_CASE("Balance: what a wall gives comes in where it touches") {
+TEST_CASE("Balance: momentum and energy from a wall enter at the contact point") {
   Watched<2> run(between(kLossy, 0), {{{8.4, 4.1}}, {{1.0, 0.0}}}, {36, 8});
   const BalanceWindow<2> window = run.close_at(0.15);
   REQUIRE(run.simulation.counts().wall_collisions == 1);
@@ -394,9 +394,9 @@ TEST_CASE("Balance: what a wall gives comes in where it touches") {
   CHECK(window.imbalances.largest().maxCoeff() < 1e-13);
 }
 
-// The left wall creeps inwards at 0.002, and lies 1 inside when the particle, of velocity (-1, 0),
-// comes to it: touching at x = 1.0002 with its centre at 1.5002. Faces every 1/4. alpha_w = 0.9.
-TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
+// The left wall moves slowly inwards at 0.002. It is 1 inside when the particle of velocity (-1, 0)
+// hits it at x = 1.0002, with its centre at 1.5002. Faces every 1/4. alpha_w = 0.9.
+TEST_CASE("Balance: momentum and energy from a wall inside the box enter inside") {
   Model<2> model = periodic_box(9.0, 8.0);
   const Wall creeping{.kind = WallKind::Sawtooth,
                       .restitution = 0.9,
@@ -417,8 +417,8 @@ TEST_CASE("Balance: what a wall inside the box gives comes in inside") {
   CHECK(window.imbalances.largest().maxCoeff() < 1e-13);
 }
 
-// One particle needs 9 windows to go round the box and its flight never ends; each window ends with
-// it on a face.
+// One particle needs 9 windows to cross the box, and its flight never ends. At the end of each
+// window it is on a face.
 TEST_CASE("Balance: a flight over many windows, each ending on a face") {
   for (const Vec2& v : {Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(1.0, -1.0), Vec2(0.1, 0.3)}) {
     Watched<2> run(periodic_box(9.0, 8.0), {{{2.0, 4.0}}, {v}}, {9, 8});
@@ -432,8 +432,8 @@ TEST_CASE("Balance: a flight over many windows, each ending on a face") {
   }
 }
 
-// Particles that start on faces and corners, and collide there: whichever cells they are counted
-// in, they are in these for everything.
+// Particles start on faces and corners, and collide there. All contributions must agree on the cell
+// of a particle.
 TEST_CASE("Balance: collisions on faces and at corners of cells") {
   for (const double restitution : {1.0, 0.5}) {
     for (const bool walled : {false, true}) {
@@ -454,8 +454,8 @@ TEST_CASE("Balance: collisions on faces and at corners of cells") {
   }
 }
 
-// The top of the parabola lies a rounding error above the face, so that the particle would cross it
-// up and down within what a time of 1000 can tell apart.
+// The apex of the parabola is a rounding error above the face. The particle would cross it up and
+// down within the time resolution at 1000.
 TEST_CASE("Balance: a particle that turns on a face does not cross it for ever") {
   RunState<2> saved;
   saved.now = 1000.0;
@@ -470,8 +470,8 @@ TEST_CASE("Balance: a particle that turns on a face does not cross it for ever")
   CHECK(window.imbalances.largest().maxCoeff() < 1e-12);
 }
 
-// Both disks meet almost along y: they exchange a momentum along x that is a few hundred roundings
-// of their velocities. A lone disk gains as little under a weak gravity.
+// The disks meet almost along y and exchange a momentum along x of a few hundred rounding errors of
+// their velocities. A lone disk gains a similar amount under weak gravity.
 TEST_CASE("Balance: changes as small as rounding are no false alarm") {
   Watched<2> pair(inelastic(periodic_box(9.0, 8.0), 0.83),
                   {{{4.6, 2.5}, {4.6 + 3e-14, 5.5}}, {{0.7, 1.01}, {0.7, -1.03}}}, {1, 2});
@@ -495,20 +495,20 @@ TEST_CASE("Balance: an empty gas and untouched cells have nothing to close") {
   CHECK(window.imbalances.largest().maxCoeff() == 0.0);
 }
 
-// Spoils what the balance is told: a residual that cannot be anything but 0 would not show it.
-TEST_CASE("Balance: what was not booked shows") {
+// Disturbs the events of the balance. A residual that is always 0 would not show it.
+TEST_CASE("Balance: missing events give residuals") {
   const Model<2> model = inelastic(between(kDriven, 0), 0.9);
   const State<2> start = clear_gas(model, 30, 86);
   Simulation<2> simulation(model, start);
-  Balance<2> unheard(simulation, {9, 8});  // is told of no event
+  Balance<2> unheard(simulation, {9, 8});  // receives no events
   simulation.run_until(2.0);
   const BalanceWindow<2> window = unheard.close_window();
   CHECK(window.imbalances.largest().minCoeff() > 0.1);
 }
 
-// The particle comes to the far wall with momentum 1 and goes with -0.8 through the face x = 8 at
-// 0.725. Who is not told of the wall misses -1.8, first beside nothing booked, then beside 0.8.
-TEST_CASE("Balance: residuals are shares of what was booked") {
+// The particle hits the far wall with momentum 1 and crosses the face x = 8 with -0.8 at 0.725. A
+// balance without the wall event misses -1.8, first relative to nothing, then relative to 0.8.
+TEST_CASE("Balance: residuals are relative to the booked amounts") {
   const Model<2> model = between(kLossy, 0);
   for (const auto& [end, residual] : {std::pair(0.5, -1.0), std::pair(0.9, -2.25)}) {
     Simulation<2> simulation(model, {{{8.4, 4.5}}, {{1.0, 0.0}}});

@@ -14,7 +14,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// What one particle leaves on a grid while nothing is in its way.
+/// The integrals of one free particle on a grid.
 Grid of_lone_particle(const Vec2& box, const IntVec<2>& cells, const Vec2& r, const Vec2& v,
                       double duration) {
   const auto simulation = lone_particle(gas(box.x(), box.y(), 1, 1.0), r, v);
@@ -24,7 +24,7 @@ Grid of_lone_particle(const Vec2& box, const IntVec<2>& cells, const Vec2& r, co
   return close(integrals);
 }
 
-/// Checks the time spent in every cell, and that each also got v and v^2 times it.
+/// Checks the time in every cell, and the integrals of v and v^2.
 void check_times(const Grid& grid, const std::vector<double>& times, const Vec2& v) {
   REQUIRE(grid.size() == times.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -40,7 +40,7 @@ void add(Grid& sum, const Grid& more) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
 }
 
-/// The same integrals by asking for the state half-way through each of many short steps.
+/// The same integrals from the states at the middle of many short steps.
 Grid by_sampling(Simulation<2>& simulation, const IntVec<2>& cells, double duration, int steps) {
   Grid grid(static_cast<std::size_t>(cells.prod()));
   const double step = duration / steps;
@@ -91,9 +91,8 @@ TEST_CASE("CellIntegrals: a flight back, and through the corners of cells") {
               v);
 }
 
-TEST_CASE("CellIntegrals: a flight over many boxes visits all cells on its line alike") {
-  // In 80 time units the particle crosses the box 20 times along x and 10 times, backwards, along
-  // y.
+TEST_CASE("CellIntegrals: a flight over many boxes visits all cells on its line equally") {
+  // In 80 time units the particle crosses the box 20 times along x, and 10 times backwards along y.
   const Vec2 v = {1.0, -0.5};
   const Grid grid = of_lone_particle({4.0, 4.0}, {4, 4}, {0.5, 3.75}, v, 80.0);
   double sum_of_rows[4] = {}, sum_of_columns[4] = {};
@@ -131,7 +130,7 @@ TEST_CASE("CellIntegrals: a particle that starts on a border counts where it goe
               {0.0, 0.0, 0.5, 0.0}, {1.0, 0.0});
   check_times(of_lone_particle({4.0, 2.0}, {4, 1}, {2.0, 1.0}, {-1.0, 0.0}, 0.5),
               {0.0, 0.5, 0.0, 0.0}, {-1.0, 0.0});
-  // The box's own border, across which the far cells follow.
+  // On the border of the box itself, followed by the far cells.
   check_times(of_lone_particle({4.0, 2.0}, {4, 1}, {0.0, 1.0}, {-1.0, 0.0}, 0.5),
               {0.0, 0.0, 0.0, 0.5}, {-1.0, 0.0});
 }
@@ -142,7 +141,7 @@ TEST_CASE("CellIntegrals: a window that ends on a border") {
 }
 
 TEST_CASE("CellIntegrals: cells whose sides are no binary fractions") {
-  // 1/10 of 1.5: borders are not exact, and the particle must not fall between two cells.
+  // 1/10 of 1.5: borders are not exact, and the particle must not be lost between two cells.
   const Vec2 v = {0.3, -0.7};
   const Grid grid = of_lone_particle({1.5, 2.1}, {10, 7}, {0.45, 0.3}, v, 1000.0);
   CHECK(total(grid).count == doctest::Approx(1000.0).epsilon(1e-12));
@@ -150,8 +149,9 @@ TEST_CASE("CellIntegrals: cells whose sides are no binary fractions") {
 }
 
 TEST_CASE("CellIntegrals: a gas agrees with sampling its states") {
-  // With steps of 1e-4 each of some ten border crossings of a cell is misplaced by up to half a
-  // step, hence 1e-3 in time, more in v and v^2 (speeds up to 5); no single crossing more lost.
+  // With steps of 1e-4, each of some ten border crossings of a cell has an error of up to half a
+  // step. This gives 1e-3 in time, more in v and v^2 (speeds up to 5), but less than one lost
+  // crossing.
   constexpr double kDuration = 4.0;
   const IntVec<2> cells = {3, 4};
   Scene scene = gas(6.0, 5.0, 12, 0.8);
@@ -231,7 +231,7 @@ TEST_CASE("CellIntegrals: watching from the middle of a run is as from a start t
   simulation->run_until(5.123);
   close(early);
   CellIntegrals<2> late(*simulation, {6, 5},
-                        full_layout());  // most particles are in the middle of a flight
+                        full_layout());  // most particles are in free flight
   simulation->add_observer(late);
   simulation->run_until(9.0);
   CHECK(difference(close(early), close(late)) < 1e-13);
@@ -239,7 +239,7 @@ TEST_CASE("CellIntegrals: watching from the middle of a run is as from a start t
 
 namespace {
 
-/// Books every collision point by point along its branch vector, at places in the box.
+/// Adds every collision point by point along its branch vector, at positions in the box.
 class PointByPoint : public Observer<2> {
  public:
   PointByPoint(const Simulation<2>& simulation, const IntVec<2>& cells)
@@ -253,7 +253,7 @@ class PointByPoint : public Observer<2> {
   int through_borders = 0;    ///< branch vectors that leave the box
 
   void on_collision(const PairCollision<2>& c) override {
-    // The image of the partner that touches; flights may have gone round the box several times.
+    // The touching image of the partner. Flights may have crossed the box several times.
     const Vec2 apart = c.particles[0].position - c.particles[1].position;
     const Vec2 near = c.particles[1].position +
                       apart.cwiseQuotient(box()).array().round().matrix().cwiseProduct(box());
@@ -326,7 +326,7 @@ class PointByPoint : public Observer<2> {
   IntVec<2> cells_;
 };
 
-/// Checks what collisions leave in every cell against the points.
+/// Compares the collisional integrals of every cell with the points.
 void check_collisions(const Scene& scene, const IntVec<2>& cells, std::uint64_t seed) {
   const auto simulation = simulation_of<2>(scene, seed);
   CellIntegrals<2> integrals(*simulation, cells, full_layout());
@@ -362,7 +362,7 @@ TEST_CASE(
     "CellIntegrals: branch vectors are cut as points on them fall, through periodic borders") {
   check_collisions(gas(5.0, 4.0, 10, 0.8), {10, 6}, 51);
   check_collisions(spinning(gas(6.0, 4.0, 12, 0.8)), {3, 7}, 52);
-  // Images nearer than the one that touches.
+  // With images nearer than the touching one.
   check_collisions(gas(12.0, 1.4, 7, 0.9), {12, 3}, 53);
 }
 
@@ -445,7 +445,7 @@ TEST_CASE("CellIntegrals: snapshots count the particles where they are") {
   CHECK(difference(grid, expected) < 1e-12);
 }
 
-TEST_CASE("CellIntegrals: a Gaussian spreads what box cells hold, and keeps its amount") {
+TEST_CASE("CellIntegrals: a Gaussian spreads the integrals of cells, and keeps their sum") {
   const IntVec<2> cells(12, 10);
   const auto simulation = simulation_of<2>(gas(6.0, 5.0, 12, 0.8), 59);
   CellIntegrals<2> box(*simulation, cells, full_layout(), {Estimator::Snapshot, {}});

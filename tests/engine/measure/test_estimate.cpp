@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20240501;
 
-/// Normal variates of variance 1 in which neighbours have the correlation `rho`.
+/// Normal variates of variance 1 with the correlation `rho` between neighbours.
 std::vector<double> autoregressive(std::size_t count, double rho, std::uint32_t series) {
   Random random(kSeed, Stream::Velocity, series, 0);
   std::vector<double> values(count);
@@ -57,8 +57,8 @@ TEST_CASE("Independent estimate: few values have an error, a single one has none
 }
 
 TEST_CASE("Blocked error: white noise has the error sigma/sqrt(n)") {
-  // Not below: the level without blocking is known to 1/sqrt(2 n) = 1.1 %. Above by up to the
-  // uncertainty of the last level, 1/sqrt(62) = 13 %, since the largest of the levels is taken.
+  // Not below: the level without blocking has an uncertainty of 1/sqrt(2 n) = 1.1 %. Above by up to
+  // the uncertainty of the last level, 1/sqrt(62) = 13 %, because the largest level is taken.
   const auto errors = relative_errors(100, 4096, 0.0);
   CHECK(errors.front() > 1.0 - 5.0 * 0.011);
   CHECK(errors.back() < 1.0 + 5.0 * 0.127);
@@ -67,8 +67,9 @@ TEST_CASE("Blocked error: white noise has the error sigma/sqrt(n)") {
 }
 
 TEST_CASE("Blocked error: it finds the error of a correlated series within 20 %") {
-  // rho = 0.9: the mean of 65,536 values is as uncertain as that of 65,536/19 independent ones. The
-  // last level has blocks of 2048 values, 200 correlation times. Mean of 32 series: known to 2 %.
+  // rho = 0.9: the mean of 65,536 values has the error of 65,536/19 independent values. The last
+  // level has blocks of 2048 values, 200 correlation times. The mean over 32 series has an
+  // uncertainty of 2 %.
   const auto errors = relative_errors(32, 65536, 0.9);
   CHECK(mean(errors) == doctest::Approx(1.0).epsilon(0.2));
   CHECK(errors.front() > 1.0 - 5.0 * 0.127);
@@ -100,7 +101,7 @@ TEST_CASE("Mean estimate: constants have no error, too short a series an unknown
 }
 
 TEST_CASE("Mean estimate: three values have the error computed by hand") {
-  // Mean 3, squares 4 + 1 + 9 = 14, error sqrt(14/(3*2)); two blocks are too few to be asked.
+  // Mean 3, squares 4 + 1 + 9 = 14, error sqrt(14/(3*2)). Two blocks are too few for a level.
   const Estimate three = mean_estimate(std::vector{1.0, 2.0, 6.0});
   CHECK(three.mean == 3.0);
   CHECK(three.standard_error == doctest::Approx(std::sqrt(14.0 / 6.0)));
@@ -136,8 +137,8 @@ TEST_CASE("Ratio estimate: nothing below the line gives nothing") {
 }
 
 TEST_CASE("Mean estimate: a stationary series has no drift, and one that rises has") {
-  // Of 100 series of 4096 values none is expected beyond 5 errors; of one that is higher by 20
-  // errors in its second half the drift is that, within the 13 % to which errors are known.
+  // Of 100 series of 4096 values none is expected beyond 5 errors. In a series that is higher by 20
+  // errors in its second half, the drift is 20 within 13 %, the uncertainty of the errors.
   std::vector<double> drifts;
   for (std::uint32_t k = 0; k < 100; ++k) {
     drifts.push_back(mean_estimate(autoregressive(4096, 0.5, k)).drift);
@@ -154,8 +155,8 @@ TEST_CASE("Mean estimate: a stationary series has no drift, and one that rises h
 }
 
 TEST_CASE("Mean estimate: its error is known to rise where blocks are shorter than correlations") {
-  // Blocks of 4, 2 and 1 of 128 values, against a correlation time of 100; and of 4096 values that
-  // are independent, of which the last level is uncertain to 1/sqrt(62).
+  // Blocks of 4, 2 and 1 of 128 values with a correlation time of 100. Also 4096 independent
+  // values, whose last level has an uncertainty of 1/sqrt(62).
   double slow = 0.0, white = 0.0;
   for (std::uint32_t k = 0; k < 20; ++k) {
     slow += mean_estimate(autoregressive(128, 0.99, k)).rise / 20.0;

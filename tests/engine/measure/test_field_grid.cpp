@@ -96,7 +96,7 @@ TEST_CASE("GaussianKernel: normalised in a periodic box, cut off at walls") {
       double sum = 0.0;
       kernel.at({1.0, 3.7}, [&](std::size_t, double weight) { sum += weight; });
       CAPTURE(width);
-      // What lies between two walls, here by sums over centres: midpoints of smooth pieces.
+      // The density between two walls from sums over centres: midpoints of smooth pieces.
       const auto below = [&](double x) {
         return 0.5 * std::erfc((1.0 - x) / width / std::sqrt(2.0));
       };

@@ -8,9 +8,9 @@
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
 
-// The first-moment identities (theory 9.6, 9.7) tie the stress, heat flux and dissipation that are
-// reported to the states of the particles at a window's two ends, so that no sign, factor or wall
-// branch can be wrong in one and not show. Along each walled axis k
+// The first-moment identities (theory 9.6, 9.7) connect the reported stress, heat flux and
+// dissipation with the states of the particles at the two ends of a window. A wrong sign, factor or
+// wall branch in one of them violates an identity. Along each walled axis k
 //   [sum r_k v_l] = Dt int (rho V_k V_l - sigma_kl) dA + sum_walls r_w,k dp_l + sources
 //   [sum r_k E]   = Dt int (q + E V - sigma.V)_k dA + sum_coll (dE_1 + dE_2)/2 (r_1 + r_2)_k
 //                   + sum_walls r_w,k dE + sources
@@ -21,7 +21,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// A sum and the sum of its terms' sizes.
+/// A sum, and the sum of the magnitudes of its terms.
 struct Booked {
   double sum = 0.0;
   double sizes = 0.0;
@@ -32,7 +32,7 @@ struct Booked {
   }
 };
 
-/// What walls, kicks and gravity add to the moments, from velocities and not from
+/// Contributions of walls, kicks and gravity to the moments, from velocities and not from
 /// ParticleChange::energy.
 template <int D>
 class Sources : public Observer<D> {
@@ -42,7 +42,7 @@ class Sources : public Observer<D> {
 
   Booked momentum[D][D];    ///< [k][l] of sum r_k v_l
   Booked energy_moment[D];  ///< of sum r_k E
-  Booked energy;            ///< of sum E, without what collisions of particles dissipate
+  Booked energy;            ///< of sum E, without the dissipation in collisions of particles
 
   void on_collision(const PairCollision<D>& c) override {
     for (const ParticleChange<D>& particle : c.particles) fall(particle.before, c.time);
@@ -53,7 +53,7 @@ class Sources : public Observer<D> {
 
   void on_wall(const WallCollision<D>& c) override {
     fall(c.particle.before, c.time);
-    // The wall's face, where it is now.
+    // The present position of the wall's face.
     const double inset = simulation_.wall(c.side).displacement;
     const int axis = c.side / 2;
     Vec<D> contact = c.particle.position;
@@ -91,7 +91,7 @@ class Sources : public Observer<D> {
     }
   }
 
-  // Gravity along a flight, by Gauss quadrature with two points: exact for cubics.
+  // Gravity during a flight, by two-point Gauss quadrature: exact for cubics.
   void fall(const Flight<D>& flight, double end) {
     const Vec<D>& gravity = simulation_.model().gravity;
     const double begin = std::max(begin_, flight.time);
@@ -113,7 +113,7 @@ class Sources : public Observer<D> {
   double begin_;
 };
 
-/// The moments of the particles as they are.
+/// The present moments of the particles.
 template <int D>
 struct Moments {
   Eigen::Matrix<double, D, D> momentum = Eigen::Matrix<double, D, D>::Zero();  ///< sum r_k v_l
@@ -133,7 +133,7 @@ struct Moments {
   }
 };
 
-/// Of the fields as they are reported, cell by cell.
+/// The moments from the reported fields, cell by cell.
 template <int D>
 struct Reported {
   Booked momentum[D][D];
@@ -159,8 +159,8 @@ Reported<D> reported(const CellIntegrals<D>& integrals, const CellSums& sums, bo
       V[k] = value(Field(Quantity::Velocity, k));
       q[k] = value(Field(Quantity::HeatFlux, k));
       sigma(k, k) = value(Field(Quantity::Stress, k, k));
-      // What rough particles and thermal walls pass on is askew: xy and yx differ, and only xy is
-      // reported.
+      // The transfer by rough particles and thermal walls is asymmetric: xy and yx differ, and only
+      // xy is reported.
       for (int l = k + 1; l < D; ++l) {
         sigma(k, l) = value(Field(Quantity::Stress, k, l));
         sigma(l, k) = sigma(k, l) + cell.transfer[k][l] - cell.transfer[l][k];
@@ -239,7 +239,7 @@ Scene periodic() {
   return scene;
 }
 
-/// Walls all round; along z those of x.
+/// Walls on all sides. The walls along z equal the walls along x.
 template <int D>
 Scene boxed(const Wall& along_x, const Wall& along_y) {
   Scene scene = periodic<D>();

@@ -12,14 +12,14 @@ using namespace clatter::testing;
 
 namespace {
 
-/// A window whose only number is its own, so that sums tell which windows are in them.
+/// A window with its own number, so that sums identify their windows.
 CellSums numbered(int window, std::size_t numbers = 1) {
   CellSums sums{1.0, 1.0, std::vector<double>(numbers)};
   sums.rows[0] = window;
   return sums;
 }
 
-/// What the fields asked for give in 50 time units of a gas between walls on 6 x 4 cells.
+/// The maps of these fields after 50 time units of a gas between walls, on 6 x 4 cells.
 Measured measured(const std::vector<Field>& fields, Axis axis = Axis::X) {
   const auto simulation = simulation_of<2>(rough_mixture(20), 5);
   Measure measure;
@@ -73,7 +73,7 @@ TEST_CASE("PartSums: of large grids there are fewer parts") {
 }
 
 TEST_CASE("Measurement: maps average to the profile, and their parts to the maps") {
-  // Linear in the sums, so that averages over cells and over time are those of the whole.
+  // These are linear in the sums. Averages over cells and time equal the averages of the whole.
   const std::vector<Field> linear = {
       Quantity::Density, Field(Quantity::Stress, 0, 1, Part::Collisional), Quantity::Dissipation};
   for (const Axis axis : {Axis::X, Axis::Y}) {
@@ -106,7 +106,7 @@ TEST_CASE("Measurement: maps average to the profile, and their parts to the maps
 }
 
 TEST_CASE("Measurement: the mean velocity is taken from a temperature's map over the whole time") {
-  // One particle to and fro: at any time T = 0 about its velocity, and V = 0 in the end.
+  // One particle, back and forth: at any time T = 0 relative to its velocity, and V = 0 on average.
   Scene scene = gas(10.0, 4.0, 1, 1.0);
   wall_in(scene, 0, {.kind = WallKind::Static});
   const auto simulation = lone_particle(scene, {5.0, 1.0}, {1.0, 0.0});

@@ -13,7 +13,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Particles that share a cell, and what collisions passed on in it.
+/// Particles in one cell, with the collisional transfer in it.
 struct Content {
   std::vector<Vec2> velocities = {{1.0, 2.0}, {3.0, -2.5}, {-0.5, 0.25}};
   std::vector<double> spin_energies = {0.5, 0.125, 2.0};
@@ -53,7 +53,7 @@ bool needs_visitors(Field field) {
 
 }  // namespace
 
-TEST_CASE("Field value: every field is that of its definition, particle by particle") {
+TEST_CASE("Field value: every field follows from its definition, particle by particle") {
   const Content content;
   const double area = 0.5;
   const CellAverages<2, double> cell = averages(content, area);
@@ -107,7 +107,7 @@ TEST_CASE("Field value: cells without particles have only densities and collisio
     const double value = field_value(field, nothing);
     CHECK((needs_visitors(field) ? std::isnan(value) : value == 0.0));
   }
-  // Between a wall and the centres that touch it collisions pass on all there is.
+  // Between a wall and the centres of touching particles, all transfer is collisional.
   Content content;
   content.velocities.clear();
   const CellAverages<2, double> wall_layer = averages(content, 0.5);
@@ -116,7 +116,7 @@ TEST_CASE("Field value: cells without particles have only densities and collisio
   CHECK(field_value(Field(Quantity::HeatFlux, 1), wall_layer) == doctest::Approx(-1.2));
   CHECK(std::isnan(field_value(Field(Quantity::Stress, 0, 0, Part::Kinetic), wall_layer)));
   CHECK(std::isnan(field_value(Field(Quantity::HeatFlux, 1, Part::Kinetic), wall_layer)));
-  // Also where rounding lets centres into it.
+  // Also if rounding errors move centres into it.
   CellAverages<2, double> entered = wall_layer;
   entered.density = 1e-16;
   entered.momentum[1] = 2e-16;
@@ -163,7 +163,7 @@ TEST_CASE("Dual: derivatives of all fields as finite differences have them") {
   }
 }
 
-TEST_CASE("Moment layout: every field has what it needs, and no field keeps all") {
+TEST_CASE("Moment layout: every field has the sums it needs, and no field needs all") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   scene.particles.start.spin_temperature = 1.0;
@@ -192,7 +192,7 @@ TEST_CASE("Moment layout: every field has what it needs, and no field keeps all"
   }
 }
 
-TEST_CASE("Moment layout: what the fields asked for do not need is not stored") {
+TEST_CASE("Moment layout: unneeded sums are not stored") {
   const auto size = [](std::vector<Field> fields, bool spins) {
     return moment_layout<2>(fields, spins).size;
   };

@@ -31,7 +31,7 @@ bool finite(const Estimate& estimate) {
   return std::isfinite(estimate.mean) && std::isfinite(estimate.standard_error);
 }
 
-/// Whether every number that there is is one.
+/// Whether all present numbers are finite.
 bool finite(const Measured& result) {
   bool all = std::isfinite(result.duration) && std::isfinite(result.ledger_residual);
   for (const Estimate& e : {result.temperature, result.axis_temperatures[0],
@@ -45,7 +45,7 @@ bool finite(const Measured& result) {
   }
   for (const double t : result.series_temperature) all = all && std::isfinite(t);
   if (result.profile) {
-    // Columns that no particle visited have a density, but no temperature.
+    // Columns without particles have a density, but no temperature.
     const std::vector<Estimate>& density = result.profile->at(Quantity::Density);
     for (std::size_t k = 0; k < density.size(); ++k) {
       for (const Field field : result.profile->fields) {
@@ -66,7 +66,7 @@ TEST_CASE("Measurement: averages over the time after the burn-in, all of it and 
   CHECK(result.duration == doctest::Approx(31.9).epsilon(1e-12));
   CHECK(result.ledger_residual < 1e-13);
 
-  // The same with one window of a Totals of its own.
+  // The same with one window of a separate Totals.
   const auto again = simulation_of<2>(scene, 41);
   again->run_until(7.3);
   const EventCounts at_start = again->counts();
@@ -95,7 +95,8 @@ TEST_CASE("Measurement: averages over the time after the burn-in, all of it and 
 }
 
 TEST_CASE("Measurement: at least 512 windows, more where the series is finer") {
-  // With windows of 1/512 of the span and of the series' interval; a run cut at 1/4 has a quarter.
+  // With windows of 1/512 of the duration and of the series' interval. A run stopped at 1/4 has a
+  // quarter.
   for (const double interval : {1.0, 0.01}) {
     const auto simulation = simulation_of<2>(gas(10.0, 10.0, 5, 1.0), 42);
     Measure measure = measure_for(1.0, 64.0);
@@ -113,7 +114,7 @@ TEST_CASE("Measurement: the last window counts, also where rounding puts its end
   for (int k = 1; k <= 200; ++k) {
     const auto simulation = simulation_of<2>(gas(10.0, 10.0, 1, 1.0), 42);
     Measure measure = measure_for(0.1 * k, 0.7 * k);
-    measure.series_interval = measure.duration / 700.0;  // no power of two
+    measure.series_interval = measure.duration / 700.0;  // not a power of two
     CAPTURE(k);
     CHECK(measured(*simulation, measure).duration == doctest::Approx(0.7 * k).epsilon(1e-12));
   }
@@ -135,13 +136,13 @@ TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
   CHECK(result.series_temperature.front() == doctest::Approx(1.0).epsilon(1e-14));
 }
 
-TEST_CASE("Measurement: an interrupted run has what it had come to") {
+TEST_CASE("Measurement: an interrupted run has its results so far") {
   Measure measure = measure_for(10.0, 100.0);
   measure.fields = {Quantity::Density};
   const Scene scene = rough_mixture(15);
   const auto simulation = simulation_of<2>(scene, 44);
   Measurement measurement(*simulation, measure, 110.0);
-  CHECK(finite(measurement.result()));  // nothing has happened
+  CHECK(finite(measurement.result()));  // no event yet
 
   simulation->run_until(5.0);
   const Measured burning = measurement.result();
@@ -160,14 +161,14 @@ TEST_CASE("Measurement: an interrupted run has what it had come to") {
   CHECK(halted.duration > time - 10.0 - 100.0 / 512.0);
   CHECK(halted.profile);
 
-  simulation->run_until(110.0);  // and going on is as if it had not been asked
+  simulation->run_until(110.0);  // continuing is unaffected by the intermediate result
   const auto again = simulation_of<2>(scene, 44);
   const Measured whole = measured(*again, measure);
   const Measured resumed = measurement.result();
   CHECK(resumed.duration == doctest::Approx(100.0).epsilon(1e-12));
   CHECK(resumed.temperature.mean == whole.temperature.mean);
   CHECK(resumed.temperature.standard_error == whole.temperature.standard_error);
-  CHECK(measurement.result().temperature.mean == whole.temperature.mean);  // nor asked twice
+  CHECK(measurement.result().temperature.mean == whole.temperature.mean);  // read again
 }
 
 TEST_CASE("Measurement: profiles across x, averaged over y") {
@@ -185,7 +186,7 @@ TEST_CASE("Measurement: profiles across x, averaged over y") {
   CHECK(result.profile->edges.back() == 9.0);
   REQUIRE(result.profile->at(Quantity::Density).size() == 6);
 
-  // The same from one window of six columns.
+  // The same with one window of six columns.
   const auto again = simulation_of<2>(scene, 45);
   again->run_until(3.0);
   CellIntegrals<2> columns(*again, {6, 1}, full_layout());
@@ -243,7 +244,7 @@ TEST_CASE("Measurement: snapshots at the interval, collisions all the time") {
       const auto of = [&](const Measured& result, Field field) {
         return result.profile->at(field)[i];
       };
-      // The last sample may come a rounding error after the end.
+      // The last sample may be a rounding error after the end.
       CHECK(of(snapshots, Quantity::Density).mean ==
             doctest::Approx(density[i]).epsilon(interval > 0.1 ? 1e-12 : 1e-2));
       CHECK(of(snapshots, Quantity::Dissipation).mean ==
@@ -278,7 +279,8 @@ TEST_CASE("Measurement: a density that cannot vary has no error, however snapsho
 
 TEST_CASE("Measurement: errors are the scatter of runs") {
   // The scatter of 40 runs has an uncertainty of 11 %, the mean of their errors less. A current of
-  // what is conserved fluctuates back and forth, so that its error by blocking is a bound only.
+  // a conserved quantity fluctuates back and forth, so that its blocking error is an upper limit
+  // only.
   Scene scene = gas(10.0, 10.0, 12, 0.9);
   wall_in(scene, 0, {.kind = WallKind::Driven, .drive_speed = 1.0});
   Measure measure = measure_for(40.0, 4000.0);
@@ -313,8 +315,8 @@ TEST_CASE("Measurement: errors are the scatter of runs") {
 }
 
 TEST_CASE("Measurement: a flow changes neither the profile of T nor its error") {
-  // Columns along x do not see a flow along y. The gas is so thin that its few collisions cannot
-  // let the rounding of the two runs grow.
+  // Profiles along x do not depend on a flow along y. The gas is so dilute that rounding
+  // differences between the two runs cannot grow in its few collisions.
   Measure measure = measure_for(0.0, 50.0);
   measure.fields = {Field(Quantity::Temperature, 1)};
   measure.cells = {3, 1};
@@ -341,8 +343,8 @@ TEST_CASE("Measurement: no profile where no field was asked for") {
 }
 
 TEST_CASE("Measurement: the pressure of one particle between two walls") {
-  // 10 from wall to wall at speed 2: each wall takes up 2 * 2 every 10 time units, on a length
-  // of 8.
+  // 10 from wall to wall at speed 2: each wall receives 2 * 2 every 10 time units, on a length of
+  // 8.
   Scene scene = gas(11.0, 8.0, 1, 1.0);
   wall_in(scene, 0, Wall{});
   const auto simulation = lone_particle(scene, {5.5, 4.0}, {2.0, 0.0});

@@ -1,5 +1,5 @@
-// A measurement that is put aside with its run and taken up again gives the same numbers, bit for
-// bit, as the one that went on.
+// A measurement that is resumed with its run gives the same numbers as the uninterrupted one, bit
+// for bit.
 
 #include <doctest/doctest.h>
 
@@ -60,7 +60,7 @@ Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
           nullptr};
   run.measurement =
       std::make_unique<Measurement<2>>(*run.simulation, measure, ArchiveReader(saved, "saved"));
-  // Saving twice gives the same, and saving is no more than looking.
+  // Saving does not change the measurement: a second save is equal.
   REQUIRE(run.measurement->save() == saved);
   return run;
 }
@@ -69,8 +69,8 @@ std::uint64_t bits(double number) {
   return std::bit_cast<std::uint64_t>(number);
 }
 
-// All but the cell crossings and the stale predictions before the averages, two neighbouring
-// counts: a run that is taken up plans anew, so that it may have others.
+// All bytes except two neighbouring counts before the averages: cell crossings and stale
+// predictions. A resumed run plans all events again, so that these may differ.
 bool same(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   std::size_t first = a.size(), last = 0;
@@ -112,14 +112,14 @@ void check_same(const Run& a, const Run& b) {
 
 }  // namespace
 
-TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
+TEST_CASE("Measurement: it resumes at any time, bit for bit") {
   for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
     for (const Measure& measure :
          {measure_of({Quantity::Density}), measure_of({}), measure_of({Quantity::BalanceEnergy})}) {
       const Run straight = started(scene, measure);
       straight.simulation->run_until(kEnd);
       Run halted = started(scene, measure);
-      // Times in the burn-in, at its end, within a window, where one ends.
+      // Times in the burn-in, at its end, within a window, and at the end of a window.
       for (const double time : {0.0, 1.0, 2.1, kBurnIn, 3.4, 10.0, 11.2, 25.0, 43.6}) {
         halted.simulation->run_until(time);
         halted = taken_up(scene, measure, halted);
@@ -135,7 +135,7 @@ TEST_CASE("Measurement: put aside at any time it goes on bit for bit") {
   }
 }
 
-TEST_CASE("Measurement: taken up for longer it goes on with windows of the same length") {
+TEST_CASE("Measurement: resumed for a longer time it keeps the length of its windows") {
   const Measure measure = measure_of({Quantity::Density, Quantity::BalanceMass});
   const Run first = started(rough_mixture(20), measure);
   first.simulation->run_until(kEnd);
@@ -182,7 +182,7 @@ TEST_CASE("Measurement: spins that other laws take away leave no gap in the ledg
   CHECK(smooth.measurement->result().ledger_residual < 1e-12);
 }
 
-TEST_CASE("Measurement: what is no measurement is refused") {
+TEST_CASE("Measurement: bytes of no measurement are refused") {
   const Measure measure = measure_of({Quantity::Density});
   const Run run = started(rough_mixture(20), measure);
   run.simulation->run_until(10.0);

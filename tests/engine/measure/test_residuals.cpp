@@ -15,7 +15,7 @@ using namespace clatter::testing;
 
 namespace {
 
-// Everything that books: rough particles, gravity, kicks, thermal, driven and moving walls.
+// All contributions: rough particles, gravity, kicks, thermal, driven and moving walls.
 Scene everything() {
   Scene scene = rough_mixture(20);
   scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
@@ -48,7 +48,7 @@ const std::vector<Field> kBalance = residual_fields(2);
 
 }  // namespace
 
-TEST_CASE("Residuals: of each equation that of the window in which it was largest, with its sign") {
+TEST_CASE("Residuals: each equation has its largest residual of all windows, with its sign") {
   const Imbalances<2> first{{{1.0, -2.0, 0.0, 3.0}, {0.0, 0.0, 0.0, -5.0}},
                             {{2.0, 4.0, 8.0, 16.0}, {1.0, 1.0, 1.0, 10.0}}};
   const Imbalances<2> second{{{0.5, 3.0, -1.0, 1.0}, {0.0, 0.0, 4.0, 1.0}},
@@ -63,14 +63,14 @@ TEST_CASE("Residuals: of each equation that of the window in which it was larges
   CHECK(residuals.largest() == std::vector{0.5, 0.75, 1.0, 0.5});
 }
 
-TEST_CASE("Imbalances: of two times they are those of both") {
+TEST_CASE("Imbalances: two time spans add up") {
   Imbalances<2> sum;
   sum += {{{1.0, -2.0, 0.0, 3.0}}, {{2.0, 4.0, 8.0, 16.0}}};
   sum += {{{1.0, 3.0, 0.0, -3.0}}, {{2.0, 4.0, 8.0, 16.0}}};
   CHECK(sum.residual(0) == Conserved<2>(0.5, 0.125, 0.0, 0.0));
 }
 
-TEST_CASE("Residuals: what is no number is larger than any") {
+TEST_CASE("Residuals: NaN is larger than any number") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Residuals residuals;
   residuals.include<2>({{{0.0, nan, 0.0, 0.0}}, {{1.0, 1.0, 1.0, 1.0}}});
@@ -114,7 +114,7 @@ TEST_CASE("Measurement: balances close where residuals are asked for, and only t
   CHECK_FALSE(measured(gas(9.0, 8.0, 0, 1.0), measure_of(kBalance)).residuals);
 }
 
-TEST_CASE("Measurement: residuals have maps over the whole time, after those of averages") {
+TEST_CASE("Measurement: residuals have maps over the whole time, after the maps of averages") {
   std::vector<Field> fields = kBalance;
   fields.push_back(Quantity::Density);
   const Measured both = measured(everything(), measure_of(fields));
@@ -136,7 +136,7 @@ TEST_CASE("Measurement: residuals have maps over the whole time, after those of 
   }
 }
 
-// 32 averaging windows make one of the balance; of 520, 8 are left over for the last.
+// 32 averaging windows form one window of the balance. Of 520, 8 remain for the last one.
 TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
   const Measure measure = measure_of(kBalance);
   const auto simulation = simulation_of<2>(everything(), 61);

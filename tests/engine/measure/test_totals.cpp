@@ -16,7 +16,7 @@ struct TimedRun {
   EventTimes events;
 };
 
-/// Runs to each of the ends in turn and closes a window there.
+/// Runs to each of the ends and closes a window there.
 TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vector<double>& ends) {
   TimedRun run;
   const auto simulation = simulation_of<2>(scene, seed);
@@ -30,8 +30,8 @@ TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vecto
   return run;
 }
 
-/// Integral of sum v_k^2 from `begin` to `end` by asking a second run, without observers, half-way
-/// between any two events.
+/// Integral of sum v_k^2 from `begin` to `end`, from the states of a second run without observers,
+/// half-way between successive events.
 Vec2 brute_force_integral(Simulation<2>& simulation, const std::vector<double>& events,
                           double begin, double end) {
   Vec2 integral = Vec2::Zero();
@@ -62,7 +62,7 @@ TEST_CASE("Totals: the temperature is the exact time average, across base moves"
     const Vec2 integral = brute_force_integral(*again, run.events.times, begin, ends[k]);
     const Vec2 expected = integral / (20.0 * (ends[k] - begin));
     CAPTURE(k);
-    // Durations and event times have the rounding of times about 300.
+    // Durations and event times have the rounding errors of times about 300.
     CHECK(run.windows[k].duration == doctest::Approx(ends[k] - begin).epsilon(1e-9));
     CHECK(run.windows[k].temperature.x() == doctest::Approx(expected.x()).epsilon(1e-9));
     CHECK(run.windows[k].temperature.y() == doctest::Approx(expected.y()).epsilon(1e-9));
@@ -70,7 +70,7 @@ TEST_CASE("Totals: the temperature is the exact time average, across base moves"
   }
 }
 
-TEST_CASE("Totals: what every window booked is the change of the energy") {
+TEST_CASE("Totals: the sum of every window equals the change of the energy") {
   const Scene scene = rough_mixture(30);
   const auto simulation = simulation_of<2>(scene, 8);
   Totals<2> totals(*simulation);
@@ -101,15 +101,15 @@ TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {
   CHECK(totals.ledger_residual() < 1e-13);
 }
 
-TEST_CASE("Totals: the ledger notices what was not booked") {
-  // An observer that comes too late for some events cannot close the balance.
+TEST_CASE("Totals: the ledger shows missing events") {
+  // An observer that misses some events cannot close the balance.
   const auto simulation = simulation_of<2>(gas(10.0, 10.0, 20, 0.7), 9);
   Totals<2> totals(*simulation);
   simulation->run_until(1e4, 10);
   CHECK(totals.ledger_residual() > 1e-3);
 }
 
-TEST_CASE("Totals: what the walls took up is what the gas lost") {
+TEST_CASE("Totals: the momentum of the walls equals the loss of the gas") {
   // Static and driven walls act along their normals only.
   Scene scene = rough_mixture(25);
   scene.walls[kBottom] = Wall{.kind = WallKind::Static, .restitution = 0.95};

@@ -31,7 +31,7 @@ void check_steps(const std::vector<Step>& steps, const std::vector<Step>& expect
   }
 }
 
-/// The borders that a flight crosses; checks that the pieces between them follow each other.
+/// The borders that a flight crosses. Checks that the pieces in between are contiguous.
 std::vector<Step> crossed(const Flight<2>& flight, Cell cell, double begin, double end,
                           const Vec2& gravity = Vec2::Zero()) {
   std::vector<Step> steps;
@@ -82,7 +82,7 @@ TEST_CASE("FieldGrid: cells by place and by index") {
   }
 }
 
-TEST_CASE("FieldGrid: a cell's image is where a place in it lies, and between walls it has one") {
+TEST_CASE("FieldGrid: a cell has an image for each position, and one image between walls") {
   CHECK(kGrid.image_at({1, 1}, {3.0, 3.0 - 60.0}) == Cell{1, -29});
   CHECK(kGrid.image_at({1, -29}, {3.0, 3.0 + 6.0}) == Cell{1, 4});
   CHECK(kGrid.image_at({1, 1}, {30.0, 3.0}) == Cell{1, 1});
@@ -91,7 +91,7 @@ TEST_CASE("FieldGrid: a cell's image is where a place in it lies, and between wa
   CHECK(kGrid.image_at({1, 0}, {3.0, 6.0}) == Cell{1, 3});
 }
 
-TEST_CASE("FieldGrid: a cell contains what lies in it to within rounding") {
+TEST_CASE("FieldGrid: a cell contains its positions up to rounding") {
   CHECK(kGrid.contains({1, 1}, {2.0 - 1e-12, 4.0 + 1e-12}));
   CHECK(kGrid.contains({1, -29}, {3.0, 3.0 - 60.0}));
   CHECK_FALSE(kGrid.contains({1, 1}, {3.0, 3.0 - 60.0}));
@@ -105,10 +105,11 @@ TEST_CASE("FieldGrid: the borders on a flight, in order") {
               {{1.0, 0, 1}, {2.5, 1, 1}, {3.0, 0, 1}});
   check_steps(crossed({{3.0, 63.0}, {-0.5, 0.8}}, {1, 31}, 0.25, 2.1),
               {{1.25, 1, 1}, {2.0, 0, -1}});
-  // On a border, or beyond by rounding: at once outwards, the far one inwards.
+  // On a border, or beyond it by rounding: the outward crossing is immediate, the other border is
+  // far.
   check_steps(crossed({{4.0 + 1e-15, 3.0}, {1.0, 0.0}}, {1, 1}, 0.0, 1.0), {{0.0, 0, 1}});
   check_steps(crossed({{4.0 + 1e-15, 3.0}, {-1.0, 0.0}}, {1, 1}, 0.0, 2.5), {{2.0, 0, -1}});
-  // One that is reached at the very end is left to what comes then.
+  // A border at the very end belongs to the next piece.
   check_steps(crossed({{3.0, 3.0}, {1.0, 0.0}}, {1, 1}, 0.0, 1.0), {});
   // Parabolas turn before the border ahead, or behind it.
   const Vec2 down(0.0, -1.0);

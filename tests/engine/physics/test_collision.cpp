@@ -15,7 +15,7 @@ using namespace clatter::testing;
 
 namespace {
 
-/// Two rough particles (D = 3: spheres) at contact; r_2 lies within a few diameters of the origin.
+/// Two rough particles (D = 3: spheres) at contact. r_2 is within a few diameters of the origin.
 template <int D>
 struct RoughPair {
   Vec<D> r_1, r_2, v_1, v_2;
@@ -48,7 +48,7 @@ struct RoughPair {
     return 0.5 * (v_1.squaredNorm() + v_2.squaredNorm()) +
            0.5 * moment * (spin_1.squaredNorm() + spin_2.squaredNorm());
   }
-  /// About the origin.
+  /// Relative to the origin.
   Spin<D> angular_momentum() const {
     const double moment = 0.25 * inertia * diameter * diameter;
     return cross<D>(r_1, v_1) + cross<D>(r_2, v_2) + moment * (spin_1 + spin_2);
@@ -97,7 +97,7 @@ TEST_CASE(
     const Vec2 v_2 = {random.normal(), random.normal()};
     const Vec2 g = v_1 - v_2;
     const double alpha = i % 3 == 0 ? 1.0 : random.uniform();
-    // x is not of unit length to the last bit, as at any contact.
+    // The length of x differs from 1 by a rounding error, as in real contacts.
     const Vec2 impulse = collision_impulse<2>(n * (1.0 + 1e-14), g, alpha);
     const Vec2 w_1 = v_1 + impulse, w_2 = v_2 - impulse;
 
@@ -115,7 +115,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Collision: smooth pairs have the velocities computed by hand") {
-  // Head on, elastic: velocities are exchanged. Wholly inelastic: both move on together.
+  // Head-on and elastic: velocities are exchanged. Wholly inelastic: both continue with the mean
+  // velocity.
   CHECK(collision_impulse<2>({1.0, 0.0}, {-2.0, 5.0}, 1.0) == Vec2(2.0, 0.0));
   CHECK(collision_impulse<2>({1.0, 0.0}, {-2.0, 5.0}, 0.0) == Vec2(1.0, 0.0));
   CHECK(collision_impulse<2>({0.0, -1.0}, {0.0, 4.0}, 0.5) == Vec2(0.0, -3.0));
@@ -138,8 +139,8 @@ TEST_CASE_TEMPLATE("Collision: rough pairs keep their angular momentum", Dimensi
   CHECK(angular_off < 1e-14);
 }
 
-TEST_CASE_TEMPLATE("Collision: what rough pairs dissipate is what their energies lose", Dimension,
-                   Plane, Space) {
+TEST_CASE_TEMPLATE("Collision: the dissipation of rough pairs equals their loss of energy",
+                   Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
   double off = 0.0;
   int conserving = 0;
@@ -179,7 +180,7 @@ TEST_CASE_TEMPLATE("Collision: the impulse between rough pairs is Walton's and C
   }
   CHECK(impulse_off < 1e-13);
   CHECK(coulomb_excess < 1e-13);
-  CHECK(coulomb_excess > -1e-13);  // sliding pairs use all of it
+  CHECK(coulomb_excess > -1e-13);  // sliding pairs reach the Coulomb limit
 }
 
 TEST_CASE_TEMPLATE(
@@ -244,7 +245,7 @@ TEST_CASE("Collision: rough pairs have the impulses computed by hand") {
   const auto dissipated = [](const ContactLaw& law) {
     return dissipated_energy<2>({1.0, 0.0}, {-2.0, 3.0}, Spin<2>(0.0), law, 0.5, 1.0);
   };
-  // g_t = 3 - 6/2 = 0: nothing slips, and nothing is divided by it.
+  // g_t = 3 - 6/2 = 0: no slip, and no division by it.
   CHECK(collide(perfectly_rough, {-2.0, 3.0}, 6.0).momentum == Vec2(2.0, 0.0));
   CHECK(collide(perfectly_rough, {-2.0, 3.0}, 6.0).spin[0] == 0.0);
   CHECK(collide({1.0, 0.25, 1.0}, {-2.0, 3.0}, 6.0).momentum == Vec2(2.0, 0.0));
@@ -254,15 +255,16 @@ TEST_CASE("Collision: rough pairs have the impulses computed by hand") {
   // Coulomb: |J_t| = .25 |J_n| = .5 < 1, spin 2 |J_t|/q = 2.
   CHECK(collide({1.0, 0.25, 1.0}, {-2.0, 3.0}, 0.0).momentum.isApprox(Vec2(2.0, -0.5), 1e-15));
   CHECK(collide({1.0, 0.25, 1.0}, {-2.0, 3.0}, 0.0).spin[0] == doctest::Approx(2.0).epsilon(1e-15));
-  // It takes .75 of the energy 6.5: 5.25 is left to the motion and .5 to the spins.
+  // The loss is .75 of the energy 6.5. The translational energy is then 5.25, the spin energy .5.
   CHECK(dissipated({1.0, 0.25, 1.0}) == doctest::Approx(0.75).epsilon(1e-15));
-  // With alpha = 1/2 J_n = 1.5 and J_t = .375: 5.046875 are left, .28125 of them to the spins.
+  // With alpha = 1/2, J_n = 1.5 and J_t = .375. The final energy is 5.046875, of which .28125 is in
+  // the spins.
   CHECK(dissipated({0.5, 0.25, 1.0}) == doctest::Approx(1.453125).epsilon(1e-15));
-  // Nothing presses: finite friction does nothing, infinite friction does what it always does.
+  // No normal impulse: finite friction has no effect, infinite friction has its usual effect.
   CHECK(collide({1.0, 0.25, 1.0}, {0.0, 3.0}, 0.0).momentum == Vec2(0.0, 0.0));
   CHECK(collide(perfectly_rough, {0.0, 3.0}, 0.0).momentum.isApprox(Vec2(0.0, -1.0), 1e-15));
-  CHECK(collide({1.0, 0.25, 1.0}, {0.0, 3.0}, 6.0).momentum == Vec2(0.0, 0.0));  // nor slips
-  // All the mass at the centre: no momentum is needed to turn the spins, g_t' = 3 - 6 = -g_t.
+  CHECK(collide({1.0, 0.25, 1.0}, {0.0, 3.0}, 6.0).momentum == Vec2(0.0, 0.0));  // nor slip
+  // All mass at the centre: the spins reverse without momentum, g_t' = 3 - 6 = -g_t.
   const Impulse<2> light =
       rough_impulse<2>({1.0, 0.0}, {-2.0, 3.0}, Spin<2>(0.0), perfectly_rough, 0.0, 1.0);
   CHECK(light.momentum == Vec2(2.0, 0.0));

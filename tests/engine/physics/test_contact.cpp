@@ -42,7 +42,7 @@ TEST_CASE("Contact: touching particles collide at once if they approach faster t
     CHECK(contact_time<2>(a(0.0, 0.0), b, none, 1.0, kNoGravity) == kNever);
     CHECK(contact_time<2>(a(-1.0, 0.0), b, none, 1.0, kNoGravity) == kNever);
   }
-  // The later of the two flights' starts is "at once".
+  // An immediate contact has the later of the two start times.
   const auto early = flight({0.0, 0.0}, {1.0, 0.0}, 2.0);
   const auto late = flight({4.0, 0.0}, {-1.0, 0.0}, 5.0);
   CHECK(contact_time<2>(early, late, none, 1.0, kNoGravity) == 5.0);
@@ -50,9 +50,9 @@ TEST_CASE("Contact: touching particles collide at once if they approach faster t
 }
 
 TEST_CASE("Contact: a collision is not followed by another one at once") {
-  // Contact is not representable: half of these overlap by rounding. After an elastic or a wholly
-  // inelastic collision none may collide again, but for the few that it brings nearly to rest:
-  // their rounding is that of the velocities before, and one more collision settles it.
+  // Contact positions are rounded: half of these pairs overlap. After an elastic or a wholly
+  // inelastic collision no pair may collide again. Exception: a few pairs are almost at rest
+  // afterwards, with rounding errors of the velocities before. One more collision separates them.
   int again = 0, unsettled = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Random random(21, Stream::Velocity, i, 0);

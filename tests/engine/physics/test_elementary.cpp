@@ -15,12 +15,12 @@ using namespace clatter;
 
 namespace {
 
-// The exact difference of a quarter and a phase below it has 1074 bits at most.
+// The exact difference of a quarter and a smaller phase has 1074 bits at most.
 constexpr mpfr_prec_t kPrecision = 1200;
-// Of the reference values; the error of their 200 bits is no part of an ulp that counts.
+// Precision of the reference values: the error of 200 bits is a negligible part of an ulp.
 constexpr mpfr_prec_t kReferencePrecision = 200;
 
-// A number of MPFR's.
+// A number of the MPFR library.
 class Exact {
  public:
   explicit Exact(double x) : Exact() { mpfr_set_d(value_, x, MPFR_RNDN); }
@@ -33,9 +33,9 @@ class Exact {
 
   void shorten() { mpfr_prec_round(value_, kReferencePrecision, MPFR_RNDN); }
 
-  // The error of a double, in ulps: in the spacing of doubles at the exact value.
+  // The error of a double in ulps, the spacing of doubles at the exact value.
   double error_of(double x) {
-    // That is 2^-53 of the next power of two, and at least the smallest double.
+    // The ulp is 2^-53 of the next power of two, and at least the smallest double.
     const long exponent = mpfr_zero_p(value_) ? -1073 : mpfr_get_exp(value_);
     Exact error;
     mpfr_sub_d(*error, value_, x, MPFR_RNDN);
@@ -108,7 +108,7 @@ std::vector<double> about(double x) {
   return numbers;
 }
 
-// Of any exponent, subnormal numbers included.
+// A number of any exponent, also subnormal.
 double of_any_size(Random& random) {
   const auto bits = std::bit_cast<std::uint64_t>(1.0 + random.uniform()) << 12 >> 12;
   return std::bit_cast<double>(bits | random.below(2047) << 52);
@@ -127,7 +127,7 @@ constexpr int kTries = 15000;
 
 }  // namespace
 
-TEST_CASE("Elementary functions: sine and cosine of turns lie within 1 ulp") {
+TEST_CASE("Elementary functions: sine and cosine of turns have an error below 1 ulp") {
   Worst sine, cosine;
   const auto look_at = [&](double phase) {
     const SineCosine both = sin_cos_2pi(phase);
@@ -171,7 +171,7 @@ TEST_CASE("Elementary functions: sine and cosine of quarters of a turn are exact
   }
 }
 
-TEST_CASE("Elementary functions: the arc cosine in turns lies within 1 ulp") {
+TEST_CASE("Elementary functions: the arc cosine in turns has an error below 1 ulp") {
   Worst worst;
   const auto look_at = [&](double x) {
     if (std::fabs(x) <= 1.0) worst.take(x, acos_error(x, acos_turns(x)));
@@ -193,7 +193,7 @@ TEST_CASE("Elementary functions: the arc cosine in turns lies within 1 ulp") {
   CHECK(acos_turns(-1.0) == 0.5);
 }
 
-TEST_CASE("Elementary functions: the logarithm lies within 1 ulp") {
+TEST_CASE("Elementary functions: the logarithm has an error below 1 ulp") {
   Worst worst;
   const auto look_at = [&](double x) {
     if (x > 0.0) worst.take(x, log_error(x, natural_log(x)));

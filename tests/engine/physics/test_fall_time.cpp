@@ -16,7 +16,7 @@ TEST_CASE("Fall time: it is the time computed by hand") {
   CHECK(fall_time(8.0, 0.0, -4.0) == 2.0);
   CHECK(fall_time(6.0, -1.0, -4.0) == 1.5);
   CHECK(fall_time(6.0, 4.0, -4.0) == 3.0);
-  CHECK(fall_time(4.0, -5.0, 2.0) == 1.0);  // The first of the two passages, 1 and 4.
+  CHECK(fall_time(4.0, -5.0, 2.0) == 1.0);  // The first of the two passages, at 1 and 4.
 }
 
 TEST_CASE("Fall time: a height that never passes zero downwards gives never") {
@@ -38,7 +38,7 @@ TEST_CASE("Fall time: a gap of zero, or below by rounding, closes at once if it 
     CHECK(fall_time(gap, 0.0, 1.0) == kNever);
     CHECK(fall_time(gap, 2.0, 0.0) == kNever);
     CHECK(fall_time(gap, 2.0, -0.5) == 8.0);
-    CHECK(fall_time(gap, 1e-14, -0.5) == 4e-14);  // The rounding outweighs the flight.
+    CHECK(fall_time(gap, 1e-14, -0.5) == 4e-14);  // The rounding error exceeds the flight.
   }
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("Fall time: without acceleration it has the bits of the quotient") {
   CHECK(different == 0);
 }
 
-// The height at the passage is zero but for the rounding of the three terms and of the time.
+// The height at the passage is zero except for the rounding of the three terms and the time.
 TEST_CASE("Fall time: it is precise where acceleration or speed hardly matters") {
   double worst = 0.0;
   int passages = 0;
@@ -93,7 +93,7 @@ TEST_CASE("Way out: it is the time computed by hand") {
     CHECK(is(exit_time(rounding, 1.0, 0.0, -0.5), 0.0, false));
     CHECK(is(exit_time(1.0, rounding, 2.0, -0.5), 0.0, true));
   }
-  // Whoever falls to where there is no plane never leaves.
+  // A particle that falls away from the only plane never leaves.
   CHECK_FALSE(exit_time(kNever, kNever, -4.0, -4.0).time < kNever);
   CHECK_FALSE(exit_time(kNever, kNever, 4.0, -4.0).time < kNever);
   CHECK_FALSE(exit_time(kNever, 3.0, 4.0, -4.0).time < kNever);

@@ -21,7 +21,8 @@ double place(const Room<D>& room, int axis, int k, int places) {
   return 0.5 * room.diameter + k * (room.box[axis] - room.diameter) / (places - 1);
 }
 
-/// Rows along x with a site at every place, or at every second: then neighbouring rows take turns.
+/// Rows along x with a site at every place, or at every second place. Then neighbouring rows are
+/// staggered.
 template <int D>
 std::vector<Vec<D>> rows_of(const Room<D>& room, const IntVec<D>& places, bool turns) {
   std::vector<Vec<D>> sites;
@@ -38,7 +39,7 @@ std::vector<Vec<D>> rows_of(const Room<D>& room, const IntVec<D>& places, bool t
   return sites;
 }
 
-/// Whether rows that take turns do so across all periodic borders too.
+/// Whether staggered rows match across all periodic borders.
 template <int D>
 bool closes(const Room<D>& room, const IntVec<D>& places) {
   for (int axis = 0; axis < D; ++axis) {
@@ -47,8 +48,8 @@ bool closes(const Room<D>& room, const IntVec<D>& places) {
   return true;
 }
 
-/// [n] The largest least distance of any such rows with at least n sites, by trying every one; it
-/// ends with the most sites that keep a diameter.
+/// [n] The largest least distance of all these lattices with at least n sites, by brute force. Ends
+/// at the largest number of sites with a distance of one diameter.
 template <int D>
 std::vector<double> brute_distances(const Room<D>& room, bool turns) {
   std::vector<double> largest(1, 0.0);
@@ -78,7 +79,7 @@ std::vector<Room<D>> rooms(const std::vector<Vec<D>>& boxes) {
   return all;
 }
 
-/// Boxes whose edges are uniform between the diameter and a length.
+/// Random boxes with edges between the diameter and a given length.
 template <int D>
 std::vector<Vec<D>> random_boxes(int count, double longest, std::uint64_t seed) {
   Random random(seed, Stream::Placement, 0, 0);
@@ -133,7 +134,7 @@ void check_against_brute_force(const std::vector<Vec<D>>& boxes) {
             centred ? face_centred_lattice(room, count) : primitive_lattice(room, count);
         REQUIRE(sites.empty() == (count > held));
         if (sites.empty()) continue;
-        // Of the inverse, since a single site between walls has no neighbour.
+        // The inverse, because a single site between walls has no neighbour.
         CHECK(1.0 / least_distance(room, sites) ==
               doctest::Approx(1.0 / largest[static_cast<std::size_t>(count)]).epsilon(1e-12));
       }
@@ -153,8 +154,8 @@ void check_touching() {
     row.walled[axis] = false;
     CHECK(lattice_capacity(row) == 49);
     for (int n = 2; n < kLongest; ++n) {
-      // The narrowest box that 0.1 n leaves for n particles of diameter 0.1, and one a little
-      // wider.
+      // The narrowest box with 0.1 n per particle for n particles of diameter 0.1, and slightly
+      // wider boxes.
       for (const double width : {0.1 * n, 0.1 * n * (1.0 + 1e-15), 0.1 * n * (1.0 + 1e-13)}) {
         Room<D> room{.box = Vec<D>::Constant(0.15), .diameter = 0.1};
         room.box[axis] = width;
@@ -172,7 +173,7 @@ TEST_CASE("Lattice: there are enough sites, inside the room and never closer tha
   check_sites<3>({{2.9, 2.2, 1.7}, {1.2, 4.1, 1.1}, {1.6, 1.6, 3.3}, {2.1, 2.1, 2.1}});
 }
 
-TEST_CASE("Lattice: capacity and distances are those of the best arrangement in any room") {
+TEST_CASE("Lattice: capacity and distances equal the best arrangement in any room") {
   check_against_brute_force<2>(
       {{5.3, 6.1}, {7.77, 3.21}, {1.5, 9.2}, {2.05, 6.6}, {4.4, 4.4}, {8.1, 1.05}, {6.93, 6.07}});
   check_against_brute_force<3>(

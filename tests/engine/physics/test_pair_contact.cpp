@@ -1,4 +1,5 @@
-// What takes or returns vectors is inlined, so how they would be passed does not matter.
+// Functions with vector arguments or results are inlined, so that the calling convention does not
+// matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #include <doctest/doctest.h>
@@ -36,7 +37,7 @@ double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, doub
                  diameter, gravity.data());
 }
 
-// Two particles of a box of 10 x 8, a few collision times old and one image apart at most.
+// Two particles in a box of 10 x 8, after a few collision times, at most one image apart.
 Pair random_pair(std::uint32_t number) {
   Random random(11, Stream::Placement, number, 0);
   const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
@@ -79,8 +80,8 @@ TEST_CASE("Encounter: exchanging the particles changes no bit") {
   CHECK(meetings > 3000);
 }
 
-// Distances are below 50 here, so the rounding of positions is below 1e-14 and that of a distance
-// at contact some times as much.
+// Distances are below 50. The rounding error of positions is below 1e-14, and the error of a
+// distance at contact is a few times as large.
 TEST_CASE("Encounter: particles are one diameter apart at contact, and farther before") {
   for (const Vec2& gravity : kGravities) {
     double worst = 0.0, missed = 0.0;
@@ -88,7 +89,7 @@ TEST_CASE("Encounter: particles are one diameter apart at contact, and farther b
       const Pair p = random_pair(i);
       const double time = encounter(p.a, p.b, p.shift, 1.0, gravity);
       const double start = later_start(p);
-      // Later, particles that fall are so far from where they started that rounding says nothing.
+      // Falling particles later are so far away that rounding errors dominate.
       if (!std::isfinite(time) || (gravity != kNone && time > 20.0)) continue;
       REQUIRE(time > start);
       worst = std::max(worst, std::fabs(distance(p, time, gravity) - 1.0));
@@ -131,8 +132,8 @@ TEST_CASE("Encounter: a grazing pass is met, a near miss is not") {
   }
 }
 
-// The bound is a few times the rounding of the start, 1000 * 1.1e-16: what the discriminant
-// (x.g)^2 - g^2 (x^2 - a^2) leaves is 100 times as much.
+// The limit is a few times the rounding error of the start, 1000 * 1.1e-16. The discriminant
+// (x.g)^2 - g^2 (x^2 - a^2) would have a 100 times larger error.
 TEST_CASE("Encounter: a start from far away costs no more than its rounding") {
   double worst = 0.0;
   int meetings = 0;
@@ -148,7 +149,7 @@ TEST_CASE("Encounter: a start from far away costs no more than its rounding") {
     const double time = encounter(p.a, p.b, p.shift);
     if (time == kNever) continue;
     ++meetings;
-    // Along the line of approach alone: the positions themselves grow large on the way.
+    // Only along the line of approach: the positions themselves become large.
     const Vec2 x = p.a.r + (p.a.v - p.b.v) * time;
     worst = std::max(worst, std::fabs(x.norm() - 1.0));
   }
@@ -180,10 +181,10 @@ TEST_CASE("Encounter: scaling by powers of two changes no bit") {
 
 namespace {
 
-// A particle and others that it may meet, and what pair_contact_time says of each.
+// A particle, its candidates, and the pair_contact_time of each.
 struct Crowd {
   Vec2 box{10.0, 8.0};
-  std::vector<Particle<2>> particles;  // the last is the one that asks
+  std::vector<Particle<2>> particles;  // the last is the particle of the prediction
   Candidates<2> candidates;
   std::vector<double> times;  // [candidates.size]
 
@@ -212,7 +213,7 @@ struct Crowd {
   }
 };
 
-// Of all candidates, and at once of the first half of them.
+// The first contact with all candidates, and with the first half of them, in one call.
 using Answers = std::array<FirstContact, 2>;
 
 template <bool kFalling, bool kShifted>
@@ -242,7 +243,7 @@ bool same(const FirstContact& a, const FirstContact& b) {
          (!a.unique || a.time == kNever || a.candidate == b.candidate);
 }
 
-// What the kernel says with any instruction set that the processor has.
+// The result of the kernel with every instruction set of the processor.
 template <bool kFalling, bool kShifted>
 Answers ask_any(const Crowd& crowd, const Vec2& gravity) {
   const Answers answers = ask_baseline<kFalling, kShifted>(crowd, gravity);
@@ -296,7 +297,7 @@ TEST_CASE(
   CHECK(touching > 150);
 }
 
-TEST_CASE("Contact kernel: if nobody left the box, the shorter form gives the same") {
+TEST_CASE("Contact kernel: if no particle has left the box, the shorter form gives the same") {
   int met = 0;
   for (std::uint32_t number = 0; number < 4000; ++number) {
     const Vec2& gravity = kGravities[number % 2];
@@ -308,7 +309,7 @@ TEST_CASE("Contact kernel: if nobody left the box, the shorter form gives the sa
     REQUIRE(same(first, first_of(crowd, gravity)[0]));
     met += std::isfinite(first.time);
 
-    // One whose frame is off the box: any of them, or the one who asks.
+    // One particle, a candidate or the predicted one, has its frame outside the box.
     Particle<2>& off = crowd.particles[number % crowd.particles.size()];
     off.image[number / 2 % 2] = number % 3 == 0 ? 1.0 : -1.0;
     REQUIRE(!first_within_box(crowd, gravity)[0].unique);

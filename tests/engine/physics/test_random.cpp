@@ -43,7 +43,7 @@ TEST_CASE("Random: uniform numbers fill (0,1) evenly") {
 TEST_CASE("Random: normal numbers are normal") {
   constexpr int kSamples = 1000000, kBins = 80;
   Random random(2, Stream::Velocity, 7, 3);
-  // Even bins over [-4, 4); what lies beyond counts to the outer ones.
+  // Even bins over [-4, 4). The outer bins include all values beyond.
   std::vector<double> observed(kBins), expected(kBins);
   const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
   for (int i = 0; i < kBins; ++i) {

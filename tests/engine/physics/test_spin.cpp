@@ -13,7 +13,7 @@ TEST_CASE("Spin: products in the plane are those in space") {
   CHECK(cross<3>(n_space, g_space) == Vec<3>(0.0, 0.0, cross<2>(n, g)[0]));
 }
 
-TEST_CASE("Spin: counterclockwise is positive, and moves what lies below to the right") {
+TEST_CASE("Spin: counterclockwise is positive, and moves the lower side to the right") {
   CHECK(cross_spin<2>({0.0, 1.0}, Spin<2>(2.0)) == Vec<2>(2.0, 0.0));
   CHECK(cross_spin<2>({1.0, 0.0}, Spin<2>(2.0)) == Vec<2>(0.0, -2.0));
   CHECK(cross<2>({1.0, 0.0}, {0.0, 3.0})[0] == 3.0);

@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// The gases of these tests: 20 x 25 diameters.
+/// The standard gases of these tests: 20 x 25 diameters.
 VibratedGas vibrated(double count, double restitution, double wall_restitution) {
   return {count, 20.0, 25.0, restitution, wall_restitution, 1.0};
 }
@@ -23,9 +23,9 @@ struct Temperatures {
   double translational = 1.0, rotational = 0.0;
 };
 
-/// d/dt of both in a gas of area fraction .2: the energies (theory 3.6) with the averages of g_n^2,
-/// g_t^2 and g_t v_t over the particles that collide, 4 T_tr, 2 T_tr + 2 T_rot/q and 2 T_tr, at
-/// half of Enskog's rate per particle. Without the names A, B and C.
+/// d/dt of both in a gas of area fraction .2, without the names A, B and C. The energies (theory
+/// 3.6) are averaged over colliding pairs at half of Enskog's rate per particle. The averages of
+/// g_n^2, g_t^2 and g_t v_t are 4 T_tr, 2 T_tr + 2 T_rot/q and 2 T_tr.
 Temperatures rough_change(const RoughGas& gas, const Temperatures& T, double power) {
   const double alpha = gas.restitution, beta = gas.tangential_restitution, q = gas.inertia;
   const double eta = gas.eta();
@@ -38,14 +38,14 @@ Temperatures rough_change(const RoughGas& gas, const Temperatures& T, double pow
   return {rate * translational + power, 2.0 * rate * (both - translational)};
 }
 
-/// What a collision brings, on average, to the energy of the centres and to that of the spins.
+/// Mean energy gains in a collision: of the centres, and of the spins.
 struct Gains {
   double translational = 0.0, rotational = 0.0;
 };
 
-/// These gains from the collision rule itself. Both are quadratic in the velocities of Gaussian
-/// particles, which are independent: each alone, at its standard deviation, gives its share of the
-/// mean exactly. Of the particles that collide <g_n^2> = 4 T_tr.
+/// These gains from the collision rule itself. Both are quadratic in the velocities of independent
+/// Gaussian variables. Each variable alone, at its standard deviation, therefore gives its share of
+/// the mean exactly. For colliding particles <g_n^2> = 4 T_tr.
 template <int D>
 Gains mean_gains(const RoughGas& gas, const Temperatures& T) {
   const double moment = moment_of_inertia(gas.inertia, 1.0);
@@ -64,7 +64,7 @@ Gains mean_gains(const RoughGas& gas, const Temperatures& T) {
   const Spin<D> none = Spin<D>::Zero();
   add(-std::sqrt(4.0 * T.translational) * n, none, none);
   for (int axis = 0; axis < D; ++axis) {
-    // D deviations that are not independent: (I - n n) of unit vectors adds up to the tangents.
+    // D dependent deviations: the sum of (I - n n) over unit vectors gives the tangents.
     const Vec<D> unit = Vec<D>::Unit(axis);
     add(std::sqrt(2.0 * T.translational) * (unit - n.dot(unit) * n), none, none);
   }
@@ -76,8 +76,9 @@ Gains mean_gains(const RoughGas& gas, const Temperatures& T) {
   return gains;
 }
 
-// T_tr loses A T_tr and gains B T_rot, times 2(D-1)/D per collision of a particle: a collision
-// of two particles, of energy D T_tr, takes 2(D-1) times that. So does the energy of the spins.
+// T_tr loses A T_tr and gains B T_rot, times 2(D-1)/D per collision of a particle. A collision of
+// two particles with energy D T_tr changes it by 2(D-1) times this, and the energy of the spins
+// too.
 template <int D>
 void check_rough_coefficients() {
   CAPTURE(D);
@@ -103,8 +104,8 @@ void check_rough_coefficients() {
   }
 }
 
-/// The temperatures after 1000 collisions of a particle at T_tr = 1, by Runge and Kutta's fourth
-/// order; unless driven, T_tr is kept at 1, which does not change the ratio.
+/// The temperatures after 1000 collisions per particle from T_tr = 1, by fourth-order Runge-Kutta.
+/// T_tr is kept at 1 without a drive, which does not change the ratio.
 Temperatures evolved(const RoughGas& gas, Temperatures T, double power) {
   const double step = 0.05 / enskog_rate(0.2, 1.0);
   const auto ahead = [](const Temperatures& T, const Temperatures& change, double time) {
@@ -125,13 +126,13 @@ Temperatures evolved(const RoughGas& gas, Temperatures T, double power) {
 
 }  // namespace
 
-TEST_CASE("Theory: chi is that of theory 6.1") {
+TEST_CASE("Theory: chi follows theory 6.1") {
   CHECK(contact_correlation(0.0) == 1.0);
   CHECK(contact_correlation(0.5) == doctest::Approx(3.125).epsilon(1e-15));       // (25/32) / (1/4)
   CHECK(contact_correlation(0.2) == doctest::Approx(1.42578125).epsilon(1e-14));  // .9125/.64
 }
 
-TEST_CASE("Theory: the pressure of hard spheres is that of Carnahan and Starling (1969)") {
+TEST_CASE("Theory: the pressure of hard spheres follows Carnahan and Starling (1969)") {
   // Z = (1 + phi + phi^2 - phi^3)/(1 - phi)^3.
   for (const double phi : {0.0, 0.1, 0.3, 0.49}) {
     const double state = (1.0 + phi + phi * phi - phi * phi * phi) / std::pow(1.0 - phi, 3);
@@ -156,7 +157,7 @@ TEST_CASE("Theory: the compressibility has its virial limit and the factor (1 + 
   CHECK((compressibility(1e-6, 1.0) - 1.0) / 1e-6 == doctest::Approx(2.0).epsilon(1e-5));
 }
 
-TEST_CASE("Theory: Enskog's rate is that of theory 6.2, and kinetic when dilute") {
+TEST_CASE("Theory: Enskog's rate follows theory 6.2, and the kinetic rate when dilute") {
   // chi(.1) = .95625/.81, rho = .4/pi: 2 sqrt(pi) * 1.1805556 * .1273240.
   CHECK(enskog_rate(0.1, 1.0) == doctest::Approx(0.5328457177951).epsilon(1e-12));
   CHECK(enskog_rate(0.1, 9.0) == doctest::Approx(3.0 * enskog_rate(0.1, 1.0)).epsilon(1e-14));
@@ -174,9 +175,9 @@ TEST_CASE("Theory: Enskog's rate of spheres is the kinetic one times chi") {
 }
 
 TEST_CASE("VibratedGas: of spheres it is the balance of their rates and energies") {
-  // 200 spheres between walls of 30 a distance of 12 apart, alpha = .9, alpha_w = .95, v_dr = 1, T
-  // = 1.7. Evaluated outside of this program from omega_E = n chi pi a^2 4 sqrt(T/pi) and the
-  // balance (3N/2) dT/dt = 2 f_pw dE_pw + N omega_E dE_pp/2, the temperatures by bisection.
+  // 200 spheres between walls of area 30 at a distance of 12, alpha = .9, alpha_w = .95, v_dr
+  // = 1, T = 1.7. Independently evaluated from omega_E = n chi pi a^2 4 sqrt(T/pi) and the balance
+  // (3N/2) dT/dt = 2 f_pw dE_pw + N omega_E dE_pp/2. The temperatures are from bisection.
   const VibratedGas gas = {200.0, 12.0, 30.0, 0.9, 0.95, 1.0, 3};
   CHECK(gas.packing_fraction() == doctest::Approx(0.29088820866572).epsilon(1e-13));
   CHECK(gas.psi() == doctest::Approx(45.190806092675).epsilon(1e-13));
@@ -192,14 +193,14 @@ TEST_CASE("VibratedGas: of spheres it is the balance of their rates and energies
   CHECK(gas.haff_rate_simple(1.7) == doctest::Approx(0.1962835181399).epsilon(1e-12));
   CHECK(gas.haff_rate_refined(1.7) == doctest::Approx(0.3925670362798).epsilon(1e-12));
   CHECK(gas.haff_rate_corrected(1.7) == doctest::Approx(0.40139429591569).epsilon(1e-12));
-  // Walls that lose nothing do not matter: the periodic box cools alike.
+  // Elastic walls have no effect: the periodic box cools at the same rate.
   const VibratedGas lossless = {200.0, 12.0, 30.0, 0.9, 1.0, 0.0, 3};
   CHECK(
       lossless.haff_rate_refined(1.7) ==
       doctest::Approx(haff_rate_periodic(lossless.packing_fraction(), 0.9, 1.7, 3)).epsilon(1e-13));
 }
 
-TEST_CASE("VibratedGas: its parameters are those of theory 7.5 and 7.6") {
+TEST_CASE("VibratedGas: its parameters follow theory 7.5 and 7.6") {
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
   CHECK(gas.packing_fraction() == doctest::Approx(pi / 10.0).epsilon(1e-15));
   // sqrt(2) * 1.8337511829 * 200/25
@@ -229,7 +230,7 @@ TEST_CASE("VibratedGas: dT/dt is zero at the stationary temperatures, and drives
 }
 
 TEST_CASE("VibratedGas: the temperatures are those found by bisection of theory 7.7 and 7.8") {
-  // Found outside of this program, by bisection of the two brackets.
+  // Independently computed, by bisection of the two brackets.
   CHECK(vibrated(100.0, 0.9, 1.0).temperature_simple() == doctest::Approx(1.26202273350));
   CHECK(vibrated(100.0, 0.9, 1.0).temperature_refined() == doctest::Approx(0.69972238743));
   CHECK(vibrated(200.0, 0.9, 0.95).temperature_simple() == doctest::Approx(0.28845806455));
@@ -247,7 +248,7 @@ TEST_CASE("VibratedGas: temperatures scale with the drive speed squared") {
 }
 
 TEST_CASE("VibratedGas: without dissipation there is no stationary temperature") {
-  // The last one gains more at the walls than its particles lose.
+  // The last gas gains more at the walls than its particles lose.
   for (const VibratedGas& gas :
        {vibrated(100.0, 1.0, 1.0), vibrated(200.0, 1.0, 1.05), vibrated(200.0, 0.995, 1.2)}) {
     CHECK(std::isinf(gas.temperature_simple()));
@@ -263,19 +264,18 @@ TEST_CASE("VibratedGas: a vanishing loss is balanced by the linear gain alone") 
   CHECK(gas.temperature_refined() == doctest::Approx(s * s).epsilon(1e-7));
 }
 
-TEST_CASE("VibratedGas: rates and energies are those of theory 7.1-7.4") {
-  // At T = 1.7, evaluated outside of this program: 10 sqrt(T/2 pi); sqrt(pi) chi 200 * 199/500
-  // sqrt(T); (1 + 3.8 sqrt(T/2 pi) - .0975 T)/2; -.19 T/2.
+TEST_CASE("VibratedGas: rates and energies follow theory 7.1-7.4") {
+  // Independently evaluated at T = 1.7: 10 sqrt(T/2 pi); sqrt(pi) chi 200 * 199/500 sqrt(T); (1 +
+  // 3.8 sqrt(T/2 pi) - .0975 T)/2; -.19 T/2.
   const VibratedGas gas = vibrated(200.0, 0.9, 0.95);
   CHECK(gas.wall_hit_rate(1.7) == doctest::Approx(5.2015709478601).epsilon(1e-13));
   CHECK(gas.collision_rate(1.7) == doctest::Approx(337.32837310827).epsilon(1e-13));
   CHECK(gas.energy_per_wall_hit(1.7) == doctest::Approx(1.4054234800934).epsilon(1e-13));
   CHECK(gas.energy_per_collision(1.7) == doctest::Approx(-0.1615).epsilon(1e-13));
   CHECK(gas.temperature_change_simple(1.7) == doctest::Approx(-0.20065736919313).epsilon(1e-13));
-  // Refined: the mean velocity of those that hit is sqrt(pi T/2), and both losses are twice as
-  // much.
+  // Refined: the mean velocity of hitting particles is sqrt(pi T/2), and both losses double.
   CHECK(gas.temperature_change_refined(1.7) == doctest::Approx(-0.44938668636292).epsilon(1e-12));
-  // Each collision is that of two particles, and of N - 1 others.
+  // A collision belongs to two particles, each with N - 1 partners.
   CHECK(gas.collision_rate(1.7) ==
         doctest::Approx(0.5 * 199.0 * enskog_rate(gas.packing_fraction(), 1.7)).epsilon(1e-13));
 }
@@ -287,7 +287,7 @@ TEST_CASE("VibratedGas: theory 7.7 is the balance of 7.1-7.4") {
         const VibratedGas gas = vibrated(100.0, restitution, wall_restitution);
         const double at_walls =
             2.0 * gas.wall_hit_rate(temperature) * gas.energy_per_wall_hit(temperature);
-        // (theory 7.7) takes N for N - 1.
+        // (theory 7.7) has N instead of N - 1.
         const double at_particles =
             100.0 / 99.0 * gas.collision_rate(temperature) * gas.energy_per_collision(temperature);
         const double scale = std::fabs(at_walls) + std::fabs(at_particles);
@@ -299,28 +299,28 @@ TEST_CASE("VibratedGas: theory 7.7 is the balance of 7.1-7.4") {
 }
 
 TEST_CASE("VibratedGas: the wall layer makes hits more frequent, and the gas hotter") {
-  // 1 + 2 phi chi = 1.41177119479, times 20/19; evaluated outside of this program.
+  // 1 + 2 phi chi = 1.41177119479, times 20/19. Independently evaluated.
   CHECK(vibrated(100.0, 1.0, 1.0).wall_layer_factor() ==
         doctest::Approx(1.4860749418871).epsilon(1e-13));
-  // A dilute gas is hit more often only because centres have a diameter less to go.
+  // In a dilute gas the rate is larger only because centres have one diameter less to travel.
   CHECK(vibrated(1e-9, 1.0, 1.0).wall_layer_factor() == doctest::Approx(20.0 / 19.0).epsilon(1e-9));
-  // Zeros of kappa [1 + alpha_w sqrt(2 pi T) - 2 (1 - alpha_w^2) T] - pi eps psi T, by bisection
-  // outside of this program.
+  // Zeros of kappa [1 + alpha_w sqrt(2 pi T) - 2 (1 - alpha_w^2) T] - pi eps psi T, independently
+  // computed by bisection.
   CHECK(vibrated(100.0, 0.9, 1.0).temperature_corrected() ==
         doctest::Approx(1.2927692782583).epsilon(1e-12));
   CHECK(vibrated(200.0, 0.9, 0.95).temperature_corrected() ==
         doctest::Approx(0.46278206398242).epsilon(1e-12));
   CHECK(vibrated(100.0, 0.99, 0.95).temperature_corrected() ==
         doctest::Approx(25.862167704689).epsilon(1e-12));
-  // Where walls alone heat and cool, it does not matter how often.
+  // If only the walls heat and cool, the rate of hits has no effect.
   CHECK(vibrated(100.0, 1.0, 0.9).temperature_corrected() ==
         doctest::Approx(vibrated(100.0, 1.0, 0.9).temperature_refined()).epsilon(1e-14));
 }
 
-TEST_CASE("VibratedGas: Haff's rates are those of theory 7.12") {
-  // -dT/dt/(2 T) at T = 1.7 from rates times energies, evaluated outside of this program: simple
-  // averages; refined ones, which lose (1 - alpha_w^2) T at a wall and (1 - alpha^2) T at a
-  // particle; and those with the wall's share times kappa.
+TEST_CASE("VibratedGas: Haff's rates follow theory 7.12") {
+  // -dT/dt/(2 T) at T = 1.7 from rates times energies, independently evaluated. First simple
+  // averages; then refined ones, which lose (1 - alpha_w^2) T at a wall and (1 - alpha^2) T at a
+  // particle; then the refined ones with the wall contribution times kappa.
   const VibratedGas cooling = vibrated(200.0, 0.9, 0.95);
   CHECK(cooling.haff_rate_simple(1.7) == doctest::Approx(0.081785961926797).epsilon(1e-12));
   CHECK(cooling.haff_rate_refined(1.7) == doctest::Approx(0.16357192385359).epsilon(1e-12));
@@ -328,7 +328,7 @@ TEST_CASE("VibratedGas: Haff's rates are those of theory 7.12") {
   const VibratedGas heating = vibrated(100.0, 1.0, 1.1);
   CHECK(heating.haff_rate_simple(1.7) == doctest::Approx(-0.0027308247476266).epsilon(1e-12));
   CHECK(heating.haff_rate_corrected(1.7) == doctest::Approx(-0.0081164204562660).epsilon(1e-12));
-  // Walls that lose nothing do not matter: the periodic box cools alike.
+  // Elastic walls have no effect: the periodic box cools at the same rate.
   const VibratedGas lossless = vibrated(100.0, 0.9, 1.0);
   const double periodic = haff_rate_periodic(lossless.packing_fraction(), 0.9, 1.7);
   CHECK(lossless.haff_rate_refined(1.7) == doctest::Approx(periodic).epsilon(1e-13));
@@ -361,14 +361,14 @@ TEST_CASE("Theory: Haff's law diverges at its divergence time") {
   CHECK(std::isfinite(haff_temperature(1.0, -0.25, 3.999)));
   CHECK(divergence_time(0.0) == std::numeric_limits<double>::infinity());
   CHECK(divergence_time(0.25) == std::numeric_limits<double>::infinity());
-  // (theory 7.16): without kappa the divergence comes 45 % late at N = 100 in 20 x 25.
+  // (theory 7.16): without kappa the divergence would be 45 % late at N = 100 in 20 x 25.
   const VibratedGas gas = vibrated(100.0, 1.0, 1.1);
   const double late =
       divergence_time(gas.haff_rate_refined(1.0)) / divergence_time(gas.haff_rate_corrected(1.0));
   CHECK(late == doctest::Approx(1.45).epsilon(0.03));
 }
 
-TEST_CASE("RoughGas: the coefficients are those of the collision rule") {
+TEST_CASE("RoughGas: the coefficients follow from the collision rule") {
   check_rough_coefficients<2>();
   check_rough_coefficients<3>();
 }
@@ -376,15 +376,15 @@ TEST_CASE("RoughGas: the coefficients are those of the collision rule") {
 TEST_CASE("RoughGas: of spheres, both ratios keep the shares of the temperatures") {
   for (const double beta : {-0.5, 0.0, 0.5, 1.0}) {
     const RoughGas gas = {0.8, beta, 0.4, 3};
-    // While it cools, both temperatures fall by the same share.
+    // During cooling, both temperatures fall at the same relative rate.
     const double R = gas.cooling_ratio();
     const Gains cooling = mean_gains<3>(gas, {1.0, R});
     CHECK(cooling.rotational / R == doctest::Approx(cooling.translational).epsilon(1e-13));
-    // Driven, collisions leave the energy of spins as it is and take what the kicks give.
+    // With a drive, collisions conserve the spin energy and dissipate the energy of the kicks.
     const Gains driven = mean_gains<3>(gas, {1.0, gas.driven_ratio()});
     CHECK(std::fabs(driven.rotational) < 1e-14);
     const double T = gas.driven_temperature(0.2, 0.03);
-    const double collisions = 0.5 * enskog_rate(0.2, T, 3);  // per particle, of two each
+    const double collisions = 0.5 * enskog_rate(0.2, T, 3);  // per particle, two per collision
     CHECK(-collisions * T * driven.translational == doctest::Approx(0.03).epsilon(1e-13));
   }
 }
@@ -403,7 +403,7 @@ TEST_CASE("RoughGas: temperatures tend to the ratios, whatever they begin with")
             doctest::Approx(gas.driven_temperature(0.2, 0.5)).epsilon(1e-9));
     }
   }
-  // By bisection of the same averages, outside of this program.
+  // Independently computed by bisection of the same averages.
   CHECK(RoughGas{0.8, 0.5, 0.4}.cooling_ratio() ==
         doctest::Approx(0.90682661274476).epsilon(1e-12));
   CHECK(RoughGas{0.8, 0.5, 0.4}.driven_ratio() == doctest::Approx(6.0 / 13.0).epsilon(1e-14));
@@ -412,8 +412,8 @@ TEST_CASE("RoughGas: temperatures tend to the ratios, whatever they begin with")
 }
 
 TEST_CASE("RoughGas: energy is shared evenly without loss, and smooth particles have no spin") {
-  // Where collisions conserve energy or perfect roughness passes all of it on, energy is shared
-  // evenly: elastic perfectly rough particles, and driven perfectly rough ones for any alpha.
+  // Equipartition holds for elastic perfectly rough particles. It also holds for driven perfectly
+  // rough particles at any alpha.
   for (const double q : {0.4, 0.5, 1.0}) {
     CHECK(RoughGas{1.0, 1.0, q}.cooling_ratio() == doctest::Approx(1.0).epsilon(1e-14));
     CHECK(RoughGas{0.7, 1.0, q}.driven_ratio() == doctest::Approx(1.0).epsilon(1e-14));
@@ -426,7 +426,8 @@ TEST_CASE("RoughGas: energy is shared evenly without loss, and smooth particles 
 }
 
 TEST_CASE("Theory: the power of bulk driving is that without the mean kick") {
-  // Two particles get +-(k_1 - k_2)/2, of variance s^2/2 per component: s^2/2 each in the plane.
+  // Two particles receive +-(k_1 - k_2)/2, of variance s^2/2 per component: s^2/2 each in two
+  // dimensions.
   CHECK(bulk_drive_power(2.0, 0.5, 0.25) == 0.5);
   CHECK(bulk_drive_power(1.0, 0.5, 0.25) == 0.0);
   CHECK(bulk_drive_power(1e9, 0.5, 0.25) == doctest::Approx(1.0).epsilon(1e-8));

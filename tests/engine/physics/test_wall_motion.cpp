@@ -27,7 +27,7 @@ TEST_CASE("Wall motion: the wall is where its path says") {
     CHECK(wall.acceleration == 0.0);
     CHECK(wall_state(sawtooth, time + 1.5).displacement == 0.0);
   }
-  // The rounding of a time just before the jump puts it after.
+  // Rounding moves a time just before the jump to after it.
   CHECK(wall_state({WallPath::Sawtooth, 3.0, 0.5, 0.0}, -1e-20).displacement == 0.0);
   const WallMotion wave{WallPath::Sinusoidal, 3.0, 0.5, 0.25};
   CHECK(innermost_travel(wave) == 1.5);
@@ -67,11 +67,11 @@ TEST_CASE("Wall motion: a saw-tooth hits at the times computed by hand") {
   CHECK(WallCase{wall, -4.0, 3.0, -1.0}.contact() == -2.5);
   CHECK(WallCase{wall, 0.0, 5.0, -1.0}.contact() == 3.5);
   CHECK(WallCase{wall, 2e6, 5.0, -1.0}.contact() == 2e6 + 3.5);
-  CHECK(WallCase{wall, 0.0, 0.5, 0.5}.contact() == 1.0);     // chased
-  CHECK(WallCase{wall, 0.0, 1.5, 0.5}.contact() == kNever);  // It leaves before the wall arrives.
+  CHECK(WallCase{wall, 0.0, 0.5, 0.5}.contact() == 1.0);     // the wall catches up
+  CHECK(WallCase{wall, 0.0, 1.5, 0.5}.contact() == kNever);  // leaves before the wall arrives
   CHECK(WallCase{wall, 0.0, 2.0, 0.0}.contact() == kNever);  // out of reach
   CHECK(WallCase{wall, 1.0, 1.5, 0.1875, 0.0}.contact() == 1.0 + 0.5 / 0.8125);
-  // Thrown out of the zone and back: 1 + 4t - t^2 = t - 2 on the second ramp.
+  // Leaves the range of the wall and returns: 1 + 4t - t^2 = t - 2 on the second ramp.
   CHECK(WallCase{wall, 0.0, 1.0, 4.0, -2.0}.contact() == (3.0 + std::sqrt(21.0)) / 2.0);
 }
 
@@ -86,9 +86,9 @@ TEST_CASE("Wall motion: a sinusoidal wall hits at the times computed by hand") {
   check(-6.0, 0.5, 0.0, 0.0, -4.0 + 1.0 / 3.0);
   check(0.0, 2.0, -1.0, 0.0, 1.0);                       // at the crest
   check(0.0, 5.0, -2.0, 0.0, 3.0);                       // at the trough
-  check(0.0, 0.25, 0.75, 0.0, 1.0 / 3.0);                // chased
-  check(2.0, 0.5 - 7.0 / 24.0, 0.125, 0.0, 13.0 / 3.0);  // chased in the next period
-  check(0.0, 6.0, 6.0, -2.0, 7.0);                       // thrown out of the zone and back
+  check(0.0, 0.25, 0.75, 0.0, 1.0 / 3.0);                // the wall catches up
+  check(2.0, 0.5 - 7.0 / 24.0, 0.125, 0.0, 13.0 / 3.0);  // the wall catches up in the next period
+  check(0.0, 6.0, 6.0, -2.0, 7.0);                       // leaves the range of the wall and returns
   CHECK(WallCase{wall, 0.0, 0.5, 2.0}.contact() == kNever);
   CHECK(WallCase{wall, 0.0, 1.0 + 1e-15, 0.0}.contact() == kNever);  // out of reach
   CHECK(WallCase{wall, 1.5, 0.75, 0.5}.contact() == kNever);  // leaves before the wall returns
@@ -104,14 +104,14 @@ TEST_CASE("Wall motion: touching particles are hit at once if the wall catches t
     CHECK(contact(0.0, 0.0) == 1.0);
     CHECK(contact(0.0, 8.0) == 1.0);
     CHECK(contact(1.0 - 1e-14, 0.0) == 1.0);
-    CHECK(contact(1.0, -1e-9) == 1.0);  // It rides the wall, pressed.
+    CHECK(contact(1.0, -1e-9) == 1.0);  // rides the wall under gravity
     CHECK(contact(1.0, 0.0) == kNever);
     CHECK(contact(1.0 - 1e-15, 0.0) == kNever);
     CHECK(contact(1.0 - 1e-15, 8.0) == kNever);
     CHECK(contact(2.0, 0.0) == kNever);
     CHECK(contact(2.0, -1.0) == 5.0);  // t - t^2/2 = -4 on the third ramp
   }
-  // It rides along until the wall turns its acceleration, at phase 1/2, and is hit after that.
+  // It rides the wall until the wall's acceleration changes sign at phase 1/2, and is hit later.
   const WallMotion wave{WallPath::Sinusoidal, 2.0, 0.25, 0.0};
   const auto ride = [&](double start) {
     const WallState wall = wall_state(wave, start);
@@ -122,7 +122,8 @@ TEST_CASE("Wall motion: touching particles are hit at once if the wall catches t
   CHECK(ride(2.5) == 2.5);
 }
 
-// A wholly inelastic hit and what follows: rounding of either sign, of the wall's phase too.
+// A wholly inelastic hit and the next one, with rounding errors of either sign, also of the wall's
+// phase.
 TEST_CASE("Wall motion: a particle that rides the wall is met there, up to rounding") {
   for (const WallPath path : kPaths) {
     Verdict verdict;
@@ -139,8 +140,8 @@ TEST_CASE("Wall motion: a particle that rides the wall is met there, up to round
   }
 }
 
-// One hop of a particle that leaves the wall at hardly more than the rounding of the speeds, while
-// the accelerations press it back: it lasts 2 speed / acceleration, not nothing.
+// One hop of a particle that leaves the wall at a speed near the rounding error, under
+// accelerations towards the wall. It lasts 2 speed / acceleration, not zero.
 TEST_CASE("Wall motion: the smallest hops come to their end, and not before") {
   for (const WallPath path : kPaths) {
     double longest = 0.0, shortest = kNever;
@@ -156,7 +157,7 @@ TEST_CASE("Wall motion: the smallest hops come to their end, and not before") {
       c.distance = wall.displacement;
       c.speed = wall.velocity + hop;
       const double lasts = 2.0 * (c.speed - wall.velocity) / pressure;
-      // Too short for the wall's acceleration to change; it must end before the saw-tooth jumps.
+      // So short that the wall's acceleration is constant. It must end before the saw-tooth jumps.
       if (c.motion.phase + lasts * c.motion.frequency >= 1.0) continue;
       const double ratio = c.contact() / lasts;
       longest = std::max(longest, ratio);
@@ -168,8 +169,8 @@ TEST_CASE("Wall motion: the smallest hops come to their end, and not before") {
   }
 }
 
-// Half of the particles pass the crest's neighbourhood behind the wall's path by a little, and must
-// be hit there or before; the others pass before it and must not.
+// Half of the particles pass the crest slightly behind the path of the wall, and must be hit there
+// or before. The others pass before it and must not be hit.
 TEST_CASE("Wall motion: no grazing hit is missed or invented") {
   Verdict verdict;
   int behind = 0, met = 0, before = 0, invented = 0;
@@ -211,7 +212,7 @@ TEST_CASE("Wall motion: the search ends for particles that creep or rest") {
           const WallCase c{wall, 0.0, travel * (1.0 + above * kEpsilon), speed, acceleration};
           const double time = c.contact();
           if (time == kNever) {
-            // Only a particle that never sinks by more than rounding.
+            // Only for a particle that never sinks by more than a rounding error.
             CHECK((speed >= 0.0 || acceleration > 0.0));
             CHECK(acceleration >= 0.0);
           } else {
@@ -230,13 +231,13 @@ TEST_CASE("Wall motion: very slow walls and very fast particles are hit in time"
       CHECK(std::fabs(WallCase{wall, 0.0, 4.0, 2.0, -4.0}.contact() - 2.0) < 1e-11);
       CHECK(std::fabs(WallCase{wall, 0.0, 4.0, -2.0, 0.0}.contact() - 2.0) < 1e-11);
     }
-    // They cross the wall's way within the rounding of the time.
+    // They cross the range of the wall within the rounding error of the time.
     CHECK(std::fabs(WallCase{{path, 1e-3, 0.3, 0.0}, 0.0, 1e15, -1e15}.contact() - 1.0) <=
           kEpsilon);
   }
 }
 
-// These searches never ended: double precision gives a period and the next one the same number.
+// These searches did not end: a period and the next one are the same double.
 TEST_CASE("Wall motion: a particle that returns after 2^53 periods meets the wall farthest in") {
   struct Late {
     double stroke, frequency, height, speed, acceleration;
@@ -253,7 +254,7 @@ TEST_CASE("Wall motion: a particle that returns after 2^53 periods meets the wal
       CAPTURE(frequency);
       const WallCase c{{path, stroke, frequency, 0.3}, 0.0, height, speed, acceleration};
       const double fall = height - (path == WallPath::Sawtooth ? stroke : 0.5 * stroke);
-      // The first order in the height, which is small against that of the parabola.
+      // First order in the height, which is small compared with the height of the parabola.
       const double time =
           acceleration == 0.0 ? -fall / speed : -2.0 * speed / acceleration + fall / speed;
       CHECK(c.contact() == doctest::Approx(time).epsilon(1e-12));
@@ -298,8 +299,8 @@ static void check_random_cases(WallPath path, std::uint32_t cases) {
   CHECK(verdict.never > static_cast<int>(cases / 10));
 }
 
-// Cases that follow from each other: every one but the first starts just after a hit, as far from
-// the wall as rounding leaves it.
+// Successive cases: every case but the first starts just after a hit, at a distance of rounding
+// errors.
 static void check_bounces(WallPath path, std::uint32_t particles) {
   Verdict verdict;
   for (std::uint32_t i = 0; i < particles; ++i) {

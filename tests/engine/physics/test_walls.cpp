@@ -36,7 +36,7 @@ struct RoughHit {
   double moment_of_inertia() const { return 0.25 * inertia * diameter * diameter; }
 };
 
-// Driven and moving walls in turn.
+// Driven and moving walls alternate.
 template <int D>
 RoughHit<D> random_hit(std::uint32_t number) {
   Random random(42, Stream::Velocity, number, D);
@@ -64,7 +64,7 @@ constexpr std::uint32_t kHits = 100000;
 }  // namespace
 
 // (theory 4.1): v_n' = alpha_w |v_n| + v_dr, along the normal into the box.
-TEST_CASE("Walls: reflection off each of the four walls is that of theory 4.1") {
+TEST_CASE("Walls: reflection off each of the four walls follows theory 4.1") {
   CHECK(reflect<2>({-2.0, 3.0}, 0, 1.0, 1.0, 0.0) == Vec2(2.0, 3.0));
   CHECK(reflect<2>({2.0, 3.0}, 0, -1.0, 0.5, 0.0) == Vec2(-1.0, 3.0));
   CHECK(reflect<2>({-2.0, -3.0}, 1, 1.0, 0.5, 0.25) == Vec2(-2.0, 1.75));
@@ -72,9 +72,9 @@ TEST_CASE("Walls: reflection off each of the four walls is that of theory 4.1") 
   CHECK(reflect<2>({-2.0, 3.0}, 0, 1.0, 1.5, 0.0) == Vec2(3.0, 3.0));
 }
 
-// (theory 4.7): v_n has the flux-weighted density (v/T) exp(-v^2/2T): mean sqrt(pi T/2), mean
-// square 2 T, variance of the square 4 T^2, share below v 1 - exp(-v^2/2T); v_t is Gaussian of
-// variance T.
+// (theory 4.7): v_n has the flux-weighted density (v/T) exp(-v^2/2T). Its mean is sqrt(pi T/2), its
+// mean square 2 T, the variance of the square 4 T^2, the share below v 1 - exp(-v^2/2T). v_t is
+// Gaussian with variance T.
 TEST_CASE("Walls: a thermal wall emits flux-weighted velocities") {
   constexpr int kSamples = 400000, kBins = 50;
   constexpr double kT = 2.25;
@@ -119,7 +119,7 @@ TEST_CASE("Walls: a moving wall reflects in its own frame, also from behind") {
   CHECK(reflect_moving<2>({0.5, 3.0}, 0, 1.0, 1.0, 1.0) == Vec2(1.5, 3.0));
   CHECK(reflect_moving<2>({0.5, 3.0}, 0, 1.0, 0.0, 1.0) == Vec2(1.0, 3.0));
   CHECK(reflect_moving<2>({-2.0, 3.0}, 0, 1.0, 0.5, -1.0) == Vec2(-0.5, 3.0));
-  // Met on its way in, a wall of speed u is the driven one of v_dr = (1 + alpha_w) u.
+  // A wall of speed u that moves inwards is equal to a driven wall of v_dr = (1 + alpha_w) u.
   CHECK(reflect_moving<2>({-1.25, 3.0}, 0, 1.0, 0.5, 0.75) ==
         reflect<2>({-1.25, 3.0}, 0, 1.0, 0.5, 1.125));
 }
@@ -141,7 +141,8 @@ TEST_CASE_TEMPLATE("Walls: friction is Walton's and Coulomb's at a wall of infin
       REQUIRE(friction.momentum == Vec<D>(Vec<D>::Zero()));
       REQUIRE(friction.spin == Spin<D>(Spin<D>::Zero()));
     }
-    // The wall's force passes through the contact point: no angular momentum about it is gained.
+    // The force of the wall acts at the contact point, so that the angular momentum about it is
+    // conserved.
     const double arm = 0.5 * hit.diameter;
     const Spin<D> torque =
         arm * cross<D>(hit.n(), friction.momentum) + hit.moment_of_inertia() * friction.spin;
@@ -154,7 +155,7 @@ TEST_CASE_TEMPLATE("Walls: friction is Walton's and Coulomb's at a wall of infin
   CHECK(torque_off < 1e-13);
   CHECK(normal_changed == 0);
   CHECK(coulomb_excess < 1e-13);
-  CHECK(coulomb_excess > -1e-13);  // sliding particles use all of it
+  CHECK(coulomb_excess > -1e-13);  // sliding particles reach the Coulomb limit
 }
 
 TEST_CASE_TEMPLATE("Walls: friction takes energy, or turns the slip round without loss", Dimension,
@@ -212,7 +213,8 @@ TEST_CASE("Walls: friction has the impulses computed by hand") {
   CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).momentum.isApprox(Vec2(0.0, -2.0), 1e-15));
   CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).spin[0] ==
         doctest::Approx(-8.0).epsilon(1e-15));
-  // Coulomb, with what a driven wall gave: |J_t| = .1 * (2 + 3) = .5, spin -2 |J_t|/q = -2.
+  // Coulomb, with the normal impulse of a driven wall: |J_t| = .1 * (2 + 3) = .5, spin -2 |J_t|/q =
+  // -2.
   CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).momentum.isApprox(Vec2(0.0, -0.5), 1e-15));
   CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).spin[0] ==
         doctest::Approx(-2.0).epsilon(1e-15));

@@ -35,7 +35,7 @@ TEST_CASE("CommandQueue: commands are taken once") {
   CHECK(queue.take().empty());
 }
 
-TEST_CASE("CommandQueue: closing it wakes whoever waits") {
+TEST_CASE("CommandQueue: closing it wakes the waiting thread") {
   CommandQueue<int> queue;
   std::thread reader([&] { queue.wait(); });
   queue.close();

@@ -26,7 +26,7 @@ Scene falling_gas(int dimension) {
   return scene;
 }
 
-// How far two places lie from each other across periodic borders.
+// The distance of two positions through the nearest image.
 double distance(const VecX& a, const VecX& b, const Snapshot& snapshot) {
   VecX off = a - b;
   for (int axis = 0; axis < off.size(); ++axis) {
@@ -35,8 +35,8 @@ double distance(const VecX& a, const VecX& b, const Snapshot& snapshot) {
   return off.norm();
 }
 
-// That each particle has one path, without gaps, from `reach` ago to where it is; returns the
-// pieces.
+// Checks that each particle has one path without gaps, from `reach` ago to its position. Returns
+// the number of pieces.
 template <int D>
 std::size_t check_paths(const FlightRecorder<D>& recorder, const Simulation<D>& simulation,
                         double reach) {

@@ -43,13 +43,13 @@ TEST_CASE("LiveField: the density of a gas in equilibrium is the same everywhere
   // Cells of area 1: exactly N particles in all.
   CHECK(std::accumulate(map.values.begin(), map.values.end(), 0.0) ==
         doctest::Approx(30.0).epsilon(1e-10));
-  // A particle stays in a cell for about 0.8, so its time there averages over 2000/0.8 * 0.31
-  // visits: 4 % with independent visits, less since particles exclude each other. 96 cells, 5
+  // A particle stays in a cell for about 0.8. The average over time thus contains 2000/0.8 * 0.31
+  // visits: 4 % for independent visits, less because particles exclude each other. 96 cells, 5
   // standard errors.
   for (const double density : map.values) CHECK(std::fabs(density / (30.0 / 96.0) - 1.0) < 0.2);
 }
 
-TEST_CASE("LiveField: every field is that of its cells over the window") {
+TEST_CASE("LiveField: every field is the average of its cells over the window") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   for (const Field field : average_fields()) {
@@ -96,7 +96,7 @@ TEST_CASE("LiveField: of snapshots it is the average of samples, also across cha
     CHECK(std::isnan(map.values[i]) == std::isnan(expected));
     if (!std::isnan(expected)) CHECK(std::fabs(map.values[i] - expected) < 1e-10);
   }
-  // It continues with the next sample, handed over or saved.
+  // It continues with the next sample, after a hand-over or a save.
   const std::string saved = live.save();
   Simulation<2> next(simulation->model(), simulation->save());
   LiveField<2> handed(next, view, std::move(live));
@@ -110,11 +110,11 @@ TEST_CASE("LiveField: of snapshots it is the average of samples, also across cha
   }
 }
 
-TEST_CASE("LiveField: every residual is that of its cells over the window") {
+TEST_CASE("LiveField: every residual belongs to its cells over the window") {
   Scene scene = rough_mixture(20);
   scene.particles.roughness.friction = 0.4;
   scene.gravity = Vec2(0.2, -0.5);
-  // 20 particles in 72 cells: some see none.
+  // 20 particles in 72 cells: some cells are never visited.
   for (const Field field : residual_fields(2)) {
     CAPTURE(name_of(field));
     const auto simulation = simulation_of<2>(scene, 35);
@@ -174,8 +174,8 @@ TEST_CASE("LiveField: cells that no particle visited are gaps") {
 }
 
 TEST_CASE("LiveField: the window reaches back by its length and by one part more at most") {
-  // One particle at speed 1 in a row of 16 cells leaves its density in the columns of the last 4
-  // time units; parts are 0.5 long.
+  // One particle of speed 1 in a row of 16 cells leaves its density in the columns of the last 4
+  // time units. Parts last 0.5.
   const auto simulation = lone_particle(gas(16.0, 1.0, 1, 1.0), {0.0, 0.5}, {1.0, 0.0});
   LiveField<2> live(*simulation, view_of(Quantity::Density, 4.0));
   const auto check = [&](double now, double reaches_back) {
@@ -194,7 +194,7 @@ TEST_CASE("LiveField: the window reaches back by its length and by one part more
   check(4.0, 4.0);
   check(4.25, 4.25);
   check(12.0, 4.0);
-  check(12.25, 4.25);  // eight parts and the one under way
+  check(12.25, 4.25);  // eight parts and the current one
   check(12.45, 4.45);
 }
 
@@ -334,7 +334,7 @@ TEST_CASE("LiveField: of spheres, cells and arrows fill the box") {
   CHECK(known > 50);
 }
 
-TEST_CASE("LiveField: a residual and arrows together are those of each alone") {
+TEST_CASE("LiveField: a residual and arrows do not change each other") {
   const auto shown = [](std::optional<Field> field, std::optional<Quantity> arrows) {
     const auto simulation = simulation_of<2>(rough_mixture(20), 36);
     View view;

@@ -26,7 +26,7 @@ TEST_CASE("Pace: frames of an engine that holds the speed are even in both times
     CHECK(seconds(goal.due) == doctest::Approx(0.02 * frame).epsilon(1e-6));
     CHECK(goal.time == doctest::Approx(7.0 + 0.06 * frame).epsilon(1e-9));
     time = goal.time;
-    now = 0.02 * frame + 0.003;  // it wakes up a little late
+    now = 0.02 * frame + 0.003;  // a slightly late wake-up
   }
   CHECK(pace.held() == doctest::Approx(1.0).epsilon(0.01));
 }
@@ -41,7 +41,7 @@ TEST_CASE("Pace: time that an engine cannot hold is given up, and reported") {
     time += 0.02;  // a quarter
   }
   CHECK(pace.held() == doctest::Approx(0.25).epsilon(0.05));
-  // Once it can, it holds the speed again, without a rush.
+  // Once it can, it keeps the speed again, without catching up.
   const Pace::Goal goal = pace.next(at(4.0), time);
   CHECK(goal.time == doctest::Approx(time + 0.08));
   pace.restart();

@@ -15,7 +15,7 @@ TEST_CASE("Snapshot: it has the state to the last bit") {
     simulation->run_until(0.37 * frame);
     const Snapshot snapshot = snapshot_of(*simulation);
     const State<2> state = simulation->state();
-    // Through the moving base and back costs one rounding.
+    // The moving base costs one rounding.
     CHECK(std::fabs(snapshot.time - 0.37 * frame) <= 4e-16 * snapshot.time);
     CHECK(snapshot.positions == as_columns(state.positions));
     CHECK(snapshot.velocities == as_columns(state.velocities));
@@ -71,7 +71,7 @@ TEST_CASE("Snapshot: moving walls are displaced, the others not") {
   CHECK(snapshot.wall_displacement[kTop] == doctest::Approx(-0.25));
 }
 
-TEST_CASE("Snapshot: centres lie in the box, wherever their flights began") {
+TEST_CASE("Snapshot: centres are in the box for any start of their flights") {
   const auto simulation = lone_particle(gas(5.0, 4.0, 1, 1.0), {0.5, 3.5}, {-3.0, 7.0});
   simulation->run_until(1.25);  // at (-3.25, 12.25): one box back, three boxes up
   const Snapshot snapshot = snapshot_of(*simulation);

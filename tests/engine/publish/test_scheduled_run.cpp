@@ -37,7 +37,7 @@ TEST_CASE("ScheduledRun: laws that change to themselves change no bit of the run
 TEST_CASE("ScheduledRun: changes by hand are played back to the same bits") {
   ScheduledRun<2> live(vibrated(), 12);
   live.show(vibrated().view);
-  // Halted wherever the steps end, as a window does it.
+  // Halted at arbitrary steps, as by a window.
   for (int part = 1; part <= 40; ++part) {
     live.run_until(0.5 * part, kNoLimit, live.simulation().counts().steps() + 1000);
     if (part % 5 != 0) continue;
@@ -116,7 +116,7 @@ TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and parti
   CHECK(plain.snapshot().angles.empty());
   CHECK(shown.snapshot().angles.size() == shown.simulation().particles().size());
   CHECK(shown.snapshot().flights.empty());
-  // Observers of a former view must not be called any more.
+  // Observers of a previous view must not be called.
   View view = scene.view;
   for (int k = 1; k <= 20; ++k) {
     view.field = k % 2 == 0 ? std::optional(Quantity::Density) : std::nullopt;
@@ -148,7 +148,7 @@ TEST_CASE("ScheduledRun: the shown field may change while it runs, and does not 
     watched.run_until(0.1 * part);
     CHECK(watched.snapshot().field->field == *view.field);
   }
-  // But for the first, each time there was one to be forgotten.
+  // At each change except the first, a previous observer is removed.
   CHECK(handed_over == 29);
   CHECK(watched.simulation().state_hash() == plain.simulation().state_hash());
 }
@@ -178,7 +178,7 @@ TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
       const Vec2 off = changed.arrows->arrows[k].value - plain.arrows->arrows[k].value;
       CHECK(off.norm() < 1e-10 * longest);
     }
-    // What was booked under each of the laws closes, and as many cells have a residual.
+    // The balance closes under each of the laws, and the same cells have a residual.
     for (std::size_t i = 0; i < plain.field->values.size(); ++i) {
       CHECK(std::isnan(changed.field->values[i]) == std::isnan(plain.field->values[i]));
       if (field == Quantity::BalanceEnergy && !std::isnan(plain.field->values[i])) {
@@ -193,7 +193,7 @@ TEST_CASE("ScheduledRun: impossible changes are refused, and change nothing") {
   run.run_until(3.0);
   CHECK_THROWS_AS(run.change({{"particles.restitution", "1.5"}}), UserError);
   CHECK_THROWS_AS(run.change({{"particles.count", "5"}}), UserError);
-  // A wall that stands far inside at once has particles in it.
+  // A new wall position far inside would overlap particles.
   CHECK_THROWS_AS(run.change({{"walls.left",
                                "{ kind = 'sawtooth', stroke = 6.0, frequency = 0.01,"
                                " phase = 0.9 }"}}),
@@ -203,7 +203,7 @@ TEST_CASE("ScheduledRun: impossible changes are refused, and change nothing") {
   CHECK(run.run_until(4.0));
 }
 
-TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run, to the bit") {
+TEST_CASE("ScheduledRun: averages resumed from a checkpoint equal one run, to the bit") {
   for (const std::string field : {"temperature", "balance_energy"}) {
     CAPTURE(field);
     Scene scene = load_scene("vibrated", {{"view.window", "2.0"}, {"view.field", field}});
@@ -211,7 +211,7 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run
     scene.changes = {{.time = 4.0, .set = {{"particles.restitution", "0.8"}}}};
     ScheduledRun<2> whole(scene, 14);
     whole.show(scene.view);
-    whole.run_until(3.1);  // within a part of a window
+    whole.run_until(3.1);  // inside a part of a window
     whole.snapshot();
     whole.run_until(3.2);
     const std::string averages = whole.save_shown();
@@ -234,7 +234,7 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint are those of one run
   }
 }
 
-TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint are those of one run") {
+TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint equal one run") {
   Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
   scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
   ScheduledRun<2> whole(scene, 15);

@@ -34,8 +34,8 @@ TEST_CASE("SpinAngles: a particle turns by its spin, summed over time") {
   const auto simulation = simulation_of<2>(rough_gas(), 3);
   SpinAngles angles(*simulation);
   std::vector<double> summed(30, 0.0);
-  // A step in which a spin changes is summed wrongly by the change times a step at most. A particle
-  // has some 80 of them here, of about 1 each.
+  // The error of a step with a spin change is at most the change times the step. A particle has
+  // some 80 of these here, of about 1 each.
   constexpr double kStep = 1.0 / 16384.0;
   for (int k = 1; k <= 16384 * 16; ++k) {
     for (std::size_t i = 0; i < summed.size(); ++i) summed[i] += simulation->spins()[i][0] * kStep;

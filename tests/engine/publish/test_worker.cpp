@@ -21,7 +21,8 @@ Scene scene_at_speed(const std::string& name, double speed) {
   return load_scene(name, {{"view.speed", std::to_string(speed)}});
 }
 
-// Waits for a frame that `is_it`; fails where it does not come, however slow the machine.
+// Waits for a frame for which `is_it` holds. Fails after a long time without one, also on slow
+// machines.
 template <class IsIt>
 const Frame& wait_for(Worker& worker, IsIt is_it) {
   const auto end = RealClock::now() + 100s;
@@ -38,7 +39,7 @@ const Frame& wait_for_handled(Worker& worker, std::uint64_t commands) {
   return wait_for(worker, [&](const Frame& frame) { return frame.handled >= commands; });
 }
 
-// Of the processor, by all threads.
+// CPU time of all threads.
 double seconds_of(const rusage& usage) {
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
@@ -48,8 +49,8 @@ double seconds_of(const rusage& usage) {
 
 }  // namespace
 
-// That it keeps up is shown with a clock of its own in test_pace.cpp: here others may use the
-// machine, which makes frames late.
+// test_pace.cpp shows with an artificial clock that the speed is kept. Here other processes may
+// delay frames.
 TEST_CASE("Worker: frames follow each other, and none comes before the speed asks for it") {
   Worker worker(60.0);
   const auto began = RealClock::now();
@@ -97,7 +98,7 @@ TEST_CASE("Worker: runs played, stepped and made without it have the same hash a
 
 TEST_CASE("Worker: spheres play, change their laws, and stay in a box of another size") {
   Scene scene = rough_spheres(40);
-  wall_in(scene, 2, Wall{});  // a wall that swings would push out those it is over
+  wall_in(scene, 2, Wall{});  // an oscillating wall would push out particles in its range
   Worker worker(60.0);
   worker.send(command::Open{scene, 26, false});
   worker.send(command::ShowProfile{Profiled::Fields});
@@ -225,7 +226,7 @@ TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
   double particles = 0.0;
   for (const Estimate& column : density) particles += column.mean * shown.snapshot.box.y();
   CHECK(particles == doctest::Approx(200.0).epsilon(1e-9));
-  // A band in the middle: there are some hundred particles' errors between it and the walls.
+  // Central band: its density exceeds the density at the walls by many standard errors.
   CHECK(density[10].mean > density[0].mean + 5.0 * density[10].standard_error);
   worker.send(command::ShowProfile{Profiled::Nothing});
   worker.send(command::Play{false});
@@ -248,7 +249,7 @@ TEST_CASE("Worker: balance residuals come when asked for, and are roundings") {
   CHECK_FALSE(shown.profile);
   CHECK(shown.residuals->residuals.equations[0].size() == 20);
   CHECK(shown.residuals->width == doctest::Approx(shown.snapshot.box.x() / 20.0));
-  // As in measurements: far below what an event left out would leave, but not nothing.
+  // As in measurements: not zero, but far below the effect of a missing event.
   const std::vector<double> largest = shown.residuals->residuals.largest();
   CHECK(std::ranges::max(largest) < 1e-9);
   CHECK(largest[3] > 0.0);
@@ -268,7 +269,7 @@ TEST_CASE("Worker: it predicts the next collision of a picked particle, then rep
   REQUIRE(picked.next_collision);
   const double time = picked.next_collision->time;
   CHECK(time > 0.0);
-  // Until just before it is still to come, then it has been.
+  // Just before the event it is in the future, afterwards in the past.
   worker.send(command::Play{true, time * (1.0 - 1e-9)});
   const Frame before =
       wait_for(worker, [](const Frame& frame) { return frame.handled == 3 && frame.state_hash; });
@@ -283,12 +284,12 @@ TEST_CASE("Worker: it predicts the next collision of a picked particle, then rep
   CHECK(after.next_collision->time > time);
 }
 
-TEST_CASE("Worker: the predicted collision of a picked particle comes true while the gas plays") {
+TEST_CASE("Worker: the predicted collision of a picked particle occurs while the gas plays") {
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 30});
   worker.send(command::Pick{11});
   for (std::uint64_t i = 1; i <= 5; ++i) {
-    // It is under the laws in force.
+    // It is simulated under the current laws.
     worker.send(command::SetLaws{{{"particles.restitution", std::to_string(1.0 - 0.1 * i)}}});
     const Frame ahead = wait_for(worker, [&](const Frame& frame) {
       return frame.handled == 2 + i && frame.next_collision &&
@@ -296,7 +297,7 @@ TEST_CASE("Worker: the predicted collision of a picked particle comes true while
     });
     CHECK(ahead.plays);
     const ParticleCollision expected = *ahead.next_collision;
-    // The first frame after it; the particle may have met another since.
+    // The first frame after it. The particle may have had another collision since.
     const Frame after =
         wait_for(worker, [&](const Frame& frame) { return frame.snapshot.time >= expected.time; });
     REQUIRE(after.last_collision);
@@ -305,7 +306,7 @@ TEST_CASE("Worker: the predicted collision of a picked particle comes true while
     CHECK(after.last_collision->partner == expected.partner);
     CHECK(after.last_collision->side == expected.side);
   }
-  // To look ahead does not change the run.
+  // The look-ahead does not change the run.
   worker.send(command::Play{false});
   const Frame halted = wait_for_handled(worker, 8);
   Scene scene = *halted.started;
@@ -337,7 +338,7 @@ TEST_CASE("Worker: mistakes and stops are reported, and the gas halts") {
   CHECK(stopped.run == 2);
   CHECK_FALSE(stopped.plays);
   CHECK(says(stopped.message, "contact_time"));
-  // To halt there is nothing to tell again.
+  // Halting gives no new message.
   worker.send(command::Play{false});
   CHECK(wait_for_handled(worker, 4).messages == 2);
   // It continues with a contact time.
@@ -349,7 +350,7 @@ TEST_CASE("Worker: mistakes and stops are reported, and the gas halts") {
 }
 
 TEST_CASE("Worker: if the run stops before the next collision, it reports none") {
-  // A stroke that would put the bottom among the particles, before long.
+  // A stroke that would move the bottom into the particles.
   Scene scene = load_scene("shaker");
   scene.changes = {{.time = 0.05, .set = {{"walls.bottom.stroke", "40"}}}};
   Worker worker(60.0);
@@ -369,7 +370,7 @@ TEST_CASE("Worker: if the run stops before the next collision, it reports none")
   CHECK_FALSE(stopped.partners);
 }
 
-// A law that is none, and comes into force with the very collision that is stepped to.
+// An invalid law that comes into force with the very collision of the step.
 TEST_CASE("Worker: a mistake found when it halts is reported, too") {
   Scene scene = scene_at_speed("vibrated", 2.0);
   const auto hit = [](const Frame& frame) { return frame.handled == 2 && frame.partners; };
@@ -416,11 +417,11 @@ TEST_CASE("Worker: its thread sleeps while the gas halts") {
   // A thread that polls every 10 ms waits 50 times. The thread sanitizer's own thread waits 5
   // times.
   CHECK(after.ru_nvcsw - before.ru_nvcsw < 25);
-  // A thread that polls without a pause takes all of the time.
+  // A thread that polls without a pause uses all CPU time.
   CHECK(seconds_of(after) - seconds_of(before) < 0.25);
 }
 
-// At that speed the time of the next frame is hours of work away.
+// At this speed the next frame needs hours of work.
 TEST_CASE("Worker: it ends when asked to, also in the midst of a collapse") {
   for (const char* speed : {"2", "1e6"}) {
     Worker worker(60.0);

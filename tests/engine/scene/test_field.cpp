@@ -103,7 +103,7 @@ TEST_CASE("Field: a field has one name, and a name one field") {
         CHECK(names[k].second != names[l].second);
       }
     }
-    // Whatever exists can be measured.
+    // All quantities can be measured.
     std::set<std::string> measured;
     for (const auto& [name, field] : measured_names(dimension)) measured.insert(name_of(field));
     CHECK(measured.size() == fields.size());
@@ -119,7 +119,7 @@ TEST_CASE("Fields: every name reads as the field that it is written from") {
   }
 }
 
-TEST_CASE("Fields: what only spheres have is refused for disks, with the reason") {
+TEST_CASE("Fields: fields of spheres are refused for disks, with the reason") {
   const char* const only_in_space[][2] = {
       {"view.field", "velocity_z"},         {"view.field", "stress_xz"},
       {"view.field", "stress_zz_kinetic"},  {"view.field", "heat_flux_z"},

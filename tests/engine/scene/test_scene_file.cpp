@@ -391,7 +391,7 @@ TEST_CASE("Scene file: area_fraction becomes the nearest count") {
   CHECK(scene.particles.count == 38);  // 0.3 * 400 / pi = 38.197
 }
 
-TEST_CASE("Scene file: a name of a field stands for its components, and each may stand alone") {
+TEST_CASE("Scene file: a field name means all components, and each component has a name") {
   const auto fields = [](const std::string& list) {
     return parse_scene(kParticles + "friction = 0.5\n[measure]\nfields = " + list, "s.toml")
         .measure.fields;
@@ -406,7 +406,7 @@ TEST_CASE("Scene file: a name of a field stands for its components, and each may
   CHECK(fields(R"(["temperature"])") == std::vector{Field(Quantity::Temperature),
                                                     Field(Quantity::Temperature, 0),
                                                     Field(Quantity::Temperature, 1)});
-  // Each is written as it can be read.
+  // Each can be read as it is written.
   for (const auto& [name, field] : measured_names(2)) {
     Scene scene = parse_scene(kParticles + "friction = 0.5\n", "s.toml");
     scene.measure.fields = fields("[\"" + name + "\"]");

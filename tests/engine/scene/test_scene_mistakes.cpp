@@ -8,9 +8,9 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-// Whatever is wrong in a scene's text is refused, with its place and what to do.
+// Every mistake in the text of a scene gives an error with its place and a fix.
 
-TEST_CASE("Scene file: mistakes are reported with their place and what to do") {
+TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
   struct Case {
     std::string text;
     std::string message;

@@ -97,12 +97,13 @@ TEST_CASE("Schedule: changes are written as a scene file that reads back") {
   CHECK(says(scene_to_json(scene), "\"change\": [{\"time\": 1.5, \"set\": {"));
 }
 
-// Laws do not carry the changes with them: 20,000 changes took as many copies of 20,000.
+// Laws do not contain the list of changes. With it, 20,000 changes would need 20,000 copies of
+// 20,000.
 TEST_CASE("Schedule: laws are without the changes, and any number of these comes in order") {
   Scene scene = scene_with("");
   constexpr int kChanges = 20'000;
   for (int i = 0; i < kChanges; ++i) {
-    const int number = (i * 7919) % kChanges;  // in no order
+    const int number = (i * 7919) % kChanges;  // unsorted
     scene.changes.push_back({.time = 0.5 * number, .set = {{"particles.restitution", "0.5"}}});
   }
   Schedule schedule(scene);

@@ -26,7 +26,8 @@ Scene rough_scene(int dimension = 2) {
   return scene;
 }
 
-/// Walls across the axis; the near one moves in by 2, and has come by 1.5 at time 0.
+/// Walls at both ends of the axis. The near wall has a stroke of 2 and a displacement of 1.5 at
+/// time 0.
 Scene walled(Scene scene, int axis) {
   scene.walls[2 * axis] =
       Wall{.kind = WallKind::Sawtooth, .stroke = 2.0, .frequency = 1.0, .phase = -0.25};
@@ -44,7 +45,7 @@ Scene deep_scene() {
   return walled(smooth_scene(3), 2);
 }
 
-/// The message with which a text is refused; empty where it is not.
+/// The error message for a text; empty if it is valid.
 std::string state_refusal(const std::string& csv, const Scene& scene = smooth_scene()) {
   return refusal_of([&] { parse_state(csv, "a.csv", scene); });
 }
@@ -97,7 +98,7 @@ void check_bits() {
   }
 }
 
-/// One particle at a corner of the box or inside, the other a little less than a diameter off.
+/// Two particles at almost one diameter, one of them at a corner of the box or inside it.
 template <int D>
 void check_no_overlap_hides(const std::vector<Vec<D>>& boxes) {
   for (const Vec<D>& box : boxes) {
@@ -121,7 +122,7 @@ void check_no_overlap_hides(const std::vector<Vec<D>>& boxes) {
   }
 }
 
-/// So many particles along each axis.
+/// A grid of particles with this number along each axis.
 template <int D>
 void check_many(int along) {
   Scene scene = default_scene(D);
@@ -178,7 +179,7 @@ TEST_CASE("State file: a state that was written reads back to the same bits") {
   check_bits<3>();
 }
 
-TEST_CASE("State file: mistakes are reported with their place and what to do") {
+TEST_CASE("State file: mistakes are reported with their place and a fix") {
   struct Case {
     std::string csv;
     std::string message;
@@ -293,7 +294,7 @@ TEST_CASE("State file: particles may touch each other or a wall, up to rounding"
   CHECK(state_refusal(kHeader + "5,2,0,0\n5,2.9999999999995,0,0\n6,2,0,0\n") == "");
   CHECK(state_refusal(kHeader + "1.9999999999995,2,0,0\n9.5,2,0,0\n", walled_scene()) == "");
   CHECK(state_refusal(kHeader + "9.75,2,3,4\n0.5,7,3,4\n0.75,2,0,0\n") == "");
-  // Where walls are, nothing wraps.
+  // Positions do not wrap at walls.
   CHECK(state_refusal(kHeader + "9.5,2,3,4\n2.5,7,3,4\n2.5,0.5,3,4\n9.5,3,0,0\n", walled_scene()) ==
         "");
 
@@ -312,8 +313,8 @@ TEST_CASE("State file: particles may touch each other or a wall, up to rounding"
 }
 
 TEST_CASE(
-    "State file: particles may lie wherever the walls are not at time 0, also outside the box") {
-  CHECK(state_refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // where the wall will come
+    "State file: particles may be anywhere outside the walls at time 0, also outside the box") {
+  CHECK(state_refusal(kHeader + "2.1,2,0,0\n", walled_scene()) == "");  // in the range of the wall
   Scene scene = walled_scene();
   scene.walls[kRight] =
       Wall{.kind = WallKind::Sinusoidal, .stroke = 2.0, .frequency = 1.0, .phase = 0.75};
@@ -337,7 +338,7 @@ TEST_CASE("State file: no overlap hides, in boxes of any shape") {
       {{1.2, 40.0, 2.5}, {2.5, 1.1, 30.0}, {30.0, 2.3, 1.2}, {3.1, 3.2, 3.3}, {1e6, 1e6, 1e6}});
 }
 
-// Every pair looked at would take hours.
+// A comparison of all pairs would take hours.
 TEST_CASE("State file: a million particles are read, each compared with its neighbours only") {
   check_many<2>(1000);
   check_many<3>(40);
@@ -353,13 +354,13 @@ TEST_CASE("State file: a scene names its state relative to its own folder") {
   CHECK(scene.particles.start.file == csv_path);
   CHECK(std::get<State<2>>(scene.particles.start.state).positions[1] == Vec2(5.0, 6.0));
 
-  // What is written is found from where one is, and reads back.
+  // The path in a written scene is relative to the working folder, and the scene can be read again.
   const Scene again = parse_scene(scene_to_toml(scene), "s.toml");
   CHECK(again.particles.start.file == csv_path);
   CHECK(again.particles.start.state == scene.particles.start.state);
   CHECK(says(scene_to_json(scene), "\"layout\": \"file\", \"file\": "));
 
-  // So it is with spheres.
+  // The same for spheres.
   folder.write("b.csv", kSphereHeader + "1,2,3,4,5,6\n5,6,4,7,8,9\n");
   const Scene spheres = load_scene(folder.write(
       "b.toml",
@@ -369,7 +370,7 @@ TEST_CASE("State file: a scene names its state relative to its own folder") {
   CHECK(parse_scene(scene_to_toml(spheres), "b.toml").particles.start.state ==
         spheres.particles.start.state);
 
-  // What is typed is relative to where one is.
+  // A path on the command line is relative to the working folder.
   CHECK(load_scene("vibrated",
                    {{"particles.start", "{layout = \"file\", file = \"" + csv_path + "\"}"},
                     {"particles.count", "2"}})
@@ -378,7 +379,7 @@ TEST_CASE("State file: a scene names its state relative to its own folder") {
              "--set particles.start.file: there is no file 'a.csv'; "));
 }
 
-TEST_CASE("State file: a count beside a state must be that of its particles") {
+TEST_CASE("State file: a count must equal the number of particles in the state") {
   const TemporaryFolder folder;
   const std::string start = "[particles.start]\nlayout = \"file\"\nfile = \"a.csv\"\n";
   folder.write("a.csv", kHeader + "1,2,3,4\n5,6,7,8\n");

@@ -22,7 +22,7 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return counted(error == 0 ? memory : nullptr, bytes);
 }
 
-// The buffer of std::stable_sort comes from here, and goes where all memory goes.
+// std::stable_sort allocates its buffer here. The usual operator delete frees it.
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   void* memory = std::malloc(bytes);
   if (memory) allocated += bytes;

@@ -4,7 +4,7 @@
 
 namespace clatter::testing {
 
-/// Bytes that the program has asked for so far, given back or not.
+/// Total number of bytes allocated up to now, including freed memory.
 std::size_t allocated_bytes();
 
 }  // namespace clatter::testing

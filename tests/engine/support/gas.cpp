@@ -10,7 +10,8 @@
 
 namespace clatter::testing {
 
-// Plots of at least one diameter, in rows along the axes: those nearest to cubes that hold `count`.
+// Plots of at least one diameter, in rows along the axes. The shape nearest to cubes that holds
+// `count` plots.
 template <int D>
 static IntVec<D> divide(const Model<D>& model, int count) {
   IntVec<D> best = IntVec<D>::Zero(), plots = IntVec<D>::Ones();

@@ -9,17 +9,17 @@
 
 namespace clatter::testing {
 
-/// Particles at random places within equal plots of the box, with Gaussian velocities of
-/// temperature 1; without walls the momentum is zero.
+/// Particles at random positions in equal plots of the box, with Gaussian velocities of temperature
+/// 1. Without walls the momentum is zero.
 template <int D>
 State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed);
 
-/// The same clear of wherever moving walls come, with spins where the model carries them.
+/// The same gas outside the range of moving walls. With spins if the model has spins.
 template <int D>
 State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed);
 
-/// Deepest overlap of any two particles, through any image, and of any particle with a wall, in
-/// diameters: every pair and every image is looked at.
+/// Deepest overlap in diameters, of two particles through any image, or of a particle with a wall.
+/// Tests every pair and every image.
 template <int D>
 double brute_force_overlap(const Model<D>& model, const State<D>& state);
 
@@ -27,17 +27,17 @@ double brute_force_overlap(const Model<D>& model, const State<D>& state);
 template <int D>
 Vec<D> momentum(const State<D>& state);
 
-/// Whether every number of the state is finite and every centre lies in the box.
+/// Whether every number of the state is finite and every centre is in the box.
 template <int D>
 bool finite_and_inside(const Model<D>& model, const State<D>& state);
 
-/// Runs to a time and gives the message of what stopped it before; empty: nothing did.
+/// Runs to a time. Returns the message of an earlier stop; empty: no stop.
 template <int D>
 std::string stop_of(Simulation<D>& simulation, double time);
 
-/// What a run must never show: a clock that steps back, particles that overlap where they collide.
-/// A move of the base rounds times again, and may change the order of coinciding events: the clock
-/// may step back by that rounding, no more.
+/// Checks of a run: the clock never steps back, and particles do not overlap at collisions.
+/// Exception: a move of the base rounds times again, and may change the order of coinciding events.
+/// The clock may then step back by this rounding error.
 template <int D>
 void check_sound(const Simulation<D>& simulation);
 

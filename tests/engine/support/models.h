@@ -8,7 +8,7 @@ namespace clatter::testing {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// One wall of each kind, and with each law of its touch.
+/// One wall of each kind, and one with each contact law.
 inline const Wall kStatic{};
 inline const Wall kLossy{.restitution = 0.8};
 inline const Wall kDriven{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.0};
@@ -38,26 +38,26 @@ inline Model<3> periodic_box(double lx, double ly, double lz) {
   return model;
 }
 
-/// The same box with the same wall at both ends of an axis.
+/// The same model with equal walls at both ends of an axis.
 template <int D>
 Model<D> with_walls(Model<D> model, int axis, const Wall& wall) {
   model.walls[2 * axis] = model.walls[2 * axis + 1] = wall;
   return model;
 }
 
-/// A box of 9 x 8 with the same walls at the ends of x, and of y.
+/// A box of 9 x 8 with equal walls at the ends of x, and of y.
 inline Model<2> four(const Wall& sides, const Wall& ends) {
   return with_walls(with_walls(periodic_box(9.0, 8.0), 0, sides), 1, ends);
 }
 
-/// The same model, whose particles lose energy.
+/// The same model with inelastic particles.
 template <int D>
 Model<D> inelastic(Model<D> model, double restitution) {
   model.restitution = restitution;
   return model;
 }
 
-/// The same model, whose particles are rough and spin.
+/// The same model with rough, spinning particles.
 template <int D>
 Model<D> rough(Model<D> model, double friction, double tangential_restitution) {
   model.roughness = {friction, tangential_restitution};
@@ -72,7 +72,7 @@ Model<D> falling(Model<D> model, const Vec<D>& gravity) {
   return model;
 }
 
-/// The same model with kicks, of spins too where these are carried.
+/// The same model with kicks. Kicks also act on spins if the model has spins.
 template <int D>
 Model<D> kicked(Model<D> model, double interval, double speed) {
   model.bulk_drive = BulkDrive{interval, speed, model.spins ? speed : 0.0};
@@ -86,7 +86,7 @@ Model<D> with_contact_time(Model<D> model, double contact_time) {
   return model;
 }
 
-/// All there is: walls of every kind, rough particles, gravity, kicks, t_c.
+/// All features: walls of every kind, rough particles, gravity, kicks, t_c.
 template <int D = 2>
 Model<D> everything();
 template <>

@@ -29,7 +29,8 @@ void Reference<D>::run_until_collisions(std::uint64_t collisions) {
   while (particle_particle_ + particle_wall_ < collisions && step()) continue;
 }
 
-// Looks farther and farther ahead until something happens; 10^9 times the first look is never.
+// Increases the look-ahead until there is an event. No event within 10^9 times the first look-ahead
+// means never.
 template <int D>
 bool Reference<D>::step() {
   double fastest = 0.0;
@@ -37,7 +38,7 @@ bool Reference<D>::step() {
     fastest = std::max(fastest, flight.velocity_at(now_, model_.gravity).norm());
   }
   fastest += std::sqrt(model_.gravity.norm() * model_.box.minCoeff());
-  if (fastest == 0.0) fastest = 1.0;  // a moving wall, or a kick, may come yet
+  if (fastest == 0.0) fastest = 1.0;  // a moving wall or a kick may still come
   const double first_look = model_.box.minCoeff() / fastest;
   for (double look = first_look; look < 1e9 * first_look; look *= 4.0) {
     const Next next = first_before(now_ + look);
@@ -67,7 +68,7 @@ typename Reference<D>::Next Reference<D>::first_before(double horizon) const {
   return first;
 }
 
-// All images that the pair can reach until the horizon, in the order in which ties count.
+// All images that the pair can reach before the horizon, in the order that decides ties.
 template <int D>
 void Reference<D>::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const {
   const Flight<D>& a = flights_[i];
@@ -82,7 +83,7 @@ void Reference<D>::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, 
       to[axis] = static_cast<int>(std::ceil((-x[axis] + reach) / model_.box[axis])) + 1;
     }
   }
-  // The first axis is the last to change, as in a lexicographical order.
+  // Lexicographical order: the first axis changes last.
   IntVec<D> image = from;
   while (image[0] <= to[0]) {
     const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);

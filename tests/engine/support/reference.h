@@ -13,15 +13,15 @@
 
 namespace clatter::testing {
 
-/// Notes when the base of a simulation's times moves. It rounds the starts of flights, so the same
-/// bits need the same moves; which rule they follow is no physics.
+/// Records the moves of the time base of a simulation. A move rounds the starts of flights, so that
+/// equal bits need equal moves. The rule for moves is not physics.
 template <int D>
 class BaseMoves : public Observer<D> {
  public:
   explicit BaseMoves(Simulation<D>& simulation) : simulation_(simulation) {
     simulation.add_observer(*this);
   }
-  /// Whether the base has moved right after so many collisions and kicks.
+  /// Whether the base moved right after this number of collisions and kicks.
   bool after(std::uint64_t events) const { return events_.contains(events); }
 
   void on_base_moved(double) override {
@@ -33,17 +33,17 @@ class BaseMoves : public Observer<D> {
   std::set<std::uint64_t> events_;
 };
 
-/// What Simulation does, by brute force: before every event all pairs, all images and all walls are
-/// looked at, and the earliest event happens. No cells, no queue, nothing remembered between
-/// events. It uses the same pure functions of physics/ and the same outcomes of collisions, and
-/// moves its base when the simulation has, so that equal runs are equal to the last bit.
+/// A brute-force version of Simulation. Before every event it tests all pairs, all images and all
+/// walls, and takes the earliest event. It has no cells, no queue and no memory between events. It
+/// uses the same functions of physics/ for contacts and collisions, and the moves of the base of
+/// the simulation. Equal runs are equal to the last bit.
 template <int D>
 class Reference {
  public:
-  /// `moves` are those of a simulation that has run as far as the reference will.
+  /// `moves` are the moves of a simulation over at least the same time.
   Reference(const Model<D>& model, const State<D>& state, const BaseMoves<D>& moves);
 
-  /// Runs until that many collisions with particles and walls have happened, or no event is left.
+  /// Runs until this number of collisions with particles and walls, or until no event is left.
   void run_until_collisions(std::uint64_t collisions);
 
   std::uint64_t collisions() const { return particle_particle_; }

@@ -7,13 +7,13 @@
 
 namespace clatter::testing {
 
-/// The least distance of two of these centres through any image, and of a centre from its own
-/// images, by looking at all pairs; the search ends below `enough`.
+/// The least distance between two centres through any image, and between a centre and its own
+/// images. Tests all pairs; ends below `enough`.
 template <int D>
 double least_distance(const Room<D>& room, const std::vector<Vec<D>>& centres, double enough = 0.0);
 
-/// Whether all centres lie in the box, and half a diameter or more from its walls, up to a
-/// rounding.
+/// Whether all centres are in the box, and at least half a diameter from its walls, within rounding
+/// errors.
 template <int D>
 bool all_inside(const Room<D>& room, const std::vector<Vec<D>>& centres, double rounding = 0.0);
 

@@ -15,8 +15,8 @@ static double displacement(const WallMotion& motion, double phase) {
                                            : 0.5 * motion.stroke * std::sin(kTwoPi * phase);
 }
 
-// The times after the start between which the particle is lower than a plane, in order: the
-// parabola gives at most two intervals.
+// The times after the start during which the particle is below a plane, in order. A parabola gives
+// at most two intervals.
 struct Stays {
   double from[2], to[2];
   int count = 0;
@@ -61,8 +61,8 @@ static Stays stays_below(const WallCase& c, double plane) {
   return stays;
 }
 
-// The least gap in a period that begins at `begin`, from a time to another: every local minimum of
-// samples that may hide a negative one is narrowed in.
+// The least gap in the period from `begin`, between two times. Refines every local minimum of the
+// samples that may hide a negative gap.
 static double least_gap(const WallCase& c, double begin, double from, double to) {
   const auto gap = [&](double t) {
     const double phase = std::clamp((t - begin) * c.motion.frequency, 0.0, 1.0);
@@ -89,8 +89,9 @@ static double least_gap(const WallCase& c, double begin, double from, double to)
   return least;
 }
 
-// The least gap from the start until `until`, in units of the lengths' rounding. A particle that
-// stays where the wall goes is scanned for three periods: it is met in the first.
+// The least gap from the start until `until`, in units of the rounding error of the lengths. A
+// particle that remains in the range of the wall is scanned for three periods; the wall hits it in
+// the first.
 static double least_gap_until(const WallCase& c, double until) {
   const double f = c.motion.frequency, phase = fraction(c.motion.phase + f * c.start);
   const Stays stays = stays_below(c, innermost_travel(c.motion));
@@ -112,7 +113,7 @@ static void judge_contact(Verdict& verdict, const WallCase& c, double time) {
   const double t = time - c.start;
   const WallState wall = wall_state(c.motion, time);
   double gap = std::fabs(c.height(t) - wall.displacement);
-  // At the saw-tooth's jump rounding decides on which side the time lies.
+  // At the jump of the saw-tooth, rounding decides the side of a time.
   if (c.motion.path == WallPath::Sawtooth) gap = std::min(gap, std::fabs(gap - c.motion.stroke));
   verdict.residual = std::max(verdict.residual, gap / (kEpsilon * c.lengths(t)));
   verdict.recession =

@@ -12,7 +12,7 @@ namespace clatter::testing {
 
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// A particle before a wall: the arguments of moving_wall_contact.
+/// A particle in front of a wall: the arguments of moving_wall_contact.
 struct WallCase {
   WallMotion motion;
   double start = 0.0;
@@ -20,14 +20,14 @@ struct WallCase {
   double speed = 0.0;
   double acceleration = 0.0;
 
-  /// What is tested.
+  /// The contact time under test.
   double contact() const {
     return moving_wall_contact(motion, start, distance, speed, acceleration);
   }
-  /// Where the particle is a time t after the start, and how fast.
+  /// Height and speed of the particle at a time t after the start.
   double height(double t) const { return distance + speed * t + 0.5 * acceleration * t * t; }
   double velocity(double t) const { return speed + acceleration * t; }
-  /// The most that the wall has of either.
+  /// The largest speed and acceleration of the wall.
   double peak_speed() const {
     const double speed = motion.stroke * motion.frequency;
     return motion.path == WallPath::Sawtooth ? speed : std::numbers::pi * speed;
@@ -37,12 +37,12 @@ struct WallCase {
                ? 0.0
                : 2.0 * std::numbers::pi * motion.frequency * peak_speed();
   }
-  /// By how much the particle starts behind the wall: what rounding left of the flight before.
+  /// Initial overlap with the wall, from rounding errors of the previous flight.
   double overlap() const {
     return std::max(0.0, wall_state(motion, start).displacement - distance);
   }
-  /// The speeds and lengths that occur until t after the start, on the moving base: their rounding
-  /// is the error.
+  /// Speeds and lengths up to the time t after the start, on the moving base. Their rounding errors
+  /// give the unit of the error.
   double speeds(double t) const {
     return std::fabs(speed) + std::fabs(acceleration * t) + peak_speed() +
            peak_acceleration() * (std::fabs(start) + t);
@@ -55,15 +55,15 @@ struct WallCase {
   }
 };
 
-/// What contact times left to be desired, over many cases; worst values in units of the rounding.
+/// The errors of contact times over many cases: worst values in units of the rounding error.
 struct Verdict {
   int contacts = 0, at_once = 0, never = 0, early = 0, missed = 0;
   double residual = 0.0, overlap = 0.0, recession = 0.0;
 
-  /// Judges the contact time of a case: the particle touches there, and nowhere before, as a scan
-  /// of the gap over the wall's periods tells.
+  /// Tests the contact time of a case: the particle touches the wall there, and not earlier. A scan
+  /// of the gap over the periods of the wall is the reference.
   void add(const WallCase& c, double time);
-  /// Checks that no error is more than ten roundings.
+  /// Checks that no error exceeds ten rounding errors.
   void check() const;
 };
 
@@ -73,10 +73,10 @@ double sign(Random& random);
 /// 10^x with x uniform.
 double log_uniform(Random& random, double from, double to);
 
-/// A particle before a wall, over wide ranges of what the wall's stroke and frequency leave free.
+/// A random particle in front of a wall, over wide ranges. Stroke and frequency set the units.
 WallCase random_case(WallPath path, Random& random);
 
-/// Makes it the particle after the wall has hit it (theory 4.2).
+/// The particle after its collision with the wall (theory 4.2).
 void reflect_at(WallCase& c, double time, double restitution);
 
 }  // namespace clatter::testing

@@ -15,7 +15,7 @@ static int end_of(ChildProcess& process) {
   }
 }
 
-// What the process says until it has said so much.
+// The output of the process up to this length.
 static std::string words_of(ChildProcess& process, std::size_t length) {
   std::string words;
   while (words.size() < length) {
@@ -25,7 +25,7 @@ static std::string words_of(ChildProcess& process, std::size_t length) {
   return words;
 }
 
-TEST_CASE("ChildProcess: reads what is written to it, and succeeds or not") {
+TEST_CASE("ChildProcess: reads its input, and reports success or failure") {
   ChildProcess process({"sh", "-c", "read line; echo got $line >&2; exit 7"});
   CHECK_FALSE(process.poll());
   const std::string line = "a line\n";
@@ -39,7 +39,7 @@ TEST_CASE("ChildProcess: reads what is written to it, and succeeds or not") {
                        "cannot start no-such-program: No such file or directory", RunError);
 }
 
-TEST_CASE("ChildProcess: what it says comes once, and its end names a signal") {
+TEST_CASE("ChildProcess: its output is read once, and its end names a signal") {
   ChildProcess process({"sh", "-c", "echo one >&2; read line; echo two >&2; kill -KILL $$"});
   CHECK(words_of(process, 4) == "one\n");
   CHECK(process.new_words().empty());

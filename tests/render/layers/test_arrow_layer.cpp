@@ -21,7 +21,7 @@ Image draw(const Gl& gl, const std::vector<ArrowMap::Arrow>& arrows, double pixe
   return canvas.read();
 }
 
-// What pixels near the ink's colour cover.
+// The extent of the pixels close to the ink's colour.
 struct Extent {
   Vec2 low = {1e9, 1e9}, high = {-1e9, -1e9};
   Vec2 mean = {0.0, 0.0};
@@ -58,13 +58,14 @@ TEST_CASE(
     const Extent extent = extent_of(image);
     const Vec2 middle(80.0, 110.0);
     REQUIRE(extent.count > 80);
-    // The box around a line of 60 pixels; the head, the shaft and antialiased ends add some.
+    // The box around a line of 60 pixels. The head, the shaft and antialiased ends add a few
+    // pixels.
     for (int axis : {0, 1}) {
       const double half = 30.0 * std::abs(along[axis]);
       CHECK(std::abs(extent.low[axis] - (middle[axis] - half)) < 4.5);
       CHECK(std::abs(extent.high[axis] - (middle[axis] + half)) < 4.5);
     }
-    // The head weighs more than the tail.
+    // The head has more pixels than the tail.
     CHECK((extent.mean - middle).dot(along) > 1.0);
   }
 }
@@ -84,8 +85,7 @@ TEST_CASE("Arrow layer: a short arrow keeps its form") {
   CHECK(small.high.y() - small.low.y() <= 3.0);
 }
 
-// A flux that is nothing but rounding would be a field of bars; tips that coincide have no
-// direction.
+// A flux of rounding errors would give a field of bars. Coincident tips have no direction.
 TEST_CASE("Arrow layer: arrows shorter than half a pixel are not drawn") {
   const auto context = open_context(Backend::Osmesa);
   for (const double length : {0.024, 1e-7, 1e-20, 5e-324}) {  // .024: .48 pixels
@@ -97,7 +97,7 @@ TEST_CASE("Arrow layer: arrows shorter than half a pixel are not drawn") {
   }
   const Image shown = draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(0.026, 0.0)}}, 20.0);
   CHECK(difference(shown, draw(context->gl(), {}, 20.0)) > 0);
-  // What is no number has none either.
+  // NaN has no direction either.
   const double nan = std::nan("");
   const Image none = draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(nan, 1.0)}}, 20.0);
   CHECK(difference(none, draw(context->gl(), {}, 20.0)) == 0);

@@ -45,7 +45,7 @@ TEST_CASE("Coverage: small disks keep their area and their light, wherever they 
 
 namespace {
 
-// The area of the pixel at (x, y) that a disk covers, by 50 x 50 points.
+// The area of a disk inside the pixel at (x, y), by 50 x 50 points.
 double area_in(int x, int y, const Vec2& centre, double radius) {
   constexpr int kPoints = 50;
   int inside = 0;
@@ -60,7 +60,7 @@ double area_in(int x, int y, const Vec2& centre, double radius) {
 
 }  // namespace
 
-TEST_CASE("Coverage: a small disk covers the part of each pixel that lies in it") {
+TEST_CASE("Coverage: the coverage of a pixel is its overlap with a small disk") {
   Coverage coverage;
   const int width = kSize.width + 2 * Coverage::kMargin;
   for (const double radius : {0.3, 1.2, 1.49}) {
@@ -76,7 +76,7 @@ TEST_CASE("Coverage: a small disk covers the part of each pixel that lies in it"
           worst = std::max(worst, std::abs(area - area_in(x, y, centre, radius)));
         }
       }
-      // Places are resolved to a sixteenth of a pixel, so an edge is off by up to 0.045.
+      // Positions have a resolution of 1/16 pixel, so that an edge has an error of up to 0.045.
       CHECK(worst < 0.07);
     }
   }

@@ -27,8 +27,8 @@ struct Circle {
   double radius = 0.0;
 };
 
-// From the moments of what differs from the background. The rim is darker than the disk, but all of
-// it counts: a pixel's weight is its coverage, which only the outermost pixels have below 1.
+// From the moments of all pixels that differ from the background. The rim is darker than the disk,
+// but counts fully: the weight of a pixel is its coverage, below 1 at the edge only.
 Circle measure(const Image& image) {
   double area = 0.0, x_sum = 0.0, y_sum = 0.0;
   for (int y = 0; y < image.size.height; ++y) {
@@ -64,7 +64,7 @@ TEST_CASE("Disk layer: a disk is drawn where it is and as large as it is") {
       const Circle circle = measure(draw(context->gl(), one_disk(centre, 40.0), largest_point));
       CHECK(std::abs(circle.x - centre.x()) < 0.1);
       CHECK(std::abs(circle.y - centre.y()) < 0.1);
-      CHECK(circle.radius > 20.0);  // every pixel touched counts in full
+      CHECK(circle.radius > 20.0);  // every pixel touched has its full weight
       CHECK(circle.radius < 20.6);
     }
   }
@@ -123,7 +123,7 @@ TEST_CASE("Disk layer: particles beyond the largest point of the driver are draw
   CHECK(pixel(image, 1010, 700) == kDarkTheme.background);
 }
 
-TEST_CASE("Disk layer: a disk whose centre lies outside the picture shows its part inside") {
+TEST_CASE("Disk layer: a disk with its centre outside the picture shows its part inside") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
   const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -174,7 +174,7 @@ TEST_CASE("Disk layer: particles smaller than a pixel send the light of their ar
 
 namespace {
 
-// Particles as dense as half the area, in order, of all colours.
+// Particles with an area fraction of one half, on a lattice, in all colours.
 Snapshot many_disks(double diameter) {
   Snapshot snapshot = one_disk({0.0, 0.0}, diameter);
   std::vector<Vec2> places, velocities;
@@ -219,8 +219,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "Disk layer: the light of small disks is that of their shapes, drawn larger and averaged") {
+TEST_CASE("Disk layer: small disks have the light of their shapes, drawn larger and averaged") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   for (const double diameter : {0.8, 1.5, 2.5}) {

@@ -14,7 +14,7 @@ using testing::DrawnText;
 
 namespace {
 
-// Draws on a list without a picture.
+// A draw list without a picture.
 class Drawing {
  public:
   explicit Drawing(const std::function<void(ImDrawList&, const Fonts&)>& draw) {
@@ -24,7 +24,7 @@ class Drawing {
     ImGui::NewFrame();
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     draw(list, fonts);
-    // Halos are drawn first, and drawn over.
+    // Halos are drawn first, below the text.
     for (const DrawnText& text : testing::texts_in(list)) {
       if ((text.colour >> IM_COL32_A_SHIFT) == 255) texts.push_back(text);
     }
@@ -32,7 +32,7 @@ class Drawing {
     ImGui::EndFrame();
   }
 
-  // The colour of what covers a place with one colour.
+  // The colour of the single-coloured shape at a position.
   ImU32 colour_at(float x, float y) const {
     ImU32 colour = 0;
     for (std::size_t k = 0; k + 3 < vertices.size(); k += 4) {
@@ -82,7 +82,7 @@ TEST_CASE("Legend: beside each number of a colour bar is the colour of that numb
       const double value = number_in(text.text);
       least = std::min(least, value);
       most = std::max(most, value);
-      // The bar begins at x = 20. At its ends a number stands half beside it.
+      // The bar begins at x = 20. The numbers at its ends are centred on the ends.
       const float y = std::clamp(text.middle_y(), 30.0f + 2.75f * 16.0f, 279.0f);
       const ImU32 colour = drawing.colour_at(24.0f, y);
       const Colour beside{static_cast<unsigned char>(colour >> IM_COL32_R_SHIFT),
@@ -103,7 +103,7 @@ TEST_CASE("Legend: an arrow is as long as one of its value") {
     draw_arrow_legend(list, legend, fonts, kDarkTheme, shape, ImVec2(20.0f, 30.0f));
   });
   CHECK(drawing.texts.front().text == "heat flux q");
-  // The round value whose arrow is at most five lines of text long: 80 pixels.
+  // The round value whose arrow has a length of at most five text lines: 80 pixels.
   CHECK(drawing.texts.back().text == "2 m a/t³");
   float tip = 0.0f;
   for (std::size_t k = 0; k + 2 < drawing.vertices.size(); ++k) {
@@ -112,7 +112,7 @@ TEST_CASE("Legend: an arrow is as long as one of its value") {
       tip = std::max(tip, vertex.pos.x);
     }
   }
-  // Its edge is smoothed over a pixel to either side.
+  // Its edge is antialiased over one pixel on each side.
   CHECK(std::fabs(tip - (20.0f + 2.0f * 37.0f)) < 1.5f);
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 const ThemeColours kTheme = kLightTheme;
 
-// Where the points' colour is, on average, as shares of the picture from the upper left corner, and
-// how many pixels have it.
+// Mean position of the pixels with the colour of the points, and their number. Positions are shares
+// of the picture from the upper left corner.
 struct Mark {
   Vec2 place{0.0, 0.0};
   int pixels = 0;
@@ -55,8 +55,8 @@ TEST_CASE("Plot: a plot has panels of the same axes, and none where there is not
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();
   const PlotPanel point{"", {{1.0, 1.0, "", false}}}, far{"", {{1e3, 1.0, "", false}}};
-  // The left panel's point stands at its left, because the axes reach as far as the right panel's
-  // point.
+  // The point of the left panel is at its left side, because the axes extend to the point of the
+  // right panel.
   const Mark beside_far = mark_of(plotted(gl, {point, far}));
   const Mark beside_same = mark_of(plotted(gl, {point, point}));
   CHECK(beside_far.pixels == doctest::Approx(beside_same.pixels).epsilon(0.1));

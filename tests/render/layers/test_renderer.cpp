@@ -35,7 +35,7 @@ TEST_CASE("Renderer: a picture has room for a wall that swings out of the box") 
       CHECK(projection.pixels({0.0, 0.0}).x() >= wall_thickness(size) - 0.5);
       CHECK(face + wall_thickness(size) <= size.width + 0.5);
       if (!overlay) continue;
-      // No text where the wall comes.
+      // No text in the range of the wall.
       snapshot.wall_displacement[kRight] = -3.0;
       const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
       view.overlay = false;
@@ -70,7 +70,7 @@ TEST_CASE("Renderer: spins are coloured by their sense") {
   CHECK(forward.red > forward.blue + 80);
   CHECK(backward.blue > backward.red + 80);
   CHECK(difference(still, {still.red, still.red, still.red}) < 20);
-  // Its legend is written.
+  // With its legend.
   view.overlay = true;
   const Image with = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
   CHECK(
@@ -83,7 +83,7 @@ TEST_CASE("Renderer: spins are coloured by their sense") {
 
 namespace {
 
-// The colour in the middle of a box that a field of one cell fills with `value`.
+// The central colour of a box with a field of one cell with this `value`.
 Colour field_colour(Renderer& renderer, const Gl& gl, const View& view, double value,
                     bool whole_window) {
   Snapshot snapshot;
@@ -118,7 +118,7 @@ TEST_CASE("Renderer: the colours of a heatmap follow, or are locked, or are give
   const Colour top = map.back(), middle = map[8];
   CHECK(colours() == std::vector{top, top, top, top});
   view.field_range = {ColourRange::Locked};
-  CHECK(colours() == std::vector{top, top, top, middle});  // at 1, its first whole window
+  CHECK(colours() == std::vector{top, top, top, middle});  // at 1, the first complete window
   view.field_range = {ColourRange::Given, {-1.0, 2.0}};
   CHECK(colours()[3] == middle);
 }
@@ -175,7 +175,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
+TEST_CASE("Renderer: arrows over the box have the length of their legend") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   Snapshot snapshot;
@@ -191,9 +191,9 @@ TEST_CASE("Renderer: arrows lie over the box as long as their legend says") {
     for (int x = 0; x < 400; ++x) width += difference(pixel(image, x, 200), kDarkTheme.text) < 100;
     return width;
   };
-  CHECK(width_of_arrow() == 0);  // not asked for
+  CHECK(width_of_arrow() == 0);  // not requested
   view.arrows = Quantity::Velocity;
-  // The greatest value there is fills a cell of 160 pixels.
+  // The largest value fills a cell of 160 pixels.
   CHECK(std::abs(width_of_arrow() - 160) <= 4);
 }
 

@@ -12,7 +12,7 @@ namespace clatter {
 
 namespace {
 
-// With the path of one disk, piece after piece, seen for as long as they take.
+// The path of one disk in consecutive pieces, with an exposure of their whole duration.
 Snapshot on_path(double diameter, std::vector<FlightPiece> pieces) {
   Snapshot snapshot = one_disk({0.0, 0.0}, diameter);
   snapshot.exposure = -pieces.front().from;
@@ -38,7 +38,7 @@ double area(const Image& image) {
   return sum;
 }
 
-// The largest difference, of opacity or of light, from what instants of the path average to.
+// The largest difference, of opacity or of light, from the average over instants of the path.
 double off_instants(const Gl& gl, const Snapshot& blurred) {
   constexpr int kInstants = 400;
   DiskLayer layer(gl);
@@ -92,7 +92,7 @@ TEST_CASE("Swept layer: a moving disk keeps its area and its light") {
   for (const double diameter : {2.0, 6.0, 30.0}) {
     for (const double length : {0.02, 0.5, 3.0, 25.0, 90.0}) {
       for (const double angle : {0.0, 0.4, 2.6, 4.5}) {
-        // Fainter ones have too few of the 255 levels.
+        // Fainter streaks have too few of the 255 levels.
         if (length > 10.0 * diameter) continue;
         CAPTURE(diameter);
         CAPTURE(length);
@@ -131,17 +131,17 @@ TEST_CASE("Swept layer: paths with collisions and borders look like the average 
   const auto context = open_context(Backend::Osmesa);
   for (const double diameter : {2.0, 5.0, 30.0}) {
     CAPTURE(diameter);
-    // Off a wall, faster than before, then on a parabola.
+    // Reflected off a wall with a gain, then on a parabola.
     const Snapshot bounce = on_path(
         diameter, {{0, -1.0, -0.6, Vec2(150.0, 50.0), Vec2(80.0, 20.0), Vec2(0.0, 0.0)},
                    {0, -0.6, 0.0, Vec2(182.0, 58.0), Vec2(-120.0, 90.0), Vec2(0.0, -300.0)}});
     CHECK(off_instants(context->gl(), bounce) < 0.012);
-    // Through a periodic box again and again.
+    // Through a periodic box repeatedly.
     Snapshot fast =
         on_path(diameter, {{0, -1.0, 0.0, Vec2(20.0, 30.0), Vec2(530.0, -410.0), Vec2(0.0, 0.0)}});
     fast.walls = {};
-    CHECK(off_instants(context->gl(), fast) < 0.03);  // instants lie some pixels apart
-    // Across a periodic border, in steps of less than a pixel too.
+    CHECK(off_instants(context->gl(), fast) < 0.03);  // the instants are some pixels apart
+    // Across a periodic border, also in steps of less than a pixel.
     for (const double speed : {30.0, 1.0}) {
       Snapshot crossing = on_path(
           diameter, {{0, -1.0, 0.0, Vec2(199.0, 119.2), Vec2(speed, 0.5 * speed), Vec2(0.0, 0.0)}});

@@ -17,7 +17,7 @@ Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
 
 }  // namespace
 
-TEST_CASE("Trail layer: trails lie on the paths and fade out as far back as they reach") {
+TEST_CASE("Trail layer: trails follow the paths and fade out to their ends") {
   const auto context = open_context(Backend::Osmesa);
   Snapshot snapshot = one_disk({120.0, 100.0}, 20.0);
   snapshot.velocities = Vec2(0.0, 40.0);
@@ -34,12 +34,12 @@ TEST_CASE("Trail layer: trails lie on the paths and fade out as far back as they
   for (int x = 90; x < 118; x += 7) {
     CHECK(std::fabs(opacity(x, 60) - 0.6 * (0.5 - (120 - x) / 80.0)) < 0.01);
   }
-  // The joint is no brighter than what meets there.
+  // The joint is no brighter than its two pieces.
   for (int x = 117; x <= 123; ++x) {
     for (int up = 57; up <= 61; ++up) CHECK(opacity(x, up) < 0.6 * 0.53);
   }
-  CHECK(opacity(70, 60) == 0.0);    // longer ago
-  CHECK(opacity(120, 106) == 0.0);  // where it has not been yet
+  CHECK(opacity(70, 60) == 0.0);    // too long ago
+  CHECK(opacity(120, 106) == 0.0);  // not reached yet
   CHECK(opacity(128, 80) == 0.0);
 }
 

@@ -46,7 +46,8 @@ TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed"
   const auto context = open_context(Backend::Osmesa);
   const Image start = draw(context->gl(), wall_of(WallKind::Driven));
   CHECK(difference(start, draw(context->gl(), wall_of(WallKind::Driven), 0.3)) > 50);
-  // The teeth repeat every 0.75 thicknesses: half the drive speed carries them there in this time.
+  // The teeth repeat every 0.75 thicknesses. At half the drive speed they move by this distance in
+  // this time.
   const double period = 2.0 * 0.75 * wall_thickness(kSize) / 10.0;
   CHECK(difference(start, draw(context->gl(), wall_of(WallKind::Driven), period)) <= 4);
   for (WallKind kind : {WallKind::Static, WallKind::Thermal}) {
@@ -55,7 +56,7 @@ TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed"
   }
 }
 
-TEST_CASE("Wall layer: a moving wall is drawn where it is, and covers what is behind it") {
+TEST_CASE("Wall layer: a moving wall is drawn at its position, and covers the picture behind it") {
   const auto context = open_context(Backend::Osmesa);
   for (WallKind kind : {WallKind::Sawtooth, WallKind::Sinusoidal}) {
     for (double displacement : {-1.0, 0.0, 2.0, 3.0}) {  // 10 pixels each
@@ -65,7 +66,7 @@ TEST_CASE("Wall layer: a moving wall is drawn where it is, and covers what is be
       snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(kind);
       snapshot.wall_displacement[kLeft] = displacement;
       const Canvas canvas = blank_canvas(context->gl(), kSize);
-      // A field, as bright as no wall.
+      // A field, brighter than any wall.
       context->gl().ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
       context->gl().Clear(GL_COLOR_BUFFER_BIT);
       WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, kDarkTheme);
@@ -77,7 +78,7 @@ TEST_CASE("Wall layer: a moving wall is drawn where it is, and covers what is be
         const Colour at_face = pixel(image, face - 1, y);
         CHECK(at_face.red > 2 * at_face.blue);
         for (int x = 52; x < face; ++x) CHECK(difference(pixel(image, x, y), white) > 100);
-        // The other wall is where it was.
+        // The other wall is unchanged.
         CHECK(pixel(image, 150, y).red > 2 * pixel(image, 150, y).blue);
       }
     }

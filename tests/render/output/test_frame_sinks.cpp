@@ -23,7 +23,7 @@ Image grey(int value) {
   return image;
 }
 
-// The greys of decoded pictures, in order; -1 of one that is not of one grey.
+// The grey values of decoded pictures, in order; -1 for a picture with several greys.
 std::vector<int> greys_of(const std::string& input) {
   FILE* pipe =
       popen(("ffmpeg -v error " + input + " -f rawvideo -pix_fmt rgba - 2>&1").c_str(), "r");
@@ -38,7 +38,7 @@ std::vector<int> greys_of(const std::string& input) {
 
 }  // namespace
 
-// As the thread that simulates and draws does it. The thread sanitizer watches this case, too.
+// As in the thread that simulates and draws. This case also runs under the thread sanitizer.
 TEST_CASE("Frame sinks: pictures that wait for encoders come whole and in order") {
   const TemporaryFolder folder;
   SinkOptions options;
@@ -54,7 +54,7 @@ TEST_CASE("Frame sinks: pictures that wait for encoders come whole and in order"
       sequence.add(image, {});
       if (value < FrameSink::kPiece) given_up.add(image, {});
       movie.add(image, {{"Time", std::to_string(value)}});
-      // The queues have pictures of their own.
+      // The queues have their own copies of the pictures.
       std::ranges::fill(image.rgba, 0);
     }
     sequence.finish(Ending::Whole);

@@ -37,7 +37,7 @@ std::uint32_t big_endian(const unsigned char* p) {
   return std::uint32_t{p[0]} << 24 | p[1] << 16 | p[2] << 8 | p[3];
 }
 
-// The chunks' contents by type, in order; checks every CRC.
+// The contents of the chunks by type, in order. Checks every CRC.
 std::vector<std::pair<std::string, std::string>> chunks(const std::vector<unsigned char>& png) {
   std::vector<std::pair<std::string, std::string>> result;
   for (std::size_t at = 8; at < png.size();) {

@@ -23,7 +23,7 @@ Image frame(int number) {
   return image;
 }
 
-// What ffprobe says of the first stream: codec, size, frames counted by decoding; and the tags.
+// Data of the first stream from ffprobe: codec, size, number of decoded frames; and the tags.
 std::string probe(const std::filesystem::path& path) {
   const std::string command =
       "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
@@ -39,7 +39,7 @@ std::string probe(const std::filesystem::path& path) {
   return output;
 }
 
-// Counted by decoding.
+// Number of decoded frames.
 long frames_of(const std::filesystem::path& path) {
   const std::string facts = probe(path);
   const auto at = facts.find("nb_read_frames=");
@@ -121,7 +121,7 @@ TEST_CASE("Movie: an mp4 can play before it is loaded: its index comes first") {
   write_film(movie, 5);
   const std::string bytes = bytes_of(folder / "film.mp4");
   CHECK(bytes.find("moov") < bytes.find("mdat"));
-  CHECK_FALSE(says(bytes, "moof"));  // whole, no longer in fragments
+  CHECK_FALSE(says(bytes, "moof"));  // complete, no longer in fragments
 }
 
 TEST_CASE("Movie: pieces that cannot be joined stay, and the error names them") {
@@ -207,7 +207,7 @@ TEST_CASE("Movie: names that look like options or protocols are names") {
   CHECK(std::filesystem::exists(folder / "-a:b %d.gif"));
 }
 
-TEST_CASE("Movie: without an encoder there is an error that says what to install, and no file") {
+TEST_CASE("Movie: without an encoder an error names the package, and there is no file") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", options(), "no-such-encoder"),
                        doctest::Contains("apt install ffmpeg"), RunError);
@@ -217,7 +217,7 @@ TEST_CASE("Movie: without an encoder there is an error that says what to install
 TEST_CASE(
     "Movie: the death of an encoder is an error with its last words, and leaves no empty film") {
   const TemporaryFolder folder, programs;
-  // The second reads everything, as one does that finds the disk full at the end.
+  // The second script reads everything, like an encoder that finds a full disk at the end.
   for (const char* script :
        {"head -c 1000 >/dev/null; echo 'disk is full' >&2; exit 1",
         "cat >/dev/null; echo 'disk is full' >&2; exit 1", "cat >/dev/null; kill -9 $$"}) {
@@ -248,7 +248,7 @@ TEST_CASE("Movie: an encoder that loses pictures and succeeds is an error") {
 
 TEST_CASE("Movie: a joined film that lacks pictures is an error, and the pieces stay") {
   const TemporaryFolder folder, programs;
-  // As where the disk is full: ffmpeg succeeds although the end of the film could not be written.
+  // As on a full disk: ffmpeg succeeds although the end of the film was not written.
   const auto encoder = make_encoder(programs / "encoder",
                                     "ffmpeg \"$@\" || exit 1\n"
                                     "for last; do :; done\n"
@@ -281,7 +281,7 @@ TEST_CASE("Movie: an earlier piece that was cut is an error that names it") {
   CHECK_FALSE(std::filesystem::exists(folder / "film.mp4"));
 }
 
-TEST_CASE("Movie: a film does not go on from a piece that has changed") {
+TEST_CASE("Movie: a film does not continue from a changed piece") {
   const TemporaryFolder folder;
   SinkOptions resumed = options();
   {

@@ -87,7 +87,7 @@ TEST_CASE("PngSequence: a folder that vanishes fails the sequence") {
   CHECK_THROWS_AS(add_many(), RunError);
 }
 
-TEST_CASE("PngSequence: a path says what kind of output it is") {
+TEST_CASE("PngSequence: the path selects the kind of output") {
   const TemporaryFolder folder;
   write_frames(folder / "one.png", kOptions, 1);
   CHECK(std::filesystem::is_regular_file(folder / "one.png"));

@@ -29,7 +29,7 @@ TEST_CASE("WorkQueue: add waits while the queue is full") {
       ++added;
     }
   });
-  // One job is under way and two wait; the fourth has to.
+  // One job runs and two wait. The fourth has to wait for a place.
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   CHECK(added <= 3);
   gate.set_value();
@@ -53,7 +53,7 @@ TEST_CASE("WorkQueue: drain waits for the jobs that have begun, too") {
   }
 }
 
-TEST_CASE("WorkQueue: what a job throws reaches add and finish") {
+TEST_CASE("WorkQueue: the exception of a job reaches add and finish") {
   WorkQueue queue(2, 2);
   auto add_many = [&] {
     for (int i = 0; i < 1000; ++i) queue.add([] { throw std::runtime_error("broken"); });
@@ -72,7 +72,7 @@ TEST_CASE("WorkQueue: a queue that is dropped ends the job under way and drops t
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       ++done;
     });
-    // They would take seconds, however late the queue is dropped.
+    // They would take seconds. The queue is dropped before their end.
     for (int i = 0; i < 500; ++i) {
       queue.add([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
