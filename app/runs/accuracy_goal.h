@@ -29,8 +29,9 @@ double relative_error(const Estimate& estimate);
 /// Runs until the goal is reached, or to `end` at the latest. Looks at the end of certain windows
 /// of the measurement, the 256th the first, so that where the run ends depends on nothing but
 /// scene, seed and `end`.
-void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measurement, double end,
-                 Progress& progress);
+template <int D>
+void run_to_goal(const AccuracyGoal& goal, Run<D>& run, const Measurement<D>& measurement,
+                 double end, Progress& progress);
 
 /// Says on stderr how precise the mean is, and if that is not enough, how long a run would be.
 void tell_accuracy(const AccuracyGoal& goal, const Measured& measured);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dimension.h"
 #include "engine/dynamics/memory.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
@@ -39,10 +40,13 @@ FeatureCost fields_of(const Scene& scene) {
     price = averages ? price + kBalanceCost - 1.0 : kBalanceCost;
   }
   return {"fields", names_of(measure.fields, scene.dimension()),
-          cells_memory<2>(measure, scene.spins()), price};
+          with_dimension(
+              scene.dimension(),
+              [&](auto dimension) { return cells_memory<dimension>(measure, scene.spins()); }),
+          price};
 }
 
-// A kick of a disk costs about half a collision of two; at the start's temperature.
+// A kick of a particle costs about half a collision of two; at the start's temperature.
 double kick_cost(const Scene& scene) {
   constexpr double kKick = 0.45;
   const double rate =

@@ -58,11 +58,12 @@ std::optional<FilmState> film_of(const Resumed& resumed);
 
 /// Films a run: draws one frame after the other. Automatic colour ranges are chosen once, by what
 /// is shown in the first averaging window of the whole film, which the run goes through ahead.
+template <int D>
 class Film {
  public:
   /// Of a run that has come to frame `state.next`. A film of a single frame chooses its ranges by
   /// that.
-  Film(Run& run, const Scene& scene, const View& view, FilmState state, const Gl& gl);
+  Film(Run<D>& run, const Scene& scene, const View& view, FilmState state, const Gl& gl);
 
   /// Draws those of the frames that are still to come into a sink, and only goes through those
   /// before; ends early where the run does. Returns the number of the frame that comes next.
@@ -75,7 +76,7 @@ class Film {
   RangeEnds look_ahead() const;
   std::vector<PngText> notes() const;
 
-  Run& run_;
+  Run<D>& run_;
   const Scene& scene_;
   View view_;
   OverlayText text_;
@@ -83,5 +84,8 @@ class Film {
   Canvas canvas_;
   Renderer renderer_;
 };
+
+extern template class Film<2>;
+extern template class Film<3>;
 
 }  // namespace clatter

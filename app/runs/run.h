@@ -16,12 +16,13 @@
 
 namespace clatter {
 
-/// Throws PhysicalStop where the disks of a run have overlapped by more than rounding: then events
-/// were lost.
+/// Throws PhysicalStop where the particles of a run have overlapped by more than rounding: then
+/// events were lost.
 void require_no_overlap(const RunChecks& checks);
 
 /// A run that a command makes of a scene: from its start or from a checkpoint, with checkpoints as
 /// asked for, and one where it ends before its time.
+template <int D>
 class Run {
  public:
   /// `out` is what the command writes; empty: stdout. Throws UserError where no checkpoint can go
@@ -30,14 +31,14 @@ class Run {
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
 
   /// The run itself, at the time from which it goes on.
-  ScheduledRun<2>& scheduled() { return *run_; }
+  ScheduledRun<D>& scheduled() { return *run_; }
   /// Its simulation, until laws change.
-  Simulation<2>& simulation() { return run_->simulation(); }
+  Simulation<D>& simulation() { return run_->simulation(); }
   /// The flag's, or that of the checkpoint, or 1.
   std::uint64_t seed() const { return seed_; }
   /// What [measure] asks for, averaged to `end`, or on from where the checkpoint left it; its
   /// checkpoints keep it. Throws UserError where the block asks for something else than before.
-  Measurement<2>& measure(double end);
+  Measurement<D>& measure(double end);
 
   /// Runs up to a simulation time in slices of about a tenth of a second, between which progress is
   /// shown and interrupts are seen; false where the run was interrupted or stopped first.
@@ -59,7 +60,7 @@ class Run {
 
   Checkpoint checkpoint();
   void write();
-  void measure_on(Simulation<2>& next);
+  void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
 
   std::string command_;
@@ -70,14 +71,17 @@ class Run {
   std::optional<Resumed> resumed_;
   bool averages_go_on_ = false;  // those of the run that is resumed
   std::uint64_t seed_;
-  std::optional<ScheduledRun<2>> run_;
+  std::optional<ScheduledRun<D>> run_;
   double measure_end_ = 0.0;
-  std::optional<Measurement<2>> measurement_;
+  std::optional<Measurement<D>> measurement_;
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // of the last checkpoint
   bool ended_early_ = false;
   std::optional<PhysicalStop> stop_;
 };
+
+extern template class Run<2>;
+extern template class Run<3>;
 
 }  // namespace clatter
