@@ -20,6 +20,7 @@
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
@@ -59,7 +60,8 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   if (!scene.contact_time || elastic <= kMaxElastic * all) return;
   std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
                100.0 * elastic / all);
-  const double rate = enskog_rate(scene.packing_fraction(), measured.temperature.mean);
+  const double rate =
+      enskog_rate(scene.packing_fraction(), measured.temperature.mean, scene.dimension());
   if (*scene.contact_time * rate > kLong) {
     std::fprintf(
         stderr,
@@ -105,7 +107,8 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
   if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
 }
 
-nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene, Run& run,
+template <int D>
+nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene, Run<D>& run,
                                const Measured& measured, const Performance& performance) {
   auto json = result_json(scene, run.seed(), run.simulation(), measured, performance);
   const AccuracyGoal& goal = options.accuracy;
@@ -192,27 +195,14 @@ void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
   measure.burn_in = shorter;
 }
 
-int measure(const MeasureOptions& options) {
-  Scene scene = load_disks(options.common, options.checkpoints.start_file());
-  const double end = options.common.until.value_or(scene.measure.burn_in + scene.measure.duration);
-  fit_burn_in(scene.measure, end, options.common);
-  const Measure& spec = scene.measure;
-  std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
-  if (resumed && !goes_on_to(end, *resumed)) {
-    throw UserError({"--until", 0, 0},
-                    "the checkpoint is at t = " + number_text(resumed->time()) +
-                        ", and the run ends at " + number_text(end),
-                    "give a time after the checkpoint");
-  }
-  require_bounded_samples(spec, end);
-  if (options.replicas > 1) return measure_replicas(options, scene, end);
-  prepare_outputs(options, scene);
-  catch_interrupts();
-
+template <int D>
+int measure_one(const MeasureOptions& options, const Scene& scene, std::optional<Resumed> resumed,
+                double end) {
   const double cpu_before = cpu_seconds();
   const auto began = std::chrono::steady_clock::now();
-  Run run("measure", scene, options.common, options.checkpoints, std::move(resumed), options.out);
-  Measurement<2>& measurement = run.measure(end);
+  Run<D> run("measure", scene, options.common, options.checkpoints, std::move(resumed),
+             options.out);
+  Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
   {
@@ -241,6 +231,26 @@ int measure(const MeasureOptions& options) {
   const int code = run.end();
   if (measured.residuals) require_closed(*measured.residuals);
   return code;
+}
+
+int measure(const MeasureOptions& options) {
+  Scene scene = load(options.common, options.checkpoints.start_file());
+  const double end = options.common.until.value_or(scene.measure.burn_in + scene.measure.duration);
+  fit_burn_in(scene.measure, end, options.common);
+  std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
+  if (resumed && !goes_on_to(end, *resumed)) {
+    throw UserError({"--until", 0, 0},
+                    "the checkpoint is at t = " + number_text(resumed->time()) +
+                        ", and the run ends at " + number_text(end),
+                    "give a time after the checkpoint");
+  }
+  require_bounded_samples(scene.measure, end);
+  if (options.replicas > 1) return measure_replicas(options, scene, end);
+  prepare_outputs(options, scene);
+  catch_interrupts();
+  return with_dimension(scene.dimension(), [&](auto dimension) {
+    return measure_one<dimension>(options, scene, std::move(resumed), end);
+  });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 #include "engine/whole_number.h"
@@ -222,7 +223,9 @@ void require_few_windows(const View& view, double last) {
 
 // Returns whether the sink has frames. A checkpoint keeps the run even if the sink cannot be
 // written.
-bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progress& progress) {
+template <int D>
+bool draw(Film<D>& film, const FrameRange& frames, FrameSink& sink, Run<D>& run,
+          Progress& progress) {
   try {
     const long next = film.draw(frames, sink, progress);
     if (next <= frames.begin) return false;
@@ -231,6 +234,24 @@ bool draw(Film& film, const FrameRange& frames, FrameSink& sink, Run& run, Progr
   } catch (const RunError& error) {
     throw RunError(error.what() + run.rescue());
   }
+}
+
+template <int D>
+int film_run(const RenderOptions& options, const Scene& scene, const View& view,
+             std::optional<Resumed> resumed, const FilmState& film, const FrameRange& frames) {
+  Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
+  const auto context = open_context(options.backend);
+  const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
+  Film<D> filming(run, scene, view, film, context->gl());
+  bool drawn = false;
+  {
+    Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
+                      film.times.of(frames.end - 1));
+    drawn = draw(filming, frames, *sink, run, progress);
+  }
+  run.put_aside();
+  if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
+  return run.end();
 }
 
 int render(const RenderOptions& options) {
@@ -246,20 +267,9 @@ int render(const RenderOptions& options) {
   require_folder_of(options.out, "--out");
   require_pictures(options);
   catch_interrupts();
-
-  Run run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
-  const auto context = open_context(options.backend);
-  const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
-  Film filming(run, scene, view, film, context->gl());
-  bool drawn = false;
-  {
-    Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
-                      film.times.of(frames.end - 1));
-    drawn = draw(filming, frames, *sink, run, progress);
-  }
-  run.put_aside();
-  if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
-  return run.end();
+  return with_dimension(scene.dimension(), [&](auto dimension) {
+    return film_run<dimension>(options, scene, view, std::move(resumed), film, frames);
+  });
 }
 
 }  // namespace

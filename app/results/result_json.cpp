@@ -73,7 +73,8 @@ static Json balance_json(const Residuals& residuals) {
           {"energy", largest.back()}};
 }
 
-Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& simulation,
+template <int D>
+Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& simulation,
                  const Measured& measured, const Performance& performance) {
   Json json;
   json["schema"] = 1;
@@ -119,5 +120,10 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<2>& si
       {"peak_memory_bytes", performance.peak_memory_bytes}};
   return json;
 }
+
+template Json result_json(const Scene&, std::uint64_t, const Simulation<2>&, const Measured&,
+                          const Performance&);
+template Json result_json(const Scene&, std::uint64_t, const Simulation<3>&, const Measured&,
+                          const Performance&);
 
 }  // namespace clatter

@@ -27,8 +27,9 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
 nlohmann::ordered_json::json_pointer estimate_pointer(std::string name);
 
 /// The result file of `clatter measure`. Parts that do not apply to the scene are absent.
+template <int D>
 nlohmann::ordered_json result_json(const Scene& scene, std::uint64_t seed,
-                                   const Simulation<2>& simulation, const Measured& measured,
+                                   const Simulation<D>& simulation, const Measured& measured,
                                    const Performance& performance);
 
 }  // namespace clatter

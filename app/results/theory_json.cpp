@@ -1,5 +1,6 @@
 #include "app/results/theory_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -15,16 +16,17 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
   const bool alike = vibrates(left) && vibrates(right) && left->restitution == right->restitution &&
                      left->drive_speed == right->drive_speed;
   const bool falls = scene.gravity && scene.gravity->norm() > 0.0;
-  if (!alike || !scene.periodic(1) || scene.particles.count == 0 || scene.spins() || falls ||
-      scene.bulk_drive) {
+  const bool open = scene.periodic(1) && (scene.dimension() == 2 || scene.periodic(2));
+  if (!alike || !open || scene.particles.count == 0 || scene.spins() || falls || scene.bulk_drive) {
     return std::nullopt;
   }
   return VibratedGas{static_cast<double>(scene.particles.count),
                      scene.box.x(),
-                     scene.box.y(),
+                     scene.box.tail(scene.dimension() - 1).prod(),
                      scene.particles.restitution,
                      left->restitution,
-                     left->drive_speed};
+                     left->drive_speed,
+                     scene.dimension()};
 }
 
 // (theory 7.5-7.16)
@@ -49,29 +51,33 @@ static void add_vibrated(Json& json, const VibratedGas& gas, double start_temper
 
 // Whether the system is invariant under translations.
 static bool is_homogeneous_gas(const Scene& scene) {
-  return scene.periodic(0) && scene.periodic(1) && scene.particles.count > 1 && !scene.gravity;
+  const bool walled =
+      std::ranges::any_of(scene.walls, [](const auto& wall) { return wall.has_value(); });
+  return !walled && scene.particles.count > 1 && !scene.gravity;
 }
 
 // Smooth particles, and rough particles with unlimited friction, so that beta is constant.
 static void add_homogeneous(Json& json, const Scene& scene) {
   const Particles& particles = scene.particles;
   const double phi = scene.packing_fraction();
-  json["compressibility"] = compressibility(phi, particles.restitution);
+  const int dimension = scene.dimension();
+  json["compressibility"] = compressibility(phi, particles.restitution, dimension);
   const bool rough = scene.spins();
   const bool constant_beta = !rough || std::isinf(particles.roughness.friction_in_force());
   const double beta = rough ? particles.roughness.tangential_restitution_in_force() : -1.0;
-  const RoughGas gas{particles.restitution, beta, particles.inertia};
+  const RoughGas gas{particles.restitution, beta, particles.inertia, dimension};
   if (!scene.bulk_drive) {
     if (!rough) {
       json["haff_rate"] =
-          haff_rate_periodic(phi, particles.restitution, scene.particles.start.temperature);
+          haff_rate_periodic(phi, particles.restitution, particles.start.temperature, dimension);
     } else if (constant_beta) {
       json["temperature_ratio"] = gas.cooling_ratio();
     }
     return;
   }
   const BulkDrive& drive = *scene.bulk_drive;
-  const double power = bulk_drive_power(particles.count, drive.kick_speed, drive.interval);
+  const double power =
+      bulk_drive_power(particles.count, drive.kick_speed, drive.interval, dimension);
   json["bulk_drive_power"] = power;
   if (!constant_beta || !(power > 0.0) || drive.kick_spin > 0.0) return;
   const double temperature = gas.driven_temperature(phi, power);
@@ -81,7 +87,7 @@ static void add_homogeneous(Json& json, const Scene& scene) {
 }
 
 Json theory_json(const Scene& scene) {
-  Json json{{"chi", contact_correlation(scene.packing_fraction())}};
+  Json json{{"chi", contact_correlation(scene.packing_fraction(), scene.dimension())}};
   if (const auto gas = vibrated_gas(scene)) {
     add_vibrated(json, *gas, scene.particles.start.temperature);
   }

@@ -39,15 +39,17 @@ static std::string percent(double share) {
 
 // The time of the next test of the error. The intervals grow by about one sixteenth from test to
 // test.
-static double look_from(const Measurement<2>& measurement, double from) {
+template <int D>
+static double look_from(const Measurement<D>& measurement, double from) {
   double windows = 256.0;
   const auto time = [&] { return measurement.averages_start() + windows * measurement.window(); };
   while (time() < from) windows += std::floor(windows / 16.0);
   return time();
 }
 
-void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measurement, double end,
-                 Progress& progress) {
+template <int D>
+void run_to_goal(const AccuracyGoal& goal, Run<D>& run, const Measurement<D>& measurement,
+                 double end, Progress& progress) {
   // A checkpoint may have the time of a test that has not been done yet.
   double look = look_from(measurement, run.simulation().time());
   while (run.until(std::min(end, look), progress) && look < end) {
@@ -59,6 +61,9 @@ void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measu
     look = look_from(measurement, std::nextafter(look, end));
   }
 }
+
+template void run_to_goal(const AccuracyGoal&, Run<2>&, const Measurement<2>&, double, Progress&);
+template void run_to_goal(const AccuracyGoal&, Run<3>&, const Measurement<3>&, double, Progress&);
 
 void tell_accuracy(const AccuracyGoal& goal, const Measured& measured) {
   if (!(measured.duration > 0.0)) return;

@@ -28,8 +28,9 @@ double relative_error(const Estimate& estimate);
 /// Runs until the goal is reached, or to `end` at the latest. Tests the error at the ends of
 /// certain windows, first of window 256. The end of the run thus depends on scene, seed and `end`
 /// only.
-void run_to_goal(const AccuracyGoal& goal, Run& run, const Measurement<2>& measurement, double end,
-                 Progress& progress);
+template <int D>
+void run_to_goal(const AccuracyGoal& goal, Run<D>& run, const Measurement<D>& measurement,
+                 double end, Progress& progress);
 
 /// Prints the precision of the mean to stderr. If the goal is missed, also prints the necessary
 /// duration.

@@ -10,6 +10,7 @@
 #include "app/results/result_json.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 
@@ -25,6 +26,7 @@ struct Replica {
 };
 
 // Distributes the replicas over threads and collects their results.
+template <int D>
 class Replicas {
  public:
   Replicas(const Scene& scene, const Ensemble& ensemble, Progress& progress)
@@ -85,7 +87,7 @@ class Replicas {
   void measure(std::size_t index) {
     constexpr std::uint64_t kSlice = 1 << 16;  // steps between tests for an interrupt
     const std::uint64_t seed = ensemble_.first_seed + index;
-    const auto simulation = simulation_of<2>(scene_, seed);
+    const auto simulation = simulation_of<D>(scene_, seed);
     Measurement measurement(*simulation, scene_.measure, ensemble_.end);
     while (!simulation->run_until(ensemble_.end, kNoLimit, simulation->counts().steps() + kSlice)) {
       if (interrupted() || !tell(index, simulation->time())) return;
@@ -122,8 +124,9 @@ class Replicas {
 
 }  // namespace
 
-Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
-  Replicas replicas(scene, ensemble, progress);
+template <int D>
+static Json measure_replicas(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
+  Replicas<D> replicas(scene, ensemble, progress);
   replicas.run();
   Json json{{"schema", 1}, {"seeds", Json::array()}, {"results", Json::array()}};
   std::vector<const Replica*> done;
@@ -141,6 +144,12 @@ Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& pr
         {"mean", over_replicas.mean}, {"standard_error", over_replicas.standard_error}};
   }
   return json;
+}
+
+Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
+  return with_dimension(scene.dimension(), [&](auto dimension) {
+    return measure_replicas<dimension>(scene, ensemble, progress);
+  });
 }
 
 }  // namespace clatter

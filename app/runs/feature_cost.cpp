@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dimension.h"
 #include "engine/dynamics/memory.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
@@ -39,7 +40,10 @@ FeatureCost fields_of(const Scene& scene) {
     price = averages ? price + kBalanceCost - 1.0 : kBalanceCost;
   }
   return {"fields", names_of(measure.fields, scene.dimension()),
-          cells_memory<2>(measure, scene.spins()), price};
+          with_dimension(
+              scene.dimension(),
+              [&](auto dimension) { return cells_memory<dimension>(measure, scene.spins()); }),
+          price};
 }
 
 // A kick of one disk costs about half a collision of two disks. Valid at the temperature of the

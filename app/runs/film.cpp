@@ -47,7 +47,8 @@ std::optional<FilmState> film_of(const Resumed& resumed) {
   return state;
 }
 
-Film::Film(Run& run, const Scene& scene, const View& view, FilmState state, const Gl& gl)
+template <int D>
+Film<D>::Film(Run<D>& run, const Scene& scene, const View& view, FilmState state, const Gl& gl)
     : run_(run),
       scene_(scene),
       view_(view),
@@ -61,14 +62,16 @@ Film::Film(Run& run, const Scene& scene, const View& view, FilmState state, cons
 }
 
 // A single picture needs no film state; it is drawn again.
-std::string Film::state_now() const {
+template <int D>
+std::string Film<D>::state_now() const {
   if (state_.times.count == 1) return "";
   FilmState state = state_;
   state.shown = run_.scheduled().save_shown();
   return to_bytes(std::move(state));
 }
 
-long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
+template <int D>
+long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
   const long first = std::max(state_.next, frames.begin);
   state_.begin = frames.begin;
   for (; state_.next < frames.end; ++state_.next) {
@@ -100,7 +103,8 @@ long Film::draw(const FrameRange& frames, FrameSink& sink, Progress& progress) {
   return state_.next;
 }
 
-bool Film::choose_ranges(Progress& progress) {
+template <int D>
+bool Film<D>::choose_ranges(Progress& progress) {
   if (state_.ranges || state_.times.count == 1) return true;
   const RangeEnds ends = look_ahead();
   // The look-ahead may have been interrupted.
@@ -111,10 +115,11 @@ bool Film::choose_ranges(Progress& progress) {
 }
 
 // The largest values at the ends of the parts of the window, and of its average.
-RangeEnds Film::look_ahead() const {
+template <int D>
+RangeEnds Film<D>::look_ahead() const {
   constexpr std::uint64_t kSteps = 50'000;  // between tests for an interrupt
-  const ScheduledRun<2>& run = run_.scheduled();
-  ScheduledRun<2> ahead(scene_, run.seed(), run.simulation().save());
+  const ScheduledRun<D>& run = run_.scheduled();
+  ScheduledRun<D> ahead(scene_, run.seed(), run.simulation().save());
   ahead.show(view_, run.save_shown(), state_.exposure());
   const double start = run.simulation().time();
   const double window = std::min(view_.window, state_.times.last() - start);
@@ -135,10 +140,14 @@ RangeEnds Film::look_ahead() const {
   return ends;
 }
 
-std::vector<PngText> Film::notes() const {
-  const Simulation<2>& simulation = run_.simulation();
+template <int D>
+std::vector<PngText> Film<D>::notes() const {
+  const Simulation<D>& simulation = run_.simulation();
   return {{"Simulation time", fmt::format("{:.17g}", simulation.time())},
           {"State hash", fmt::format("{:016x}", simulation.state_hash())}};
 }
+
+template class Film<2>;
+template class Film<3>;
 
 }  // namespace clatter

@@ -58,10 +58,11 @@ std::optional<FilmState> film_of(const Resumed& resumed);
 
 /// Films a run, frame by frame. Automatic colour ranges are chosen once, from the first averaging
 /// window of the whole film. The run computes this window in advance.
+template <int D>
 class Film {
  public:
   /// A film of a run at frame `state.next`. A film of one frame takes its ranges from this frame.
-  Film(Run& run, const Scene& scene, const View& view, FilmState state, const Gl& gl);
+  Film(Run<D>& run, const Scene& scene, const View& view, FilmState state, const Gl& gl);
 
   /// Draws the remaining frames of the range into a sink. Earlier frames are simulated, not drawn.
   /// Ends early if the run does. Returns the number of the next frame. Checkpoints continue from
@@ -74,7 +75,7 @@ class Film {
   RangeEnds look_ahead() const;
   std::vector<PngText> notes() const;
 
-  Run& run_;
+  Run<D>& run_;
   const Scene& scene_;
   View view_;
   OverlayText text_;
@@ -82,5 +83,8 @@ class Film {
   Canvas canvas_;
   Renderer renderer_;
 };
+
+extern template class Film<2>;
+extern template class Film<3>;
 
 }  // namespace clatter

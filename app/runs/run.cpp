@@ -19,12 +19,13 @@ namespace clatter {
 // booked at its end, with the gravity of that time. They cannot under another wall motion, which
 // restarts flights. They cannot if spins appear, disappear or change their inertia: the fields need
 // other sums, and the energy of cells changes.
-static bool averages_go_on(const RunState<2>& saved, bool same_inertia, const Model<2>& model,
+template <int D>
+static bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>& model,
                            const Measure& measure) {
   const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
   const bool same_sums = measure.fields.empty() || same_spins;
   return same_sums && saved.gravity == model.gravity &&
-         saved.wall_motions == wall_motions<2>(model);
+         saved.wall_motions == wall_motions<D>(model);
 }
 
 // Path of an automatic checkpoint: beside the output if this is a file or folder. Otherwise the
@@ -48,9 +49,10 @@ static void require_checkpoint_place(const CheckpointOptions& options) {
   }
 }
 
-Run::Run(const std::string& command, const Scene& scene, const CommonOptions& options,
-         const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
-         const std::string& out)
+template <int D>
+Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions& options,
+            const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
+            const std::string& out)
     : command_(command),
       scene_(scene),
       quiet_(options.quiet),
@@ -64,7 +66,7 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
     run_.emplace(scene, seed_);
     return;
   }
-  auto& saved = std::get<RunState<2>>(resumed_->checkpoint.saved);
+  auto& saved = std::get<RunState<D>>(resumed_->checkpoint.saved);
   run_.emplace(scene, seed_, saved);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
@@ -77,9 +79,10 @@ Run::Run(const std::string& command, const Scene& scene, const CommonOptions& op
   }
 }
 
-Measurement<2>& Run::measure(double end) {
+template <int D>
+Measurement<D>& Run<D>::measure(double end) {
   measure_end_ = end;
-  run_->on_change = [this](Simulation<2>& next) { measure_on(next); };
+  run_->on_change = [this](Simulation<D>& next) { measure_on(next); };
   if (!averages_go_on_) {
     measurement_.emplace(simulation(), scene_.measure, end);
     if (resumed_) tell_new_averages();
@@ -92,7 +95,8 @@ Measurement<2>& Run::measure(double end) {
   return *measurement_;
 }
 
-void Run::measure_on(Simulation<2>& next) {
+template <int D>
+void Run<D>::measure_on(Simulation<D>& next) {
   const bool same_inertia = simulation().model().inertia == next.model().inertia;
   if (averages_go_on(simulation().save(), same_inertia, next.model(), scene_.measure)) {
     const std::string saved = measurement_->save();
@@ -103,13 +107,15 @@ void Run::measure_on(Simulation<2>& next) {
   }
 }
 
-void Run::tell_new_averages() const {
+template <int D>
+void Run<D>::tell_new_averages() const {
   if (quiet_) return;
   std::fprintf(stderr, "clatter: averages restart at t = %g\n",
                std::max(run_->simulation().time(), scene_.measure.burn_in));
 }
 
-bool Run::until(double time, Progress& progress) {
+template <int D>
+bool Run<D>::until(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
   std::uint64_t slice = 1024;  // steps; adapted while running
   ended_early_ = true;
@@ -131,7 +137,8 @@ bool Run::until(double time, Progress& progress) {
   return true;
 }
 
-Checkpoint Run::checkpoint() {
+template <int D>
+Checkpoint Run<D>::checkpoint() {
   return {.program = "clatter " CLATTER_VERSION,
           .command = command_,
           .scene = scene_to_toml(scene_),
@@ -142,12 +149,14 @@ Checkpoint Run::checkpoint() {
           .film = film_state ? film_state() : ""};
 }
 
-void Run::mark() {
+template <int D>
+void Run<D>::mark() {
   marked_ = checkpoint();
 }
 
 // A failed checkpoint does not end a run. The next may succeed.
-void Run::write() {
+template <int D>
+void Run<D>::write() {
   try {
     if (marked_) {
       write_checkpoint(file_, *marked_);
@@ -162,12 +171,14 @@ void Run::write() {
   last_written_ = Clock::now();
 }
 
-std::string Run::rescue() {
+template <int D>
+std::string Run<D>::rescue() {
   write();
   return failure_.empty() ? "; continue with --resume " + file_.string() : "";
 }
 
-void Run::put_aside() {
+template <int D>
+void Run<D>::put_aside() {
   if (!ended_early_ && options_.file.empty()) return;
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
@@ -179,13 +190,14 @@ void Run::put_aside() {
 void require_no_overlap(const RunChecks& checks) {
   constexpr double kRounding = 1e-9;  // diameters
   if (checks.deepest_overlap <= kRounding) return;
-  throw PhysicalStop(
-      fmt::format("disks overlapped by {:.3g} diameters, so events were lost; please report the "
-                  "scene and the seed",
-                  checks.deepest_overlap));
+  throw PhysicalStop(fmt::format(
+      "particles overlapped by {:.3g} diameters: events were lost; please report this scene "
+      "and seed",
+      checks.deepest_overlap));
 }
 
-int Run::end() {
+template <int D>
+int Run<D>::end() {
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
     throw PhysicalStop(stop_->what() + (failure_.empty()
@@ -197,5 +209,8 @@ int Run::end() {
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
   return ended_early_ ? kInterrupted : kOk;
 }
+
+template class Run<2>;
+template class Run<3>;
 
 }  // namespace clatter

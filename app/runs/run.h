@@ -22,6 +22,7 @@ void require_no_overlap(const RunChecks& checks);
 
 /// The run of a command, from its start or from a checkpoint. Writes the requested checkpoints, and
 /// one at an early end.
+template <int D>
 class Run {
  public:
   /// `out` is the output of the command; empty: stdout. Throws UserError if a requested checkpoint
@@ -30,15 +31,15 @@ class Run {
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
 
   /// The run, at its first simulation time.
-  ScheduledRun<2>& scheduled() { return *run_; }
+  ScheduledRun<D>& scheduled() { return *run_; }
   /// The simulation. Valid until the laws change.
-  Simulation<2>& simulation() { return run_->simulation(); }
+  Simulation<D>& simulation() { return run_->simulation(); }
   /// The seed of the flag, or of the checkpoint, or 1.
   std::uint64_t seed() const { return seed_; }
   /// The measurement of [measure], up to `end`. Continues the averages of the checkpoint.
   /// Checkpoints include it. Throws UserError if [measure] differs from the block of the
   /// checkpoint.
-  Measurement<2>& measure(double end);
+  Measurement<D>& measure(double end);
 
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
@@ -61,7 +62,7 @@ class Run {
 
   Checkpoint checkpoint();
   void write();
-  void measure_on(Simulation<2>& next);
+  void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
 
   std::string command_;
@@ -72,14 +73,17 @@ class Run {
   std::optional<Resumed> resumed_;
   bool averages_go_on_ = false;  // whether the averages of the checkpoint continue
   std::uint64_t seed_;
-  std::optional<ScheduledRun<2>> run_;
+  std::optional<ScheduledRun<D>> run_;
   double measure_end_ = 0.0;
-  std::optional<Measurement<2>> measurement_;
+  std::optional<Measurement<D>> measurement_;
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // failure of the last checkpoint
   bool ended_early_ = false;
   std::optional<PhysicalStop> stop_;
 };
+
+extern template class Run<2>;
+extern template class Run<3>;
 
 }  // namespace clatter
