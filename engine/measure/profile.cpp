@@ -46,7 +46,7 @@ class Column {
         parts[w] += scale * (row(window)[k] - average * weight(k, window));
       }
     }
-    return {mean, blocked_error(std::move(parts))};
+    return {mean, blocked_error(parts)};
   }
 
  private:

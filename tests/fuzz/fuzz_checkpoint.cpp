@@ -99,7 +99,7 @@ void resume(const std::string& bytes) {
   if (!checkpoint.measurement.empty()) {
     Measurement<2> measurement(run.simulation(), fuzzed_scene().measure,
                                ArchiveReader(checkpoint.measurement, "fuzz"));
-    run.run_until(kEnd, 200, 2000);
+    run.run_until(kEnd, 100, 1000);
     measurement.result();
   }
 }
