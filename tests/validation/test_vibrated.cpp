@@ -39,7 +39,7 @@ TEST_CASE("Vibrated gas: theory 7.11 holds for elastic particles between lossy w
 TEST_CASE(
     "Vibrated gas: theory 7.11 holds for inelastic particles between elastic walls, within 4 %") {
   const double expected = refined(0.9, 1.0);
-  const Measured result = run(vibrated_gas(0.9, 1.0), 300.0, 20000.0, 112);
+  const Measured result = run(vibrated_gas(0.9, 1.0), 300.0, 25000.0, 112);
   report(result, expected);
   CHECK(relative_error(result.temperature) < 0.004);
   CHECK(std::fabs(relative(result.temperature, expected)) < 0.04);
