@@ -32,10 +32,20 @@ struct Margins {
   double bottom = 0.0;
 };
 
+/// The third dimension of a camera: the view of a box of spheres. All angles are in degrees.
+struct Orbit {
+  double z = 0.0;           ///< third component of the camera's centre
+  double azimuth = 0.0;     ///< direction to the viewer, about the y axis; 0 is z, 90 is x
+  double elevation = 0.0;   ///< direction to the viewer, above the xz plane, -90..90
+  double view_angle = 0.0;  ///< horizontal angle of view, 0..120; 0: a parallel projection
+  Vec2 shift = {0.0, 0.0};  ///< of the centre from the middle of the picture, in its widths
+};
+
 /// The part of the world that a picture shows.
 struct Camera {
   Vec2 centre = {0.0, 0.0};  ///< world position of the middle of the picture
-  double width = 1.0;        ///< width of the picture in world units
+  double width = 1.0;        ///< width of the picture in world units, at the centre
+  Orbit orbit = {};          ///< of spheres
 
   /// The camera that fits the rectangle from `low` to `high` into a picture of `size` without its
   /// margins, centred and as large as possible.
@@ -45,8 +55,8 @@ struct Camera {
 /// Passes over all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Camera& camera) {
-  auto& [centre, width] = camera;
-  io(centre, width);
+  auto& [centre, width, orbit] = camera;
+  io(centre, width, orbit.z, orbit.azimuth, orbit.elevation, orbit.view_angle, orbit.shift);
 }
 
 /// Mapping from world coordinates to drawn pixels: x to the right, y up, origin at the lower left

@@ -13,7 +13,7 @@ static std::string typeset(std::string unit) {
   return unit;
 }
 
-Label label_of(ColourBy colour_by) {
+Label label_of(ColourBy colour_by, int dimension) {
   const std::string speed = unit_of(Quantity::Velocity, 2), spin = unit_of(Quantity::Spin, 2);
   switch (colour_by) {
     case ColourBy::None:
@@ -24,8 +24,13 @@ Label label_of(ColourBy colour_by) {
       return {"velocity v", "x", Sign::Either, speed};
     case ColourBy::VelocityY:
       return {"velocity v", "y", Sign::Either, speed};
+    case ColourBy::VelocityZ:
+      return {"velocity v", "z", Sign::Either, speed};
     case ColourBy::Spin:
+      if (dimension == 3) return {"spin |ω|", "", Sign::Positive, spin};
       return {"spin ω", "", Sign::Either, spin};
+    case ColourBy::Depth:
+      return {"depth", "", Sign::Either, "a"};
   }
   return {""};
 }

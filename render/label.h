@@ -16,8 +16,8 @@ struct Label {
   bool operator==(const Label&) const = default;
 };
 
-/// Label of the colour of the disks.
-Label label_of(ColourBy colour_by);
+/// Label of the colour of the particles in `dimension` dimensions.
+Label label_of(ColourBy colour_by, int dimension = 2);
 /// Label of a field in `dimension` dimensions. A field without a component gets the label of the
 /// whole quantity.
 Label label_of(Field field, int dimension);

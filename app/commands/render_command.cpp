@@ -255,7 +255,7 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
 }
 
 int render(const RenderOptions& options) {
-  Scene scene = load_disks(options.common, options.checkpoints.start_file());
+  Scene scene = load(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);

@@ -164,9 +164,11 @@ bool KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
   return true;
 }
 
-// Requires as many numbers as the default has: the dimension of the scene.
+// Requires as many numbers as the default has: the dimension of the scene. Without a default two or
+// three.
 bool KeyReader::read(const toml::node& node, Limits limits, VecX& value) {
-  const auto numbers = numbers_in(node, limits, value.size());
+  const bool in_space = node.is_array() && node.as_array()->size() == 3;
+  const auto numbers = numbers_in(node, limits, value.size() > 0 ? value.size() : in_space ? 3 : 2);
   if (!numbers) return false;
   value = *numbers;
   return true;

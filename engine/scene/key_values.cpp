@@ -51,6 +51,10 @@ std::string allowed_values(const Vec2&, Limits limits) {
 }
 
 std::string allowed_values(const VecX& numbers, Limits limits) {
+  if (numbers.size() == 0) {
+    return count_and_axes("numbers", limits, 2) + ", of spheres " +
+           count_and_axes("numbers", limits, 3);
+  }
   return count_and_axes("numbers", limits, static_cast<std::size_t>(numbers.size()));
 }
 

@@ -46,9 +46,6 @@ struct BulkDrive {
 /// Coarse-graining kernel of fields (theory 8): the cell of the particle, or a Gaussian.
 enum class Kernel { Box, Gaussian };
 
-/// An axis of the box.
-enum class Axis { X, Y, Z };
-
 /// Settings of `clatter measure`.
 struct Measure {
   double burn_in = 100.0;             ///< time before averages start, >= 0

@@ -61,7 +61,14 @@ static void check_room(const Scene& scene, const toml::table& root, const std::s
 }
 
 static void check_colour(const Scene& scene, const toml::table& root, const std::string& file) {
-  if (scene.view.colour_by != ColourBy::Spin || scene.spins()) return;
+  const ColourBy colour_by = scene.view.colour_by;
+  if ((colour_by == ColourBy::VelocityZ || colour_by == ColourBy::Depth) &&
+      scene.dimension() == 2) {
+    throw UserError(place_of(root, "view.colour_by", file),
+                    "disks have no velocity along z and no depth",
+                    "choose another quantity, or give box.size a third number");
+  }
+  if (colour_by != ColourBy::Spin || scene.spins()) return;
   throw UserError(place_of(root, "view.colour_by", file),
                   std::string("the colour \"spin\" ") + kNotWithoutSpins.reason,
                   "choose another, or make the particles or a wall rough");
@@ -97,9 +104,16 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
   }
 }
 
-/// Throws unless the camera's times increase.
+/// Throws unless the camera's times increase, and its positions have the dimension of the box.
 static void check_camera(const Scene& scene, const toml::table& root, const std::string& file) {
   const std::vector<CameraKey>& keys = scene.view.camera;
+  for (const CameraKey& key : keys) {
+    if (!key.centre || key.centre->size() == scene.dimension()) continue;
+    throw UserError(
+        place_of(root, "view.camera", file),
+        "the centre of the camera has " + std::to_string(key.centre->size()) + " numbers",
+        "give " + std::to_string(scene.dimension()) + ", as in box.size");
+  }
   for (std::size_t k = 1; k < keys.size(); ++k) {
     if (keys[k].time > keys[k - 1].time) continue;
     throw UserError(place_of(root, "view.camera", file),

@@ -72,6 +72,12 @@ inline constexpr double kMaxWindowSamples = 1e6;
 /// particle, and a thousand of the largest boxes.
 inline constexpr double kMinCameraWidth = 1e-3;
 inline constexpr double kMaxCameraWidth = 1e9;
+/// Limits of the angles of the camera, in degrees. Paths may turn several times.
+inline constexpr double kMaxAzimuth = 36000.0;
+inline constexpr double kMaxElevation = 90.0;
+inline constexpr double kMaxViewAngle = 120.0;
+inline constexpr Limits kAzimuths = between(-kMaxAzimuth, kMaxAzimuth);
+inline constexpr Limits kElevations = between(-kMaxElevation, kMaxElevation);
 /// A wall that adds energy (theory 4.1) has a restitution above 1.
 inline constexpr double kMaxWallRestitution = 10.0;
 
@@ -106,6 +112,9 @@ inline constexpr Presence kNotOfBox = {Presence::Forbidden,
                                        "has no meaning for the box kernel: cells have their size",
                                        "remove it, or set measure.kernel = \"gaussian\""};
 
+inline constexpr Presence kNotOfDisks = {Presence::Forbidden, "has no meaning for disks",
+                                         "remove it, or give box.size a third number"};
+
 inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
                                               "remove one of the two"};
 
@@ -136,11 +145,13 @@ inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
      {"sawtooth", WallKind::Sawtooth},
      {"sinusoidal", WallKind::Sinusoidal}}};
 
-inline constexpr std::array<Named<ColourBy>, 5> kColourings = {{{"none", ColourBy::None},
+inline constexpr std::array<Named<ColourBy>, 7> kColourings = {{{"none", ColourBy::None},
                                                                 {"speed", ColourBy::Speed},
                                                                 {"velocity_x", ColourBy::VelocityX},
                                                                 {"velocity_y", ColourBy::VelocityY},
-                                                                {"spin", ColourBy::Spin}}};
+                                                                {"velocity_z", ColourBy::VelocityZ},
+                                                                {"spin", ColourBy::Spin},
+                                                                {"depth", ColourBy::Depth}}};
 
 inline constexpr std::array<Named<Palette>, 3> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
@@ -344,16 +355,48 @@ inline constexpr auto kCameraKeys = key_table(
      {"follow", "1", "Number of the particle in the middle of the picture, from 0."},
      {"centre", "a",
       "Point in the middle of the picture. Without a value it is the centre of the box."},
-     {"width", "a", "Width of the picture. Without a value the whole box is visible."}});
+     {"width", "a", "Width of the picture. Without a value the whole box is visible."},
+     {"azimuth", "deg",
+      "Of spheres: as in [view], at this time. Without a value it is that angle."},
+     {"elevation", "deg",
+      "Of spheres: as in [view], at this time. Without a value it is that angle."}});
 
 /// The keys of one item of [[view.camera]].
 template <class Visitor>
-void visit_camera(Visitor& io, CameraKey& key) {
+void visit_camera(Visitor& io, CameraKey& key, int dimension) {
   io.value(kCameraKeys.at("time"), key.time, at_least(0.0));
   io.value(kCameraKeys.at("follow"), key.follow, at_least(0.0));
   io.value(kCameraKeys.at("centre"), key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
            key.follow ? kNotBesideFollow : kOptional);
   io.value(kCameraKeys.at("width"), key.width, between(kMinCameraWidth, kMaxCameraWidth));
+  const Presence of_spheres = dimension == 3 ? kOptional : kNotOfDisks;
+  io.value(kCameraKeys.at("azimuth"), key.azimuth, kAzimuths, of_spheres);
+  io.value(kCameraKeys.at("elevation"), key.elevation, kElevations, of_spheres);
+}
+
+inline constexpr auto kSlabKeys = key_table(
+    "view render", {{"axis", "", "Axis across which the planes are."},
+                    {"from", "a", "Position of the first plane."},
+                    {"to", "a", "Position of the second plane. It is larger than `from`."}});
+
+/// The keys of [view.slab].
+template <class Visitor>
+void visit_slab(Visitor& io, Slab& slab) {
+  io.choice(kSlabKeys.at("axis"), slab.axis, kAxes, kRequired);
+  io.value(kSlabKeys.at("from"), slab.from, between(-kMaxLength, kMaxLength), kRequired);
+  io.value(kSlabKeys.at("to"), slab.to,
+           Limits{.lowest = slab.from, .highest = kMaxLength, .above = true}, kRequired);
+}
+
+inline constexpr auto kSliceKeys =
+    key_table("view render", {{"axis", "", "Axis across which the slice is."},
+                              {"position", "a", "Position of the slice on this axis."}});
+
+/// The keys of one item of [[view.slices]].
+template <class Visitor>
+void visit_slice(Visitor& io, Slice& slice) {
+  io.choice(kSliceKeys.at("axis"), slice.axis, kAxes, kRequired);
+  io.value(kSliceKeys.at("position"), slice.position, between(0.0, kMaxLength), kRequired);
 }
 
 inline constexpr auto kViewKeys = key_table(
@@ -379,7 +422,12 @@ inline constexpr auto kViewKeys = key_table(
      {"overlay", "", "Title, time, colour bar and scale bar."},
      {"trails", "t", "Duration of the particles' trails. Without a value: none."},
      {"card", "s", "Time of title and caption at the start of a film. Without a value: none.",
-      "render"}});
+      "render"},
+     {"azimuth", "deg",
+      "Of spheres: direction of the viewer, as an angle about the y axis. 0 is along z, 90 along "
+      "x."},
+     {"elevation", "deg", "Of spheres: height of the viewer, as an angle above the xz plane."},
+     {"view_angle", "deg", "Of spheres: horizontal angle of view. 0 is a parallel projection."}});
 
 /// The keys of [view] in a box of this dimension. The list comes last, because a file has it below
 /// the other keys.
@@ -406,7 +454,16 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.value(kViewKeys.at("overlay"), view.overlay);
   io.value(kViewKeys.at("trails"), view.trails, times);
   io.value(kViewKeys.at("card"), view.card, times);
-  io.list("camera", view.camera, [](auto& io, CameraKey& key) { visit_camera(io, key); });
+  const Presence of_spheres = dimension == 3 ? kOptional : kNotOfDisks;
+  io.value(kViewKeys.at("azimuth"), view.azimuth, kAzimuths, of_spheres);
+  io.value(kViewKeys.at("elevation"), view.elevation, kElevations, of_spheres);
+  io.value(kViewKeys.at("view_angle"), view.view_angle, between(0.0, kMaxViewAngle), of_spheres);
+  if (dimension == 3) {
+    io.table("slab", view.slab, [](auto& io, Slab& slab) { visit_slab(io, slab); });
+    io.list("slices", view.slices, [](auto& io, Slice& slice) { visit_slice(io, slice); });
+  }
+  io.list("camera", view.camera,
+          [&](auto& io, CameraKey& key) { visit_camera(io, key, dimension); });
 }
 
 inline constexpr auto kChangeKeys = key_table(

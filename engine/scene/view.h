@@ -11,7 +11,10 @@
 namespace clatter {
 
 /// Quantity that a particle's colour shows.
-enum class ColourBy { None, Speed, VelocityX, VelocityY, Spin };
+enum class ColourBy { None, Speed, VelocityX, VelocityY, VelocityZ, Spin, Depth };
+
+/// An axis of the box.
+enum class Axis { X, Y, Z };
 
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno, Cividis };
@@ -46,10 +49,24 @@ struct ColourRange {
 
 /// A key of the camera's path. Between two keys the camera is interpolated.
 struct CameraKey {
-  double time = 0.0;            ///< simulation time, >= 0
-  std::optional<Vec2> centre;   ///< world point in the middle; absent: centre of the box
-  std::optional<int> follow;    ///< number of the particle in the middle, instead of a centre
-  std::optional<double> width;  ///< width in world units, > 0; absent: the whole box is visible
+  double time = 0.0;                ///< simulation time, >= 0
+  std::optional<VecX> centre;       ///< world point in the middle; absent: centre of the box
+  std::optional<int> follow;        ///< number of the particle in the middle, instead of a centre
+  std::optional<double> width;      ///< width in world units, > 0; absent: the whole box is visible
+  std::optional<double> azimuth;    ///< of spheres, degrees; absent: as View::azimuth
+  std::optional<double> elevation;  ///< of spheres, degrees; absent: as View::elevation
+};
+
+/// The part of the box between two planes across an axis.
+struct Slab {
+  Axis axis = Axis::Z;
+  double from = 0.0, to = 1.0;  ///< positions of the planes, from < to
+};
+
+/// A plane across an axis, on which the heatmap of spheres is drawn.
+struct Slice {
+  Axis axis = Axis::Z;
+  double position = 0.0;
 };
 
 /// Settings of pictures.
@@ -71,6 +88,12 @@ struct View {
   bool overlay = true;           ///< time, title, colour bar, scale bar
   std::optional<double> trails;  ///< duration of the particles' trails, > 0; absent: none
   std::optional<double> card;    ///< seconds of the title card at a film's start, > 0; absent: none
+  /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
+  /// about the y axis towards x, elevation raises the viewer towards y.
+  double azimuth = 30.0, elevation = 20.0;
+  double view_angle = 25.0;   ///< of spheres: horizontal angle of view, degrees; 0: orthographic
+  std::optional<Slab> slab;   ///< only spheres, or their parts, in it are drawn; absent: all
+  std::vector<Slice> slices;  ///< of the heatmap of spheres; empty: the middle plane across z
   std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
   /// Whether it shows time averages: a heatmap or arrows.

@@ -12,17 +12,17 @@ namespace clatter {
 // clang-format off
 #define CLATTER_GL_FUNCTIONS(X)                                                                   \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindTexture)                \
-  X(BindVertexArray) X(BlendEquation) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)                        \
+  X(BindVertexArray) X(BlendEquation) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)       \
   X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)              \
   X(CreateShader) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)         \
-  X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) X(DrawArraysInstanced)         \
-  X(DrawElementsBaseVertex) X(Enable) X(EnableVertexAttribArray) X(Finish)                        \
-  X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenTextures) X(GenVertexArrays)      \
-  X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog)            \
-  X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadPixels)   \
-  X(Scissor) X(ShaderSource) X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i)             \
-  X(Uniform2f) X(Uniform4f) X(UseProgram) X(VertexAttribDivisor) X(VertexAttribPointer)           \
-  X(Viewport)
+  X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays)      \
+  X(DrawArraysInstanced) X(DrawElementsBaseVertex) X(Enable) X(EnableVertexAttribArray)           \
+  X(Finish) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenTextures)               \
+  X(GenVertexArrays) X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv)             \
+  X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram)            \
+  X(PixelStorei) X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D) X(TexParameteri)          \
+  X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform3f) X(Uniform4f) X(UniformMatrix3fv)            \
+  X(UseProgram) X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
 // clang-format on
 
 /// The OpenGL functions of one context, named as in the specification without "gl".

@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-Canvas::Canvas(const Gl& gl, Size size, GLint format)
+Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
     : gl_(&gl),
       size_(size),
       colour_(generate<Texture>(gl, gl.GenTextures)),
@@ -25,6 +25,14 @@ Canvas::Canvas(const Gl& gl, Size size, GLint format)
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   bind();
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
+  if (depth == Depth::Buffer) {
+    depth_ = generate<Texture>(gl, gl.GenTextures);
+    gl.BindTexture(GL_TEXTURE_2D, depth_->id());
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size.width, size.height, 0,
+                  GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_->id(), 0);
+  }
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw RunError("this OpenGL cannot draw off screen");
   }

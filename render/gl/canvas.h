@@ -1,18 +1,25 @@
 #pragma once
 
+#include <optional>
+
 #include "render/gl/gl_object.h"
 #include "render/output/image.h"
 
 namespace clatter {
 
+/// Whether a canvas has a depth for each pixel.
+enum class Depth { None, Buffer };
+
 /// An off-screen render target: RGBA, by default with 8 bits per channel and sRGB colours.
 class Canvas {
  public:
   /// Creates a picture of `size` pixels. Throws RunError if OpenGL does not support the size.
-  Canvas(const Gl& gl, Size size, GLint format = GL_SRGB8_ALPHA8);
+  Canvas(const Gl& gl, Size size, GLint format = GL_SRGB8_ALPHA8, Depth depth = Depth::None);
 
   /// Size in pixels.
   Size size() const { return size_; }
+  /// Whether it has depths.
+  Depth depth() const { return depth_ ? Depth::Buffer : Depth::None; }
   /// Makes this canvas the target of later draw calls.
   void bind() const;
   /// Reads the current picture.
@@ -27,6 +34,7 @@ class Canvas {
   const Gl* gl_;
   Size size_;
   Texture colour_;
+  std::optional<Texture> depth_;
   Framebuffer framebuffer_;
 };
 

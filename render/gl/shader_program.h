@@ -10,9 +10,11 @@ namespace clatter {
 /// A compiled and linked pair of a vertex and a fragment shader of shaders/.
 class Program {
  public:
-  /// Compiles and links embedded files, by name, e.g. "field.vert". Throws RunError with messages
+  /// Compiles and links embedded files, by name, e.g. "field.vert". `defines` are the names of
+  /// macros for the fragment shader, separated by spaces. Throws RunError with messages
   /// "file:line: ...".
-  Program(const Gl& gl, std::string_view vertex_file, std::string_view fragment_file);
+  Program(const Gl& gl, std::string_view vertex_file, std::string_view fragment_file,
+          std::string_view defines = {});
 
   /// Makes this the program of later draw calls.
   void use() const { gl_->UseProgram(program_.id()); }

@@ -12,7 +12,7 @@ Light light_of(Colour colour) {
           of_65535(linear_light(colour.blue)), of_65535(colour.alpha / 255.0f)};
 }
 
-double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i) {
+double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i, const VecX& away) {
   const auto column = static_cast<Eigen::Index>(i);
   switch (colour_by) {
     case ColourBy::None:
@@ -23,14 +23,20 @@ double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i) {
       return snapshot.velocities(0, column);
     case ColourBy::VelocityY:
       return snapshot.velocities(1, column);
+    case ColourBy::VelocityZ:
+      return snapshot.velocities(2, column);
     case ColourBy::Spin:
-      return snapshot.spins.size() == 0 ? 0.0 : snapshot.spins(0, column);
+      if (snapshot.spins.size() == 0) return 0.0;
+      return snapshot.spins.rows() == 1 ? snapshot.spins(0, column)
+                                        : snapshot.spins.col(column).norm();
+    case ColourBy::Depth:
+      return away.dot(snapshot.positions.col(column) - 0.5 * snapshot.box);
   }
   return 0.0;
 }
 
 Colour DiskColours::of(const Snapshot& snapshot, std::size_t i) const {
-  return colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i));
+  return colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i, away));
 }
 
 }  // namespace clatter

@@ -15,8 +15,11 @@ using Light = std::array<std::uint16_t, 4>;
 /// The linear light of an sRGB colour.
 Light light_of(Colour colour);
 
-/// The value that determines the colour of disk `i`; 0 for ColourBy::None and without spins.
-double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i);
+/// The value that determines the colour of particle `i`; 0 for ColourBy::None and without spins.
+/// The depth of spheres is their distance from the middle of the box along the direction `away`
+/// from the viewer.
+double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i,
+                  const VecX& away = {});
 
 /// The colours of the disks.
 struct DiskColours {
@@ -24,6 +27,7 @@ struct DiskColours {
   ColourScale scale;  ///< colours of the values
   Colour plain;       ///< colour for ColourBy::None
   Blending blending = Blending::Light;
+  VecX away = {};  ///< of spheres: unit vector away from the viewer
 
   /// The colour of disk `i`.
   Colour of(const Snapshot& snapshot, std::size_t i) const;

@@ -66,7 +66,9 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
 // The arrangement that shows the box larger.
 Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& theme, Size size,
              const Legends& legends, const OverlayText& text) {
-  const Faces faces = outermost_faces(snapshot);
+  // A box of spheres may be turned: a square stands for it.
+  const Faces faces =
+      snapshot.box.size() == 2 ? outermost_faces(snapshot) : Faces{Vec2(0.0, 0.0), Vec2(1.0, 1.0)};
   auto shown_width = [&](const Page& page) {
     return Camera::fit(faces.low, faces.high, size, page.margins).width;
   };
@@ -160,13 +162,24 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   }
 }
 
+// The area of the box on the picture, in pixels from the lower left corner. A box of spheres, which
+// may be turned, has the area inside the margins.
+Faces box_area(const Snapshot& snapshot, const Projection& projection, const Page& page) {
+  if (snapshot.box.size() == 2) {
+    const Faces faces = outermost_faces(snapshot);
+    return {projection.pixels(faces.low), projection.pixels(faces.high)};
+  }
+  return {Vec2(page.margins.left, page.margins.bottom),
+          Vec2(page.size.width - page.margins.right, page.size.height - page.margins.top)};
+}
+
 // Legends in a column at the right of the box, or at the edge of the picture if the box ends
 // beyond.
-void draw_legends(ImDrawList& list, const Legends& legends, const Faces& faces,
+void draw_legends(ImDrawList& list, const Legends& legends, const Faces& area,
                   const Projection& projection, const Page& page) {
   const float unit = page.fonts.unit();
   const double height = projection.size.height;
-  const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
+  const auto [low, high] = area;
   const double top = std::max(page.margins.top, height - high.y());
   const double bottom = std::min(height - page.margins.bottom, height - low.y());
   const double right = std::min(high.x(), projection.size.width - page.margins.right);
@@ -281,7 +294,7 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   draw_heading(list, text, page);
-  draw_legends(list, legends, outermost_faces(snapshot), projection, page);
+  draw_legends(list, legends, box_area(snapshot, projection, page), projection, page);
   switch (page.arrangement) {
     case Arrangement::Rows:
       draw_row(list, snapshot, projection, page);

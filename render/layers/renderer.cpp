@@ -17,8 +17,8 @@ Colour thin(Colour colour, std::uint8_t alpha) {
 }
 
 // The palette without its darkest eighth, in which slow disks would blend into the background.
-ColourMap disk_map(const View& view) {
-  if (label_of(view.colour_by).sign == Sign::Either) return diverging_map();
+ColourMap disk_map(const View& view, Sign sign) {
+  if (sign == Sign::Either) return diverging_map();
   return colour_map(view.palette).subspan(2);
 }
 
@@ -46,6 +46,7 @@ ColourScale scale_to(double extent, Sign sign, ColourMap map) {
 }
 
 double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
+  if (colour_by == ColourBy::Depth) return 0.5 * snapshot.box.norm();
   std::vector<double> values(snapshot.count());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = disk_value(snapshot, colour_by, i);
   return robust_extent(std::move(values));
@@ -114,8 +115,9 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
   const auto dimension = static_cast<int>(snapshot.box.size());
   Legends legends;
   if (view.colour_by != ColourBy::None) {
+    const Label label = label_of(view.colour_by, dimension);
     legends.disks = disk_range_.legend(
-        label_of(view.colour_by), view.range, disk_map(view),
+        label, view.range, disk_map(view, label.sign),
         [&] { return disk_extent(snapshot, view.colour_by); }, true);
   }
   if (shows_field(snapshot, view)) {
@@ -123,7 +125,7 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
     legends.field = field_range_.legend(
         label_of(map.field, dimension), view.field_range, field_map(map.field, view),
         [&] { return robust_extent(map.values); }, map.whole_window);
-    if (legends.disks) legends.field->scale.opacity = kBelowColouredDisks;
+    if (legends.disks && dimension == 2) legends.field->scale.opacity = kBelowColouredDisks;
   }
   if (view.arrows && snapshot.arrows) {
     const Label label = label_of(snapshot.arrows->quantity, dimension);
@@ -136,6 +138,7 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
 
 Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
                      const OverlayText& text) {
+  if (snapshot.box.size() == 3) return fit_spheres(snapshot, size, view, text);
   // Disks extend over a periodic border by half their diameter.
   Vec2 overhang(0.0, 0.0);
   for (int axis : {0, 1}) {
@@ -150,6 +153,48 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
   return Camera::fit(faces.low - overhang, faces.high + overhang, size, margins);
 }
 
+Camera Renderer::fit_spheres(const Snapshot& snapshot, Size size, const View& view,
+                             const OverlayText& text) {
+  Margins margins;
+  if (view.overlay) {
+    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
+  }
+  Vec3 low = Vec3::Zero(), high = snapshot.box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto &near = snapshot.walls[2 * axis], &far = snapshot.walls[2 * axis + 1];
+    low[axis] -= near ? near->outermost_travel() : 0.5 * snapshot.diameter;
+    high[axis] += far ? far->outermost_travel() : 0.5 * snapshot.diameter;
+  }
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) {
+    corners.emplace_back(k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(),
+                         k & 4 ? high.z() : low.z());
+  }
+  // As far away as the path of the camera needs: it turns about the box at one distance.
+  Orbit angles;
+  angles.azimuth = view.azimuth;
+  angles.elevation = view.elevation;
+  angles.view_angle = view.view_angle;
+  const Vec3 centre = 0.5 * (low + high);
+  Camera camera = fit_orbit(centre, corners, angles, size, margins);
+  for (std::size_t k = 0; k < view.camera.size(); ++k) {
+    constexpr int kParts = 16;  // of the turn to the next key
+    const auto angles_at = [&](const CameraKey& key) {
+      return Vec2(key.azimuth.value_or(view.azimuth), key.elevation.value_or(view.elevation));
+    };
+    const Vec2 from = angles_at(view.camera[k]);
+    const Vec2 to = angles_at(view.camera[std::min(k + 1, view.camera.size() - 1)]);
+    for (int part = 0; part < kParts; ++part) {
+      const Vec2 turned = from + (to - from) * part / kParts;
+      angles.azimuth = turned.x();
+      angles.elevation = turned.y();
+      camera.width =
+          std::max(camera.width, fit_orbit(centre, corners, angles, size, margins).width);
+    }
+  }
+  return camera;
+}
+
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
                     const OverlayText& text) {
   const Projection projection{camera, size};
@@ -160,7 +205,8 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   // Framebuffer 0, the window, may not be sRGB. Averaging writes sRGB values into any framebuffer.
   GLint target = 0;
   gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
-  if (samples_ == 1 && target != 0) {
+  const bool disks = snapshot.box.size() == 2;
+  if (samples_ == 1 && target != 0 && disks) {
     draw_world(snapshot, projection, view, legends, theme);
   } else {
     draw_averaged(snapshot, projection, view, legends, theme, static_cast<GLuint>(target));
@@ -170,12 +216,7 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
 
 void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                           const Legends& legends, const ThemeColours& theme) {
-  const Size drawn = projection.drawn();
-  gl_->Viewport(0, 0, drawn.width, drawn.height);
-  const Colour background = transparent_ ? Colour{0, 0, 0, 0} : theme.background;
-  gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
-                  background.alpha / 255.0f);
-  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  clear(projection, theme);
   if (legends.field) {
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
                 thin(theme.static_wall, kHatchOpacity));
@@ -192,16 +233,50 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   }
 }
 
+void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
+  const Size drawn = projection.drawn();
+  gl_->Viewport(0, 0, drawn.width, drawn.height);
+  const Colour background = transparent_ ? Colour{0, 0, 0, 0} : theme.background;
+  gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
+                  background.alpha / 255.0f);
+  gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projection,
+                            const View& view, const Legends& legends, const ThemeColours& theme) {
+  if (!space_) space_.emplace(*gl_);
+  const Eye eye(projection);
+  const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
+                            theme.disk, transparent_ ? Blending::Encoded : Blending::Light,
+                            -eye.axes().row(2).transpose()};
+  clear(projection, theme);
+  gl_->Enable(GL_DEPTH_TEST);
+  space_->box.draw_sides(snapshot, projection, eye, theme);
+  if (legends.field) {
+    space_->slices.draw(snapshot, view.slices, projection, eye, legends.field->scale,
+                        thin(theme.static_wall, kHatchOpacity));
+  }
+  space_->spheres.draw(snapshot, projection, eye, colours, view.slab);
+  space_->box.draw_edges(snapshot, projection, eye, theme);
+  gl_->Disable(GL_DEPTH_TEST);
+}
+
 void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,
                              const View& view, const Legends& legends, const ThemeColours& theme,
                              GLuint target) {
   const Projection finer{projection.camera, projection.size, samples_};
   const Size drawn = finer.drawn();
-  if (!fine_ || fine_->size().width != drawn.width || fine_->size().height != drawn.height) {
-    fine_.emplace(*gl_, drawn);
+  const bool disks = snapshot.box.size() == 2;
+  const Depth depth = disks ? Depth::None : Depth::Buffer;
+  if (!fine_ || !(fine_->size() == drawn) || fine_->depth() != depth) {
+    fine_.emplace(*gl_, drawn, GL_SRGB8_ALPHA8, depth);
   }
   fine_->bind();
-  draw_world(snapshot, finer, view, legends, theme);
+  if (disks) {
+    draw_world(snapshot, finer, view, legends, theme);
+  } else {
+    draw_spheres(snapshot, finer, view, legends, theme);
+  }
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
   average_.draw(*fine_, samples_, transparent_);
 }

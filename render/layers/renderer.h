@@ -9,9 +9,11 @@
 #include "render/layers/arrow_layer.h"
 #include "render/layers/average_layer.h"
 #include "render/layers/disk_layer.h"
+#include "render/layers/face_layer.h"
 #include "render/layers/field_layer.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
+#include "render/layers/sphere_layer.h"
 #include "render/layers/trail_layer.h"
 #include "render/layers/wall_layer.h"
 
@@ -69,6 +71,18 @@ class Renderer {
     Legend legend(const Label& shown, const ColourRange& range, ColourMap map,
                   const std::function<double()>& extent, bool lockable);
   };
+  /// The layers of spheres, which pictures of disks do not need.
+  struct SpaceLayers {
+    explicit SpaceLayers(const Gl& gl) : box(gl), slices(gl), spheres(gl) {}
+    BoxLayer box;
+    SliceLayer slices;
+    SphereLayer spheres;
+  };
+  Camera fit_spheres(const Snapshot& snapshot, Size size, const View& view,
+                     const OverlayText& text);
+  void draw_spheres(const Snapshot& snapshot, const Projection& projection, const View& view,
+                    const Legends& legends, const ThemeColours& theme);
+  void clear(const Projection& projection, const ThemeColours& theme);
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
@@ -86,6 +100,7 @@ class Renderer {
   TrailLayer trails_;
   DiskLayer disks_;
   ArrowLayer arrows_;
+  std::optional<SpaceLayers> space_;  ///< absent: no spheres drawn yet
   Overlay overlay_;
   Followed disk_range_;
   Followed field_range_;

@@ -30,20 +30,21 @@ Colour thermal_colour(double wall_temperature, double gas_temperature) {
 
 Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot, const ThemeColours& theme) {
   if (!wall) return {kDashes, theme.static_wall};
+  const Colour colour = wall_colour(*wall, snapshot.temperature, theme);
   switch (wall->kind) {
     case WallKind::Static:
-      return {kHatch, theme.static_wall};
+      return {kHatch, colour};
     case WallKind::Driven:
       // A wall moving at speed V adds 2 V to the normal velocity of a disk.
-      return {kTeeth, theme.driven_wall, 0.5 * wall->drive_speed * snapshot.time};
+      return {kTeeth, colour, 0.5 * wall->drive_speed * snapshot.time};
     case WallKind::Sawtooth:
-      return {kTeeth, theme.driven_wall};
+      return {kTeeth, colour};
     case WallKind::Sinusoidal:
-      return {kWaves, theme.driven_wall};
+      return {kWaves, colour};
     case WallKind::Thermal:
-      return {kGlow, thermal_colour(wall->temperature, snapshot.temperature)};
+      return {kGlow, colour};
   }
-  return {kHatch, theme.static_wall};
+  return {kHatch, colour};
 }
 
 // The four corners, as a triangle strip, of a band along the face of a wall. It reaches from
@@ -84,6 +85,12 @@ double line_width(const Projection& projection) {
 }
 
 }  // namespace
+
+Colour wall_colour(const Wall& wall, double gas_temperature, const ThemeColours& theme) {
+  if (wall.kind == WallKind::Static) return theme.static_wall;
+  if (wall.kind == WallKind::Thermal) return thermal_colour(wall.temperature, gas_temperature);
+  return theme.driven_wall;
+}
 
 double wall_thickness(Size size) {
   return std::max(6.0, std::round(0.025 * std::min(size.width, size.height)));

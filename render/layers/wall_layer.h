@@ -25,6 +25,9 @@ Faces faces_of(const Snapshot& snapshot);
 /// The faces at their outermost positions.
 Faces outermost_faces(const Snapshot& snapshot);
 
+/// Colour of a wall. That of a thermal wall follows from its temperature relative to the gas.
+Colour wall_colour(const Wall& wall, double gas_temperature, const ThemeColours& theme);
+
 /// Draws the sides of the box. The teeth of a driven wall move into the box at half its drive
 /// speed, the speed of the equivalent moving wall. A saw-tooth or sinusoidal wall moves over a line
 /// at the side of the box. A thermal wall glows, a static wall is hatched, a periodic border is

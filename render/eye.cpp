@@ -1,0 +1,58 @@
+#include "render/eye.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+
+static double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180.0);
+}
+
+static Eigen::Matrix3d axes_of(const Orbit& orbit) {
+  const double azimuth = radians(orbit.azimuth), elevation = radians(orbit.elevation);
+  const double sin_a = std::sin(azimuth), cos_a = std::cos(azimuth);
+  const double sin_e = std::sin(elevation), cos_e = std::cos(elevation);
+  Eigen::Matrix3d axes;
+  axes << cos_a, 0.0, -sin_a,                 // right
+      -sin_a * sin_e, cos_e, -cos_a * sin_e,  // up
+      sin_a * cos_e, sin_e, cos_a * cos_e;    // to the viewer
+  return axes;
+}
+
+// 1/d in picture widths: the viewer sees half the width under half the angle.
+static double widths_per_distance(const Orbit& orbit) {
+  return 2.0 * std::tan(0.5 * radians(orbit.view_angle));
+}
+
+Eye::Eye(const Projection& projection)
+    : centre_(projection.camera.centre.x(), projection.camera.centre.y(),
+              projection.camera.orbit.z),
+      axes_(axes_of(projection.camera.orbit)),
+      inverse_distance_(widths_per_distance(projection.camera.orbit) / projection.camera.width),
+      origin_(0.5 * Vec2(projection.drawn().width, projection.drawn().height) +
+              projection.camera.orbit.shift * projection.drawn().width),
+      scale_(projection.scale()) {}
+
+Camera fit_orbit(const Vec3& centre, std::span<const Vec3> points, Orbit angles, Size size,
+                 const Margins& margins) {
+  const Vec2 room(std::max(1.0, size.width - margins.left - margins.right),
+                  std::max(1.0, size.height - margins.top - margins.bottom));
+  const Eigen::Matrix3d axes = axes_of(angles);
+  const double tilt = widths_per_distance(angles);
+  // |x| s/w = |x| (W/width) / (1 - z tilt/width) is at most half the room.
+  double width = 0.0;
+  for (const Vec3& point : points) {
+    const Vec3 seen = axes * (point - centre);
+    for (const int axis : {0, 1}) {
+      width =
+          std::max(width, 2.0 * size.width * std::fabs(seen[axis]) / room[axis] + tilt * seen.z());
+    }
+  }
+  angles.z = centre.z();
+  angles.shift =
+      Vec2(0.5 * (margins.left - margins.right), 0.5 * (margins.bottom - margins.top)) / size.width;
+  return {centre.head<2>(), width, angles};
+}
+
+}  // namespace clatter

@@ -1,0 +1,234 @@
+#include "render/layers/sphere_layer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "render/neighbour_shade.h"
+#include "render/occlusion.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr double kFar = 1e9;       // beyond every box
+constexpr double kNearest = 0.02;  // least w of what is drawn: a fiftieth of the viewer's distance
+
+// An image of a sphere in view coordinates.
+struct Seen {
+  Vec3 centre;
+  std::uint32_t number;
+  double distance;  // increases with the distance from the viewer
+};
+
+// Calls `visit` with the position of each image of a sphere that reaches into the box.
+template <class Visit>
+void visit_images(const Snapshot& snapshot, const Vec3& position, Visit visit) {
+  const double radius = 0.5 * snapshot.diameter;
+  const auto shifted = [&](auto&& self, int axis, const Vec3& place) -> void {
+    if (axis == 3) return visit(place);
+    self(self, axis + 1, place);
+    if (snapshot.walls[2 * axis]) return;
+    const double length = snapshot.box[axis];
+    Vec3 image = place;
+    if (place[axis] < radius) {
+      image[axis] += length;
+    } else if (place[axis] > length - radius) {
+      image[axis] -= length;
+    } else {
+      return;
+    }
+    self(self, axis + 1, image);
+  };
+  shifted(shifted, 0, position);
+}
+
+bool in_sight(const Vec3& seen, double radius, const Projection& projection, const Eye& eye) {
+  if (eye.w({seen.x(), seen.y(), seen.z() + radius}) < kNearest) return false;
+  const Vec2 pixel = eye.pixels(seen);
+  const double reach = 2.0 * radius * eye.scale() / eye.w(seen) + 1.0;
+  const Size size = projection.drawn();
+  return (pixel.array() > -reach).all() && pixel.x() < size.width + reach &&
+         pixel.y() < size.height + reach;
+}
+
+// Equal spheres that do not overlap hide each other in the order of their distances.
+double distance_from(const Eye& eye, const Vec3& seen) {
+  if (eye.inverse_distance() == 0.0) return -seen.z();
+  return (seen - Vec3(0.0, 0.0, 1.0 / eye.inverse_distance())).squaredNorm();
+}
+
+std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+                          const std::optional<Slab>& slab) {
+  const double radius = 0.5 * snapshot.diameter;
+  const DrawnRegion region = drawn_region(snapshot, slab, false);
+  std::vector<Seen> all;
+  for (std::size_t i = 0; i < snapshot.count(); ++i) {
+    const Vec3 position = snapshot.positions.col(static_cast<Eigen::Index>(i));
+    visit_images(snapshot, position, [&](const Vec3& place) {
+      if ((place.array() + radius <= region.low.array()).any() ||
+          (place.array() - radius >= region.high.array()).any()) {
+        return;
+      }
+      const Vec3 centre = eye.seen(place);
+      if (!in_sight(centre, radius, projection, eye)) return;
+      all.push_back({centre, static_cast<std::uint32_t>(i), distance_from(eye, centre)});
+    });
+  }
+  std::ranges::sort(all, [](const Seen& a, const Seen& b) {
+    return a.distance != b.distance ? a.distance > b.distance : a.number < b.number;
+  });
+  return all;
+}
+
+std::array<float, 3> as_floats(const auto& vector) {
+  return {static_cast<float>(vector.x()), static_cast<float>(vector.y()),
+          static_cast<float>(vector.z())};
+}
+
+}  // namespace
+
+bool DrawnRegion::cuts(const Vec3& centre, double radius) const {
+  return (centre.array() - radius < low.array()).any() ||
+         (centre.array() + radius > high.array()).any();
+}
+
+DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& slab,
+                         bool periodic_faces) {
+  DrawnRegion region{Vec3::Constant(-kFar), Vec3::Constant(kFar)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic_faces || snapshot.walls[2 * axis]) continue;
+    region.low[axis] = 0.0;
+    region.high[axis] = snapshot.box[axis];
+  }
+  if (slab) {
+    const auto axis = static_cast<int>(slab->axis);
+    region.low[axis] = std::max(region.low[axis], slab->from);
+    region.high[axis] = std::min(region.high[axis], slab->to);
+  }
+  return region;
+}
+
+double depth_range(const Snapshot& snapshot, const Eye& eye) {
+  const double radius =
+      (snapshot.box.norm() + 2.0 * snapshot.diameter) + (eye.centre() - 0.5 * snapshot.box).norm();
+  const double front = eye.inverse_distance() > 0.0
+                           ? std::min(radius, (1.0 - kNearest) / eye.inverse_distance())
+                           : radius;
+  return std::max(radius, front / (1.0 - front * eye.inverse_distance()));
+}
+
+SphereLayer::SphereLayer(const Gl& gl)
+    : gl_(&gl),
+      plain_(gl, "sphere.vert", "sphere.frag"),
+      cut_(gl, "sphere.vert", "sphere.frag", "CUT"),
+      buffer_(generate<Buffer>(gl, gl.GenBuffers)),
+      vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
+  gl.BindVertexArray(vertices_.id());
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
+  const auto attribute = [&](GLuint index, GLint size, std::size_t offset, GLenum type = GL_FLOAT) {
+    gl.VertexAttribPointer(index, size, type, type != GL_FLOAT, sizeof(Sphere),
+                           reinterpret_cast<const void*>(offset));
+    gl.EnableVertexAttribArray(index);
+    gl.VertexAttribDivisor(index, 1);
+  };
+  attribute(0, 3, offsetof(Sphere, centre));
+  attribute(1, 4, offsetof(Sphere, light), GL_UNSIGNED_SHORT);
+  attribute(2, 4, offsetof(Sphere, crowding));
+  attribute(3, 3, offsetof(Sphere, squares));
+  attribute(4, 3, offsetof(Sphere, products));
+  attribute(5, 4, offsetof(Sphere, turn));
+}
+
+// The spheres that nearer ones do not hide, from back to front, by their index in `all`.
+static std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, const Snapshot& snapshot,
+                                             const Projection& projection, const Eye& eye,
+                                             const DrawnRegion& region) {
+  // On the picture a sphere is an ellipse, which contains most of the circle of its radius.
+  constexpr double kInside = 0.93;
+  const double radius = 0.5 * snapshot.diameter;
+  Occlusion occlusion(projection.drawn(), radius * eye.scale());
+  std::vector<std::uint32_t> shown;
+  for (std::size_t k = all.size(); k-- > 0;) {
+    const Seen& seen = all[k];
+    const Vec2 centre = eye.pixels(seen.centre);
+    const double pixels = radius * eye.scale() / eye.w(seen.centre);
+    if (occlusion.hides(centre, pixels / kInside + 1.0)) continue;
+    shown.push_back(static_cast<std::uint32_t>(k));
+    if (!region.cuts(eye.world(seen.centre), radius)) {
+      occlusion.cover(centre, kInside * pixels - 1.0);
+    }
+  }
+  std::ranges::reverse(shown);
+  return shown;
+}
+
+void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+                          const DiskColours& colours, const std::optional<Slab>& slab) {
+  const std::vector<Seen> all = visible(snapshot, projection, eye, slab);
+  const std::vector<std::uint32_t> shown =
+      not_hidden(all, snapshot, projection, eye, drawn_region(snapshot, slab, true));
+  std::vector<Vec3> centres;
+  for (const Seen& seen : all) centres.push_back(seen.centre);
+  const std::vector<NeighbourShade> shades = neighbour_shades(centres, shown, snapshot.diameter);
+  spheres_.clear();
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const NeighbourShade& shade = shades[k];
+    const Seen& seen = all[shown[k]];
+    const auto [x, y, z] = as_floats(shade.direction);
+    spheres_.push_back({as_floats(seen.centre),
+                        light_of(colours.of(snapshot, seen.number)),
+                        {x, y, z, shade.weight},
+                        as_floats(shade.squares),
+                        as_floats(shade.products),
+                        {0.0f, 0.0f, 0.0f, 1.0f}});
+  }
+}
+
+void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
+                               const Projection& projection, const Eye& eye,
+                               const DiskColours& colours, const std::optional<Slab>& slab) const {
+  const auto set = [&](const char* name, const Vec3& vector) {
+    const auto [x, y, z] = as_floats(vector);
+    gl_->Uniform3f(program.uniform(name), x, y, z);
+  };
+  const DrawnRegion region = drawn_region(snapshot, slab, true);
+  const DrawnRegion ghosts = drawn_region(snapshot, slab, false);
+  const Size drawn = projection.drawn();
+  const Eigen::Matrix3f axes = eye.axes().cast<float>();
+  program.use();
+  gl_->Uniform2f(program.uniform("u_size"), drawn.width, drawn.height);
+  gl_->Uniform2f(program.uniform("u_origin"), eye.origin().x(), eye.origin().y());
+  gl_->Uniform1f(program.uniform("u_scale"), eye.scale());
+  gl_->Uniform1f(program.uniform("u_inverse_distance"), eye.inverse_distance());
+  gl_->Uniform1f(program.uniform("u_depth_range"), depth_range(snapshot, eye));
+  gl_->Uniform1f(program.uniform("u_radius"), 0.5 * snapshot.diameter);
+  gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
+  // Transposed: from the view to the world.
+  gl_->UniformMatrix3fv(program.uniform("u_axes"), 1, GL_TRUE, axes.data());
+  set("u_centre", eye.centre());
+  set("u_low", region.low);
+  set("u_high", region.high);
+  set("u_ghost_low", ghosts.low);
+  set("u_ghost_high", ghosts.high);
+  gl_->Uniform1i(program.uniform("u_encoded"), colours.blending == Blending::Encoded);
+}
+
+void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+                       const DiskColours& colours, const std::optional<Slab>& slab) {
+  collect(snapshot, projection, eye, colours, slab);
+  gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
+  gl_->BufferData(GL_ARRAY_BUFFER, spheres_.size() * sizeof(Sphere), spheres_.data(),
+                  GL_STREAM_DRAW);
+  const bool walled = std::ranges::all_of(std::array{kLeft, kBottom, kBack}, [&](Side side) {
+    return snapshot.walls[side].has_value();
+  });
+  set_uniforms(walled && !slab ? plain_ : cut_, snapshot, projection, eye, colours, slab);
+  if (colours.blending == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  gl_->BindVertexArray(vertices_.id());
+  gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(spheres_.size()));
+  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+}
+
+}  // namespace clatter

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "engine/publish/snapshot.h"
+#include "render/eye.h"
+#include "render/gl/shader_program.h"
+#include "render/layers/disk_colours.h"
+
+namespace clatter {
+
+/// The box of world positions in which spheres are drawn: between the faces of the walls and the
+/// planes of a slab.
+struct DrawnRegion {
+  Vec3 low, high;
+
+  /// Whether a sphere is not completely inside.
+  bool cuts(const Vec3& centre, double radius) const;
+};
+
+/// The region of a snapshot; unbounded at walls, because spheres do not cross them. Without
+/// `periodic_faces` also at periodic borders.
+DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& slab,
+                         bool periodic_faces);
+
+/// Draws spheres with soft light and exact depth, each as the pixels of its rectangle on the
+/// picture. They are drawn from back to front, so that their edges blend with what is behind them.
+class SphereLayer {
+ public:
+  explicit SphereLayer(const Gl& gl);
+
+  /// Draws the spheres of a snapshot, and their images at periodic borders.
+  void draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+            const DiskColours& colours, const std::optional<Slab>& slab);
+
+ private:
+  struct Sphere {
+    std::array<float, 3> centre;  // view coordinates
+    Light light;
+    std::array<float, 4> crowding;  // direction and weight of its NeighbourShade
+    std::array<float, 3> squares, products;
+    std::array<float, 4> turn;  // quaternion (x, y, z, w)
+  };
+
+  void collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+               const DiskColours& colours, const std::optional<Slab>& slab);
+  void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
+                    const Eye& eye, const DiskColours& colours,
+                    const std::optional<Slab>& slab) const;
+
+  const Gl* gl_;
+  Program plain_, cut_;  ///< without and with planes that cut spheres
+  Buffer buffer_;
+  VertexArray vertices_;
+  std::vector<Sphere> spheres_;  ///< from back to front; reused to avoid allocations
+};
+
+/// Largest |z/w| in the view of a snapshot: the scale of depths.
+double depth_range(const Snapshot& snapshot, const Eye& eye);
+
+}  // namespace clatter

@@ -1,0 +1,131 @@
+#version 330 core
+// A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
+// planes of periodic borders and of a slab cut it, and the cut is flat. With MARKED marks show its
+// rotation.
+
+flat in vec3 v_centre;    // view coordinates, see render/eye.h
+flat in vec4 v_colour;    // linear light
+flat in vec4 v_crowding;  // direction and weight of the neighbours
+flat in vec3 v_squares;   // xx, yy, zz of their second moments
+flat in vec3 v_products;  // xy, xz, yz of these
+flat in float v_uncut;    // 1: no plane cuts the sphere
+flat in vec4 v_turn;      // quaternion (x, y, z, w) of the rotation of the sphere
+
+uniform vec2 u_origin;             // pixel of the centre of the view
+uniform float u_scale;             // pixels per world unit, at the centre
+uniform float u_inverse_distance;  // of the viewer from the centre
+uniform float u_depth_range;       // largest |z/w|
+uniform float u_radius;            // world units
+uniform float u_samples;           // drawn pixels per finished pixel, along each axis
+uniform mat3 u_axes;               // from the view to the world
+uniform vec3 u_centre;             // world position of the centre of the view
+uniform vec3 u_low;                // corners of what is drawn, world units
+uniform vec3 u_high;
+uniform vec3 u_ghost_low;          // corners of what is drawn faintly, world units
+uniform vec3 u_ghost_high;
+uniform bool u_encoded;            // output sRGB values instead of linear light
+
+out vec4 o_colour;
+
+const float kGhost = 0.15;  // opacity of the parts beyond a periodic border
+const vec3 kKey = vec3(-0.40, 0.62, 0.675);  // direction to the main light, in the view
+
+// Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
+float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
+
+vec3 srgb(vec3 c) {
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+
+// Share of the sky that neighbours leave open over a normal (see neighbour_shade.h).
+float openness(vec3 n) {
+  float across = dot(v_squares, n * n) +
+                 2.0 * dot(v_products, vec3(n.x * n.y, n.x * n.z, n.y * n.z));
+  float covered = 0.09375 * v_crowding.w + 0.5 * dot(v_crowding.xyz, n) + 0.46875 * across;
+  return clamp(1.0 - covered, 0.12, 1.0);
+}
+
+// Light on a surface with a normal in view coordinates, relative to its colour.
+float light(vec3 n) {
+  vec3 up = vec3(u_axes[0].y, u_axes[1].y, u_axes[2].y);
+  float open = openness(n);
+  float sky = mix(0.3, 0.6, 0.5 + 0.5 * dot(n, up));
+  return open * sky + 0.8 * max(dot(n, kKey), 0.0) * mix(0.6, 1.0, open);
+}
+
+#ifdef MARKED
+// The vector v, rotated back by the quaternion of the sphere.
+vec3 turned_back(vec3 v) {
+  return v + 2.0 * cross(-v_turn.xyz, cross(-v_turn.xyz, v) + v_turn.w * v);
+}
+
+// Darkness of the marks: an equator and a meridian that rotate with the sphere.
+float mark(vec3 n, float pixels) {
+  vec3 own = turned_back(u_axes * n);
+  float width = max(0.07, 0.6 * u_samples / pixels), soft = 1.0 / pixels;
+  float equator = clamp((width - abs(own.y)) / soft + 0.5, 0.0, 1.0);
+  float meridian = clamp((width - abs(own.x)) / soft + 0.5, 0.0, 1.0) * step(0.0, own.z);
+  return max(equator, meridian);
+}
+#endif
+
+#ifdef CUT
+// First and last t of the part of a ray between two corners.
+vec2 inside(vec3 origin, vec3 per_direction, vec3 low, vec3 high) {
+  vec3 a = (low - origin) * per_direction, b = (high - origin) * per_direction;
+  vec3 first = min(a, b), last = max(a, b);
+  return vec2(max(max(first.x, first.y), first.z), min(min(last.x, last.y), last.z));
+}
+#endif
+
+void main() {
+  // The ray through the pixel: from its point nearest to the centre of the sphere, along `along`.
+  vec2 place = (gl_FragCoord.xy - u_origin) / u_scale;
+  vec3 along = normalize(vec3(place * u_inverse_distance, -1.0));
+  vec3 away = vec3(place, 0.0) - v_centre;  // the ray meets the plane z = 0 at `place`
+  vec3 nearest = away - dot(away, along) * along;
+  float w = 1.0 - v_centre.z * u_inverse_distance;
+  float pixels = u_scale / w * u_radius;  // radius on the picture
+  float off = length(nearest);
+  float whole = coverage((u_radius - off) / u_radius * pixels);
+  if (whole == 0.0) discard;
+
+  // The chord inside the sphere, then inside the planes, in world coordinates.
+  float half_chord = sqrt(max(u_radius * u_radius - off * off, 0.0));
+  bool cut = false;
+  float t = -half_chord, alpha = whole;
+#ifdef CUT
+  if (v_uncut == 0.0) {
+    vec3 middle = u_axes * (v_centre + nearest) + u_centre;
+    vec3 per_direction = 1.0 / (u_axes * along);
+    vec2 drawn = inside(middle, per_direction, u_low, u_high);
+    cut = drawn.x > -half_chord;
+    t = max(-half_chord, drawn.x);
+    if (t > min(half_chord, drawn.y)) {
+      vec2 ghost = inside(middle, per_direction, u_ghost_low, u_ghost_high);
+      cut = ghost.x > -half_chord;
+      t = max(-half_chord, ghost.x);
+      if (t > min(half_chord, ghost.y)) discard;
+      alpha *= kGhost;
+    }
+  }
+#endif
+
+  vec3 point = v_centre + nearest + t * along;
+  vec3 normal = (nearest - half_chord * along) / u_radius;
+  float shade = light(normal);
+#ifdef MARKED
+  if (!cut) shade *= mix(1.0, 0.3, mark(normal, pixels));
+#endif
+#ifdef CUT
+  if (cut) {
+    shade = 0.8;  // a flat cut, with a darker rim
+    float rim = min(0.14 * pixels, 2.0 * u_samples);
+    shade *= mix(0.45, 1.0, coverage((u_radius - off) / u_radius * pixels - rim));
+  }
+#endif
+  vec3 colour = shade * v_colour.rgb;
+  o_colour = vec4(u_encoded ? srgb(colour) : colour, v_colour.a * alpha);
+  float depth = point.z / (1.0 - point.z * u_inverse_distance);
+  gl_FragDepth = 0.5 - 0.5 * depth / u_depth_range;
+}
