@@ -1,5 +1,8 @@
 #include "render/layers/renderer.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/label.h"
 #include "render/theme.h"
 
@@ -59,6 +62,11 @@ double arrow_extent(const ArrowMap& map) {
 
 bool shows_field(const Snapshot& snapshot, const View& view) {
   return view.field && snapshot.field;
+}
+
+// False before the first average: every cell would be hatched.
+bool has_values(const FieldMap& map) {
+  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
 }
 
 }  // namespace
@@ -176,7 +184,7 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   gl_->ClearColor(background.red / 255.0f, background.green / 255.0f, background.blue / 255.0f,
                   background.alpha / 255.0f);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
-  if (legends.field) {
+  if (legends.field && has_values(*snapshot.field)) {
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
                 thin(theme.static_wall, kHatchOpacity));
   }
