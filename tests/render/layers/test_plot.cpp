@@ -68,7 +68,8 @@ TEST_CASE("Plot: a plot has panels of the same axes, and none where there is not
 TEST_CASE("Plot: values along x stand apart over any number of decades") {
   const auto context = open_context(Backend::Osmesa);
   const auto place = [&](double x) {
-    const PlotPanel panel{"", {{x, 1.0, "", false}, {1e7, 1.0, "", true}, {1.0, 1.0, "", true}}};
+    const PlotPanel panel{"",
+                          {{x, 1.0, "", false}, {1e7, 100.0, "", true}, {1.0, 100.0, "", true}}};
     return mark_of(plotted(context->gl(), {panel})).place.x();
   };
   CHECK(place(10.0) > place(1.0) + 0.01);
