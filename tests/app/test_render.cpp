@@ -260,7 +260,7 @@ TEST_CASE("Render: on a full disk it fails with an error and keeps the usable fr
     for (const std::string kept : {"film.mp4.part", "frames"}) {
       if (!kept.starts_with(name)) continue;
       CHECK(says(outcome.out, "small/" + kept));
-      CHECK(says(outcome.err, "filmed before is in small/" + kept));
+      CHECK(says(outcome.err, "earlier pictures are in small/" + kept));
     }
   }
 }
