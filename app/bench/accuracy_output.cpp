@@ -237,8 +237,8 @@ void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>&
     PlotPanel panel{table.title, {}};
     for (const AccuracyRow& row : table.rows) {
       if (std::isnan(row.cpu_per_time)) continue;
-      panel.points.push_back(
-          {1e3 * row.cpu_per_time, 100.0 * row.comparison.error, row.setting, row.dominated});
+      panel.points.push_back({1e3 * row.cpu_per_time, 100.0 * row.comparison.error, row.setting,
+                              row.dominated, std::isnan(row.value)});
     }
     plot.panels.push_back(panel);
   }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -21,12 +23,15 @@ void print_parts(const Scene& scene) {
   double bytes = 0.0;
   for (const FeatureCost& part : parts) bytes += part.bytes;
   std::fprintf(stderr,
-               "Memory: about %.3g MB. Features, with bytes per particle and relative CPU time:\n",
+               "Memory: about %.3g MB. Features and their cost; a dash: not in this scene.\n"
+               "  feature       bytes per particle  CPU time  in this scene\n",
                1e-6 * bytes);
   for (const FeatureCost& part : parts) {
     const double share = part.bytes / std::max(1, scene.particles.count);
-    std::fprintf(stderr, "  %-12s %6.0f %5s  %s\n", part.name, share, cost_text(part.price).c_str(),
-                 part.extent.c_str());
+    const bool off = part.extent == "no";
+    std::fprintf(stderr, "  %-12s  %18s  %8s  %s\n", part.name,
+                 off ? "-" : fmt::format("{:.0f}", share).c_str(),
+                 off ? "-" : cost_text(part.price).c_str(), part.extent.c_str());
   }
 }
 

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include "app/commands/flags.h"
 #include "app/results/csv_tables.h"
 #include "app/results/hdf5_file.h"
+#include "app/results/json_text.h"
 #include "app/results/result_json.h"
 #include "app/results/vtk_files.h"
 #include "app/runs/accuracy_goal.h"
@@ -100,11 +102,26 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
     throw UserError({"--vtk", 0, 0}, "the scene measures no fields",
                     "add --set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
   }
+  if (!(options.csv.empty() && options.hdf5.empty()) && spec.fields.empty() &&
+      !options.common.quiet) {
+    std::fputs("note: measure.fields is empty: no profile and no maps\n", stderr);
+  }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
   if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
   if (!options.csv.empty()) make_folder(options.csv, "--csv");
   if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
+}
+
+// The main result, for a run whose results go to a file.
+void tell_temperature(const Measured& measured) {
+  if (!(measured.duration > 0.0)) return;
+  const double mean = measured.temperature.mean, error = measured.temperature.standard_error;
+  // As many digits as the error has, with two of its own.
+  const double digits =
+      error > 0.0 ? std::floor(std::log10(mean)) - std::floor(std::log10(error)) : 4.0;
+  std::fprintf(stderr, "note: temperature = %.*g +- %.2g, averaged over %g time units\n",
+               static_cast<int>(std::clamp(digits, 0.0, 13.0)) + 2, mean, error, measured.duration);
 }
 
 template <int D>
@@ -121,7 +138,7 @@ nlohmann::ordered_json json_of(const MeasureOptions& options, const Scene& scene
 }
 
 void write_json(const std::string& out, const nlohmann::ordered_json& result) {
-  const std::string text = result.dump(1) + "\n";
+  const std::string text = json_text(result) + "\n";
   if (out.empty()) {
     print(text);
   } else {
@@ -222,7 +239,11 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   write_results(options, json_of(options, scene, run, measured, performance), measured);
   if (!options.common.quiet) {
     advise_on_contact_time(scene, measured);
-    if (options.accuracy.asked_for()) tell_accuracy(options.accuracy, measured);
+    if (options.accuracy.asked_for()) {
+      tell_accuracy(options.accuracy, measured);
+    } else if (!options.out.empty()) {
+      tell_temperature(measured);
+    }
     warn_of_drift(options.accuracy, measured);
   }
   if (!options.save_state.empty()) {

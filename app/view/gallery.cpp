@@ -18,7 +18,6 @@ Gallery::Gallery(const Gl& gl) : thumbnails_(gl, [] { glfwPostEmptyEvent(); }) {
     entries_.push_back({&file, std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,
                         scene.caption, scene.goal, scene.try_this});
   }
-  std::ranges::sort(entries_, {}, &Entry::title);
 }
 
 static std::string lower(std::string text) {
@@ -56,6 +55,8 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
   ImGui::SetCursorPos(ImVec2(left, at.y + edge));
   ImGui::BeginGroup();
   ImGui::TextUnformatted(entry.title.c_str());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", entry.name.c_str());
   ImGui::PushTextWrapPos(0.0f);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   for (const std::string* text : {&entry.caption, &entry.goal, &try_this}) {
@@ -79,14 +80,14 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height)
   ImGui::Begin("Gallery", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  if (ImGui::IsWindowAppearing()) {
-    search_ = {};
-    ImGui::SetKeyboardFocusHere();
-  }
+  if (ImGui::IsWindowAppearing()) search_ = {};
+  // Not before this key, so that G closes the gallery.
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!io.WantTextInput && io.InputQueueCharacters.contains('/')) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool entered =
-      ImGui::InputTextWithHint("##search", "Search the gallery", search_.data(), search_.size(),
-                               ImGuiInputTextFlags_EnterReturnsTrue);
+      ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
+                               search_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::Spacing();
   ImGui::BeginChild("scenes");
   const std::string wanted = lower(search_.data());

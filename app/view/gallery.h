@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-/// The gallery: a list of the built-in scenes.
+/// The gallery: a list of the built-in scenes, in the order of `clatter scenes`.
 class Gallery {
  public:
   explicit Gallery(const Gl& gl);

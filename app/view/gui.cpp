@@ -93,14 +93,26 @@ void Gui::draw() {
 void Gui::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
-  if (panels_.panels && !panels_.lecture) side_panels();
+  const float unit = ImGui::GetFontSize();
+  const float width = std::round(
+      std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
+  if (panels_.panels) {
+    area_.low.y = top_panel();
+    left_panel(area_.low.y, width);
+    area_.low.x = width;
+  }
+  if (panels_.plots && session_.frame().scene) {
+    plots_drawer(area_.low.y, width);
+    area_.high.x -= width;
+  }
   // The gallery shows these texts itself.
   if (panels_.lesson && !panels_.gallery) {
     area_.high.y -= lesson_strip(session_.scene(), area_, controls_, panels_.lesson);
   }
 }
 
-void Gui::side_panels() {
+// The panel along the upper edge. Returns its height.
+float Gui::top_panel() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float unit = ImGui::GetFontSize();
   const float top = std::round(ImGui::GetFrameHeight() + 0.9f * unit);
@@ -112,15 +124,7 @@ void Gui::side_panels() {
   top_bar(session_, controls_, panels_);
   ImGui::End();
   ImGui::PopStyleVar();
-
-  const float width = std::round(
-      std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
-  left_panel(top, width);
-  area_ = {ImVec2(width, top), whole};
-  if (panels_.plots && session_.frame().scene) {
-    plots_drawer(top, width);
-    area_.high.x -= width;
-  }
+  return top;
 }
 
 void Gui::left_panel(float top, float width) {
@@ -175,8 +179,9 @@ void Gui::plots_drawer(float top, float width) {
 void Gui::viewport() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const Frame& frame = session_.frame();
-  if (panels_.gallery != told_gallery_ && panels_.gallery) log_.event("gallery", {{"open", true}});
-  told_gallery_ = panels_.gallery;
+  if (std::exchange(told_gallery_, panels_.gallery) != panels_.gallery) {
+    log_.event("gallery", {{"open", panels_.gallery}});
+  }
   if (panels_.gallery) {
     const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y);
     if (chosen) open_gallery_scene(*chosen);
@@ -223,8 +228,9 @@ void Gui::use_viewport() {
 }
 
 void Gui::lecture(bool on) {
-  if (on) panels_.lesson = false;
+  if (on) panels_.lesson = panels_.plots = false;
   panels_.lecture = on;
+  panels_.panels = !on;
   viewport_.redraw();
 }
 

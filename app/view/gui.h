@@ -43,7 +43,7 @@ class Gui {
   void lecture(bool on);
   View shown_view() const;
   void panels();
-  void side_panels();
+  float top_panel();
   void left_panel(float top, float width);
   void plots_drawer(float top, float width);
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
@@ -77,7 +77,7 @@ class Gui {
   PanelVisibility panels_;
   std::string title_;                 // title of the window; empty: name of the program
   std::uint64_t drawn_views_ = 0;     // Session::views() at the last picture
-  bool told_gallery_ = false;         // the script log has the opening of the gallery
+  bool told_gallery_ = false;         // the script log has the gallery as open
   float text_size_ = 0.0f;            // size of the loaded fonts, pixels; 0: none
   float scale_ = 1.0f;                // pixels per window unit
   Area area_;                         // area of the viewport

@@ -25,8 +25,7 @@ void Gui::use_function_key(const KeyPress& press) {
     case GLFW_KEY_ESCAPE:
       return close_something();
     case GLFW_KEY_F1:
-      panels_.help = !panels_.help;
-      return;
+      return panels_.toggle_help();
     case GLFW_KEY_F2:
       return screenshot();
     case GLFW_KEY_F11:
@@ -38,10 +37,11 @@ void Gui::use_function_key(const KeyPress& press) {
 
 void Gui::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
+  // Who types a name into the gallery before the search is active must not restart the gas.
+  if (panels_.gallery && press.letter() != 'g' && press.letter() != 'h') return;
   switch (press.key) {
     case GLFW_KEY_TAB:
-      panels_.panels = !panels_.panels;
-      return;
+      return panels_.toggle_panels();
     case GLFW_KEY_SPACE:
       return session_.play(!session_.frame().plays);
     case GLFW_KEY_PERIOD:
@@ -53,11 +53,9 @@ void Gui::use_key(const KeyPress& press) {
     case 'f':
       return viewport_.fit();
     case 'g':
-      panels_.gallery = !panels_.gallery;
-      return;
+      return panels_.toggle_gallery();
     case 'h':
-      panels_.help = !panels_.help;
-      return;
+      return panels_.toggle_help();
     case 'l':
       return lecture(!panels_.lecture);
     case 'm':

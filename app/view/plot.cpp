@@ -158,6 +158,9 @@ void legend(const LivePlot& plot) {
     ImGui::Dummy(ImVec2(0.75f * unit, unit));
     ImGui::SameLine(0.0f, 0.25f * unit);
     ImGui::TextDisabled("%s", curve.name.c_str());
+    if (!curve.help.empty() && ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", curve.help.c_str());
+    }
   }
 }
 

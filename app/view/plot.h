@@ -17,6 +17,7 @@ struct Curve {
   bool dashed = false;              ///< dashed line, for theory
   bool as_point = false;            ///< draws only the last point, as a large dot
   std::vector<double> errors = {};  ///< [points] standard errors, drawn as a band; empty: none
+  std::string help = {};            ///< tooltip of the name in the legend; empty: none
 };
 
 /// Plot of a running simulation: curves over a common x axis.

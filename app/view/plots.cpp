@@ -18,6 +18,12 @@ constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
                  kGreen = {0x00, 0x9e, 0x73}, kRed = {0xd5, 0x5e, 0x00},
                  kPurple = {0xcc, 0x79, 0xa7};
 
+// The theories of chapter 7 of docs/theory.md.
+constexpr const char* kSimple = "Theory that averages over all disks; dense gases differ";
+constexpr const char* kRefined =
+    "Theory that averages over the disks that collide; holds for 0.3 < (1 - α²) ψ < 3";
+constexpr const char* kCorrected = "The refined theory with the dense layer at the walls";
+
 template <class Value>
 Curve over_time(const char* name, Colour colour, const std::vector<Sample>& samples, Value value) {
   Curve curve{name, colour, {}};
@@ -25,8 +31,9 @@ Curve over_time(const char* name, Colour colour, const std::vector<Sample>& samp
   return curve;
 }
 
-Curve level(const char* name, Colour colour, const std::vector<Sample>& samples, double value) {
-  Curve curve{name, colour, {}, true};
+Curve level(const char* name, const char* help, Colour colour, const std::vector<Sample>& samples,
+            double value) {
+  Curve curve{.name = name, .colour = colour, .points = {}, .dashed = true, .help = help};
   if (!samples.empty() && std::isfinite(value)) {
     curve.points = {{samples.front().time, value}, {samples.back().time, value}};
   }
@@ -40,9 +47,10 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
       over_time("T_y", kBlue, samples, [](const Sample& s) { return s.temperature.y(); }),
       over_time("T", plain, samples, [](const Sample& s) { return 0.5 * s.temperature.sum(); })};
   if (const auto gas = vibrated_gas(scene); gas && gas->drive_speed > 0.0) {
-    plot.curves.push_back(level("simple", kRed, samples, gas->temperature_simple()));
-    plot.curves.push_back(level("refined", kGreen, samples, gas->temperature_refined()));
-    plot.curves.push_back(level("corrected", kPurple, samples, gas->temperature_corrected()));
+    plot.curves.push_back(level("simple", kSimple, kRed, samples, gas->temperature_simple()));
+    plot.curves.push_back(level("refined", kRefined, kGreen, samples, gas->temperature_refined()));
+    plot.curves.push_back(
+        level("corrected", kCorrected, kPurple, samples, gas->temperature_corrected()));
   }
   return plot;
 }
@@ -123,7 +131,9 @@ double settled_temperature(const std::vector<Sample>& samples) {
 // Fig. 3.1: T/(m v_dr^2) over 1/(eps psi), for elastic walls.
 LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas) {
   LivePlot plot{"Fig. 3.1", "1/(ε ψ)", true, true, {}, "T/(m v_dr²)"};
-  Curve simple{"simple", kRed, {}, true}, refined{"refined", kGreen, {}, true};
+  Curve simple{.name = "simple", .colour = kRed, .points = {}, .dashed = true, .help = kSimple};
+  Curve refined{
+      .name = "refined", .colour = kGreen, .points = {}, .dashed = true, .help = kRefined};
   const double here = 1.0 / (gas.epsilon_effective() * gas.psi());
   const double unit = gas.drive_speed * gas.drive_speed;
   VibratedGas other = gas;

@@ -113,7 +113,7 @@ void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
   const Frame& frame = session.frame();
   const std::string title = session.scene().title.empty() ? "Untitled" : session.scene().title;
   if (controls.button("gallery", ("≡  " + title + "##gallery").c_str(), "The gallery (G)")) {
-    shown.gallery = !shown.gallery;
+    shown.toggle_gallery();
   }
   ImGui::SameLine();
   const bool plays = frame.plays;
@@ -135,7 +135,7 @@ void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
     shown.lesson = !shown.lesson;
   }
   ImGui::SameLine();
-  if (controls.button("help", "?", "Keys and mouse (F1)")) shown.help = !shown.help;
+  if (controls.button("help", "?", "Keys and mouse (F1)")) shown.toggle_help();
   figures(frame);
 }
 

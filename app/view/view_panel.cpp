@@ -58,7 +58,7 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
   int chosen = std::min(index_of(view.colour_by, kColourings), most);
   const int usual = std::min(index_of(session.opened().view.colour_by, kColourings), most);
   const bool changed =
-      controls.choice("view.colour_by", "Particles coloured by",
+      controls.choice("view.colour_by", "Disks coloured by",
                       "Quantity that the colour of a disk shows", colours, chosen, usual);
   view.colour_by = kColourings[static_cast<std::size_t>(chosen)].value;
   return changed;

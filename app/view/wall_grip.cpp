@@ -59,19 +59,27 @@ static std::optional<Side> wall_at(const Viewport& viewport, const Frame& frame,
 std::optional<WallGrip::Resized> WallGrip::use(const Viewport& viewport, const Frame& frame,
                                                ImVec2 corner, float scale, bool over) {
   constexpr double kShortest = 4.0;
+  constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
   const Vec2 box = frame.snapshot.box;
   if (!held_) {
     side_ = over ? wall_at(viewport, frame, corner, scale) : std::nullopt;
     if (side_) length_ = box[axis_of(*side_)];
     held_ = side_ && ImGui::IsMouseClicked(0);
+    moved_ = false;
+    pressed_ = ImGui::GetIO().MousePos;
   }
   if (!side_) return std::nullopt;
   const int axis = axis_of(*side_);
   ImGui::SetMouseCursor(axis == 0 ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
   if (!held_) return std::nullopt;
-  const double mouse = viewport.world(ImGui::GetIO().MousePos, corner, scale)[axis];
-  const double length = is_low(*side_) ? box[axis] - mouse : mouse;
-  length_ = std::max(kShortest, 0.1 * std::round(10.0 * length));
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  moved_ |= std::hypot(mouse.x - pressed_.x, mouse.y - pressed_.y) >= kClick;
+  if (moved_) {
+    const double way =
+        viewport.world(mouse, corner, scale)[axis] - viewport.world(pressed_, corner, scale)[axis];
+    const double length = box[axis] + (is_low(*side_) ? -way : way);
+    length_ = std::max(kShortest, 0.1 * std::round(10.0 * length));
+  }
   if (!ImGui::IsMouseReleased(0)) return std::nullopt;
   held_ = false;
   if (box[axis] == length_) return std::nullopt;

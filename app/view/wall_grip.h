@@ -5,8 +5,8 @@
 
 namespace clatter {
 
-/// Resizes the box by dragging its walls with the mouse. Arguments `corner` and `scale` are as in
-/// Viewport.
+/// Resizes the box by dragging its walls with the mouse. A wall moves by as much as the mouse, and
+/// a click changes nothing. Arguments `corner` and `scale` are as in Viewport.
 class WallGrip {
  public:
   /// A new box for the gas.
@@ -33,6 +33,8 @@ class WallGrip {
  private:
   std::optional<Side> side_;  // wall under the mouse or being dragged
   bool held_ = false;
+  bool moved_ = false;   // the held wall follows the mouse
+  ImVec2 pressed_;       // position of the mouse at the press
   double length_ = 0.0;  // length of the box perpendicular to that wall
 };
 

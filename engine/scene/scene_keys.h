@@ -411,17 +411,22 @@ inline constexpr auto kViewKeys = key_table(
      {"speed", "t/s", "Simulation time per second of film or window."},
      {"palette", "", "Colours of the particles. Quantities with a sign are blue and red."},
      {"range", "",
-      "Range of the particles' colours. auto follows the picture, locked keeps the first range."},
+      "Range of the particles' colours. auto follows the picture in the window; films keep the "
+      "range of their first averaging window. locked keeps the first range."},
      {"field_palette", "", "Colours of the heatmap. Without a value `palette` applies."},
      {"field_range", "",
-      "Range of the heatmap's colours. locked keeps the range of the first whole window."},
+      "Range of the heatmap's colours. auto follows the picture in the window; films keep the "
+      "range of their first averaging window. locked keeps the range of the first whole window."},
      {"arrows", "", "Field of the arrows. Without a value there are none."},
-     {"theme", "", "Colours of background, letters, walls and lines."},
+     {"theme", "",
+      "Colours of background, letters, walls and lines. It does not change the size of letters."},
      {"background", "", "Colour of the background. Without a value the theme sets it."},
      {"grid", "", "Lines over the box, as far apart as the scale bar is long."},
      {"overlay", "", "Title, time, colour bar and scale bar."},
      {"trails", "t", "Duration of the particles' trails. Without a value: none."},
-     {"card", "s", "Time of title and caption at the start of a film. Without a value: none.",
+     {"card", "s",
+      "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
+      "last half second. Without a value: none.",
       "render"},
      {"azimuth", "deg",
       "Of spheres: direction of the viewer, as an angle about the y axis. 0 is along z, 90 along "

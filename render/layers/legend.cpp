@@ -75,11 +75,16 @@ float legend_width(const Legends& legends, const Fonts& fonts) {
   return std::ceil(width);
 }
 
+std::pair<ImVec2, ImVec2> legend_bar(const Fonts& fonts, ImVec2 place, float height) {
+  const float unit = fonts.unit();
+  return {{place.x, std::round(place.y + kHeadHeight * unit)},
+          {std::round(place.x + kBarWidth * unit), std::round(place.y + height)}};
+}
+
 void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
                  const ThemeColours& theme, ImVec2 place, float height) {
   const float unit = fonts.unit();
-  const ImVec2 low(place.x, std::round(place.y + kHeadHeight * unit));
-  const ImVec2 high(std::round(place.x + kBarWidth * unit), std::round(place.y + height));
+  const auto [low, high] = legend_bar(fonts, place, height);
   draw_name(list, legend.label, fonts, theme, place);
   draw_text(list, *fonts.small, ImVec2(place.x, std::round(place.y + kNameHeight * unit)),
             theme.faint_ink(), unit_and_range(legend, legend.range.c_str()));

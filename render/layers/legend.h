@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/label.h"
@@ -35,6 +36,9 @@ struct Legends {
 
 /// Width of the widest legend in pixels; 0: no legends.
 float legend_width(const Legends& legends, const Fonts& fonts);
+
+/// The upper left and the lower right corner of the bar that draw_legend() draws.
+std::pair<ImVec2, ImVec2> legend_bar(const Fonts& fonts, ImVec2 place, float height);
 
 /// Draws a legend as a vertical bar, with name, unit and range above. Its total height is `height`
 /// pixels.

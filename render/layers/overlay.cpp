@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "render/eye.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/wall_layer.h"
 
@@ -16,6 +17,7 @@ namespace {
 // Lengths in units of the layout, see Fonts::unit().
 constexpr float kEdge = 1.2f;     // from the edge of the picture to the text
 constexpr float kColumn = 16.0f;  // width of the column
+constexpr float kPlate = 0.4f;    // from a text to the edge of its plate
 
 // Position of heading and figures: rows above and below the box, or a column at its left.
 enum class Arrangement { Rows, Column };
@@ -29,6 +31,8 @@ struct Page {
   float edge = 0.0f;     // from the edge of the picture to the text, pixels
   float wrap = 0.0f;     // longest line of the heading, pixels
   float caption = 0.0f;  // from the upper edge of the picture to the caption, pixels
+  ImVec2 box_low = {},
+         box_high = {};  // upper left and lower right corner of the box with its walls, pixels
 };
 
 float unit_for(Size size, double letters) {
@@ -91,7 +95,34 @@ std::string grouped(std::uint64_t value) {
   return digits;
 }
 
+ImU32 with_opacity(Colour colour, double opacity) {
+  colour.alpha = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
+  return packed(colour);
+}
+
+// Whether the box, enlarged by the camera, extends below this area.
+bool over_box(ImVec2 low, ImVec2 high, const Page& page) {
+  return low.x < page.box_high.x && high.x > page.box_low.x && low.y < page.box_high.y &&
+         high.y > page.box_low.y;
+}
+
+// Keeps a text over the box legible.
+void draw_plate(ImDrawList& list, ImVec2 low, ImVec2 high, const Page& page) {
+  constexpr double kOpacity = 0.8;
+  const float room = std::round(kPlate * page.fonts.unit());
+  const ImVec2 from(low.x - room, low.y - room), to(high.x + room, high.y + room);
+  if (!over_box(from, to, page)) return;
+  list.AddRectFilled(from, to, with_opacity(page.theme.background, kOpacity), room);
+}
+
 void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
+  const ImVec2 title = text_extent(*page.fonts.title, text.title, page.wrap);
+  const ImVec2 caption = text_extent(*page.fonts.text, text.caption, page.wrap);
+  if (!text.title.empty() || !text.caption.empty()) {
+    const float end = text.caption.empty() ? page.edge + title.y : page.caption + caption.y;
+    draw_plate(list, ImVec2(page.edge, page.edge),
+               ImVec2(page.edge + std::max(title.x, caption.x), end), page);
+  }
   draw_text(list, *page.fonts.title, ImVec2(page.edge, page.edge), page.theme.ink(), text.title,
             page.wrap);
   draw_text(list, *page.fonts.text, ImVec2(page.edge, page.caption), page.theme.faint_ink(),
@@ -106,13 +137,14 @@ void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels,
   const float line = std::max(1.0f, std::round(fonts.unit() / 12.0f));
   const float cap = std::round(0.3f * fonts.unit()), right = std::round(place.x + pixels);
   const ImU32 colour = packed(theme.faint_text);
-  list.AddRectFilled(ImVec2(place.x, place.y - line), ImVec2(right, place.y), colour);
-  list.AddRectFilled(ImVec2(place.x, place.y - cap), ImVec2(place.x + line, place.y), colour);
-  list.AddRectFilled(ImVec2(right - line, place.y - cap), ImVec2(right, place.y), colour);
-
   const std::string label = formatted("%g a", length);
   const ImVec2 extent = text_extent(*fonts.small, label);
   const float left = std::max(place.x, std::round(0.5f * (place.x + right - extent.x)));
+  draw_plate(list, ImVec2(place.x, place.y - cap - extent.y),
+             ImVec2(std::max(right, left + extent.x), place.y), page);
+  list.AddRectFilled(ImVec2(place.x, place.y - line), ImVec2(right, place.y), colour);
+  list.AddRectFilled(ImVec2(place.x, place.y - cap), ImVec2(place.x + line, place.y), colour);
+  list.AddRectFilled(ImVec2(right - line, place.y - cap), ImVec2(right, place.y), colour);
   draw_text(list, *fonts.small, ImVec2(left, place.y - cap - extent.y), theme.faint_ink(), label);
 }
 
@@ -141,6 +173,7 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
   for (const Figure& figure : figures_of(snapshot, page.theme)) {
     const float width = text_extent(*page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
+    draw_plate(list, ImVec2(x, bottom - unit), ImVec2(x + width, bottom), page);
     draw_text(list, *page.fonts.text, ImVec2(x, bottom - unit), figure.ink, figure.text);
     const float widest = text_extent(*page.fonts.text, figure.widest).x;
     x += std::round(std::max(width, widest) + 1.5f * unit);
@@ -156,19 +189,41 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   const double length = scale_length(snapshot, projection);
   draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
                  static_cast<float>(length * snapshot.diameter * projection.scale()), page);
+  float width = 0.0f;
+  for (const Figure& figure : figures) {
+    width = std::max(width, text_extent(*page.fonts.text, figure.text).x);
+  }
+  draw_plate(list, ImVec2(page.edge, y), ImVec2(page.edge + width, page.size.height - page.edge),
+             page);
   for (const Figure& figure : figures) {
     draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.ink, figure.text);
     y += std::round(1.5f * unit);
   }
 }
 
-// The area of the box on the picture, in pixels from the lower left corner. A box of spheres, which
-// may be turned, has the area inside the margins.
-Faces box_area(const Snapshot& snapshot, const Projection& projection, const Page& page) {
+// The smallest rectangle around the box on the picture, in pixels from the lower left corner.
+Faces box_area(const Snapshot& snapshot, const Projection& projection) {
   if (snapshot.box.size() == 2) {
     const Faces faces = outermost_faces(snapshot);
     return {projection.pixels(faces.low), projection.pixels(faces.high)};
   }
+  const Eye eye(projection);
+  Faces area{Vec2::Constant(HUGE_VAL), Vec2::Constant(-HUGE_VAL)};
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 corner = snapshot.box.cwiseProduct(Vec3(k & 1, k >> 1 & 1, k >> 2));
+    const Vec3 seen = eye.seen(corner);
+    // A corner behind the viewer: the box surrounds the picture.
+    if (eye.w(seen) <= 0.0)
+      return {Vec2::Zero(), Vec2(projection.size.width, projection.size.height)};
+    area.low = area.low.cwiseMin(eye.pixels(seen));
+    area.high = area.high.cwiseMax(eye.pixels(seen));
+  }
+  return area;
+}
+
+// The area beside which legends are. A box of spheres may turn: it has the area inside the margins.
+Faces legend_area(const Faces& box, const Snapshot& snapshot, const Page& page) {
+  if (snapshot.box.size() == 2) return box;
   return {Vec2(page.margins.left, page.margins.bottom),
           Vec2(page.size.width - page.margins.right, page.size.height - page.margins.top)};
 }
@@ -200,7 +255,12 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& area,
   const double middle = top + 0.5 * std::min(0.0, bottom - top - all);
   auto y = static_cast<float>(
       std::round(std::max<double>(page.margins.top, std::min<double>(middle, lowest - all))));
+  const float column = legend_width(legends, page.fonts);
+  if (column > 0.0f) draw_plate(list, ImVec2(x, y), ImVec2(x + column, y + all), page);
   for (const Legend& legend : bars) {
+    // Over the box, a translucent scale has the colours that it has on the background.
+    const auto [from, to] = legend_bar(page.fonts, ImVec2(x, y), each);
+    if (over_box(from, to, page)) list.AddRectFilled(from, to, packed(page.theme.background));
     draw_legend(list, legend, page.fonts, page.theme, ImVec2(x, y), each);
     y = std::round(y + each + gap);
   }
@@ -208,11 +268,6 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& area,
     draw_arrow_legend(list, *legends.arrows, page.fonts, page.theme,
                       ArrowShape::in(projection.size), ImVec2(x, y));
   }
-}
-
-ImU32 with_opacity(Colour colour, double opacity) {
-  colour.alpha = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
-  return packed(colour);
 }
 
 // A line of text in the middle of the picture, with its upper edge at `y`.
@@ -246,7 +301,7 @@ void draw_card(ImDrawList& list, const OverlayText& text, const Page& page) {
   const float height = titles.size() * title_line + unit + captions.size() * caption_line;
   float y = std::round(0.5f * (page.size.height - height));
   list.AddRectFilled(ImVec2(0.0f, 0.0f), ImVec2(page.size.width, page.size.height),
-                     with_opacity(page.theme.background, 0.92 * text.card));
+                     with_opacity(page.theme.background, text.card));
   for (const std::string& line : titles) {
     draw_centred(list, *page.fonts.card, y, with_opacity(page.theme.text, text.card), line, page);
     y += std::round(title_line);
@@ -262,7 +317,8 @@ void draw_card(ImDrawList& list, const OverlayText& text, const Page& page) {
 }  // namespace
 
 double card_opacity(double length, double time) {
-  return std::clamp(3.0 * (1.0 - time / length), 0.0, 1.0);
+  constexpr double kFade = 0.5;  // seconds
+  return std::clamp((length - time) / std::min(kFade, length), 0.0, 1.0);
 }
 
 Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
@@ -289,12 +345,19 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
                    const OverlayText& text, const ThemeColours& theme) {
   const CurrentContext current(context_.get());
   const Size size = projection.size;
-  const Page page = arrange(snapshot, fonts_for(size, text), theme, size, legends, text);
+  Page page = arrange(snapshot, fonts_for(size, text), theme, size, legends, text);
+  const Faces box = box_area(snapshot, projection);
+  const auto& [low, high] = box;
+  const float wall = static_cast<float>(wall_thickness(size));
+  page.box_low =
+      ImVec2(static_cast<float>(low.x()) - wall, static_cast<float>(size.height - high.y()) - wall);
+  page.box_high =
+      ImVec2(static_cast<float>(high.x()) + wall, static_cast<float>(size.height - low.y()) + wall);
   ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   draw_heading(list, text, page);
-  draw_legends(list, legends, box_area(snapshot, projection, page), projection, page);
+  draw_legends(list, legends, legend_area(box, snapshot, page), projection, page);
   switch (page.arrangement) {
     case Arrangement::Rows:
       draw_row(list, snapshot, projection, page);

@@ -20,7 +20,7 @@ struct OverlayText {
 };
 
 /// Opacity of a title card `time` seconds after the beginning of a film. The card lasts `length`
-/// seconds and fades out in the last third.
+/// seconds and fades out in the last half second.
 double card_opacity(double length, double time);
 
 /// Draws text and scales in the margins of the picture: title, time, temperature, collisions,

@@ -26,9 +26,9 @@ struct Axis {
   }
 };
 
-// The axis that contains all values up to four decades below the largest.
+// The axis that contains all values up to this number of decades below the largest.
 template <class Coordinate>
-Axis axis_of(const Plot& plot, Coordinate coordinate) {
+Axis axis_of(const Plot& plot, double most_decades, Coordinate coordinate) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const PlotPanel& panel : plot.panels) {
     for (const PlotPoint& point : panel.points) {
@@ -39,9 +39,9 @@ Axis axis_of(const Plot& plot, Coordinate coordinate) {
     }
   }
   if (!(low <= high)) return {};
-  constexpr double kRoom = 0.15, kMaxDecades = 4.0;
+  constexpr double kRoom = 0.15;
   high = 0.5 * std::ceil(2.0 * (high + kRoom));
-  low = 0.5 * std::floor(2.0 * (std::max(low, high - kMaxDecades) - kRoom));
+  low = 0.5 * std::floor(2.0 * (std::max(low, high - most_decades) - kRoom));
   return {low, high};
 }
 
@@ -119,8 +119,15 @@ class PanelDrawing {
 
   void draw_line(const PlotPanel& panel) {
     for (std::size_t k = 1; k < panel.points.size(); ++k) {
-      list_.AddLine(place(panel.points[k - 1]), place(panel.points[k]),
-                    packed(faded(theme_.driven_wall, 110)), 0.1f * fonts_.unit());
+      if (panel.points[k - 1].apart || panel.points[k].apart) continue;
+      const ImVec2 a = place(panel.points[k - 1]), b = place(panel.points[k]);
+      list_.AddLine(a, b, packed(faded(theme_.driven_wall, 110)), 0.1f * fonts_.unit());
+      // Labels keep off the line.
+      const float steps = std::ceil(std::hypot(b.x - a.x, b.y - a.y) / (0.25f * fonts_.unit()));
+      for (float step = 0.0f; step <= steps; ++step) {
+        const ImVec2 at(a.x + (b.x - a.x) * step / steps, a.y + (b.y - a.y) * step / steps);
+        taken_.push_back({at, {at.x + 1.0f, at.y + 1.0f}});
+      }
     }
   }
 
@@ -137,9 +144,9 @@ class PanelDrawing {
   void draw_label(const PlotPoint& point) {
     const ImVec2 extent = text_extent(*fonts_.small, point.label), at = place(point);
     const float gap = 0.5f * fonts_.unit();
-    const std::array<ImVec2, 6> sides = {{{gap, -0.5f * extent.y},
+    const std::array<ImVec2, 6> sides = {{{-0.5f * extent.x, -gap - extent.y},
+                                          {gap, -0.5f * extent.y},
                                           {-gap - extent.x, -0.5f * extent.y},
-                                          {-0.5f * extent.x, -gap - extent.y},
                                           {-0.5f * extent.x, gap},
                                           {0.6f * gap, -gap - 0.8f * extent.y},
                                           {0.6f * gap, gap - 0.2f * extent.y}}};
@@ -161,7 +168,7 @@ class PanelDrawing {
   const ThemeColours& theme_;
   Rectangle frame_;
   Axis x_, y_;
-  std::vector<Rectangle> taken_;  // areas of points and labels
+  std::vector<Rectangle> taken_;  // areas of lines, points and labels
 };
 
 void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size,
@@ -183,8 +190,9 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
   const float left = edge + 2.5f * unit, bottom = size.height - edge - 3.0f * unit;
   const float across = (size.width - edge - left) / static_cast<float>(columns);
   const float down = (bottom - top) / static_cast<float>(rows);
-  const Axis x = axis_of(plot, [](const PlotPoint& point) { return point.x; });
-  const Axis y = axis_of(plot, [](const PlotPoint& point) { return point.y; });
+  constexpr double kAllDecades = 600.0, kErrorDecades = 4.0;
+  const Axis x = axis_of(plot, kAllDecades, [](const PlotPoint& point) { return point.x; });
+  const Axis y = axis_of(plot, kErrorDecades, [](const PlotPoint& point) { return point.y; });
   for (int k = 0; k < count; ++k) {
     const int column = k % columns, row = k / columns;
     const ImVec2 corner(std::round(left + across * column), std::round(top + down * row));

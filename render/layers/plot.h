@@ -15,9 +15,10 @@ struct PlotPoint {
   double y = 1.0;     ///< > 0; below the range of the axis: drawn at its lower end
   std::string label;  ///< label beside the point, if there is room
   bool hollow = false;
+  bool apart = false;  ///< without a line to its neighbours
 };
 
-/// A panel: points joined by a line in their order.
+/// A panel: points joined by a line in their order, except for those apart.
 struct PlotPanel {
   std::string title;
   std::vector<PlotPoint> points;

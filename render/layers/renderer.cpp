@@ -1,5 +1,8 @@
 #include "render/layers/renderer.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/label.h"
 #include "render/theme.h"
 
@@ -60,6 +63,11 @@ double arrow_extent(const ArrowMap& map) {
 
 bool shows_field(const Snapshot& snapshot, const View& view) {
   return view.field && snapshot.field;
+}
+
+// False before the first average: every cell would be hatched.
+bool has_values(const FieldMap& map) {
+  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
 }
 
 }  // namespace
@@ -217,7 +225,7 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
 void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                           const Legends& legends, const ThemeColours& theme) {
   clear(projection, theme);
-  if (legends.field) {
+  if (legends.field && has_values(*snapshot.field)) {
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
                 thin(theme.static_wall, kHatchOpacity));
   }
@@ -252,7 +260,7 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
   space_->box.draw_sides(snapshot, projection, eye, theme);
-  if (legends.field) {
+  if (legends.field && has_values(*snapshot.field)) {
     space_->slices.draw(snapshot, view.slices, projection, eye, legends.field->scale,
                         thin(theme.static_wall, kHatchOpacity));
   }

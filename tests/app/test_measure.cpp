@@ -416,6 +416,36 @@ TEST_CASE("Measure: where replicas stop, the first seed is named, and no more ar
   }
 }
 
+TEST_CASE("Measure: where the result goes to a file, a note has the temperature") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure vibrated --set measure.burn_in=5 --until 25 --out a.json";
+  const Outcome outcome = shell.run(line);
+  CHECK(outcome.out.empty());
+  const json temperature = json::parse(shell.read("a.json")).at("temperature");
+  double mean = 0.0, error = 0.0, time = 0.0;
+  REQUIRE(std::sscanf(outcome.err.c_str(),
+                      "note: temperature = %lf +- %lf, averaged over %lf time units", &mean, &error,
+                      &time) == 3);
+  CHECK(time == 20.0);
+  const double true_error = temperature.at("standard_error");
+  CHECK(error == doctest::Approx(true_error).epsilon(0.05));
+  CHECK(std::fabs(mean - temperature.at("mean").get<double>()) < 0.06 * true_error);
+  CHECK_FALSE(says(shell.run(line + " --quiet").err, "temperature"));
+  CHECK_FALSE(says(shell.run(line + " --accuracy 50%").err, "+-"));
+}
+
+TEST_CASE("Measure: tables without fields are noted") {
+  const Shell shell;
+  const char* kNote = "note: measure.fields is empty: no profile and no maps";
+  const std::string line = "clatter measure cooling --until 1 --set measure.fields=[] ";
+  for (const char* flag : {"--csv tables", "--hdf5 a.h5"}) {
+    CHECK(says(shell.run(line + flag).err, kNote));
+    CHECK_FALSE(says(shell.run(line + "--quiet " + flag).err, kNote));
+  }
+  CHECK_FALSE(says(shell.run("clatter measure vibrated --until 1 --csv maps").err, kNote));
+}
+
 TEST_CASE("Measure: a gas that cools is reported as not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");

@@ -10,6 +10,7 @@
 
 #include "app/view/messages.h"
 #include "app/view/panels.h"
+#include "app/view/plot.h"
 #include "app/view/top_bar.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/panel_driver.h"
@@ -212,7 +213,7 @@ TEST_CASE("Panels: every name is beside the value of its own key, in its unit") 
                                "Kicks s 0.220 a/t",
                                "{ 0.220 }",
                                "### View ###",
-                               "Particles coloured by",
+                               "Disks coloured by",
                                "{ velocity y }",
                                "Palette",
                                "{ cividis }",
@@ -433,6 +434,17 @@ TEST_CASE("Panels: a picked disk shows its state, its last and its next collisio
                                "next hit t = 12.2500, disk 2", "double-click to follow"});
   follows = true;
   CHECK(driver.lines().back() == "followed; Esc lets go");
+}
+
+TEST_CASE("Panels: a curve of theory has its meaning beside the mouse") {
+  const LivePlot plot{
+      .title = "Temperature",
+      .x_label = "t",
+      .curves = {{.name = "refined", .colour = {}, .points = {}, .help = "Holds somewhere"}}};
+  PanelDriver driver(Scene{}, [&](Session&, Controls&) { draw_plot(plot, 200.0f); });
+  CHECK_FALSE(says(text_of(driver), "Holds somewhere"));
+  driver.point_at(45.0f, 36.0f);  // the first name of the legend
+  CHECK(says(text_of(driver), "Holds somewhere"));
 }
 
 TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of the root of 2") {

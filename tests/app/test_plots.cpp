@@ -250,6 +250,14 @@ TEST_CASE("Plots: Fig. 3.1 has the gas among the curves of theory, over 1/(eps p
   }
 }
 
+TEST_CASE("Plots: each theory states its meaning") {
+  const TwoFrames two;
+  const LivePlot plot = two.plot("Temperature");
+  for (const char* name : {"simple", "refined", "corrected"}) {
+    CHECK_FALSE(curve_of(plot, name).help.empty());
+  }
+}
+
 TEST_CASE("Plots: a profile has its field's name, unit, values and errors over the columns") {
   TwoFrames frames;
   Profile profile;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/app/shell.h"
@@ -34,6 +35,19 @@ TEST_CASE("Render: a film has the frames, the rate and the size asked for") {
   CHECK(outcome.err.empty());
   CHECK(probe(shell, "film.mp4") == "160,120,10\n");
   CHECK(shell.files() == Files{"film.mp4"});
+}
+
+TEST_CASE("Render: the picture of the guide opens, and shows the gas of its command") {
+  const Shell shell;
+  const std::string file = std::string(CLATTER_DOCS) + "/vibrated.png";
+  const Outcome opened = shell.run("clatter check " + file);
+  CAPTURE(opened.err);
+  CHECK(opened.code == 0);
+  const auto run = nlohmann::json::parse(
+      shell.run("clatter measure vibrated --quiet --set measure.burn_in=0 --until 20").out);
+  const std::string hash = run.at("state_hash");
+  const std::string bytes = shell.run("cat " + file).out;
+  CHECK(says(bytes, std::string("State hash\0\0\0\0\0", 15) + hash));
 }
 
 TEST_CASE("Render: a quality sets size and rate, unless these are given") {
@@ -246,7 +260,7 @@ TEST_CASE("Render: on a full disk it fails with an error and keeps the usable fr
     for (const std::string kept : {"film.mp4.part", "frames"}) {
       if (!kept.starts_with(name)) continue;
       CHECK(says(outcome.out, "small/" + kept));
-      CHECK(says(outcome.err, "filmed before is in small/" + kept));
+      CHECK(says(outcome.err, "earlier pictures are in small/" + kept));
     }
   }
 }

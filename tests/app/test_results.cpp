@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "app/results/csv_tables.h"
 #include "app/results/hdf5_file.h"
+#include "app/results/json_text.h"
 #include "app/results/result_json.h"
 #include "app/results/vtk_files.h"
 #include "engine/measure/measurement.h"
@@ -375,6 +377,41 @@ void take_out_rounding(json& result) {
 }
 
 }  // namespace
+
+TEST_CASE("Results: a list of plain values is on one line, and the text has the same value") {
+  const nlohmann::ordered_json result = {{"title", "a \"b\" ü"},
+                                         {"edges", {0.0, 0.5, 1e-300}},
+                                         {"empty", json::array()},
+                                         {"none", json::object()},
+                                         {"profile", {{"axis", "x"}, {"density", {0.1, nullptr}}}},
+                                         {"results", {{{"seed", 1}}, {{"seed", 2}}}}};
+  const std::string text = json_text(result);
+  CHECK(text == R"({
+ "title": "a \"b\" ü",
+ "edges": [0.0,0.5,1e-300],
+ "empty": [],
+ "none": {},
+ "profile": {
+  "axis": "x",
+  "density": [0.1,null]
+ },
+ "results": [
+  {
+   "seed": 1
+  },
+  {
+   "seed": 2
+  }
+ ]
+})");
+  CHECK(nlohmann::ordered_json::parse(text) == result);
+  const Shell shell;
+  REQUIRE(shell.run("clatter measure vibrated --until 20 --out a.json").code == 0);
+  const std::string written = shell.read("a.json");
+  CHECK(std::ranges::count(written, '\n') < 250);
+  const auto parsed = nlohmann::ordered_json::parse(written);
+  CHECK(json_text(parsed) + '\n' == written);
+}
 
 TEST_CASE("Results: every value of a walled gas follows from its events") {
   const Witnessed run(uneven_scene());

@@ -238,7 +238,7 @@ TEST_CASE("Resume: a picture of disks that overlapped is written, and the run fa
         "x.png");
     CAPTURE(outcome.err);
     CHECK(outcome.code == code);
-    CHECK(says(outcome.err, "disks overlapped by 2e-09 diameters") == (code == 3));
+    CHECK(says(outcome.err, "particles overlapped by 2e-09 diameters") == (code == 3));
     CHECK_FALSE(shell.read("x.png").empty());
   }
 }

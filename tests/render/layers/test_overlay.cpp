@@ -91,9 +91,63 @@ TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
     CHECK(letters(1.0).second < letters(0.0).second);
   }
   CHECK(card_opacity(3.0, 0.0) == 1.0);
-  CHECK(card_opacity(3.0, 2.5) == doctest::Approx(0.5));
+  CHECK(card_opacity(3.0, 2.5) == 1.0);
+  CHECK(card_opacity(3.0, 2.75) == doctest::Approx(0.5));
+  CHECK(card_opacity(0.2, 0.0) == 1.0);
   CHECK(card_opacity(3.0, 3.0) == 0.0);
   CHECK(card_opacity(3.0, 9.0) == 0.0);
+}
+
+TEST_CASE("Overlay: nothing shows through a card") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{640, 360};
+  OverlayText text = kText;
+  text.card = 1.0;
+  const auto card_over = [&](const Snapshot& snapshot, const Camera& camera) {
+    const Canvas canvas(context->gl(), size);
+    canvas.bind();
+    renderer.draw(snapshot, camera, size, View{}, text);
+    return canvas.read();
+  };
+  Snapshot empty;
+  empty.box = Vec2(20.0, 25.0);
+  const Camera camera{{10.0, 12.5}, 40.0};
+  CHECK(difference(card_over(driven_box(), camera), card_over(empty, camera)) == 0);
+}
+
+TEST_CASE("Overlay: over the enlarged box texts are on a plate, and colour bars are opaque") {
+  const auto context = open_context(Backend::Osmesa);
+  const Size size{1280, 720};
+  View view = view_with_field();
+  view.range = {ColourRange::Given, {0.0, 4.0}};
+  view.field_range = {ColourRange::Given, {0.0, 1.0}};
+  const Camera inside{{10.0, 12.5}, 10.0};
+  const auto drawn = [&](double density) {
+    Renderer renderer(context->gl());
+    Snapshot snapshot = driven_box();
+    snapshot.positions.resize(2, 0);
+    snapshot.velocities.resize(2, 0);
+    snapshot.field = FieldMap{Quantity::Density, {1, 1}, {density}};
+    return draw(renderer, context->gl(), snapshot, inside, size, view);
+  };
+  // A dark and a bright heatmap below the same overlay.
+  const Image dark = drawn(0.0), bright = drawn(1.0);
+  const int contrast = difference(pixel(dark, 640, 360), pixel(bright, 640, 360));
+  CHECK(contrast > 50);
+  int same = 0, on_plate = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const int seen = difference(pixel(dark, x, y), pixel(bright, x, y));
+      same += seen == 0;
+      on_plate += 4 * seen <= contrast;
+    }
+  }
+  constexpr int kUnit = 18;  // height of a line of text
+  CHECK(same > 2 * 13 * 13 * kUnit);
+  // Two lines of heading, and two legends that are higher than wide.
+  CHECK(on_plate > same + 2 * 20 * kUnit * kUnit);
+  CHECK(difference(pixel(dark, 640, 715), pixel(bright, 640, 715)) == contrast);
 }
 
 }  // namespace clatter

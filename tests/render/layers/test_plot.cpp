@@ -65,6 +65,51 @@ TEST_CASE("Plot: a plot has panels of the same axes, and none where there is not
   CHECK(mark_of(plotted(gl, {{"", {{1.0, 0.0, "", false}}}})).pixels > 50);
 }
 
+TEST_CASE("Plot: values along x stand apart over any number of decades") {
+  const auto context = open_context(Backend::Osmesa);
+  const auto place = [&](double x) {
+    const PlotPanel panel{"",
+                          {{x, 1.0, "", false}, {1e7, 100.0, "", true}, {1.0, 100.0, "", true}}};
+    return mark_of(plotted(context->gl(), {panel})).place.x();
+  };
+  CHECK(place(10.0) > place(1.0) + 0.01);
+}
+
+TEST_CASE("Plot: a point apart has no line, and a label keeps off a line") {
+  const auto context = open_context(Backend::Osmesa);
+  const auto drawn = [&](const std::string& label, bool apart) {
+    return plotted(
+        context->gl(),
+        {{"", {{1.0, 10.0, ""}, {100.0, 10.0, label, false, apart}, {10000.0, 10.0, ""}}}});
+  };
+  // The line is the row through the points.
+  const auto on_line = [](const Image& image, int y) {
+    int count = 0;
+    for (int x = image.size.width / 4; x < 3 * image.size.width / 4; ++x) {
+      const Colour seen = pixel(image, x, y);
+      count += seen.red > seen.blue + 40;
+    }
+    return count;
+  };
+  const Image joined = drawn("", false), apart = drawn("", true), labelled = drawn("1234", false);
+  int row = 0;
+  for (int y = 0; y < joined.size.height; ++y) {
+    if (on_line(joined, y) > on_line(joined, row)) row = y;
+  }
+  CHECK(on_line(joined, row) > 500);
+  CHECK(on_line(apart, row) < 100);
+  // The point in the middle has its label above.
+  const auto written = [&](int y) {
+    int count = 0;
+    for (int x = 0; x < joined.size.width; ++x) {
+      count += !(pixel(joined, x, y) == pixel(labelled, x, y));
+    }
+    return count;
+  };
+  CHECK(written(row) == 0);
+  CHECK(written(row - 15) > 0);
+}
+
 TEST_CASE("Similarity: it is less the more two pictures differ, and survives another size") {
   const auto context = open_context(Backend::Osmesa);
   const Gl& gl = context->gl();

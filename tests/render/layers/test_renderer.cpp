@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
@@ -121,6 +123,21 @@ TEST_CASE("Renderer: the colours of a heatmap follow, or are locked, or are give
   CHECK(colours() == std::vector{top, top, top, middle});  // at 1, the first complete window
   view.field_range = {ColourRange::Given, {-1.0, 2.0}};
   CHECK(colours()[3] == middle);
+}
+
+TEST_CASE("Renderer: a heatmap without any value, as before the first average, is not drawn") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const View view = view_of(Quantity::Density);
+  Snapshot snapshot;
+  snapshot.box = Vec2(10.0, 10.0);
+  const auto drawn = [&](double first, double second) {
+    snapshot.field = FieldMap{Quantity::Density, {2, 1}, {first, second}};
+    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
+  };
+  const Image none = drawn(std::nan(""), std::nan(""));
+  for (int x = 5; x < 95; ++x) REQUIRE(pixel(none, x, 50) == kDarkTheme.background);
+  CHECK(difference(none, drawn(0.0, std::nan(""))) > 20);
 }
 
 TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {

@@ -337,7 +337,7 @@ TEST_CASE("Movie: an encoder that dies later leaves the pieces before, and those
                    "exec ffmpeg \"$@\"");
   {
     Movie movie(folder / "film.webm", options(), encoder);
-    const std::string named = "filmed before is in " + (folder / "film.webm.part").string();
+    const std::string named = "earlier pictures are in " + (folder / "film.webm.part").string();
     CHECK_THROWS_WITH_AS(write_film(movie, 100), doctest::Contains(named.c_str()), RunError);
   }
   CHECK(frames_of(folder / "film.webm.part/000000.webm") == FrameSink::kPiece);
