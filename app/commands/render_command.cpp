@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
@@ -10,6 +11,7 @@
 #include "app/runs/film.h"
 #include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
+#include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
 #include "engine/dimension.h"
@@ -18,6 +20,7 @@
 #include "engine/whole_number.h"
 #include "render/context/context.h"
 #include "render/output/frame_sink.h"
+#include "render/output/movie.h"
 
 namespace clatter {
 
@@ -64,7 +67,9 @@ struct RenderOptions {
   bool overwrite = false;
   Backend backend = Backend::Auto;
 
-  bool one_picture() const { return std::filesystem::path(out).extension() == ".png"; }
+  std::string extension() const { return std::filesystem::path(out).extension(); }
+  bool one_picture() const { return extension() == ".png"; }
+  bool film() const { return Movie::knows(extension()); }
 };
 
 FrameRange parse_frames(const std::string& text) {
@@ -123,7 +128,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
 
 // Film formats have no transparency.
 void require_pictures(const RenderOptions& options) {
-  const auto extension = std::filesystem::path(options.out).extension();
+  const std::string extension = options.extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
   throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
                   "write to a FILE.png or to a folder, or omit --transparent");
@@ -230,10 +235,19 @@ bool draw(Film<D>& film, const FrameRange& frames, FrameSink& sink, Run<D>& run,
     const long next = film.draw(frames, sink, progress);
     if (next <= frames.begin) return false;
     sink.finish(next == frames.end ? Ending::Whole : Ending::Cut);
+    if (next == frames.end) film.end_part();
     return true;
   } catch (const RunError& error) {
     throw RunError(error.what() + run.rescue());
   }
+}
+
+// Files that other programs wrote among the pieces are not removed.
+void tell_kept_folder(const RenderOptions& options) {
+  const std::filesystem::path folder = pieces_folder(options.out);
+  std::error_code ignored;
+  if (!options.film() || options.common.quiet || !std::filesystem::exists(folder, ignored)) return;
+  std::fprintf(stderr, "note: %s has other files and was kept\n", folder.c_str());
 }
 
 template <int D>
@@ -251,7 +265,9 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
   }
   run.put_aside();
   if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
-  return run.end();
+  const int code = run.end();
+  if (code == kOk) tell_kept_folder(options);
+  return code;
 }
 
 int render(const RenderOptions& options) {
@@ -262,7 +278,9 @@ int render(const RenderOptions& options) {
   View view = scene.view;
   view.overlay = film.overlay;
   require_few_windows(view, film.times.last());
-  const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
+  std::vector<Output> outputs = {{"--out", options.out},
+                                 {"--checkpoint", options.checkpoints.file}};
+  if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   require_folder_of(options.out, "--out");
   require_pictures(options);
@@ -299,8 +317,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "Size of the picture in pixels. Default: the size of --quality.")
       ->type_name("WIDTHxHEIGHT");
   command
-      ->add_option("--fps", options->fps,
-                   "Frames per second of film. Default: the rate of --quality.")
+      ->add_option(
+          "--fps", options->fps,
+          "Frames per second of film. Default: the rate of --quality.")
       ->check(number_between(1.0, 1000.0));
   command
       ->add_option("--from", options->from,
