@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -70,7 +71,16 @@ struct RenderOptions {
   std::string extension() const { return std::filesystem::path(out).extension(); }
   bool one_picture() const { return extension() == ".png"; }
   bool film() const { return Movie::knows(extension()); }
+  bool gif() const { return extension() == ".gif"; }
 };
+
+// The delays of a GIF are whole hundredths of a second, and programs change a delay of one.
+constexpr double kMaxGifFps = 50.0;
+
+double preset_fps(const RenderOptions& options, Quality quality) {
+  const double fps = preset_of(quality).fps;
+  return options.gif() ? std::min(fps, kMaxGifFps) : fps;
+}
 
 FrameRange parse_frames(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -99,15 +109,15 @@ long count_frames(const FrameTimes& times, const std::optional<double>& to) {
 // --from.
 FilmState new_film(const RenderOptions& options, const View& view, double start) {
   constexpr double kPictureSeconds = 10.0;  // film time of a single picture
-  const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
+  const Quality quality = options.quality.value_or(Quality::Medium);
   FilmState film;
-  film.size = parse_size(options.size.value_or(preset.size), kMinSize);
+  film.size = parse_size(options.size.value_or(preset_of(quality).size), kMinSize);
   film.samples = options.supersample.value_or(1);
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
   film.overlay = view.overlay && !options.no_overlay;
   film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
-                options.fps.value_or(preset.fps), 1};
+                options.fps.value_or(preset_fps(options, quality)), 1};
   if (film.times.from < start) {
     throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
                     "give a later time, or omit --from");
@@ -126,8 +136,12 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   return film;
 }
 
-// Film formats have no transparency.
-void require_pictures(const RenderOptions& options) {
+// Refuses settings that the format cannot have.
+void require_format(const RenderOptions& options, const FilmState& film) {
+  if (options.gif() && film.times.fps > kMaxGifFps) {
+    throw UserError({"--fps", 0, 0}, "a GIF has at most 50 frames per second",
+                    "give at most --fps 50, or write another format");
+  }
   const std::string extension = options.extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
   throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
@@ -151,7 +165,7 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   std::optional<double> fps = options.fps;
   if (options.quality) {
     size = parse_size(preset_of(*options.quality).size, kMinSize);
-    if (!fps) fps = preset_of(*options.quality).fps;
+    if (!fps) fps = preset_fps(options, *options.quality);
   }
   if (options.size) size = parse_size(*options.size, kMinSize);
   keep(size, film.size, "--size", size_text);
@@ -283,7 +297,7 @@ int render(const RenderOptions& options) {
   if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   require_folder_of(options.out, "--out");
-  require_pictures(options);
+  require_format(options, film);
   catch_interrupts();
   return with_dimension(scene.dimension(), [&](auto dimension) {
     return film_run<dimension>(options, scene, view, std::move(resumed), film, frames);
@@ -308,7 +322,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("-q,--quality", options->quality,
                    "Size and frame rate. -ql: 854x480, 15 frames a second. -qm: 1280x720, 30. -qh: "
-                   "1920x1080, 60. Default: m.")
+                   "1920x1080, 60; in a GIF 50. Default: m.")
       ->transform(
           one_of<Quality>({{"l", Quality::Low}, {"m", Quality::Medium}, {"h", Quality::High}}))
       ->type_name("l|m|h");
@@ -319,7 +333,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command
       ->add_option(
           "--fps", options->fps,
-          "Frames per second of film. Default: the rate of --quality.")
+          "Frames per second of film, at most 50 in a GIF. Default: the rate of --quality.")
       ->check(number_between(1.0, 1000.0));
   command
       ->add_option("--from", options->from,
