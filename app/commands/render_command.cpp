@@ -20,6 +20,7 @@
 #include "engine/scene/text.h"
 #include "engine/whole_number.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
 #include "render/output/frame_sink.h"
 #include "render/output/movie.h"
 
@@ -148,6 +149,16 @@ void require_format(const RenderOptions& options, const FilmState& film) {
                   "write to a FILE.png or to a folder, or omit --transparent");
 }
 
+void require_drawable(const FilmState& film, const Gl& gl) {
+  const int side = film.samples * std::max(film.size.width, film.size.height);
+  const int largest = Canvas::largest_side(gl);
+  if (side <= largest) return;
+  throw UserError({"--size", 0, 0},
+                  "the pictures have " + std::to_string(side) +
+                      " samples along a side, and this OpenGL supports " + std::to_string(largest),
+                  "give a smaller --size or --supersample");
+}
+
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
   throw UserError({flag, 0, 0}, "the film of the checkpoint has " + before,
                   "omit the flag, or begin another film with --from");
@@ -269,6 +280,7 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
              std::optional<Resumed> resumed, const FilmState& film, const FrameRange& frames) {
   Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
   const auto context = open_context(options.backend);
+  require_drawable(film, context->gl());
   const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
   Film<D> filming(run, scene, view, film, context->gl());
   bool drawn = false;
