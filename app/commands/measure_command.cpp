@@ -20,6 +20,7 @@
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
+#include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
@@ -77,17 +78,16 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
 }
 
 // Throws before a long run if its results cannot be written.
-void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
+void prepare_outputs(const MeasureOptions& options, const Scene& scene,
+                     const std::filesystem::path& checkpoint) {
   const Measure& spec = scene.measure;
-  const std::string& checkpoint = options.checkpoints.file;
-  std::vector<Output> outputs = {
-      {"--out", options.out},
-      {"--csv", options.csv},
-      {"--vtk", options.vtk},
-      {"--hdf5", options.hdf5},
-      {"--save-state", options.save_state},
-      {"--checkpoint", checkpoint},
-      {"--checkpoint", checkpoint.empty() ? "" : checkpoint + ".previous"}};
+  std::vector<Output> outputs = {{"--checkpoint", checkpoint},
+                                 {"--checkpoint", previous_checkpoint(checkpoint)},
+                                 {"--out", options.out},
+                                 {"--csv", options.csv},
+                                 {"--vtk", options.vtk},
+                                 {"--hdf5", options.hdf5},
+                                 {"--save-state", options.save_state}};
   const auto add_files = [&](const char* flag, const std::filesystem::path& folder,
                              const auto& names) {
     if (folder.empty()) return;
@@ -95,7 +95,8 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
   };
   add_files("--csv", options.csv, kTableNames);
   add_files("--vtk", options.vtk, vtk_names());
-  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
+  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
+  require_checkpoint_place(checkpoint, options.checkpoints);
   if (!options.vtk.empty() && spec.fields.empty()) {
     throw UserError({"--vtk", 0, 0}, "the scene measures no fields",
                     "add --set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
@@ -197,11 +198,10 @@ void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
 
 template <int D>
 int measure_one(const MeasureOptions& options, const Scene& scene, std::optional<Resumed> resumed,
-                double end) {
+                const std::filesystem::path& checkpoint, double end) {
   const double cpu_before = cpu_seconds();
   const auto began = std::chrono::steady_clock::now();
-  Run<D> run("measure", scene, options.common, options.checkpoints, std::move(resumed),
-             options.out);
+  Run<D> run("measure", scene, options.common, options.checkpoints, std::move(resumed), checkpoint);
   Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
@@ -246,10 +246,12 @@ int measure(const MeasureOptions& options) {
   }
   require_bounded_samples(scene.measure, end);
   if (options.replicas > 1) return measure_replicas(options, scene, end);
-  prepare_outputs(options, scene);
+  const std::filesystem::path checkpoint =
+      checkpoint_path(options.common, options.checkpoints, resumed, options.out);
+  prepare_outputs(options, scene, checkpoint);
   catch_interrupts();
   return with_dimension(scene.dimension(), [&](auto dimension) {
-    return measure_one<dimension>(options, scene, std::move(resumed), end);
+    return measure_one<dimension>(options, scene, std::move(resumed), checkpoint, end);
   });
 }
 

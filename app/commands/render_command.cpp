@@ -15,6 +15,7 @@
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
+#include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
@@ -277,8 +278,9 @@ void tell_kept_folder(const RenderOptions& options) {
 
 template <int D>
 int film_run(const RenderOptions& options, const Scene& scene, const View& view,
-             std::optional<Resumed> resumed, const FilmState& film, const FrameRange& frames) {
-  Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
+             std::optional<Resumed> resumed, const std::filesystem::path& checkpoint,
+             const FilmState& film, const FrameRange& frames) {
+  Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), checkpoint);
   const auto context = open_context(options.backend);
   require_drawable(film, context->gl());
   const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
@@ -304,15 +306,19 @@ int render(const RenderOptions& options) {
   View view = scene.view;
   view.overlay = film.overlay;
   require_few_windows(view, film.times.last());
-  std::vector<Output> outputs = {{"--out", options.out},
-                                 {"--checkpoint", options.checkpoints.file}};
-  if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
-  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   require_folder_of(options.out, "--out");
+  const std::filesystem::path checkpoint =
+      checkpoint_path(options.common, options.checkpoints, resumed, options.out);
+  std::vector<Output> outputs = {{"--checkpoint", checkpoint},
+                                 {"--checkpoint", previous_checkpoint(checkpoint)},
+                                 {"--out", options.out}};
+  if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
+  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
+  require_checkpoint_place(checkpoint, options.checkpoints);
   require_format(options, film);
   catch_interrupts();
   return with_dimension(scene.dimension(), [&](auto dimension) {
-    return film_run<dimension>(options, scene, view, std::move(resumed), film, frames);
+    return film_run<dimension>(options, scene, view, std::move(resumed), checkpoint, film, frames);
   });
 }
 

@@ -20,15 +20,27 @@ namespace clatter {
 /// lost events.
 void require_no_overlap(const RunChecks& checks);
 
+/// The path of a run's checkpoint: of --checkpoint, or the automatic one beside the output `out`.
+/// Without a file or folder as output, the automatic name has the scene and the seed.
+std::filesystem::path checkpoint_path(const CommonOptions& options,
+                                      const CheckpointOptions& checkpoints,
+                                      const std::optional<Resumed>& resumed,
+                                      const std::string& out);
+
+/// Throws UserError if the checkpoint `file` or its FILE.previous would replace a file that is no
+/// checkpoint, and RunError if a requested checkpoint cannot be written.
+void require_checkpoint_place(const std::filesystem::path& file,
+                              const CheckpointOptions& checkpoints);
+
 /// The run of a command, from its start or from a checkpoint. Writes the requested checkpoints, and
 /// one at an early end.
 template <int D>
 class Run {
  public:
-  /// `out` is the output of the command; empty: stdout. Throws UserError if a requested checkpoint
-  /// has no possible place.
+  /// `file` is the result of checkpoint_path().
   Run(const std::string& command, const Scene& scene, const CommonOptions& options,
-      const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
+      const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
+      const std::filesystem::path& file);
 
   /// The run, at its first simulation time.
   ScheduledRun<D>& scheduled() { return *run_; }
