@@ -157,7 +157,9 @@ Checkpoint Run<D>::checkpoint() {
           .start_temperature = scene_.particles.start.temperature,
           .seed = seed_,
           .saved = simulation().save(),
-          .measurement = measurement_ ? measurement_->save() : "",
+          .measurement = averages_      ? *averages_
+                         : measurement_ ? measurement_->save()
+                                        : "",
           .film = film_state ? film_state() : ""};
 }
 
@@ -186,11 +188,13 @@ void Run<D>::write() {
 template <int D>
 std::string Run<D>::rescue() {
   write();
-  return failure_.empty() ? "; continue with --resume " + file_.string() : "";
+  return failure_.empty() ? "; continue with --resume " + file_.string()
+                          : "; no checkpoint was written: " + failure_;
 }
 
 template <int D>
 void Run<D>::put_aside() {
+  if (measurement_) averages_ = measurement_->save();
   if (!ended_early_ && options_.file.empty()) return;
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
