@@ -30,7 +30,9 @@ static CLI::Validator number_check(Allows allows, const std::string& wanted) {
 
 CLI::Validator named_file() {
   return CLI::Validator(
-      [](const std::string& name) { return name.empty() ? "the name is empty; name a file" : ""; },
+      [](const std::string& name) {
+        return name.empty() ? "the name is empty; name a file or folder" : "";
+      },
       "");
 }
 

@@ -62,7 +62,7 @@ void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
                           .add_option("--checkpoint", options.file,
                                       "Keep a checkpoint up to date. The previous one is "
                                       "FILE.previous. Default: a checkpoint beside the result, "
-                                      "only after an interrupt or a stop.")
+                                      "only after an interrupt, a stop or a failed output.")
                           ->check(named_file())
                           ->type_name("FILE");
   command

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
+#include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
@@ -78,26 +80,38 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   }
 }
 
+// Throws if a table or map of an earlier run cannot be replaced.
+void require_replaceable(const std::filesystem::path& file, const char* flag) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw UserError({flag, 0, 0}, file.string() + " is a folder",
+                    "remove it, or give another name");
+  }
+  if (std::filesystem::exists(file, ignored)) require_writable(file);
+}
+
 // Throws before a long run if its results cannot be written.
-void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
+void prepare_outputs(const MeasureOptions& options, const Scene& scene,
+                     const std::filesystem::path& checkpoint) {
   const Measure& spec = scene.measure;
-  const std::string& checkpoint = options.checkpoints.file;
-  std::vector<Output> outputs = {
-      {"--out", options.out},
-      {"--csv", options.csv},
-      {"--vtk", options.vtk},
-      {"--hdf5", options.hdf5},
-      {"--save-state", options.save_state},
-      {"--checkpoint", checkpoint},
-      {"--checkpoint", checkpoint.empty() ? "" : checkpoint + ".previous"}};
-  const auto add_files = [&](const char* flag, const std::filesystem::path& folder,
-                             const auto& names) {
+  std::vector<Output> outputs = {{"--checkpoint", checkpoint},
+                                 {"--checkpoint", previous_checkpoint(checkpoint)},
+                                 {"--out", options.out},
+                                 {"--csv", options.csv},
+                                 {"--vtk", options.vtk},
+                                 {"--hdf5", options.hdf5},
+                                 {"--save-state", options.save_state}};
+  std::vector<Output> tables;
+  const auto add_tables = [&](const char* flag, const std::filesystem::path& folder,
+                              const auto& names) {
     if (folder.empty()) return;
-    for (const auto& name : names) outputs.push_back({flag, folder / name});
+    for (const auto& name : names) tables.push_back({flag, folder / name});
   };
-  add_files("--csv", options.csv, kTableNames);
-  add_files("--vtk", options.vtk, vtk_names());
-  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
+  add_tables("--csv", options.csv, kTableNames);
+  add_tables("--vtk", options.vtk, vtk_names());
+  outputs.insert(outputs.end(), tables.begin(), tables.end());
+  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
+  require_checkpoint_place(checkpoint, options.checkpoints);
   if (!options.vtk.empty() && spec.fields.empty()) {
     throw UserError({"--vtk", 0, 0}, "the scene measures no fields",
                     "add --set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
@@ -109,6 +123,7 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene) {
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
   if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
+  for (const Output& table : tables) require_replaceable(table.path, table.flag);
   if (!options.csv.empty()) make_folder(options.csv, "--csv");
   if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
 }
@@ -146,16 +161,33 @@ void write_json(const std::string& out, const nlohmann::ordered_json& result) {
   }
 }
 
+// Writes each output even if another fails. Then throws the first error, with a checkpoint from
+// which the results can be written again.
+template <int D>
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
-                   const Measured& measured) {
-  write_json(options.out, result);
-  if (!options.csv.empty()) write_tables(options.csv, measured);
+                   const Measured& measured, Run<D>& run) {
+  std::string failure;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception& error) {
+      if (failure.empty()) failure = error.what();
+    }
+  };
+  attempt([&] { write_json(options.out, result); });
+  if (!options.csv.empty()) attempt([&] { write_tables(options.csv, measured); });
   if (!options.vtk.empty()) {
-    write_vtk(options.vtk, measured,
-              result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
-                  ", state hash " + result.at("state_hash").get<std::string>());
+    attempt([&] {
+      write_vtk(options.vtk, measured,
+                result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
+                    ", state hash " + result.at("state_hash").get<std::string>());
+    });
   }
-  if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured);
+  if (!options.hdf5.empty()) attempt([&] { write_hdf5(options.hdf5, result, measured); });
+  if (!options.save_state.empty()) {
+    attempt([&] { write_file(options.save_state, state_to_csv(run.simulation().state())); });
+  }
+  if (!failure.empty()) throw RunError(failure + run.rescue());
 }
 
 void require_bounded_samples(const Measure& spec, double end) {
@@ -177,9 +209,16 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
     throw UserError({"--replicas", 0, 0}, "the laws of this scene change",
                     "measure each seed separately, or remove [[change]]");
   }
+  const std::uint64_t seed = options.common.seed.value_or(1);
+  constexpr std::uint64_t kLastSeed = std::numeric_limits<std::uint64_t>::max();
+  if (seed > kLastSeed - static_cast<std::uint64_t>(options.replicas - 1)) {
+    throw UserError({"--seed", 0, 0},
+                    "the seeds of the replicas would exceed " + std::to_string(kLastSeed),
+                    "give a smaller seed");
+  }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   catch_interrupts();
-  const Ensemble ensemble{options.replicas, options.common.seed.value_or(1), end, options.threads};
+  const Ensemble ensemble{options.replicas, seed, end, options.threads};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
   const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
   write_json(options.out, result);
@@ -194,15 +233,18 @@ bool goes_on_to(double end, const Resumed& resumed) {
   return !resumed.checkpoint.measurement.empty() && changed_laws(resumed).empty();
 }
 
-// Shortens the burn-in of a run that would end within it. The burn-in keeps its share of the whole
+// Shortens the burn-in of a run that would end within it, or so soon after it that the windows of
+// averages would be as short as the rounding of times. The burn-in keeps its share of the whole
 // time. Exception: flags give both times.
 void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
-  if (end > measure.burn_in) return;
-  if (options.sets("measure.burn_in")) {
+  constexpr double kShortest = 1e-12;  // share of the whole time
+  const auto leaves_time = [&](double burn_in) { return end - burn_in > kShortest * end; };
+  if (leaves_time(measure.burn_in)) return;
+  const double shorter = end * (measure.burn_in / (measure.burn_in + measure.duration));
+  if (options.sets("measure.burn_in") || !leaves_time(shorter)) {
     throw UserError({"--until", 0, 0}, "the run ends within the burn-in",
                     "give a time after measure.burn_in = " + number_text(measure.burn_in));
   }
-  const double shorter = end * (measure.burn_in / (measure.burn_in + measure.duration));
   if (!options.quiet) {
     std::fprintf(
         stderr,
@@ -214,11 +256,10 @@ void fit_burn_in(Measure& measure, double end, const CommonOptions& options) {
 
 template <int D>
 int measure_one(const MeasureOptions& options, const Scene& scene, std::optional<Resumed> resumed,
-                double end) {
+                const std::filesystem::path& checkpoint, double end) {
   const double cpu_before = cpu_seconds();
   const auto began = std::chrono::steady_clock::now();
-  Run<D> run("measure", scene, options.common, options.checkpoints, std::move(resumed),
-             options.out);
+  Run<D> run("measure", scene, options.common, options.checkpoints, std::move(resumed), checkpoint);
   Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
@@ -236,7 +277,7 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
                                 run.simulation().counts().pair_collisions - collisions_before,
                                 peak_memory_bytes()};
-  write_results(options, json_of(options, scene, run, measured, performance), measured);
+  write_results(options, json_of(options, scene, run, measured, performance), measured, run);
   if (!options.common.quiet) {
     advise_on_contact_time(scene, measured);
     if (options.accuracy.asked_for()) {
@@ -245,9 +286,6 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
       tell_temperature(measured);
     }
     warn_of_drift(options.accuracy, measured);
-  }
-  if (!options.save_state.empty()) {
-    write_file(options.save_state, state_to_csv(run.simulation().state()));
   }
   const int code = run.end();
   if (measured.residuals) require_closed(*measured.residuals);
@@ -267,10 +305,12 @@ int measure(const MeasureOptions& options) {
   }
   require_bounded_samples(scene.measure, end);
   if (options.replicas > 1) return measure_replicas(options, scene, end);
-  prepare_outputs(options, scene);
+  const std::filesystem::path checkpoint =
+      checkpoint_path(options.common, options.checkpoints, resumed, options.out);
+  prepare_outputs(options, scene, checkpoint);
   catch_interrupts();
   return with_dimension(scene.dimension(), [&](auto dimension) {
-    return measure_one<dimension>(options, scene, std::move(resumed), end);
+    return measure_one<dimension>(options, scene, std::move(resumed), checkpoint, end);
   });
 }
 
@@ -287,11 +327,13 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   add_checkpoint_flags(*command, options->checkpoints);
   add_accuracy_flags(*command, options->accuracy);
   command->add_option("--out", options->out, "File for the result. Default: stdout.")
+      ->check(named_file())
       ->type_name("FILE.json");
   command
       ->add_option(
           "--csv", options->csv,
           "Folder for tables of series, profiles and maps. Tables of an earlier run are replaced.")
+      ->check(named_file())
       ->type_name("DIR");
   command
       ->add_option("--vtk", options->vtk,
@@ -300,13 +342,16 @@ void add_measure_command(CLI::App& program, int& exit_code) {
                    "time and the residuals. The file series.pvd has the averages over parts of the "
                    "time. Maps of an "
                    "earlier run are replaced.")
+      ->check(named_file())
       ->type_name("DIR");
   command->add_option("--hdf5", options->hdf5, "File for all results, series, profiles and maps.")
+      ->check(named_file())
       ->type_name("FILE.h5");
   command
       ->add_option("--save-state", options->save_state,
                    "File for the state at the end. A scene starts from it with "
                    "--set 'particles.start={layout=\"file\",file=\"FILE.csv\"}'.")
+      ->check(named_file())
       ->type_name("FILE.csv");
   CLI::Option* replicas =
       command

@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
@@ -10,14 +12,18 @@
 #include "app/runs/film.h"
 #include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
+#include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
+#include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 #include "engine/whole_number.h"
 #include "render/context/context.h"
+#include "render/gl/canvas.h"
 #include "render/output/frame_sink.h"
+#include "render/output/movie.h"
 
 namespace clatter {
 
@@ -64,8 +70,19 @@ struct RenderOptions {
   bool overwrite = false;
   Backend backend = Backend::Auto;
 
-  bool one_picture() const { return std::filesystem::path(out).extension() == ".png"; }
+  std::string extension() const { return std::filesystem::path(out).extension(); }
+  bool one_picture() const { return extension() == ".png"; }
+  bool film() const { return Movie::knows(extension()); }
+  bool gif() const { return extension() == ".gif"; }
 };
+
+// The delays of a GIF are whole hundredths of a second, and programs change a delay of one.
+constexpr double kMaxGifFps = 50.0;
+
+double preset_fps(const RenderOptions& options, Quality quality) {
+  const double fps = preset_of(quality).fps;
+  return options.gif() ? std::min(fps, kMaxGifFps) : fps;
+}
 
 FrameRange parse_frames(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -94,15 +111,15 @@ long count_frames(const FrameTimes& times, const std::optional<double>& to) {
 // --from.
 FilmState new_film(const RenderOptions& options, const View& view, double start) {
   constexpr double kPictureSeconds = 10.0;  // film time of a single picture
-  const Preset preset = preset_of(options.quality.value_or(Quality::Medium));
+  const Quality quality = options.quality.value_or(Quality::Medium);
   FilmState film;
-  film.size = parse_size(options.size.value_or(preset.size), kMinSize);
+  film.size = parse_size(options.size.value_or(preset_of(quality).size), kMinSize);
   film.samples = options.supersample.value_or(1);
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
   film.overlay = view.overlay && !options.no_overlay;
   film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
-                options.fps.value_or(preset.fps), 1};
+                options.fps.value_or(preset_fps(options, quality)), 1};
   if (film.times.from < start) {
     throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
                     "give a later time, or omit --from");
@@ -121,12 +138,26 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   return film;
 }
 
-// Film formats have no transparency.
-void require_pictures(const RenderOptions& options) {
-  const auto extension = std::filesystem::path(options.out).extension();
+// Refuses settings that the format cannot have.
+void require_format(const RenderOptions& options, const FilmState& film) {
+  if (options.gif() && film.times.fps > kMaxGifFps) {
+    throw UserError({"--fps", 0, 0}, "a GIF has at most 50 frames per second",
+                    "give at most --fps 50, or write another format");
+  }
+  const std::string extension = options.extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
   throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
                   "write to a FILE.png or to a folder, or omit --transparent");
+}
+
+void require_drawable(const FilmState& film, const Gl& gl) {
+  const int side = film.samples * std::max(film.size.width, film.size.height);
+  const int largest = Canvas::largest_side(gl);
+  if (side <= largest) return;
+  throw UserError({"--size", 0, 0},
+                  "the pictures have " + std::to_string(side) +
+                      " samples along a side, and this OpenGL supports " + std::to_string(largest),
+                  "give a smaller --size or --supersample");
 }
 
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
@@ -146,7 +177,7 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   std::optional<double> fps = options.fps;
   if (options.quality) {
     size = parse_size(preset_of(*options.quality).size, kMinSize);
-    if (!fps) fps = preset_of(*options.quality).fps;
+    if (!fps) fps = preset_fps(options, *options.quality);
   }
   if (options.size) size = parse_size(*options.size, kMinSize);
   keep(size, film.size, "--size", size_text);
@@ -230,17 +261,28 @@ bool draw(Film<D>& film, const FrameRange& frames, FrameSink& sink, Run<D>& run,
     const long next = film.draw(frames, sink, progress);
     if (next <= frames.begin) return false;
     sink.finish(next == frames.end ? Ending::Whole : Ending::Cut);
+    if (next == frames.end) film.end_part();
     return true;
   } catch (const RunError& error) {
     throw RunError(error.what() + run.rescue());
   }
 }
 
+// Files that other programs wrote among the pieces are not removed.
+void tell_kept_folder(const RenderOptions& options) {
+  const std::filesystem::path folder = pieces_folder(options.out);
+  std::error_code ignored;
+  if (!options.film() || options.common.quiet || !std::filesystem::exists(folder, ignored)) return;
+  std::fprintf(stderr, "note: %s has other files and was kept\n", folder.c_str());
+}
+
 template <int D>
 int film_run(const RenderOptions& options, const Scene& scene, const View& view,
-             std::optional<Resumed> resumed, const FilmState& film, const FrameRange& frames) {
-  Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), options.out);
+             std::optional<Resumed> resumed, const std::filesystem::path& checkpoint,
+             const FilmState& film, const FrameRange& frames) {
+  Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), checkpoint);
   const auto context = open_context(options.backend);
+  require_drawable(film, context->gl());
   const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
   Film<D> filming(run, scene, view, film, context->gl());
   bool drawn = false;
@@ -251,7 +293,9 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
   }
   run.put_aside();
   if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
-  return run.end();
+  const int code = run.end();
+  if (code == kOk) tell_kept_folder(options);
+  return code;
 }
 
 int render(const RenderOptions& options) {
@@ -262,13 +306,19 @@ int render(const RenderOptions& options) {
   View view = scene.view;
   view.overlay = film.overlay;
   require_few_windows(view, film.times.last());
-  const Output outputs[] = {{"--out", options.out}, {"--checkpoint", options.checkpoints.file}};
-  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene));
   require_folder_of(options.out, "--out");
-  require_pictures(options);
+  const std::filesystem::path checkpoint =
+      checkpoint_path(options.common, options.checkpoints, resumed, options.out);
+  std::vector<Output> outputs = {{"--checkpoint", checkpoint},
+                                 {"--checkpoint", previous_checkpoint(checkpoint)},
+                                 {"--out", options.out}};
+  if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
+  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
+  require_checkpoint_place(checkpoint, options.checkpoints);
+  require_format(options, film);
   catch_interrupts();
   return with_dimension(scene.dimension(), [&](auto dimension) {
-    return film_run<dimension>(options, scene, view, std::move(resumed), film, frames);
+    return film_run<dimension>(options, scene, view, std::move(resumed), checkpoint, film, frames);
   });
 }
 
@@ -290,7 +340,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("-q,--quality", options->quality,
                    "Size and frame rate. -ql: 854x480, 15 frames a second. -qm: 1280x720, 30. -qh: "
-                   "1920x1080, 60. Default: m.")
+                   "1920x1080, 60; in a GIF 50. Default: m.")
       ->transform(
           one_of<Quality>({{"l", Quality::Low}, {"m", Quality::Medium}, {"h", Quality::High}}))
       ->type_name("l|m|h");
@@ -299,8 +349,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "Size of the picture in pixels. Default: the size of --quality.")
       ->type_name("WIDTHxHEIGHT");
   command
-      ->add_option("--fps", options->fps,
-                   "Frames per second of film. Default: the rate of --quality.")
+      ->add_option(
+          "--fps", options->fps,
+          "Frames per second of film, at most 50 in a GIF. Default: the rate of --quality.")
       ->check(number_between(1.0, 1000.0));
   command
       ->add_option("--from", options->from,

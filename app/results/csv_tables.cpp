@@ -77,13 +77,16 @@ static std::string maps_table(const FieldMaps& maps) {
   return table;
 }
 
+// The tables of an earlier run that this run does not replace are removed last. A failure loses
+// none.
 void write_tables(const std::filesystem::path& folder, const Measured& measured) {
   const auto [series, profile, maps] = kTableNames;
-  // Removes the tables of an earlier run that this run may not replace.
-  for (const char* name : kTableNames) std::filesystem::remove(folder / name);
   write_file(folder / series, series_table(measured));
   if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
   if (measured.maps) write_file(folder / maps, maps_table(*measured.maps));
+  std::error_code ignored;
+  if (!measured.profile) std::filesystem::remove(folder / profile, ignored);
+  if (!measured.maps) std::filesystem::remove(folder / maps, ignored);
 }
 
 }  // namespace clatter

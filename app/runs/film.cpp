@@ -97,10 +97,13 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
     sink.add(state_.transparent ? with_own_colours(picture) : picture, state_.notes);
     progress.update(snapshot.time);
   }
-  state_.begin.reset();
-  state_.checksums = sink.checksums();
-  run_.mark();
   return state_.next;
+}
+
+template <int D>
+void Film<D>::end_part() {
+  state_.begin.reset();
+  run_.mark();
 }
 
 template <int D>

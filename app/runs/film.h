@@ -66,8 +66,12 @@ class Film {
 
   /// Draws the remaining frames of the range into a sink. Earlier frames are simulated, not drawn.
   /// Ends early if the run does. Returns the number of the next frame. Checkpoints continue from
-  /// the last frame whose number is a multiple of FrameSink::kPiece.
+  /// the last drawn frame whose number is a multiple of FrameSink::kPiece: the pictures after it
+  /// may be lost until the sink is finished.
   long draw(const FrameRange& frames, FrameSink& sink, Progress& progress);
+  /// Ends the part that draw() has drawn, after the sink is finished. Checkpoints then have the
+  /// present state of the run.
+  void end_part();
 
  private:
   std::string state_now() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/runs/picture_scene.h"
+#include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
 
 namespace clatter {
@@ -40,9 +41,14 @@ Scene load_disks(const CommonOptions& options, StartFile start_file) {
 
 std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,
                                              const CheckpointOptions& checkpoints,
-                                             const Scene& scene) {
+                                             const Scene& scene,
+                                             const std::filesystem::path& checkpoint) {
   std::vector<std::filesystem::path> inputs = {options.scene, scene.particles.start.file};
-  if (checkpoints.resume != checkpoints.file) inputs.emplace_back(checkpoints.resume);
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(checkpoints.resume, checkpoint, ignored) &&
+      !std::filesystem::equivalent(checkpoints.resume, previous_checkpoint(checkpoint), ignored)) {
+    inputs.emplace_back(checkpoints.resume);
+  }
   return inputs;
 }
 

@@ -43,9 +43,11 @@ Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read)
 Scene load_disks(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
 /// The files that a command reads and must not overwrite: scene, start state and resumed
-/// checkpoint. A checkpoint that the command keeps up to date is not in the list.
+/// checkpoint. The list omits a resumed checkpoint that is `checkpoint`, which the command keeps up
+/// to date, or its previous one.
 std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,
                                              const CheckpointOptions& checkpoints,
-                                             const Scene& scene);
+                                             const Scene& scene,
+                                             const std::filesystem::path& checkpoint);
 
 }  // namespace clatter

@@ -28,40 +28,52 @@ static bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Mo
          saved.wall_motions == wall_motions<D>(model);
 }
 
-// Path of an automatic checkpoint: beside the output if this is a file or folder. Otherwise the
-// name contains the seed, so that runs in one folder use different files.
-static std::filesystem::path checkpoint_beside(const std::string& out, const std::string& scene,
-                                               std::uint64_t seed) {
+static std::uint64_t seed_of(const CommonOptions& options, const std::optional<Resumed>& resumed) {
+  return options.seed.value_or(resumed ? resumed->checkpoint.seed : 1);
+}
+
+std::filesystem::path checkpoint_path(const CommonOptions& options,
+                                      const CheckpointOptions& checkpoints,
+                                      const std::optional<Resumed>& resumed,
+                                      const std::string& out) {
+  if (!checkpoints.file.empty()) return checkpoints.file;
   if (out.empty() || is_special(out)) {
-    return fmt::format("{}-seed{}.checkpoint", std::filesystem::path(scene).stem().string(), seed);
+    return fmt::format("{}-seed{}.checkpoint", std::filesystem::path(options.scene).stem().string(),
+                       seed_of(options, resumed));
   }
   std::filesystem::path file = out;
   if (!file.has_filename()) file = file.parent_path();
   return file.replace_extension(".checkpoint");
 }
 
-static void require_checkpoint_place(const CheckpointOptions& options) {
-  if (options.file.empty()) return;
-  require_writable_file(options.file, "--checkpoint");
-  if (std::filesystem::exists(options.file) && !is_checkpoint(options.file)) {
-    throw UserError({"--checkpoint", 0, 0}, options.file + " exists and is not a checkpoint",
-                    "give another name");
+void require_checkpoint_place(const std::filesystem::path& file,
+                              const CheckpointOptions& checkpoints) {
+  const bool requested = !checkpoints.file.empty();
+  if (requested) require_writable_file(file, "--checkpoint");
+  for (const std::filesystem::path& place : {file, previous_checkpoint(file)}) {
+    std::error_code error;
+    const bool exists = std::filesystem::exists(place, error);
+    if (error == std::errc::filename_too_long) {
+      throw UserError({"--checkpoint", 0, 0}, "the name " + place.string() + " is too long",
+                      "name a checkpoint");
+    }
+    if (!exists || (std::filesystem::is_regular_file(place) && is_checkpoint(place))) continue;
+    throw UserError({"--checkpoint", 0, 0}, place.string() + " exists and is not a checkpoint",
+                    requested ? "give another name" : "move it, or name a checkpoint");
   }
 }
 
 template <int D>
 Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions& options,
             const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
-            const std::string& out)
+            const std::filesystem::path& file)
     : command_(command),
       scene_(scene),
       quiet_(options.quiet),
       options_(checkpoints),
+      file_(file),
       resumed_(std::move(resumed)),
-      seed_(options.seed.value_or(resumed_ ? resumed_->checkpoint.seed : 1)) {
-  require_checkpoint_place(options_);
-  file_ = options_.file.empty() ? checkpoint_beside(out, options.scene, seed_)
-                                : std::filesystem::path(options_.file);
+      seed_(seed_of(options, resumed_)) {
   if (!resumed_) {
     run_.emplace(scene, seed_);
     return;
@@ -145,7 +157,9 @@ Checkpoint Run<D>::checkpoint() {
           .start_temperature = scene_.particles.start.temperature,
           .seed = seed_,
           .saved = simulation().save(),
-          .measurement = measurement_ ? measurement_->save() : "",
+          .measurement = averages_      ? *averages_
+                         : measurement_ ? measurement_->save()
+                                        : "",
           .film = film_state ? film_state() : ""};
 }
 
@@ -174,11 +188,13 @@ void Run<D>::write() {
 template <int D>
 std::string Run<D>::rescue() {
   write();
-  return failure_.empty() ? "; continue with --resume " + file_.string() : "";
+  return failure_.empty() ? "; continue with --resume " + file_.string()
+                          : "; no checkpoint was written: " + failure_;
 }
 
 template <int D>
 void Run<D>::put_aside() {
+  if (measurement_) averages_ = measurement_->save();
   if (!ended_early_ && options_.file.empty()) return;
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {

@@ -20,15 +20,27 @@ namespace clatter {
 /// lost events.
 void require_no_overlap(const RunChecks& checks);
 
+/// The path of a run's checkpoint: of --checkpoint, or the automatic one beside the output `out`.
+/// Without a file or folder as output, the automatic name has the scene and the seed.
+std::filesystem::path checkpoint_path(const CommonOptions& options,
+                                      const CheckpointOptions& checkpoints,
+                                      const std::optional<Resumed>& resumed,
+                                      const std::string& out);
+
+/// Throws UserError if the checkpoint `file` or its FILE.previous would replace a file that is no
+/// checkpoint, and RunError if a requested checkpoint cannot be written.
+void require_checkpoint_place(const std::filesystem::path& file,
+                              const CheckpointOptions& checkpoints);
+
 /// The run of a command, from its start or from a checkpoint. Writes the requested checkpoints, and
 /// one at an early end.
 template <int D>
 class Run {
  public:
-  /// `out` is the output of the command; empty: stdout. Throws UserError if a requested checkpoint
-  /// has no possible place.
+  /// `file` is the result of checkpoint_path().
   Run(const std::string& command, const Scene& scene, const CommonOptions& options,
-      const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
+      const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
+      const std::filesystem::path& file);
 
   /// The run, at its first simulation time.
   ScheduledRun<D>& scheduled() { return *run_; }
@@ -51,7 +63,7 @@ class Run {
   /// Writes a checkpoint after a failed output. Returns a sentence about it for the error.
   std::string rescue();
   /// Writes the checkpoint that the end of the run requires. To be called before the results of the
-  /// measurement are read.
+  /// measurement are read: later checkpoints continue the averages from here.
   void put_aside();
   /// Returns the exit code, or throws the error of the run. To be called after the results are
   /// written.
@@ -76,6 +88,7 @@ class Run {
   std::optional<ScheduledRun<D>> run_;
   double measure_end_ = 0.0;
   std::optional<Measurement<D>> measurement_;
+  std::optional<std::string> averages_;  // saved measurement at the end of the run
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // failure of the last checkpoint

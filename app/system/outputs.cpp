@@ -28,19 +28,19 @@ void require_folder_of(const std::filesystem::path& path, const char* flag) {
   // The path "frames/" names the folder frames.
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   const std::filesystem::path folder = name.has_parent_path() ? name.parent_path() : ".";
-  if (std::filesystem::is_directory(folder)) return;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) return;
   throw UserError({flag, 0, 0}, "there is no folder " + folder.string(),
                   "create it, or choose another folder");
 }
 
 void require_writable_file(const std::filesystem::path& path, const char* flag) {
   require_folder_of(path, flag);
-  if (!path.has_filename() || std::filesystem::is_directory(path)) {
+  std::error_code ignored;
+  if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
     throw UserError({flag, 0, 0}, path.string() + " is a folder", "give a file in it");
   }
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const std::filesystem::path& written = is_special(path) ? path : folder;
-  if (access(written.c_str(), W_OK) != 0) throw_unwritable(path);
+  require_writable(path);
 }
 
 void make_folder(const std::filesystem::path& folder, const char* flag) {
@@ -55,28 +55,28 @@ void make_folder(const std::filesystem::path& folder, const char* flag) {
 
 // The same text for all paths to one place.
 static std::filesystem::path whole_name(const std::filesystem::path& path) {
-  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+  const std::filesystem::path name =
+      std::filesystem::absolute(path.has_filename() ? path : path.parent_path());
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(target_of(name), error);
+  return error ? name : whole;
 }
 
 void require_distinct(std::span<const Output> outputs,
                       std::span<const std::filesystem::path> inputs) {
   std::map<std::filesystem::path, std::string> names;
+  std::error_code ignored;
   for (const auto& input : inputs) {
-    if (!input.empty() && std::filesystem::exists(input)) {
+    if (!input.empty() && std::filesystem::exists(input, ignored)) {
       names.emplace(whole_name(input), "this command reads");
     }
   }
   for (const auto& [flag, path] : outputs) {
     if (path.empty() || is_special(path)) continue;
-    const std::filesystem::path name = whole_name(path);
-    for (const char* suffix : {"", ".part"}) {
-      const auto [other, first] =
-          names.emplace(name.string() + suffix, std::string(flag) + " writes");
-      if (first) continue;
-      throw UserError({flag, 0, 0}, path.string() + suffix + " is the file that " + other->second,
-                      "choose different names");
-    }
+    const auto [other, first] = names.emplace(whole_name(path), std::string(flag) + " writes");
+    if (first) continue;
+    throw UserError({flag, 0, 0}, path.string() + " is the file that " + other->second,
+                    "choose different names");
   }
 }
 

@@ -13,7 +13,7 @@ void print(std::string_view text);
 void require_folder_of(const std::filesystem::path& path, const char* flag);
 
 /// Throws the error that write_file() would throw for this path, so that it appears before a long
-/// run.
+/// run. Throws UserError for a folder, and if the parent folder does not exist.
 void require_writable_file(const std::filesystem::path& path, const char* flag);
 
 /// Makes a folder unless it exists. Throws UserError if its parent folder does not exist, and
@@ -27,7 +27,7 @@ struct Output {
 };
 
 /// Throws UserError if two outputs have the same path, or if an output is a file that the command
-/// reads. Temporary files also count: FILE.part, and FILE.previous of a checkpoint.
+/// reads.
 void require_distinct(std::span<const Output> outputs,
                       std::span<const std::filesystem::path> inputs = {});
 

@@ -1,5 +1,6 @@
 #include "engine/dynamics/clock.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -44,7 +45,9 @@ double Clock::relative(double absolute) const {
 }
 
 double Clock::relative(double start, std::uint64_t count, double interval) const {
-  const LongTime product = two_product(static_cast<double>(count), interval);
+  // The splitting overflows beyond 1e300. No run reaches the end of so long an interval.
+  constexpr double kLongest = 1e280;
+  const LongTime product = two_product(static_cast<double>(count), std::min(interval, kLongest));
   const LongTime from_base = two_sum(start, -base_.high);
   const LongTime sum = two_sum(from_base.high, product.high);
   return sum.high + (sum.low + (from_base.low - base_.low + product.low));

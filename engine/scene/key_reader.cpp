@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
@@ -119,6 +120,13 @@ static std::optional<double> number_in(const toml::node& node, Limits limits) {
   return limits.allow(number) ? std::optional(number) : std::nullopt;
 }
 
+/// An integer within the limits that fits an int.
+static std::optional<int> whole_number_in(const toml::node& node, Limits limits) {
+  const auto* whole = node.as_integer();
+  if (!whole || !std::in_range<int>(whole->get()) || !number_in(node, limits)) return std::nullopt;
+  return static_cast<int>(whole->get());
+}
+
 /// The numbers of an array of `size`; absent for any other node.
 static std::optional<VecX> numbers_in(const toml::node& node, Limits limits, Eigen::Index size) {
   const toml::array* array = node.as_array();
@@ -139,10 +147,9 @@ bool KeyReader::read(const toml::node& node, Limits limits, double& value) {
 }
 
 bool KeyReader::read(const toml::node& node, Limits limits, int& value) {
-  const auto number = number_in(node, limits);
-  if (!number || !node.is_integer()) return false;
-  value = static_cast<int>(*number);
-  return true;
+  const auto number = whole_number_in(node, limits);
+  value = number.value_or(value);
+  return number.has_value();
 }
 
 bool KeyReader::read(const toml::node& node, Limits, bool& value) {
@@ -175,10 +182,13 @@ bool KeyReader::read(const toml::node& node, Limits limits, VecX& value) {
 }
 
 bool KeyReader::read(const toml::node& node, Limits limits, std::vector<int>& value) {
-  const auto size = static_cast<Eigen::Index>(value.size());
-  const auto numbers = numbers_in(node, limits, size);
-  if (!numbers || !node.as_array()->is_homogeneous(toml::node_type::integer)) return false;
-  std::ranges::transform(*numbers, value.begin(), [](double n) { return static_cast<int>(n); });
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != value.size()) return false;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const auto number = whole_number_in((*array)[k], limits);
+    if (!number) return false;
+    value[k] = *number;
+  }
   return true;
 }
 

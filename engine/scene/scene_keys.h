@@ -56,6 +56,7 @@ constexpr Limits at_least_or_infinite(double lowest) {
 /// or underflow. Positions in the largest box have a rounding error of 1e-10 diameters, and phases
 /// of walls have the same precision in periods. The smallest inertia limits the ratio of spins to
 /// speeds.
+inline constexpr double kMaxCount = std::numeric_limits<int>::max();
 inline constexpr double kMaxSpeed = 1e15;
 inline constexpr double kMaxTemperature = 1e30;
 inline constexpr double kMaxAcceleration = 1e15;
@@ -286,9 +287,8 @@ inline constexpr auto kParticleKeys = key_table(
 /// The keys of [particles]. Count and packing fraction are resolved after the whole scene is read.
 template <class Visitor>
 void visit_particles(Visitor& io, SceneInput& input) {
-  constexpr double kLargestCount = std::numeric_limits<int>::max();
   Particles& particles = input.scene.particles;
-  io.value(kParticleKeys.at("count"), input.count, between(0, kLargestCount));
+  io.value(kParticleKeys.at("count"), input.count, between(0, kMaxCount));
   const bool disks = input.scene.dimension() == 2;
   io.value(disks ? kParticleKeys.at("area_fraction") : kParticleKeys.at("volume_fraction"),
            input.packing_fraction, between(0.0, 1.0));
@@ -365,7 +365,7 @@ inline constexpr auto kCameraKeys = key_table(
 template <class Visitor>
 void visit_camera(Visitor& io, CameraKey& key, int dimension) {
   io.value(kCameraKeys.at("time"), key.time, at_least(0.0));
-  io.value(kCameraKeys.at("follow"), key.follow, at_least(0.0));
+  io.value(kCameraKeys.at("follow"), key.follow, between(0, kMaxCount));
   io.value(kCameraKeys.at("centre"), key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
            key.follow ? kNotBesideFollow : kOptional);
   io.value(kCameraKeys.at("width"), key.width, between(kMinCameraWidth, kMaxCameraWidth));

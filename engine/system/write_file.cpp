@@ -1,11 +1,14 @@
 #include "engine/system/write_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "engine/error.h"
 #include "engine/system/file_descriptor.h"
@@ -20,10 +23,9 @@ namespace {
 }
 
 // Devices and pipes are written without sync, because they may not support it.
-bool write_into(const std::filesystem::path& path, std::string_view bytes, bool sync) {
-  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  return file && file.write_all(std::as_bytes(std::span(bytes))) && (!sync || file.sync()) &&
-         file.close();
+bool write_into(const std::filesystem::path& path, std::string_view bytes) {
+  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  return file && file.write_all(std::as_bytes(std::span(bytes))) && file.close();
 }
 
 bool sync_file(const std::filesystem::path& path) {
@@ -58,12 +60,35 @@ std::optional<int> own_descriptor(std::filesystem::path path) {
   return std::nullopt;
 }
 
-// The target of a link, so that the link itself is not replaced.
-std::filesystem::path place_of(const std::filesystem::path& path) {
+void require_replaceable(const std::filesystem::path& path, const std::filesystem::path& target) {
+  using std::filesystem::perms;
+  constexpr perms kWritable = perms::owner_write | perms::group_write | perms::others_write;
   std::error_code error;
-  if (!std::filesystem::is_symlink(path, error)) return path;
-  const std::filesystem::path place = std::filesystem::canonical(path, error);
-  return error ? path : place;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(target, error);
+  if (error == std::errc::filename_too_long) throw_unwritable(path, ENAMETOOLONG);
+  if (is_symlink(status)) throw_unwritable(path, ELOOP);
+  if (is_directory(status)) throw_unwritable(path, EISDIR);
+  if (is_regular_file(status) && (status.permissions() & kWritable) == perms::none) {
+    throw RunError("cannot write " + path.string() +
+                   ": it is write-protected; make it writable, or give another name");
+  }
+}
+
+// A new file in the folder of `target`. Its name is not in use by any other file.
+struct NewFile {
+  std::filesystem::path path;
+  FileDescriptor file;  // negative: not created, with errno
+};
+
+NewFile new_file_beside(const std::filesystem::path& target) {
+  constexpr int kMostBytes = 200;  // of the name: a longer one may leave no room for the rest
+  for (int number = 0;; ++number) {
+    const std::filesystem::path path =
+        target.parent_path() /
+        fmt::format(".{:.{}}.{}-{}", target.filename().string(), kMostBytes, getpid(), number);
+    FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file || errno != EEXIST) return {path, std::move(file)};
+  }
 }
 
 }  // namespace
@@ -71,6 +96,27 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
 bool is_special(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_other(path, ignored) || own_descriptor(path);
+}
+
+std::filesystem::path target_of(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(path, error); ++links) {
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  }
+  return path;
+}
+
+void require_writable(const std::filesystem::path& path) {
+  if (is_special(path)) {
+    if (access(path.c_str(), W_OK) != 0) throw_unwritable(path, errno);
+    return;
+  }
+  const std::filesystem::path target = target_of(path);
+  require_replaceable(path, target);
+  const NewFile part = new_file_beside(target);
+  if (!part.file) throw_unwritable(path, errno);
+  std::remove(part.path.c_str());
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes,
@@ -81,21 +127,23 @@ void write_file(const std::filesystem::path& path, std::string_view bytes,
     return;
   }
   if (is_special(path)) {
-    if (!write_into(path, bytes, false)) throw_unwritable(path, errno);
+    if (!write_into(path, bytes)) throw_unwritable(path, errno);
     return;
   }
-  const std::filesystem::path place = place_of(path);
-  const std::filesystem::path part = place.string() + ".part";
-  std::error_code ignored;
-  const bool keep = !previous.empty() && std::filesystem::exists(place, ignored);
-  const bool written = write_into(part, bytes, true);
-  if (written && (!keep || rename_file(place, previous)) && rename_file(part, place) &&
-      sync_folder_of(place)) {
+  const std::filesystem::path target = target_of(path);
+  require_replaceable(path, target);
+  NewFile part = new_file_beside(target);
+  if (!part.file) throw_unwritable(path, errno);
+  const bool written =
+      part.file.write_all(std::as_bytes(std::span(bytes))) && part.file.sync() && part.file.close();
+  // Another run may have moved the previous file.
+  if (written && (previous.empty() || rename_file(target, previous) || errno == ENOENT) &&
+      rename_file(part.path, target) && sync_folder_of(target)) {
     return;
   }
   const int error = errno;
-  std::remove(part.c_str());
-  throw_unwritable(written ? path : part, error);
+  std::remove(part.path.c_str());
+  throw_unwritable(path, error);
 }
 
 void rename_synced(const std::filesystem::path& from, const std::filesystem::path& to) {

@@ -9,9 +9,17 @@ namespace clatter {
 /// are written into and never replaced.
 bool is_special(const std::filesystem::path& path);
 
-/// Writes a file atomically, even if the machine stops: writes FILE.part in the same folder, syncs
-/// it and renames it. An existing file is renamed to `previous`, if given. A link is followed; a
-/// special file is written into. Throws RunError, and then removes FILE.part.
+/// The path behind a chain of links. A link stays where a chain has no end.
+std::filesystem::path target_of(std::filesystem::path path);
+
+/// Throws the error that write_file() would throw for this path, except for a full disk. Creates
+/// and removes a temporary file.
+void require_writable(const std::filesystem::path& path);
+
+/// Writes a file atomically, even if the machine stops: writes a temporary file .FILE.NUMBER in the
+/// same folder, syncs it and renames it. An existing file is renamed to `previous`, if given. Links
+/// are followed; a special file is written into. Throws RunError, also if the file is
+/// write-protected, and then removes the temporary file.
 void write_file(const std::filesystem::path& path, std::string_view bytes,
                 const std::filesystem::path& previous = {});
 

@@ -12,8 +12,7 @@ Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
       size_(size),
       colour_(generate<Texture>(gl, gl.GenTextures)),
       framebuffer_(generate<Framebuffer>(gl, gl.GenFramebuffers)) {
-  GLint largest = 0;
-  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  const int largest = largest_side(gl);
   if (std::max(size.width, size.height) > largest) {
     throw RunError("a picture of " + std::to_string(size.width) + "x" +
                    std::to_string(size.height) + " pixels is too large: at most " +
@@ -36,6 +35,12 @@ Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw RunError("this OpenGL cannot draw off screen");
   }
+}
+
+int Canvas::largest_side(const Gl& gl) {
+  GLint largest = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  return largest;
 }
 
 void Canvas::bind() const {

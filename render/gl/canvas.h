@@ -16,6 +16,9 @@ class Canvas {
   /// Creates a picture of `size` pixels. Throws RunError if OpenGL does not support the size.
   Canvas(const Gl& gl, Size size, GLint format = GL_SRGB8_ALPHA8, Depth depth = Depth::None);
 
+  /// The largest side of a picture that OpenGL supports, in pixels.
+  static int largest_side(const Gl& gl);
+
   /// Size in pixels.
   Size size() const { return size_; }
   /// Whether it has depths.

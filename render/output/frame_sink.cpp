@@ -11,7 +11,8 @@ std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path,
   const std::string extension = path.extension();
   if (extension == ".png") return std::make_unique<PngFile>(path, options);
   if (Movie::knows(extension)) return std::make_unique<Movie>(path, options);
-  if (extension.empty() || std::filesystem::is_directory(path)) {
+  std::error_code ignored;
+  if (extension.empty() || std::filesystem::is_directory(path, ignored)) {
     return std::make_unique<PngSequence>(path, options);
   }
   throw UserError({path.string()}, "no such kind of output: " + extension,

@@ -26,10 +26,6 @@ constexpr const char* kTexts = "texts.txt";
 // Thrown on the writing thread. The calling thread then reads the error of the encoder.
 struct EncoderStopped {};
 
-std::filesystem::path folder_for(const std::filesystem::path& path) {
-  return path.string() + ".part";
-}
-
 void require_no_pieces(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_empty(folder, ignored) || ignored) return;
@@ -51,9 +47,13 @@ bool is_at(const FileDescriptor& folder, const std::filesystem::path& path) {
 
 }  // namespace
 
+std::filesystem::path pieces_folder(const std::filesystem::path& path) {
+  return target_of(path).string() + ".part";
+}
+
 Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::string& encoder)
-    : path_(std::move(path)),
-      folder_(folder_for(path_)),
+    : path_(target_of(std::move(path))),
+      folder_(pieces_folder(path_)),
       format_(find_movie_format(path_.extension())),
       options_(options),
       program_(encoder),
@@ -61,21 +61,23 @@ Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::
       notes_(options.notes),
       next_(options.next),
       queue_(1, 4) {
+  require_writable(path_);
   const bool begins = options.next == options.begin && !options.goes_on;
   if (begins && !options.overwrite) require_no_pieces(folder_);
   require_earlier_pieces();
   open_folder();
-  if (begins) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-      std::filesystem::remove_all(entry.path());
-    }
-  }
+  if (begins) remove_own_files();
   start_piece();
 }
 
 // Locks the folder, because two films of one name would overwrite each other's pieces. The previous
 // film may remove the folder between open() and flock(), hence the loop.
 void Movie::open_folder() {
+  std::error_code ignored;
+  if (std::filesystem::is_symlink(folder_, ignored)) {
+    throw UserError({folder_.string()}, "the folder for the pieces of the film is a link",
+                    "remove it, or give another name");
+  }
   do {
     std::error_code error;
     std::filesystem::create_directory(folder_, error);
@@ -89,6 +91,24 @@ void Movie::open_folder() {
                       "wait for its end, or give another name");
     }
   } while (!is_at(held_, folder_));
+}
+
+// Whether films write files of this name into the folder: pieces, the joined film, and the inputs
+// of ffmpeg with their temporary files.
+bool Movie::is_own(const std::string& name) const {
+  for (const std::string input : {kList, kTexts}) {
+    if (name == input || name.starts_with("." + input + ".")) return true;
+  }
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return name == "joined" + format_->extension ||
+         (digits >= 6 && name.substr(digits) == format_->extension);
+}
+
+void Movie::remove_own_files() {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+    if (is_own(entry.path().filename())) std::filesystem::remove(entry.path(), ignored);
+  }
 }
 
 void Movie::require_earlier_pieces() {
@@ -189,7 +209,9 @@ void Movie::finish(Ending ending) {
   if (encoder_ && next_ > piece_) end_piece();
   tidy();
   if (next_ > options_.begin) join();
-  if (ending == Ending::Whole) std::filesystem::remove_all(folder_);
+  if (ending == Ending::Cut) return;
+  remove_own_files();
+  rmdir(folder_.c_str());
 }
 
 // The pieces of the film so far, in order.
@@ -281,7 +303,8 @@ void Movie::require_pictures(const std::filesystem::path& film, long count) {
 
 void Movie::fail(ChildProcess& process) {
   process.kill();
-  fail(process.last_words());
+  const std::string words = process.last_words();
+  fail(words.empty() ? "it ended early and gave no reason" : words);
 }
 
 void Movie::fail(const std::string& reason) {

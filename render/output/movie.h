@@ -9,6 +9,10 @@
 
 namespace clatter {
 
+/// The folder for the pieces of a film at `path`: FILE.part beside the file, or beside the target
+/// of a link.
+std::filesystem::path pieces_folder(const std::filesystem::path& path);
+
 /// A film, encoded by ffmpeg in parallel with the simulation. Pieces of kPiece pictures are encoded
 /// separately in the folder FILE.part, and then joined without encoding them again. So a crash
 /// loses no complete piece, and a restarted film is bit for bit identical to an uninterrupted one.
@@ -27,7 +31,8 @@ class Movie final : public FrameSink {
   void add(Image image, std::vector<PngText> notes) override;
   /// Does nothing: add() of the last picture of a piece waits for the encoder.
   void flush() override {}
-  /// Joins the pieces to the film at its path. An interrupted film also keeps its pieces.
+  /// Joins the pieces to the film at its path. Then removes the pieces of a whole film, and their
+  /// folder unless it has files of others.
   void finish(Ending ending) override;
   std::vector<std::uint32_t> checksums() const override { return checksums_; }
 
@@ -40,6 +45,8 @@ class Movie final : public FrameSink {
   std::filesystem::path piece_path(long first) const;
   std::filesystem::path name_in_folder(const std::string& file) const;
   void open_folder();
+  bool is_own(const std::string& name) const;
+  void remove_own_files();
   void require_earlier_pieces();
   long start_of_piece(long number) const;
   std::vector<Piece> pieces() const;

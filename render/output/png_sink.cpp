@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
@@ -41,7 +42,8 @@ void require_earlier_frames(const std::filesystem::path& folder, const SinkOptio
 void make_folder(const std::filesystem::path& folder, const SinkOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  const std::filesystem::directory_iterator files(folder, error);
+  std::filesystem::directory_iterator files;
+  if (!error) files = std::filesystem::directory_iterator(folder, error);
   if (error) throw RunError("cannot write to " + folder.string() + ": " + error.message());
   if (options.overwrite || options.goes_on) return;
   for (const auto& entry : files) {
@@ -55,7 +57,9 @@ void make_folder(const std::filesystem::path& folder, const SinkOptions& options
 }  // namespace
 
 PngFile::PngFile(std::filesystem::path path, const SinkOptions& options)
-    : path_(std::move(path)), texts_(options.texts) {}
+    : path_(std::move(path)), texts_(options.texts) {
+  require_writable(path_);
+}
 
 void PngFile::add(Image image, std::vector<PngText> notes) {
   write_png(path_, image, joined(texts_, notes));

@@ -9,6 +9,7 @@ namespace clatter {
 /// One picture, FILE.png.
 class PngFile final : public FrameSink {
  public:
+  /// Throws RunError if the picture cannot be written.
   PngFile(std::filesystem::path path, const SinkOptions& options);
 
   /// Writes the picture. A later picture replaces it.

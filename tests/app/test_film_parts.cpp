@@ -146,6 +146,44 @@ TEST_CASE(
   CHECK(hashes(shell, "-i film.mp4").size() == 150 * 33);
 }
 
+// The film has two complete pieces and a part of a third.
+TEST_CASE("Film parts: a film that could not be joined is resumed to the same bytes") {
+  const Shell shell;
+  write_scene(shell);
+  shell.run("mkdir no-join");
+  shell.write("no-join/ffmpeg",
+              "#!/bin/sh\ncase \"$*\" in *'-f concat'*) echo 'no room' >&2; exit 1 ;; esac\n"
+              "PATH=${PATH#*:} exec ffmpeg \"$@\"\n");
+  shell.run("chmod +x no-join/ffmpeg");
+  REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
+  const Outcome failed =
+      shell.run("PATH=$PWD/no-join:$PATH " + kFilm + "--out film.mp4 --checkpoint film.checkpoint");
+  CAPTURE(failed.err);
+  CHECK(failed.code == 1);
+  CHECK(says(failed.err, "no room; earlier pictures are in film.mp4.part; continue with --resume"));
+  SUBCASE("as it was") {
+    check_goes_on_to_whole(shell);
+  }
+  SUBCASE("but not with another piece") {
+    shell.run("cp film.mp4.part/000000.mp4 film.mp4.part/000060.mp4");
+    check_refused(shell, kFilm + "--out film.mp4 --resume film.checkpoint",
+                  {"film.mp4.part/000060.mp4 is not the piece that was drawn"});
+  }
+}
+
+TEST_CASE("Film parts: files of others among the pieces stay, and are named") {
+  const Shell shell;
+  write_scene(shell);
+  shell.run("mkdir film.mp4.part");
+  shell.write("film.mp4.part/notes.txt", "precious");
+  const Outcome film = shell.run(
+      "clatter render scene.toml --size 64x64 --fps 10 --to 1 --speed 1 --overwrite --out "
+      "film.mp4");
+  CHECK(film.code == 0);
+  CHECK(says(film.err, "film.mp4\nnote: film.mp4.part has other files and was kept\n"));
+  CHECK(shell.run("ls film.mp4.part").out == "notes.txt\n");
+}
+
 TEST_CASE("Film parts: a film whose encoder is ended with it plays, and can be resumed") {
   const Shell shell;
   write_scene(shell);

@@ -14,6 +14,7 @@
 #include "app/results/json_text.h"
 #include "app/results/result_json.h"
 #include "app/results/vtk_files.h"
+#include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "tests/app/shell.h"
 #include "tests/app/tables.h"
@@ -498,6 +499,17 @@ TEST_CASE("Results: every column of the tables follows from the events, with its
     CHECK(table.units == units);
     CHECK(table.symbols == "a: particle diameter, m: particle mass, t: time unit of the scene");
   }
+}
+
+TEST_CASE("Results: tables of an earlier run stay until the new ones are written") {
+  const Shell shell;
+  shell.write("maps.csv", "earlier");
+  shell.run("mkdir temperature_series.csv");
+  CHECK_THROWS_AS(write_tables(shell.path(""), Measured()), RunError);
+  CHECK(shell.read("maps.csv") == "earlier");
+  shell.run("rmdir temperature_series.csv");
+  write_tables(shell.path(""), Measured());
+  CHECK(shell.files() == std::vector<std::string>{"temperature_series.csv"});
 }
 
 TEST_CASE("Results: every cell of the maps follows from its events, in all files") {

@@ -85,6 +85,8 @@ TEST_CASE("Wrong use: wrong flags are refused") {
   check_refused(shell, "clatter measure vibrated --until nan", {"--until"});
   check_refused(shell, "clatter measure vibrated --set measure.burn_in=500 --until 400",
                 {"--until", "burn-in", "500"});
+  check_refused(shell, "clatter measure vibrated --set measure.burn_in=5.999999999999999 --until 6",
+                {"--until", "burn-in", "5.999999999999999"});
   check_refused(shell, "clatter measure vibrated --progress loud", {"--progress"});
   check_refused(shell, "clatter check", {"scene is required"});
 }
@@ -133,7 +135,29 @@ TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a messa
         flag + " /dev/full");
     CHECK(outcome.code == 1);
     CHECK(says(outcome.err, "cannot write /dev/full: "));
+    CHECK(says(outcome.err, "; continue with --resume vibrated-seed1.checkpoint\n"));
   }
+}
+
+TEST_CASE("Outputs: one that fails costs no other, and a checkpoint has the results") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure vibrated --set measure.burn_in=1 --set measure.cells=[7,5] --set "
+      "'measure.fields=[\"density\", \"balance\"]' --until 30 --quiet ";
+  REQUIRE(shell.run(line + "--out whole.json").code == 0);
+  const Outcome failed =
+      shell.run(line + "--out /dev/full --csv tab --vtk maps --hdf5 r.h5 --save-state e.csv");
+  CHECK(failed.code == 1);
+  CHECK(says(failed.err, "cannot write /dev/full: No space left on device; continue"));
+  for (const char* file : {"tab/maps.csv", "maps/fields.vti", "r.h5", "e.csv"}) {
+    CAPTURE(file);
+    CHECK_FALSE(shell.read(file).empty());
+  }
+  REQUIRE(shell.run(line + "--out again.json --resume vibrated-seed1.checkpoint").code == 0);
+  auto whole = nlohmann::json::parse(shell.read("whole.json"));
+  auto again = nlohmann::json::parse(shell.read("again.json"));
+  for (auto* result : {&whole, &again}) result->erase("performance");
+  CHECK(again == whole);
 }
 
 TEST_CASE("Wrong use: outputs that would replace inputs are refused") {
@@ -148,12 +172,125 @@ TEST_CASE("Wrong use: outputs that would replace inputs are refused") {
       {"render s.toml --to 1 --checkpoint s.toml --out x.mp4", "--checkpoint"},
       {"measure s.toml --until 2 " + start + "--out e.csv", "--out"},
       {"measure s.toml --until 2 --resume c --out c", "--out"},
-      {"measure vibrated --until 2 --csv d --out d/x --hdf5 d/x.part", "--hdf5"}};
+      {"render s.toml --to 1 --out x.mp4 --checkpoint x.mp4.part", "--out"}};
   for (const auto& [line, flag] : lines) {
     check_refused(shell, "clatter " + line, {flag, "is the file that", "choose different names"});
   }
   check_refused(shell, "clatter measure s.toml --resume ''", {"--resume", "the name is empty"});
   check_refused(shell, "clatter measure s.toml --checkpoint ''", {"--checkpoint", "name a file"});
+  for (const std::string flag : {"--out", "--csv", "--vtk", "--hdf5", "--save-state"}) {
+    check_refused(shell, "clatter measure s.toml --until 2 " + flag + " ''",
+                  {flag, "the name is empty; name a file or folder"});
+  }
+}
+
+TEST_CASE("Wrong use: outputs that the automatic checkpoint would replace are refused") {
+  const Shell shell;
+  for (const std::string flags :
+       {"--out run.checkpoint", "--out ./run.json --save-state run.checkpoint",
+        "--out run.json --hdf5 run.checkpoint.previous", "--save-state vibrated-seed1.checkpoint",
+        "--seed 7 --csv vibrated-seed7.checkpoint"}) {
+    check_refused(shell, "clatter measure vibrated --until 1e6 " + flags,
+                  {"is the file that --checkpoint writes", "choose different names"});
+  }
+  CHECK(shell
+            .run("clatter measure vibrated --until 1 --seed 7 --save-state "
+                 "vibrated-seed1.checkpoint")
+            .code == 0);
+}
+
+TEST_CASE("Wrong use: a checkpoint does not replace another file") {
+  const Shell shell;
+  for (const std::string file :
+       {"run.checkpoint", "run.checkpoint.previous", "vibrated-seed1.checkpoint.previous"}) {
+    shell.write(file, "precious");
+    const std::string named = file.substr(0, file.find('.'));
+    const std::string refused = file + " exists and is not a checkpoint";
+    const std::string out = named == "run" ? "--out run.json" : "";
+    check_refused(shell, "clatter measure vibrated --until 1e6 --csv tables " + out,
+                  {refused, "move it, or name a checkpoint"});
+    check_refused(shell,
+                  "clatter measure vibrated --until 1e6 --checkpoint " + named + ".checkpoint",
+                  {refused, "give another name"});
+    if (named == "run") {
+      check_refused(shell, "clatter render vibrated --to 1e5 --out run.mp4", {refused, "move it"});
+    }
+    CHECK(shell.run("clatter measure vibrated --until 1 --quiet --checkpoint c " + out).code == 0);
+    CHECK(shell.read(file) == "precious");
+    shell.run("rm -f run.* vibrated*");
+  }
+  // The new checkpoint replaces the resumed one, or the one after it.
+  const std::string line =
+      "clatter measure vibrated --set measure.burn_in=0 --quiet --out c.json --checkpoint "
+      "c.checkpoint ";
+  REQUIRE(shell.run(line + "--until 1 --checkpoint-every 0.001").code == 0);
+  REQUIRE(shell.run(line + "--until 2 --resume c.checkpoint").code == 0);
+  CHECK(shell.run(line + "--until 3 --resume ./c.checkpoint.previous").code == 0);
+  CHECK(shell
+            .run("clatter measure vibrated --set measure.burn_in=0 --until 4 --quiet --out c.json "
+                 "--resume c.checkpoint")
+            .code == 0);
+}
+
+TEST_CASE("Wrong use: a write-protected result of an earlier run is not replaced") {
+  const Shell shell;
+  shell.run("mkdir tab maps frames");
+  for (const std::string file : {"r.json", "r.h5", "e.csv", "film.mp4", "picture.png",
+                                 "tab/maps.csv", "maps/fields.vti", "c"}) {
+    shell.write(file, "precious");
+    shell.run("chmod 444 " + file);
+  }
+  const std::string measure = "clatter measure vibrated --until 1e6 ";
+  const std::string render = "clatter render vibrated --to 1e5 --out ";
+  for (const auto& [line, file] :
+       std::vector<std::pair<std::string, std::string>>{{measure + "--out r.json", "r.json"},
+                                                        {measure + "--hdf5 r.h5", "r.h5"},
+                                                        {measure + "--save-state e.csv", "e.csv"},
+                                                        {measure + "--csv tab", "tab/maps.csv"},
+                                                        {measure + "--vtk maps", "maps/fields.vti"},
+                                                        {measure + "--checkpoint c", "c"},
+                                                        {render + "film.mp4", "film.mp4"},
+                                                        {render + "picture.png", "picture.png"}}) {
+    CAPTURE(line);
+    const Outcome outcome = shell.run(line);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 1);
+    CHECK(says(outcome.err, "cannot write " + file + ": it is write-protected; make it writable"));
+    CHECK(shell.read(file) == "precious");
+  }
+}
+
+TEST_CASE("Wrong use: names that the file system refuses are reported before a run") {
+  const Shell shell;
+  shell.run("ln -s loop loop; ln -s loop.mp4 loop.mp4");
+  const std::string longest(251, 'a');
+  const std::string measure = "clatter measure vibrated --until 1e6 ";
+  for (const auto& [line, reason] : std::vector<std::pair<std::string, std::string>>{
+           {measure + "--out loop", "cannot write loop: Too many levels of symbolic links"},
+           {measure + "--checkpoint loop", "cannot write loop: Too many levels"},
+           {measure + "--save-state " + longest + ".json", ".json: File name too long"},
+           {"clatter render vibrated --out loop.mp4", "cannot write loop.mp4: Too many levels"},
+           {measure + "--out " + longest + ".txt", ".checkpoint is too long; name a checkpoint"},
+           {"clatter render vibrated --out " + longest + ".mp4", ".checkpoint is too long"},
+           {"clatter render vibrated --checkpoint c --out " + longest + ".mp4", "name too long"},
+           {"clatter render vibrated --out /sys/frames", "cannot write to /sys/frames: "}}) {
+    CAPTURE(line);
+    const Outcome outcome = shell.run(line);
+    CAPTURE(outcome.err);
+    CHECK((outcome.code == 1 || outcome.code == 2));
+    CHECK(says(outcome.err, reason));
+    CHECK_FALSE(says(outcome.err, "filesystem"));
+    CHECK_FALSE(says(outcome.err, "No such file"));
+  }
+  // A measurement can have a name of any length, if its checkpoint has another one.
+  CHECK(shell
+            .run("clatter measure vibrated --until 1 --quiet --checkpoint c --out " + longest +
+                 ".txt")
+            .code == 0);
+  for (const std::string& name : {std::string("loop"), longest + ".toml"}) {
+    check_refused(shell, "clatter check " + name, {name + ": "});
+    check_refused(shell, measure + "--resume " + name, {name + ": "});
+  }
 }
 
 // A device keeps its type. An open file is kept too, because others may write to it.
@@ -231,6 +368,24 @@ TEST_CASE("Wrong use: outputs that would replace each other are refused") {
             .code == 0);
 }
 
+TEST_CASE("Wrong use: a folder in the place of a table is refused") {
+  const Shell shell;
+  shell.run("mkdir -p tab/maps.csv/x maps/series.pvd");
+  check_refused(shell, "clatter measure vibrated --until 1e6 --csv tab --out r.json",
+                {"--csv", "tab/maps.csv is a folder; remove it"});
+  check_refused(shell, "clatter measure vibrated --until 1e6 --vtk maps --out r.json",
+                {"--vtk", "maps/series.pvd is a folder"});
+}
+
+TEST_CASE("Wrong use: replicas beyond the last seed are refused") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --until 1 --replicas 2 --seed ";
+  check_refused(shell, line + "18446744073709551615", {"--seed", "exceed 18446744073709551615"});
+  const Outcome last = shell.run(line + "18446744073709551614");
+  CHECK(last.code == 0);
+  CHECK(nlohmann::json::parse(last.out).at("seeds").back() == 18446744073709551615u);
+}
+
 TEST_CASE("Wrong use: maps of no fields are refused") {
   const Shell shell;
   check_refused(shell, "clatter measure vibrated --set measure.fields=[] --vtk maps",
@@ -251,6 +406,9 @@ TEST_CASE("Wrong use: impossible pictures and films are refused") {
   check_refused(shell, "clatter render vibrated --out x.mp4 --speed 0", {"--speed"});
   check_refused(shell, "clatter render vibrated --out x.mp4 --from 9 --to 8", {"--to", "--from"});
   check_refused(shell, "clatter render vibrated --out x.mp4 --to 1e300", {"--to", "frames"});
+  check_refused(shell, "clatter render vibrated --out x.gif --fps 60", {"--fps", "at most 50"});
+  check_refused(shell, "clatter render vibrated --out f --size 16384x16384 --supersample 4",
+                {"--size", "65536 samples along a side", "--supersample"});
   check_refused(shell, "clatter render vibrated", {"--out"});
 }
 

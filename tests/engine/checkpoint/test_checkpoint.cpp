@@ -192,7 +192,7 @@ TEST_CASE("Checkpoint: a failure to write is an error and leaves the previous on
   Checkpoint checkpoint = example();
   CHECK_THROWS_AS(write_checkpoint(folder / "missing/a", checkpoint), RunError);
   write_checkpoint(folder / "a", checkpoint);
-  std::filesystem::create_directory(folder / "a.part");
+  std::filesystem::create_directory(folder / "a.previous");
   CHECK_THROWS_AS(write_checkpoint(folder / "a", checkpoint), RunError);
   CHECK(read_checkpoint(folder / "a").seed == 42);
 }

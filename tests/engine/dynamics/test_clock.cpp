@@ -67,6 +67,17 @@ TEST_CASE("Clock: start + count * interval is exact up to 1e15 counts") {
   }
 }
 
+TEST_CASE("Clock: an interval near the largest double has a start and no end") {
+  Clock clock(7.0);
+  clock.advance(0.1);
+  for (const double interval : {1e280, 1e303, 1e308}) {
+    CAPTURE(interval);
+    CHECK(clock.relative(9.0, 0, interval) == clock.relative(9.0));
+    CHECK(clock.relative(9.0, 1, interval) > 1e250);
+    CHECK(clock.relative(9.0, 1'000'000, interval) > 1e250);
+  }
+}
+
 TEST_CASE("Clock: the phase at the base is exact for up to 1e18 periods") {
   CHECK(Clock(0.0).periods(3.0, 0.25) == 0.25);
   CHECK(Clock(0.75).periods(3.0, 0.0) == 0.25);

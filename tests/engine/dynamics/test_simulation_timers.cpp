@@ -106,3 +106,13 @@ TEST_CASE("Timers: an action may start others") {
   CHECK(times.front() == 1.0);
   for (int i = 0; i < 20; ++i) CHECK(times[static_cast<std::size_t>(i) + 1] == 2.0 + i);
 }
+
+TEST_CASE("Timers: one with an interval near the largest double fires once") {
+  Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 115));
+  std::vector<double> times;
+  for (const double start : {1.0, 1e305}) {
+    simulation.every(start, 1e305, [&](double time) { times.push_back(time); });
+  }
+  simulation.run_until(5.0);
+  CHECK(times == std::vector<double>{1.0});
+}

@@ -52,6 +52,13 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "s.toml:4:1: the camera's time 1 comes after 1; give each time once, in order"},
       {kParticles + "[view]\ncamera = [{ follow = 10 }]\n",
        "s.toml:4:1: there is no particle 10 to follow; particles are numbered from 0 to 9"},
+      {kParticles + "[view]\ncamera = [{ follow = 3000000000 }]\n",
+       "s.toml:4:13: 'view.camera.follow' cannot be 3000000000; give a whole number between 0 and "
+       "2147483647"},
+      {kParticles + "[view]\ncamera = [{ follow = 18446744073709551616 }]\n", "s.toml:4:"},
+      {kParticles + "[measure]\ncells = [10, 4294967297]\n",
+       "s.toml:4:1: 'measure.cells' cannot be [10, 4294967297]; give two whole numbers between 1 "
+       "and 2000, along x and y"},
       {kParticles + "[[view.camera]]\nfollow = 1\ncentre = [1, 2]\n",
        "s.toml:5:1: 'view.camera.centre' has no meaning beside follow; remove one of the two"},
       {kParticles + "[view]\ncamera = [{ widht = 3 }]\n",

@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <set>
 #include <thread>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/system/write_file.h"
@@ -41,11 +44,12 @@ TEST_CASE("Written files: a failure names the file and leaves the previous one")
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(
       write_file(folder / "missing/file", "bytes"),
-      ("cannot write " + (folder / "missing/file.part").string() + ": No such file or directory")
+      ("cannot write " + (folder / "missing/file").string() + ": No such file or directory")
           .c_str(),
       RunError);
   std::filesystem::create_directory(folder / "file");
-  CHECK_THROWS_AS(write_file(folder / "file", "bytes"), RunError);
+  CHECK_THROWS_WITH_AS(write_file(folder / "file", "bytes", folder / "before"),
+                       doctest::Contains("Is a directory"), RunError);
   CHECK(names_in(folder / "") == std::set<std::string>{"file"});
 }
 
@@ -58,6 +62,89 @@ TEST_CASE("Written files: a link stays, and its target is replaced") {
   CHECK(std::filesystem::is_symlink(folder / "link"));
   CHECK(bytes_of(folder / "results/file") == "new");
   CHECK(names_in(folder / "") == std::set<std::string>{"link", "results"});
+}
+
+TEST_CASE("Written files: a link to a missing file stays, and the file is made") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("second", folder / "first");
+  std::filesystem::create_symlink("file", folder / "second");
+  write_file(folder / "first", "new");
+  CHECK(bytes_of(folder / "file") == "new");
+  CHECK(names_in(folder / "") == std::set<std::string>{"file", "first", "second"});
+}
+
+TEST_CASE("Written files: files with the names of temporary files stay") {
+  const TemporaryFolder folder;
+  const std::string temporary = ".file." + std::to_string(getpid()) + "-0";
+  for (const std::string& name : {std::string("file.part"), temporary}) {
+    write_bytes(folder / name, "precious");
+  }
+  write_file(folder / "file", "bytes");
+  require_writable(folder / "file");
+  CHECK(bytes_of(folder / "file.part") == "precious");
+  CHECK(bytes_of(folder / temporary) == "precious");
+  CHECK(names_in(folder / "") == std::set<std::string>{temporary, "file", "file.part"});
+}
+
+// As the superuser too, who may write every file.
+TEST_CASE("Written files: a write-protected file is an error, and stays") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "file", "precious");
+  std::filesystem::create_symlink("file", folder / "link");
+  std::filesystem::permissions(folder / "file", std::filesystem::perms::owner_read);
+  for (const char* name : {"file", "link"}) {
+    const std::string message =
+        "cannot write " + (folder / name).string() + ": it is write-protected; make it writable";
+    const auto contains = doctest::Contains(message.c_str());
+    CHECK_THROWS_WITH_AS(write_file(folder / name, "bytes"), contains, RunError);
+    CHECK_THROWS_WITH_AS(require_writable(folder / name), contains, RunError);
+  }
+  CHECK(bytes_of(folder / "file") == "precious");
+}
+
+TEST_CASE("Written files: several writers of one file at once leave one whole file") {
+  const TemporaryFolder folder;
+  std::atomic<int> failures = 0;
+  {
+    std::vector<std::jthread> writers;
+    for (const char letter : {'a', 'b'}) {
+      writers.emplace_back([&, bytes = std::string(100'000, letter)] {
+        for (int round = 0; round < 100; ++round) {
+          try {
+            write_file(folder / "file", bytes, folder / "before");
+          } catch (const RunError&) {
+            ++failures;
+          }
+        }
+      });
+    }
+  }
+  CHECK(failures == 0);
+  for (const char* name : {"file", "before"}) {
+    const std::string bytes = bytes_of(folder / name);
+    CHECK(bytes == std::string(100'000, bytes.front()));
+  }
+  CHECK(names_in(folder / "") == std::set<std::string>{"before", "file"});
+}
+
+TEST_CASE("Written files: names that cannot be written are known before") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  const std::string longest(255, 'a');
+  CHECK_NOTHROW(require_writable(folder / longest));
+  CHECK_NOTHROW(write_file(folder / longest, "bytes"));
+  std::filesystem::remove(folder / longest);
+  for (const auto& [name, reason] :
+       {std::pair<std::string, const char*>{"loop", "Too many levels of symbolic links"},
+        {longest + "a", "File name too long"},
+        {"missing/file", "No such file or directory"},
+        {"", "Is a directory"}}) {
+    CAPTURE(name);
+    CHECK_THROWS_WITH_AS(require_writable(folder / name), doctest::Contains(reason), RunError);
+    CHECK_THROWS_WITH_AS(write_file(folder / name, "bytes"), doctest::Contains(reason), RunError);
+  }
+  CHECK_NOTHROW(require_writable(folder / "file"));
+  CHECK(names_in(folder / "") == std::set<std::string>{"loop"});
 }
 
 TEST_CASE("Written files: a pipe is written into") {

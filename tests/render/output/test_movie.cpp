@@ -195,6 +195,54 @@ TEST_CASE("Movie: the pieces of a film that was cut are not overwritten unless a
   CHECK_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
 }
 
+TEST_CASE("Movie: only files of films are removed from the folder of the pieces") {
+  const TemporaryFolder folder;
+  const auto part = folder / "film.mp4.part";
+  std::filesystem::create_directory(part);
+  std::filesystem::create_directory(part / "more");
+  const std::vector<std::string> others = {"notes.txt", "1.mp4", "000000.png", "more/000000.mp4"};
+  const std::vector<std::string> own = {"000060.mp4", "1000020.mp4", "joined.mp4",
+                                        "texts.txt",  "pieces.txt",  ".texts.txt.7-0"};
+  for (const auto* names : {&others, &own}) {
+    for (const std::string& name : *names) write_bytes(part / name, "precious");
+  }
+  SinkOptions anew = options();
+  anew.overwrite = true;
+  {
+    Movie movie(folder / "film.mp4", anew);
+    write_film(movie, 3);
+  }
+  CHECK(frames_of(folder / "film.mp4") == 3);
+  for (const std::string& name : others) CHECK(bytes_of(part / name) == "precious");
+  for (const std::string& name : own) CHECK_FALSE(std::filesystem::exists(part / name));
+}
+
+TEST_CASE("Movie: pieces are not written through a link in the place of their folder") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "mine");
+  write_bytes(folder / "mine/000000.mp4", "precious");
+  std::filesystem::create_symlink("mine", folder / "film.mp4.part");
+  SinkOptions anew = options();
+  anew.overwrite = true;
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", anew),
+                       doctest::Contains("the folder for the pieces of the film is a link"),
+                       UserError);
+  CHECK(bytes_of(folder / "mine/000000.mp4") == "precious");
+}
+
+TEST_CASE("Movie: a link stays, and its target becomes the film") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "films");
+  std::filesystem::create_symlink("films/film.mp4", folder / "link.mp4");
+  for (int film = 0; film < 2; ++film) {
+    Movie movie(folder / "link.mp4", options());
+    write_film(movie, 3 + film);
+    CHECK(std::filesystem::is_symlink(folder / "link.mp4"));
+    CHECK(frames_of(folder / "films/film.mp4") == 3 + film);
+  }
+  CHECK(std::distance(std::filesystem::directory_iterator(folder / "films"), {}) == 1);
+}
+
 TEST_CASE("Movie: names that look like options or protocols are names") {
   const TemporaryFolder folder;
   const auto before = std::filesystem::current_path();
@@ -231,6 +279,14 @@ TEST_CASE(
     }
     CHECK(folder.empty());
   }
+}
+
+TEST_CASE("Movie: an encoder that ends without reading or a message is an error with a reason") {
+  const TemporaryFolder folder, programs;
+  const auto encoder = make_encoder(programs / "encoder", "exit 0");
+  Movie movie(folder / "film.mp4", options(), encoder);
+  CHECK_THROWS_WITH_AS(write_film(movie, 100),
+                       doctest::Contains(": it ended early and gave no reason"), RunError);
 }
 
 TEST_CASE("Movie: an encoder that loses pictures and succeeds is an error") {
