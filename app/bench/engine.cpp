@@ -6,14 +6,15 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <vector>
 
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
+#include "engine/physics/theory.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/system/platform.h"
 #include "engine/system/write_file.h"
@@ -29,65 +30,81 @@ using Json = nlohmann::ordered_json;
 // One cell of the engine's table.
 struct EngineRate {
   int count;
-  double area_fraction;
-  double rate;            // millions of disk-disk collisions per CPU second, best of three
-  double setup_seconds;   // CPU time to build the start state and the simulation
-  double bytes_per_disk;  // peak resident size minus the size before the state was built
+  double fraction;            // of the area or volume that particles fill
+  double rate;                // millions of pair collisions per CPU second, best of three
+  double setup_seconds;       // CPU time to build the start state and the simulation
+  double bytes_per_particle;  // peak resident size minus the size before the state was built
 };
 
-// Elastic disks in a periodic square box.
-Scene scene_of(int count, double area_fraction) {
-  Scene scene;
+// Elastic disks in a periodic square, or elastic spheres in a periodic cube.
+Scene scene_of(int count, double fraction, int dimension = 2) {
+  Scene scene = default_scene(dimension);
   scene.particles.count = count;
-  scene.box.setConstant(std::sqrt(count * 0.25 * std::numbers::pi / area_fraction));
+  const double volume = count * packing_fraction(dimension, 1.0) / fraction;
+  scene.box.setConstant(dimension == 2 ? std::sqrt(volume) : std::cbrt(volume));
   return scene;
 }
 
-bool has_room(int count, double area_fraction) {
-  return lattice_capacity(scene_of(count, area_fraction).start_room<2>()) >= count;
+bool has_room(int count, double fraction, int dimension) {
+  return with_dimension(dimension, [&](auto d) {
+    return lattice_capacity(scene_of(count, fraction, d).template start_room<d>()) >= count;
+  });
 }
 
-// Equilibrates for a number of collisions per disk. Elastic disks need about ten.
-EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
+// Equilibrates for a number of collisions per particle.
+template <int D>
+EngineRate measure_run(const Scene& scene, std::uint64_t equilibration) {
   constexpr int kRepetitions = 3;
-  const auto disks = static_cast<std::uint64_t>(scene.particles.count);
+  const auto particles = static_cast<std::uint64_t>(scene.particles.count);
   restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
-  const auto simulation = simulation_of<2>(scene, 1);
+  const auto simulation = simulation_of<D>(scene, 1);
   EngineRate result{scene.particles.count, scene.packing_fraction(), 0.0,
                     cpu_seconds() - setup_began, 0.0};
-  simulation->run_until(kNever, equilibration * disks / 2);
-  const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, disks);
+  simulation->run_until(kNever, equilibration * particles / 2);
+  const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, particles);
   for (int k = 0; k < kRepetitions; ++k) {
     const double began = cpu_seconds();
     simulation->run_until(kNever, simulation->counts().pair_collisions + batch);
     const double rate = 1e-6 * static_cast<double>(batch) / (cpu_seconds() - began);
     result.rate = std::max(result.rate, rate);
   }
-  result.bytes_per_disk =
-      static_cast<double>(peak_memory_bytes() - memory_before) / static_cast<double>(disks);
+  result.bytes_per_particle =
+      static_cast<double>(peak_memory_bytes() - memory_before) / static_cast<double>(particles);
   return result;
 }
 
+// Elastic particles are in equilibrium after about ten collisions each.
+EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
+  return with_dimension(scene.dimension(), [&](auto dimension) {
+    return measure_run<dimension>(scene, equilibration);
+  });
+}
+
+// A cell of a table: the number of particles, and the fraction that they fill.
+using Cell = std::pair<int, double>;
+
 // Prints the rows of a table and returns them as JSON.
-Json print_rates(const std::vector<std::pair<int, double>>& cells, std::vector<EngineRate>& rates) {
-  std::fprintf(stderr,
-               "elastic disks, periodic box; Mcoll/s: 10^6 disk-disk collisions per CPU second\n");
-  std::printf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s", "bytes/disk");
+Json print_rates(const std::vector<Cell>& cells, int dimension, std::vector<EngineRate>& rates) {
+  const bool disks = dimension == 2;
+  std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per CPU second\n",
+               disks ? "disks" : "spheres");
+  std::printf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s",
+              disks ? "bytes/disk" : "bytes/sph.");
   Json json = Json::array();
-  for (const auto& [count, area_fraction] : cells) {
-    EngineRate r = measure_engine(scene_of(count, area_fraction));
-    r.area_fraction = area_fraction;  // the box differs by rounding
+  for (const auto& [count, fraction] : cells) {
+    EngineRate r = measure_engine(scene_of(count, fraction, dimension));
+    r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);
-    std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.area_fraction, r.rate,
-                r.setup_seconds, r.bytes_per_disk);
+    std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.fraction, r.rate, r.setup_seconds,
+                r.bytes_per_particle);
     std::fflush(stdout);
     json.push_back({{"count", r.count},
-                    {"area_fraction", r.area_fraction},
+                    {disks ? "area_fraction" : "volume_fraction", r.fraction},
                     {"million_collisions_per_cpu_second", r.rate},
                     {"setup_seconds", r.setup_seconds},
-                    {"bytes_per_disk", r.bytes_per_disk}});
+                    {disks ? "bytes_per_disk" : "bytes_per_sphere", r.bytes_per_particle}});
   }
   return json;
 }
@@ -121,12 +138,12 @@ Json print_inhomogeneous(int count) {
   for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
     const double homogeneous = measure_engine(scene_of(count, gas.scene.packing_fraction())).rate;
     const EngineRate r = measure_engine(gas.scene, gas.after);
-    std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.area_fraction, r.rate,
+    std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.fraction, r.rate,
                 r.rate / homogeneous);
     std::fflush(stdout);
     json.push_back({{"gas", gas.name},
                     {"count", r.count},
-                    {"area_fraction", r.area_fraction},
+                    {"area_fraction", r.fraction},
                     {"million_collisions_per_cpu_second", r.rate},
                     {"of_homogeneous", r.rate / homogeneous}});
   }
@@ -141,9 +158,9 @@ void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) 
             .panels = {}};
   double area_fraction = 0.0;
   for (const EngineRate& rate : rates) {
-    if (rate.area_fraction != area_fraction) {
-      plot.panels.push_back({fmt::format("phi = {:g}", rate.area_fraction), {}});
-      area_fraction = rate.area_fraction;
+    if (rate.fraction != area_fraction) {
+      plot.panels.push_back({fmt::format("phi = {:g}", rate.fraction), {}});
+      area_fraction = rate.fraction;
     }
     plot.panels.back().points.push_back(
         {static_cast<double>(rate.count), rate.rate, fmt::format("{:.2f}", rate.rate), false});
@@ -154,39 +171,45 @@ void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) 
 
 }  // namespace
 
-int bench_engine(const std::string& json, int count, double area_fraction) {
-  std::vector<std::pair<int, double>> cells;
-  if (count > 0) {
-    if (!has_room(count, area_fraction)) {
-      throw UserError({"--area-fraction", 0, 0},
-                      "no square box holds this number of disks at this area fraction",
+int bench_engine(const std::string& json, const EngineTable& table) {
+  const int dimension = table.volume_fraction ? 3 : table.dimension;
+  const double fraction = table.volume_fraction.value_or(table.area_fraction);
+  std::vector<Cell> cells;
+  if (table.count > 0) {
+    if (!has_room(table.count, fraction, dimension)) {
+      throw UserError({table.volume_fraction ? "--volume-fraction" : "--area-fraction", 0, 0},
+                      "no square or cubic box holds this number of particles at this fraction",
                       "choose a smaller fraction, or another --count");
     }
-    cells = {{count, area_fraction}};
+    cells = {{table.count, fraction}};
+  } else if (dimension == 3) {
+    for (const double phi : {0.1, 0.3, 0.49}) {
+      for (const int spheres : {1'372, 10'976, 87'808, 1'000'000}) cells.emplace_back(spheres, phi);
+    }
   } else {
     for (const double phi : {0.1, 0.3, 0.5, 0.7}) {
       for (const int disks : {1'000, 10'000, 100'000, 1'000'000}) cells.emplace_back(disks, phi);
     }
   }
   std::vector<EngineRate> rates;
-  const Json rows = print_rates(cells, rates);
+  const Json rows = print_rates(cells, dimension, rates);
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   return kOk;
 }
 
 int bench_growth(const std::string& json, const std::string& plot, int count) {
   constexpr double kMiddle = 0.5;  // area fraction with the largest numbers
-  std::vector<std::pair<int, double>> cells;
+  std::vector<Cell> cells;
   for (const double phi : {0.01, 0.1, 0.3, kMiddle, 0.7, 0.88}) {
     for (const int disks : {100, 1'000, 10'000, 100'000, 1'000'000, 4'000'000}) {
       const int most = phi == kMiddle ? 4'000'000 : 100'000;
       const bool wanted = disks <= (count > 0 ? std::min(count, most) : most);
-      if (wanted && has_room(disks, phi)) cells.emplace_back(disks, phi);
+      if (wanted && has_room(disks, phi, 2)) cells.emplace_back(disks, phi);
     }
   }
   if (!plot.empty()) require_writable_file(plot, "--plot");
   std::vector<EngineRate> rates;
-  Json rows = print_rates(cells, rates);
+  Json rows = print_rates(cells, 2, rates);
   // A small gas cools into one cluster with hardly any collisions.
   for (Json& row : print_inhomogeneous(count > 0 ? std::clamp(count, 20'000, 100'000) : 100'000)) {
     rows.push_back(std::move(row));

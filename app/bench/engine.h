@@ -1,13 +1,21 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace clatter {
 
-/// Prints the collision rate of elastic disks in a periodic box, by number of disks and area
-/// fraction. `count` and `area_fraction` select one cell of the table; count 0: all. Writes the
-/// table also to `json`, unless it is empty. Returns the exit code.
-int bench_engine(const std::string& json, int count, double area_fraction);
+/// The cells of the engine's table.
+struct EngineTable {
+  int dimension = 2;
+  int count = 0;                          ///< particles of the only cell; 0: the whole table
+  double area_fraction = 0.5;             ///< of disks, in the only cell
+  std::optional<double> volume_fraction;  ///< of spheres, in the only cell; absent: disks
+};
+
+/// Prints the collision rate of elastic particles in a periodic box, by number and by the fraction
+/// that they fill. Writes the table also to `json`, unless it is empty. Returns the exit code.
+int bench_engine(const std::string& json, const EngineTable& table);
 
 /// Prints the dependence of this rate on the number of disks: 100 to 4 million at phi = 0.5, and
 /// 100,000 at other phi from 0.01 to 0.88. A `count` other than 0 limits the number. Writes the

@@ -17,9 +17,13 @@ namespace {
 struct TableOptions {
   std::string json;
   std::string plot;
-  int count = 0;  // of disks; 0: default of the table
-  double area_fraction = 0.5;
+  int count = 0;              // of particles; 0: default of the table
   double duration = 10000.0;  // simulated time of each run
+};
+
+struct EngineOptions {
+  std::string json;
+  EngineTable table;
 };
 
 void add_json_flag(CLI::App& table, std::string& json) {
@@ -41,20 +45,30 @@ void add_duration_flag(CLI::App& table, double& duration) {
 }
 
 void add_engine_table(CLI::App& bench, int& exit_code) {
-  auto options = std::make_shared<TableOptions>();
-  CLI::App* table = bench.add_subcommand(
-      "engine",
-      "Collisions per second, by number of disks and area fraction. This is the default table.");
+  auto options = std::make_shared<EngineOptions>();
+  CLI::App* table = bench.add_subcommand("engine",
+                                         "Collisions per second, by number of particles and area "
+                                         "or volume fraction. This is the default table.");
   add_json_flag(*table, options->json);
-  CLI::Option* count =
-      add_count_flag(*table, options->count, "Number of disks. The table then has one cell.");
-  table->add_option("--area-fraction", options->area_fraction, "Area fraction of that cell.")
-      ->check(number_between(1e-6, 0.9))
-      ->needs(count)
+  CLI::Option* count = add_count_flag(*table, options->table.count,
+                                      "Number of particles. The table then has one cell.");
+  table->add_option("--dimension", options->table.dimension, "2: disks. 3: spheres.")
+      ->check(whole_number_between(2, 3))
       ->capture_default_str();
-  table->callback([options, &exit_code] {
-    exit_code = bench_engine(options->json, options->count, options->area_fraction);
-  });
+  CLI::Option* area = table
+                          ->add_option("--area-fraction", options->table.area_fraction,
+                                       "Area fraction of that cell, of disks.")
+                          ->check(number_between(1e-6, 0.9))
+                          ->needs(count)
+                          ->capture_default_str();
+  table
+      ->add_option("--volume-fraction", options->table.volume_fraction,
+                   "Volume fraction of that cell, of spheres.")
+      ->check(number_between(1e-6, 0.74))
+      ->needs(count)
+      ->excludes(area);
+  table->callback(
+      [options, &exit_code] { exit_code = bench_engine(options->json, options->table); });
 }
 
 void add_growth_table(CLI::App& bench, int& exit_code) {

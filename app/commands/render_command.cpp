@@ -160,6 +160,11 @@ void require_drawable(const FilmState& film, const Gl& gl) {
                   "give a smaller --size or --supersample");
 }
 
+void require_shutter_of_disks(const RenderOptions& options, const Scene& scene) {
+  if (options.shutter.value_or(0.0) == 0.0 || scene.dimension() == 2) return;
+  throw UserError({"--shutter", 0, 0}, "spheres have no motion blur", "omit --shutter");
+}
+
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
   throw UserError({flag, 0, 0}, "the film of the checkpoint has " + before,
                   "omit the flag, or begin another film with --from");
@@ -301,6 +306,7 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
 int render(const RenderOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
+  require_shutter_of_disks(options, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);
   View view = scene.view;

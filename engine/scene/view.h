@@ -53,8 +53,8 @@ struct CameraKey {
   std::optional<VecX> centre;       ///< world point in the middle; absent: centre of the box
   std::optional<int> follow;        ///< number of the particle in the middle, instead of a centre
   std::optional<double> width;      ///< width in world units, > 0; absent: the whole box is visible
-  std::optional<double> azimuth;    ///< of spheres, degrees; absent: as View::azimuth
-  std::optional<double> elevation;  ///< of spheres, degrees; absent: as View::elevation
+  std::optional<double> azimuth = {};    ///< of spheres, degrees; absent: as View::azimuth
+  std::optional<double> elevation = {};  ///< of spheres, degrees; absent: as View::elevation
 };
 
 /// The part of the box between two planes across an axis.

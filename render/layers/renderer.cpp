@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/label.h"
+#include "render/layers/space_lines.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -265,8 +266,31 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
                         thin(theme.static_wall, kHatchOpacity));
   }
   space_->spheres.draw(snapshot, projection, eye, colours, view.slab);
+  draw_lines(snapshot, projection, view, legends, theme, colours, eye);
   space_->box.draw_edges(snapshot, projection, eye, theme);
   gl_->Disable(GL_DEPTH_TEST);
+}
+
+// Arrows are in front of all spheres, which would hide them.
+void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection, const View& view,
+                          const Legends& legends, const ThemeColours& theme,
+                          const DiskColours& colours, const Eye& eye) {
+  LineLayer& lines = space_->lines;
+  const Size drawn = projection.drawn();
+  const double width = std::max(1.0 * projection.samples, 0.0025 * drawn.height);
+  if (view.trails) {
+    lines.restart(eye, depth_range(snapshot, eye));
+    add_trails(lines, snapshot, colours, *view.trails, width);
+    lines.draw(drawn);
+  }
+  if (legends.arrows) {
+    lines.restart(eye, depth_range(snapshot, eye));
+    const double scale = projection.samples * legends.arrows->pixels / projection.scale();
+    add_arrows(lines, *snapshot.arrows, eye, scale, width, theme.text);
+    gl_->Disable(GL_DEPTH_TEST);
+    lines.draw(drawn);
+    gl_->Enable(GL_DEPTH_TEST);
+  }
 }
 
 void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,

@@ -73,11 +73,15 @@ class Renderer {
   };
   /// The layers of spheres, which pictures of disks do not need.
   struct SpaceLayers {
-    explicit SpaceLayers(const Gl& gl) : box(gl), slices(gl), spheres(gl) {}
+    explicit SpaceLayers(const Gl& gl) : box(gl), slices(gl), spheres(gl), lines(gl) {}
     BoxLayer box;
     SliceLayer slices;
     SphereLayer spheres;
+    LineLayer lines;
   };
+  void draw_lines(const Snapshot& snapshot, const Projection& projection, const View& view,
+                  const Legends& legends, const ThemeColours& theme, const DiskColours& colours,
+                  const Eye& eye);
   Camera fit_spheres(const Snapshot& snapshot, Size size, const View& view,
                      const OverlayText& text);
   void draw_spheres(const Snapshot& snapshot, const Projection& projection, const View& view,

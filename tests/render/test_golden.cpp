@@ -5,13 +5,15 @@
 #include <cstdlib>
 #include <string>
 
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
+#include "render/camera_path.h"
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
-// Pictures of five scenes, kept in assets/golden. Where a change of the looks is meant,
+// Pictures of eight scenes, kept in assets/golden. Where a change of the looks is meant,
 //   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*OSMesa*'
 // draws them again; look at each before it is kept.
 
@@ -71,21 +73,64 @@ constexpr std::array kGolden = {Golden{"driven", R"(
         field_range = [0.0, 3.0]
         arrows = "velocity"
         theme = "projector")",
-                                       6.0}};
+                                       6.0},
+                                Golden{"slab", R"(
+        box.size = [10.0, 7.0, 8.0]
+        particles = { count = 150, restitution = 0.9 }
+        walls.left = { kind = "driven", drive_speed = 1.0 }
+        walls.right = { kind = "thermal", temperature = 2.0 }
+        walls.back = { kind = "static" }
+        walls.front = { kind = "sinusoidal", stroke = 0.5, frequency = 0.5 }
+        [view]
+        field = "density"
+        range = [0.0, 4.0]
+        field_range = [0.0, 1.0]
+        overlay = false
+        slab = { axis = "z", from = 0.0, to = 5.0 }
+        slices = [{ axis = "z", position = 2.0 }, { axis = "y", position = 0.0 }])",
+                                       4.0},
+                                Golden{"packing", R"(
+        box.size = [7.0, 7.0, 7.0]
+        particles = { volume_fraction = 0.6, restitution = 0.9 }
+        [view]
+        colour_by = "velocity_z"
+        range = [-2.0, 2.0]
+        theme = "light"
+        view_angle = 0.0
+        azimuth = 45.0
+        elevation = 35.26
+        overlay = false)",
+                                       0.2},
+                                Golden{"orbit", R"(
+        title = "Spheres"
+        box.size = [9.0, 12.0, 9.0]
+        particles = { count = 60, restitution = 0.9 }
+        gravity.acceleration = [0.0, -1.0, 0.0]
+        walls.bottom = { kind = "driven", drive_speed = 3.0 }
+        walls.top = { kind = "static" }
+        [view]
+        colour_by = "depth"
+        azimuth = -120.0
+        elevation = -15.0
+        camera = [{ time = 0.0 }, { time = 4.0, centre = [4.0, 5.0, 3.0], width = 14.0, azimuth = -60.0, elevation = 20.0 }])",
+                                       2.0}};
 
 constexpr Size kSize{320, 240};
 
 Image drawn(const Golden& golden, const Gl& gl) {
   const Scene scene = parse_scene(golden.scene, golden.name);
-  ScheduledRun<2> run(scene, 1);
-  run.show(scene.view);
-  run.run_until(golden.time);
-  const Snapshot snapshot = run.snapshot();
+  const Snapshot snapshot = with_dimension(scene.dimension(), [&](auto dimension) {
+    ScheduledRun<dimension> run(scene, 1);
+    run.show(scene.view);
+    run.run_until(golden.time);
+    return run.snapshot();
+  });
   const OverlayText text{scene.title, scene.caption};
   Renderer renderer(gl);
   const Canvas canvas(gl, kSize);
   canvas.bind();
-  renderer.draw(snapshot, renderer.fit(snapshot, kSize, scene.view, text), kSize, scene.view, text);
+  const Camera whole = renderer.fit(snapshot, kSize, scene.view, text);
+  renderer.draw(snapshot, camera_at(scene.view.camera, snapshot, whole), kSize, scene.view, text);
   return canvas.read();
 }
 

@@ -1,0 +1,193 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "engine/physics/random.h"
+#include "render/layers/renderer.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr Size kSize{240, 180};
+constexpr double kRadius = 0.5;
+
+View plain_view() {
+  View view;
+  view.colour_by = ColourBy::VelocityX;
+  view.range = {ColourRange::Given, {-1.0, 1.0}};
+  view.overlay = false;
+  return view;
+}
+
+/// Spheres at random places without overlaps, in a box with walls on all sides.
+Snapshot random_spheres(int count) {
+  Snapshot snapshot;
+  snapshot.box = Vec3(6.0, 5.0, 4.0);
+  snapshot.walls.fill(Wall{});
+  std::vector<Vec3> centres, velocities;
+  Random random(20240612, Stream::Placement, 0, 0);
+  while (static_cast<int>(centres.size()) < count) {
+    const Vec3 share(random.uniform(), random.uniform(), random.uniform());
+    const Vec3 centre =
+        Vec3::Constant(kRadius) + share.cwiseProduct(snapshot.box - Vec3::Constant(1.0));
+    bool free = true;
+    for (const Vec3& other : centres) free = free && (other - centre).norm() > 1.0;
+    if (!free) continue;
+    velocities.emplace_back(centres.size() % 2 ? 1.0 : -1.0, 0.0, 0.0);
+    centres.push_back(centre);
+  }
+  snapshot.positions = as_columns(centres);
+  snapshot.velocities = as_columns(velocities);
+  return snapshot;
+}
+
+Image draw(const Snapshot& snapshot, const Camera& camera, const View& view, int samples = 1) {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl(), samples);
+  const Canvas canvas(context->gl(), kSize);
+  canvas.bind();
+  renderer.draw(snapshot, camera, kSize, view, {});
+  return canvas.read();
+}
+
+/// A ray of a pixel, in world coordinates, from the definition of the camera.
+struct Ray {
+  Vec3 origin, direction;
+};
+
+Ray ray_of(const Camera& camera, double x, double y) {
+  const Eye eye(Projection{camera, kSize});
+  const double unit = camera.width / kSize.width;
+  const Vec3 right = eye.axes().row(0), up = eye.axes().row(1), towards = eye.axes().row(2);
+  const Vec3 place =
+      eye.centre() + unit * (x - 0.5 * kSize.width) * right + unit * (y - 0.5 * kSize.height) * up;
+  if (camera.orbit.view_angle == 0.0) return {place + 100.0 * towards, -towards};
+  const double distance =
+      0.5 * camera.width / std::tan(0.5 * camera.orbit.view_angle * M_PI / 180.0);
+  const Vec3 viewer = eye.centre() + distance * towards;
+  return {viewer, (place - viewer).normalized()};
+}
+
+struct Hit {
+  std::size_t sphere;
+  double clearance;  // from the silhouettes of all spheres, world units
+};
+
+/// The first sphere on a ray.
+std::optional<Hit> first_hit(const Snapshot& snapshot, const Ray& ray, double& clearance) {
+  std::optional<Hit> hit;
+  double first = HUGE_VAL;
+  clearance = HUGE_VAL;
+  for (std::size_t i = 0; i < snapshot.count(); ++i) {
+    const Vec3 away = Vec3(snapshot.positions.col(static_cast<Eigen::Index>(i))) - ray.origin;
+    const double along = away.dot(ray.direction);
+    const double off = (away - along * ray.direction).norm();
+    clearance = std::min(clearance, std::fabs(off - kRadius));
+    if (off >= kRadius) continue;
+    const double t = along - std::sqrt(kRadius * kRadius - off * off);
+    if (t < first) {
+      first = t;
+      hit = {i, clearance};
+    }
+  }
+  return hit;
+}
+
+bool is_red(Colour colour) {
+  return colour.red > colour.blue + 10;
+}
+bool is_blue(Colour colour) {
+  return colour.blue > colour.red + 10;
+}
+
+}  // namespace
+
+TEST_CASE("Sphere layer: every pixel shows the first sphere on its ray") {
+  // Red and blue spheres. Pixels within a pixel and a half of any silhouette do not count; all
+  // others have the colour of the sphere, or of the background.
+  const Snapshot snapshot = random_spheres(50);
+  for (const double view_angle : {0.0, 40.0, 90.0}) {
+    const Camera camera{
+        {3.0, 2.5}, 9.0, {.z = 2.0, .azimuth = 30.0, .elevation = 25.0, .view_angle = view_angle}};
+    const Image image = draw(snapshot, camera, plain_view());
+    int spheres = 0, wrong = 0;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        double clearance = 0.0;
+        const auto hit =
+            first_hit(snapshot, ray_of(camera, x + 0.5, kSize.height - y - 0.5), clearance);
+        if (!hit || clearance < 2.0 * camera.width / kSize.width) continue;
+        ++spheres;
+        const Colour colour = pixel(image, x, y);
+        if (hit->sphere % 2 ? !is_red(colour) : !is_blue(colour)) ++wrong;
+      }
+    }
+    CAPTURE(view_angle);
+    CHECK(spheres > 4000);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("Sphere layer: the edge of a sphere covers its share of pixels") {
+  // The area of a disk of 20 pixels radius, from the light of white on black: within 1 %.
+  Snapshot snapshot;
+  snapshot.box = Vec3(4.0, 4.0, 4.0);
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = as_columns<3>({{2.03, 1.96, 2.0}});
+  snapshot.velocities = as_columns<3>({{0.0, 0.0, 0.0}});
+  const Camera camera{{2.0, 2.0}, 6.0, {.z = 2.0}};  // 40 pixels a unit
+  View view = plain_view();
+  view.background = Rgb{0, 0, 0};
+  const Image image = draw(snapshot, camera, view);
+  const Colour middle = pixel(image, 121, 88);
+  double left = 1e9, right = 0.0;
+  for (int x = 0; x < kSize.width; ++x) {
+    const double light = linear_light(pixel(image, x, 88).green);
+    if (light > 0.001 && pixel(image, x, 88).green > 8) {
+      left = std::min(left, static_cast<double>(x));
+      right = std::max(right, x + 1.0);
+    }
+  }
+  CHECK(linear_light(middle.green) > 0.2);
+  // 121.2 +- 20, with soft edges of a pixel.
+  CHECK(std::fabs(left - 101.2) < 1.3);
+  CHECK(std::fabs(right - 141.2) < 1.3);
+}
+
+TEST_CASE("Sphere layer: a slab hides what lies outside of it, and cuts spheres flat") {
+  Snapshot snapshot;
+  snapshot.box = Vec3(4.0, 4.0, 4.0);
+  snapshot.walls.fill(Wall{});
+  // Blue in front of red; the plane z = 2 cuts the red one through its middle.
+  snapshot.positions = as_columns<3>({{2.0, 2.0, 3.4}, {2.0, 2.0, 2.0}});
+  snapshot.velocities = as_columns<3>({{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+  const Camera camera{{2.0, 2.0}, 6.0, {.z = 2.0}};
+  View view = plain_view();
+  CHECK(is_blue(pixel(draw(snapshot, camera, view), 120, 90)));
+  view.slab = Slab{Axis::Z, 0.0, 2.0};
+  const Image cut = draw(snapshot, camera, view);
+  CHECK(is_red(pixel(cut, 120, 90)));
+  CHECK(pixel(cut, 120, 90) == pixel(cut, 128, 84));  // flat: one shade
+}
+
+TEST_CASE("Sphere layer: images at a periodic border are faint outside of the box") {
+  Snapshot snapshot;
+  snapshot.box = Vec3(4.0, 4.0, 4.0);
+  snapshot.positions = as_columns<3>({{0.0, 2.0, 2.0}});
+  snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}});
+  const Camera camera{{2.0, 2.0}, 6.0, {.z = 2.0}};  // the box is from pixel 40 to 200
+  const Image image = draw(snapshot, camera, plain_view());
+  // Half of the sphere at either end; between them nothing.
+  for (const auto& [inside, outside] : {std::pair(50, 30), {190, 210}}) {
+    CHECK(is_red(pixel(image, inside, 90)));
+    const int faint = difference(pixel(image, outside, 90), kDarkTheme.background);
+    CHECK(faint > 5);
+    CHECK(faint < difference(pixel(image, inside, 90), kDarkTheme.background) / 2);
+  }
+  CHECK(pixel(image, 120, 90) == kDarkTheme.background);
+}
+
+}  // namespace clatter
