@@ -63,11 +63,11 @@ Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions&
   file_ = options_.file.empty() ? checkpoint_beside(out, options.scene, seed_)
                                 : std::filesystem::path(options_.file);
   if (!resumed_) {
-    run_.emplace(scene, seed_);
+    run_.emplace(scene, seed_, interrupted);
     return;
   }
   auto& saved = std::get<RunState<D>>(resumed_->checkpoint.saved);
-  run_.emplace(scene, seed_, saved);
+  run_.emplace(scene, seed_, saved, interrupted);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
@@ -117,14 +117,13 @@ void Run<D>::tell_new_averages() const {
 template <int D>
 bool Run<D>::until(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
-  std::uint64_t slice = 1024;  // steps; adapted while running
   ended_early_ = true;
   try {
     for (bool arrived = false; !arrived; progress.update(simulation().time())) {
       if (interrupted()) return false;
-      const auto began = Clock::now();
-      arrived = run_->run_until(time, kNoLimit, simulation().counts().steps() + slice);
-      slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
+      const auto due = Clock::now() + kSlice;
+      arrived = run_->run_until(time, kNoLimit, kNoLimit,
+                                [due] { return interrupted() || Clock::now() >= due; });
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();
     }

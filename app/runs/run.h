@@ -26,7 +26,7 @@ template <int D>
 class Run {
  public:
   /// `out` is the output of the command; empty: stdout. Throws UserError if a requested checkpoint
-  /// has no possible place.
+  /// has no possible place. Throws Interrupted before the run begins.
   Run(const std::string& command, const Scene& scene, const CommonOptions& options,
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed, const std::string& out);
 

@@ -67,11 +67,12 @@ static RunState<D> fresh(const Model<D>& model, State<D> state, double start_tim
 }
 
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time)
-    : Simulation(model, fresh<D>(model, std::move(state), start_time)) {}
+Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time,
+                          const StopRequest& stop)
+    : Simulation(model, fresh<D>(model, std::move(state), start_time), stop) {}
 
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
+Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop)
     : model_(model),
       clock_(saved.base),
       boundary_(model_, clock_),
@@ -113,18 +114,18 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
     }
   }
   saved.flights = {};
-  fill_cells();
-  fit_cells();
+  fill_cells(stop);
+  fit_cells(stop);
   // Overlaps that the run has already accepted at contacts are accepted at a restart too.
   const double borne = kStartRounding + checks_.deepest_overlap;
-  if (const double overlap = deepest_overlap(); overlap > borne) {
+  if (const double overlap = deepest_overlap(stop); overlap > borne) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", overlap);
     throw PhysicalStop(
         std::string("particles overlap each other or a wall at the start, the deepest by ") + text +
         " diameters; move them apart");
   }
-  plan_all();
+  plan_all(stop);
 }
 
 // A sinusoidal wall moves out of the box by less than the box side. Positions farther out are
@@ -140,8 +141,9 @@ static bool is_inside(const Model<D>& model, const Vec<D>& r) {
 }
 
 template <int D>
-void Simulation<D>::fill_cells() {
+void Simulation<D>::fill_cells(const StopRequest& stop) {
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     if (!is_inside<D>(model_, r)) {
       throw PhysicalStop("particle " + std::to_string(i) + " is outside of the walls at the start");
@@ -156,7 +158,7 @@ void Simulation<D>::fill_cells() {
 // shorten these lists, up to kMax cells per particle, a limit of memory. The events do not depend
 // on the number of cells.
 template <int D>
-void Simulation<D>::fit_cells() {
+void Simulation<D>::fit_cells(const StopRequest& stop) {
   // Thresholds of the crowding: other particles near a particle per neighbouring cell. It is 1 for
   // evenly spread points. Between kEven and kCrowded the cells stay as they are (hysteresis).
   constexpr double kCellsAbout = D == 2 ? 9.0 : 27.0;
@@ -178,14 +180,15 @@ void Simulation<D>::fit_cells() {
   }
   cells_per_particle_ = per_particle;
   grid_ = CellGrid<D>(model_, per_particle * count);
-  fill_cells();
+  fill_cells(stop);
 }
 
 template <int D>
-void Simulation<D>::plan_all() {
+void Simulation<D>::plan_all(const StopRequest& stop) {
   std::vector<Event> events;
   events.reserve(particles_.size());
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
     prediction_.plan({i, &plans_[i]}, now_);
     const Plan<D>& plan = plans_[i];
     if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
@@ -249,17 +252,21 @@ bool Simulation<D>::is_too_fast(std::uint32_t number) const {
 }
 
 template <int D>
-bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
-  for (;;) {
+bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
+                              const StopRequest& stop_request) {
+  constexpr std::uint64_t kStepsPerLook = 1000;  // at the request
+  while (!stop_request.made()) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);
     double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
     const double kick_time = next_kick();
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
-    const Halt halt = advance(stop, collisions, steps);
-    if (halt == Halt::BaseMoved) continue;
-    if (halt == Halt::Limit) return false;
+    const Halt halt = advance(stop, collisions, std::min(steps, counts_.steps() + kStepsPerLook));
+    if (halt == Halt::Limit && (counts_.collisions() >= collisions || counts_.steps() >= steps)) {
+      return false;
+    }
+    if (halt != Halt::Time) continue;
     if (stop == kNever) return true;
     now_ = std::max(now_, stop);
     if (kicks) {
@@ -270,6 +277,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
       return true;
     }
   }
+  return false;
 }
 
 template <int D>
@@ -401,9 +409,10 @@ double Simulation<D>::spin_energy() const {
 }
 
 template <int D>
-double Simulation<D>::deepest_overlap() const {
+double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
   double deepest = 0.0;
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     grid_.visit(plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
       if (j <= i) return;

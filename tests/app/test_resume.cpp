@@ -89,6 +89,32 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
   leaves("clatter render vibrated --size 64x64 --to 1e5 --out frames/", "frames.checkpoint");
 }
 
+TEST_CASE("Resume: an interrupt before the run began leaves nothing, and is said") {
+  const Shell shell;
+  // A fluid of a million disks, which starts from a lattice that melts slowly.
+  const std::string many = "--set box.size=[1144,1144] --set particles.count=1000000";
+  for (const std::string command :
+       {"measure vibrated --out r.json", "render vibrated --out a.png"}) {
+    CAPTURE(command);
+    const Outcome outcome =
+        shell.run("timeout --preserve-status -s INT 1 clatter " + command + ' ' + many);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 130);
+    CHECK(says(outcome.err, "interrupted before the run began; nothing was saved"));
+    CHECK(shell.files().empty());
+  }
+}
+
+TEST_CASE(
+    "Resume: an interrupt is obeyed between the windows of a picture, however many there are") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "timeout --preserve-status -s INT 1 clatter render vibrated --out a.png --to 0.1 "
+      "--set view.window=1e-8 --set view.field=density");
+  CHECK(outcome.code == 130);
+  CHECK(says(outcome.err, "continue with --resume a.checkpoint"));
+}
+
 TEST_CASE("Resume: a run that is continued for longer equals one long run") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.burn_in=20 --quiet ";

@@ -261,3 +261,19 @@ TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint equal one 
   ScheduledRun<2> unlike(scene, 15, whole.simulation().save());
   CHECK_THROWS_AS(unlike.show(other, shown), UserError);
 }
+
+TEST_CASE("ScheduledRun: a request to stop halts it between changes of laws") {
+  Scene scene = vibrated();
+  scene.changes.push_back({.time = 1.0,
+                           .set = {{"particles.restitution", "0.5"}},
+                           .ramp = Ramp::Linear,
+                           .until = 1.064});
+  ScheduledRun<2> run(scene, 16);
+  int changes = 0;
+  run.on_change = [&](Simulation<2>&) { ++changes; };
+  CHECK_FALSE(run.run_until(2.0, kNoLimit, kNoLimit, [&] { return changes == 3; }));
+  CHECK(changes == 3);
+  CHECK(run.run_until(2.0));
+  CHECK(changes == Schedule::kRampSteps);
+  CHECK_THROWS_AS(ScheduledRun<2>(scene, 16, [] { return true; }), Interrupted);
+}
