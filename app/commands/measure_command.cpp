@@ -130,15 +130,16 @@ void write_json(const std::string& out, const nlohmann::ordered_json& result) {
 }
 
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
-                   const Measured& measured) {
+                   const Measured& measured, const StopRequest& stop) {
   write_json(options.out, result);
-  if (!options.csv.empty()) write_tables(options.csv, measured);
+  if (!options.csv.empty()) write_tables(options.csv, measured, stop);
   if (!options.vtk.empty()) {
     write_vtk(options.vtk, measured,
               result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
-                  ", state hash " + result.at("state_hash").get<std::string>());
+                  ", state hash " + result.at("state_hash").get<std::string>(),
+              stop);
   }
-  if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured);
+  if (!options.hdf5.empty()) write_hdf5(options.hdf5, result, measured, stop);
 }
 
 void require_bounded_samples(const Measure& spec, double end) {
@@ -214,12 +215,21 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
     }
   }
   run.put_aside();
-  const Measured measured = measurement.result();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
-  const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
-                                run.simulation().counts().pair_collisions - collisions_before,
-                                peak_memory_bytes()};
-  write_results(options, json_of(options, scene, run, measured, performance), measured);
+  // The results of an interrupted run are written in full.
+  const StopRequest stop = run.ended_early() ? StopRequest() : StopRequest(interrupted);
+  Measured measured;
+  try {
+    measured = measurement.result(stop);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+    const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
+                                  run.simulation().counts().pair_collisions - collisions_before,
+                                  peak_memory_bytes()};
+    write_results(options, json_of(options, scene, run, measured, performance), measured, stop);
+  } catch (const Interrupted&) {
+    std::fprintf(stderr, "clatter: interrupted while the results were written%s\n",
+                 run.rescue().c_str());
+    return kInterrupted;
+  }
   if (!options.common.quiet) {
     advise_on_contact_time(scene, measured);
     if (options.accuracy.asked_for()) tell_accuracy(options.accuracy, measured);

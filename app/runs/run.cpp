@@ -131,7 +131,7 @@ bool Run<D>::until(double time, Progress& progress) {
     stop_ = stop;
     return false;
   }
-  // An interrupt after the end has no effect: the run is complete.
+  // An interrupt after the end has no effect on the run: it is complete.
   ended_early_ = false;
   return true;
 }
