@@ -1,8 +1,9 @@
 #include "engine/dynamics/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
+#include "engine/physics/fraction.h"
 
 namespace clatter {
 
@@ -66,6 +68,62 @@ static RunState<D> fresh(const Model<D>& model, State<D> state, double start_tim
   return saved;
 }
 
+// A clock with its base at the time of the state.
+template <int D>
+static Clock clock_at(const RunState<D>& saved) {
+  Clock clock(saved.base);
+  clock.advance(saved.now);
+  return clock;
+}
+
+// The shifts of phases that keep walls at their places if their frequencies change now. Rest is a
+// motion of frequency 0.
+template <int D>
+static std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunState<D>& saved) {
+  const std::array<WallMotion, 2 * D> motions = wall_motions<D>(model);
+  std::array<double, 2 * D> shifts = saved.phase_shifts;
+  const Clock now = clock_at(saved);
+  for (int side = 0; side < 2 * D; ++side) {
+    const double before = saved.wall_motions[side].frequency, after = motions[side].frequency;
+    if (!model.walls[side] || !model.walls[side]->moves()) {
+      shifts[side] = 0.0;
+    } else if (before != after) {
+      shifts[side] = fraction(shifts[side] + now.periods(before, 0.0) - now.periods(after, 0.0));
+    }
+  }
+  return shifts;
+}
+
+// The error of a start with overlaps. If walls have changed their motion, they are the cause. Just
+// after the beginning of a period a wall is at its resting place, whatever its stroke.
+template <int D>
+static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved,
+                                     double overlap) {
+  constexpr double kJustAfter = 1e-4;  // periods
+  const std::string deepest = fmt::format("by {:.3g} diameters", overlap);
+  const Clock now = clock_at(saved);
+  const double time = now.absolute(0.0);
+  std::string changed, remedy = "make a smaller change";
+  for (int side = 0; side < 2 * D; ++side) {
+    const WallMotion& before = saved.wall_motions[side];
+    const WallMotion after = wall_motions<D>(model)[side];
+    if (before == after) continue;
+    changed += std::string(changed.empty() ? "" : ", ") + "walls." + kSideNames[side];
+    if (before.frequency == 0.0 || before.phase != after.phase) continue;
+    const double phase = now.periods(before.frequency, before.phase + saved.phase_shifts[side]);
+    remedy +=
+        fmt::format(", or change walls.{} without a ramp at its resting place, as at t = {:.9g}",
+                    kSideNames[side], time + (1.0 + kJustAfter - phase) / before.frequency);
+  }
+  if (!changed.empty()) {
+    return PhysicalStop(
+        fmt::format("the change of {} at t = {:.9g} moves a wall into a particle, {}; {}", changed,
+                    time, deepest, remedy));
+  }
+  return PhysicalStop("particles overlap each other or a wall at the start, the deepest " +
+                      deepest + "; move them apart");
+}
+
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time,
                           const StopRequest& stop)
@@ -75,7 +133,7 @@ template <int D>
 Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop)
     : model_(model),
       clock_(saved.base),
-      boundary_(model_, clock_),
+      boundary_(model_, clock_, phase_shifts<D>(model_, saved)),
       now_(saved.now),
       particles_(saved.flights.size()),
       spins_(saved.spins.begin(), saved.spins.end()),
@@ -119,11 +177,7 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
   // Overlaps that the run has already accepted at contacts are accepted at a restart too.
   const double borne = kStartRounding + checks_.deepest_overlap;
   if (const double overlap = deepest_overlap(stop); overlap > borne) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", overlap);
-    throw PhysicalStop(
-        std::string("particles overlap each other or a wall at the start, the deepest by ") + text +
-        " diameters; move them apart");
+    throw overlap_at_start<D>(model_, saved, overlap);
   }
   plan_all(stop);
 }
@@ -344,6 +398,7 @@ RunState<D> Simulation<D>::save() const {
   RunState<D> saved;
   saved.gravity = model_.gravity;
   saved.wall_motions = wall_motions<D>(model_);
+  saved.phase_shifts = boundary_.phase_shifts();
   saved.base = clock_.base();
   saved.now = now_;
   saved.flights.reserve(particles_.size());

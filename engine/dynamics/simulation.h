@@ -33,7 +33,8 @@ class Simulation {
              const StopRequest& stop = {});
   /// Continues a saved run under the laws of `model`. Under the same laws the result has the same
   /// bits as the uninterrupted run. If the interval of kicks differs, kicks are counted from now.
-  /// Throws PhysicalStop if a wall now overlaps a particle. Throws Interrupted.
+  /// A wall whose frequency differs continues at its place, and one that begins to move has its
+  /// phase now. Throws PhysicalStop if a wall now overlaps a particle. Throws Interrupted.
   Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

@@ -227,6 +227,29 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Resume: a run stopped by an impossible change of a wall continues with another change") {
+  const Shell shell;
+  const auto write_change_at = [&](const std::string& time) {
+    shell.write("s.toml",
+                "box.size = [12, 10]\nparticles = { count = 60, restitution = 0.9 }\n"
+                "walls.left = { kind = 'sawtooth', stroke = 0.5, frequency = 1 }\n"
+                "walls.right = { kind = 'thermal', temperature = 1.5 }\nmeasure.burn_in = 1\n"
+                "[[change]]\ntime = " +
+                    time + "\nset = { 'walls.left.stroke' = 4 }\n");
+  };
+  const std::string line = "clatter measure s.toml --until 11.2 --out r.json ";
+  write_change_at("10.75");
+  for (const std::string resume : {"", "--resume r.checkpoint"}) {
+    const Outcome stopped = shell.run(line + resume);
+    CAPTURE(stopped.err);
+    CHECK(stopped.code == 3);
+    CHECK(says(stopped.err, "the change of walls.left at t = 10.75 moves a wall into a particle"));
+    CHECK(says(stopped.err, "at its resting place, as at t = 11.0001"));
+  }
+  write_change_at("11.0001");
+  CHECK(shell.run(line + "--resume r.checkpoint").code == 0);
+}
+
 TEST_CASE("Resume: a run continues without the file of its start state") {
   const Shell shell;
   shell.run("clatter measure vibrated --until 501 --out r.json --save-state start.csv --quiet");
