@@ -116,7 +116,7 @@ static std::optional<double> number_in(const toml::node& node, Limits limits) {
   } else {
     return std::nullopt;
   }
-  return limits.allow(number) ? std::optional(number) : std::nullopt;
+  return limits.allow(number) ? std::optional(number + 0.0) : std::nullopt;  // no -0
 }
 
 /// The numbers of an array of `size`; absent for any other node.
