@@ -141,6 +141,8 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
       {head + "set = { 'particles.friction' = 0.5 }\n[[change]]\ntime = 2\n"
               "set = { 'particles.friction' = inf }\nramp = 'linear'\nuntil = 4\n",
        {"s.toml:12:1", "'particles.friction' has no ramp to inf; use a large number"}},
+      {head + "set = { \"particles.\\u001b[2J\\u0000x\" = 1 }\n",
+       {"'particles.\\u001b[2J\\u0000x' cannot change"}},
   };
   for (const auto& [text, parts] : wrong) {
     CAPTURE(text);
