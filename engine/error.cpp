@@ -1,5 +1,7 @@
 #include "engine/error.h"
 
+#include "engine/printable.h"
+
 namespace clatter {
 
 static std::string message(const Place& place, const std::string& what, const std::string& advice) {
@@ -15,6 +17,8 @@ static std::string message(const Place& place, const std::string& what, const st
 }
 
 UserError::UserError(const Place& place, const std::string& problem, const std::string& advice)
-    : std::runtime_error(message(place, problem, advice)), problem_(problem), advice_(advice) {}
+    : std::runtime_error(printable(message(place, problem, advice))),
+      problem_(problem),
+      advice_(advice) {}
 
 }  // namespace clatter

@@ -165,7 +165,7 @@ void write_json(const std::string& out, const nlohmann::ordered_json& result) {
 // which the results can be written again.
 template <int D>
 void write_results(const MeasureOptions& options, const nlohmann::ordered_json& result,
-                   const Measured& measured, Run<D>& run) {
+                   const Measured& measured, Run<D>& run, const StopRequest& stop) {
   std::string failure;
   const auto attempt = [&](const auto& write) {
     try {
@@ -175,15 +175,16 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
     }
   };
   attempt([&] { write_json(options.out, result); });
-  if (!options.csv.empty()) attempt([&] { write_tables(options.csv, measured); });
+  if (!options.csv.empty()) attempt([&] { write_tables(options.csv, measured, stop); });
   if (!options.vtk.empty()) {
     attempt([&] {
       write_vtk(options.vtk, measured,
                 result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
-                    ", state hash " + result.at("state_hash").get<std::string>());
+                    ", state hash " + result.at("state_hash").get<std::string>(),
+                stop);
     });
   }
-  if (!options.hdf5.empty()) attempt([&] { write_hdf5(options.hdf5, result, measured); });
+  if (!options.hdf5.empty()) attempt([&] { write_hdf5(options.hdf5, result, measured, stop); });
   if (!options.save_state.empty()) {
     attempt([&] { write_file(options.save_state, state_to_csv(run.simulation().state())); });
   }
@@ -272,12 +273,22 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
     }
   }
   run.put_aside();
-  const Measured measured = measurement.result();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
-  const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
-                                run.simulation().counts().pair_collisions - collisions_before,
-                                peak_memory_bytes()};
-  write_results(options, json_of(options, scene, run, measured, performance), measured, run);
+  // The results of an interrupted run are written in full.
+  const StopRequest stop = run.ended_early() ? StopRequest() : StopRequest(interrupted);
+  Measured measured;
+  try {
+    measured = measurement.result(stop);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+    const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
+                                  run.simulation().counts().pair_collisions - collisions_before,
+                                  peak_memory_bytes()};
+    write_results(options, json_of(options, scene, run, measured, performance), measured, run,
+                  stop);
+  } catch (const Interrupted&) {
+    std::fprintf(stderr, "clatter: interrupted while the results were written%s\n",
+                 run.rescue().c_str());
+    return kInterrupted;
+  }
   if (!options.common.quiet) {
     advise_on_contact_time(scene, measured);
     if (options.accuracy.asked_for()) {

@@ -9,6 +9,7 @@
 #include "app/system/commit.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
+#include "engine/stop_request.h"
 
 namespace clatter {
 
@@ -80,6 +81,8 @@ int run_program(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
       return program.exit(error) == 0 ? kOk : kWrongUse;
     }
+  } catch (const Interrupted&) {
+    return report("interrupted before the run began; nothing was saved", kInterrupted);
   } catch (const UserError& error) {
     return report(error.what(), kWrongUse);
   } catch (const PhysicalStop& error) {

@@ -47,7 +47,7 @@ static std::string profile_table(const Profile& profile) {
 }
 
 // One line per cell, with the position of its centre.
-static std::string maps_table(const FieldMaps& maps) {
+static std::string maps_table(const FieldMaps& maps, const StopRequest& stop) {
   const std::vector<int>& cells = maps.maps.front().cells;
   std::string units = std::string("# units, ") + kUnits;
   std::string header;
@@ -63,6 +63,7 @@ static std::string maps_table(const FieldMaps& maps) {
   }
   std::string table = units + "\n" + header + "\n";
   for (std::size_t cell = 0; cell < maps.maps.front().values.size(); ++cell) {
+    stop.check();
     std::size_t rest = cell;
     for (std::size_t axis = 0; axis < cells.size(); ++axis) {
       const auto count = static_cast<std::size_t>(cells[axis]);
@@ -79,11 +80,12 @@ static std::string maps_table(const FieldMaps& maps) {
 
 // The tables of an earlier run that this run does not replace are removed last. A failure loses
 // none.
-void write_tables(const std::filesystem::path& folder, const Measured& measured) {
+void write_tables(const std::filesystem::path& folder, const Measured& measured,
+                  const StopRequest& stop) {
   const auto [series, profile, maps] = kTableNames;
   write_file(folder / series, series_table(measured));
   if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
-  if (measured.maps) write_file(folder / maps, maps_table(*measured.maps));
+  if (measured.maps) write_file(folder / maps, maps_table(*measured.maps, stop));
   std::error_code ignored;
   if (!measured.profile) std::filesystem::remove(folder / profile, ignored);
   if (!measured.maps) std::filesystem::remove(folder / maps, ignored);

@@ -12,7 +12,8 @@ inline constexpr std::array kTableNames = {"temperature_series.csv", "profile.cs
 
 /// Writes a measurement as CSV tables into a folder: the series of the temperature, and the profile
 /// and the maps if present. A table of maps has one line per cell. A line that begins with "#" has
-/// the units. Cells without data have nan.
-void write_tables(const std::filesystem::path& folder, const Measured& measured);
+/// the units. Cells without data have nan. Throws Interrupted.
+void write_tables(const std::filesystem::path& folder, const Measured& measured,
+                  const StopRequest& stop = {});
 
 }  // namespace clatter

@@ -154,15 +154,17 @@ std::string map_unit(const FieldMap& map) {
   return unit_of(map.field.quantity, static_cast<int>(map.cells.size()));
 }
 
-void write_maps(const H5::Group& group, const FieldMaps& maps) {
+void write_maps(const H5::Group& group, const FieldMaps& maps, const StopRequest& stop) {
   write_edges(group, maps);
   write_dataset(group, "time", "t", {maps.begin, maps.end});
   for (const FieldMap& map : maps.maps) {
+    stop.check();
     write_dataset(group, name_of(map.field), map_unit(map), map.values, shape_of(map));
   }
 }
 
-void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& parts) {
+void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& parts,
+                      const StopRequest& stop) {
   write_edges(group, parts.front());
   std::vector<double> times;
   for (const FieldMaps& part : parts) times.insert(times.end(), {part.begin, part.end});
@@ -171,6 +173,7 @@ void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& part
     const FieldMap& map = parts.front().maps[f];
     std::vector<double> values;
     for (const FieldMaps& part : parts) {
+      stop.check();
       values.insert(values.end(), part.maps[f].values.begin(), part.maps[f].values.end());
     }
     Shape shape = shape_of(map);
@@ -179,7 +182,8 @@ void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& part
   }
 }
 
-void write_all(const H5::H5File& file, const Json& result, const Measured& measured) {
+void write_all(const H5::H5File& file, const Json& result, const Measured& measured,
+               const StopRequest& stop) {
   Json rest = result;
   rest.erase("temperature_series");
   rest.erase("profile");
@@ -188,18 +192,18 @@ void write_all(const H5::H5File& file, const Json& result, const Measured& measu
   write_series(file.createGroup("temperature_series"), measured);
   if (measured.profile) write_profile(file.createGroup("profile"), *measured.profile);
   if (!measured.maps) return;
-  write_maps(file.createGroup("maps"), *measured.maps);
+  write_maps(file.createGroup("maps"), *measured.maps, stop);
   if (measured.map_series.empty()) return;
-  write_map_series(file.createGroup("map_series"), measured.map_series);
+  write_map_series(file.createGroup("map_series"), measured.map_series, stop);
 }
 
 // The bytes of the file. The file is made in memory, so that a complete file or no file appears.
-std::string image_of(const Json& result, const Measured& measured) {
+std::string image_of(const Json& result, const Measured& measured, const StopRequest& stop) {
   constexpr std::size_t kGrowth = std::size_t{1} << 20;
   H5::FileAccPropList in_memory;
   in_memory.setCore(kGrowth, false);
   H5::H5File file("measurement", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
-  write_all(file, result, measured);
+  write_all(file, result, measured, stop);
   file.flush(H5F_SCOPE_GLOBAL);
   const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
   std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
@@ -211,10 +215,11 @@ std::string image_of(const Json& result, const Measured& measured) {
 
 }  // namespace
 
-void write_hdf5(const std::filesystem::path& path, const Json& result, const Measured& measured) {
+void write_hdf5(const std::filesystem::path& path, const Json& result, const Measured& measured,
+                const StopRequest& stop) {
   try {
     H5::Exception::dontPrint();
-    write_file(path, image_of(result, measured));
+    write_file(path, image_of(result, measured, stop));
   } catch (const H5::Exception& error) {
     throw RunError("cannot make " + path.string() + ": " + error.getDetailMsg());
   }

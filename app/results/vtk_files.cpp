@@ -88,7 +88,7 @@ std::string head(const std::string& type, const std::string& origin) {
 
 // The values follow the XML as raw binary data, as in files of VTK's own writer. They are exact,
 // NaN included.
-std::string image_data(const FieldMaps& maps, const std::string& origin) {
+std::string image_data(const FieldMaps& maps, const std::string& origin, const StopRequest& stop) {
   const auto dimension = static_cast<int>(maps.cell.size());
   std::string extent, spacing;
   for (int axis = 0; axis < 3; ++axis) {
@@ -108,6 +108,7 @@ std::string image_data(const FieldMaps& maps, const std::string& origin) {
                     "    <Piece Extent=\"" +
                     extent + "\">\n      <CellData>\n";
   for (const DataArray& array : arrays_of(maps)) {
+    stop.check();
     xml += "        <DataArray type=\"Float64\" " + attributes_of(array) +
            " format=\"appended\" offset=\"" + std::to_string(data.size()) +
            "\">\n          <InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">" +
@@ -126,10 +127,10 @@ std::string part_name(std::size_t part) {
 }
 
 void write_series(const std::filesystem::path& folder, const std::vector<FieldMaps>& series,
-                  const std::string& origin) {
+                  const std::string& origin, const StopRequest& stop) {
   std::string collection = head("Collection", origin) + "  <Collection>\n";
   for (std::size_t k = 0; k < series.size(); ++k) {
-    write_file(folder / part_name(k), image_data(series[k], origin));
+    write_file(folder / part_name(k), image_data(series[k], origin, stop));
     collection += "    <DataSet timestep=\"" +
                   number_text(0.5 * (series[k].begin + series[k].end)) + "\" file=\"" +
                   part_name(k) + "\"/>\n";
@@ -160,13 +161,13 @@ std::vector<std::string> vtk_names() {
 }
 
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
-               const std::string& origin) {
+               const std::string& origin, const StopRequest& stop) {
   if (!measured.maps) return;
   // ParaView opens series_*.vti as one series, with the remaining parts of an earlier, longer one.
   std::vector<std::filesystem::path> stale = parts_listed(folder, measured.map_series.size());
-  write_file(folder / kFieldsFile, image_data(*measured.maps, origin));
+  write_file(folder / kFieldsFile, image_data(*measured.maps, origin, stop));
   if (!measured.map_series.empty()) {
-    write_series(folder, measured.map_series, origin);
+    write_series(folder, measured.map_series, origin, stop);
   } else if (!stale.empty()) {
     stale.insert(stale.begin(), folder / kSeriesFile);
   }

@@ -13,9 +13,9 @@ namespace clatter {
 /// series_00.vti, ..., the averages over parts of the time. Velocity and heat flux are vectors,
 /// stress is a symmetric tensor, and cells without data have NaN. Every file contains `origin`,
 /// which must not contain "--". Omits absent fields. Removes the remaining parts of an earlier
-/// series.
+/// series. Throws Interrupted between fields.
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
-               const std::string& origin);
+               const std::string& origin, const StopRequest& stop = {});
 
 /// The names of all files that write_vtk() can write.
 std::vector<std::string> vtk_names();

@@ -55,6 +55,8 @@ class Replicas {
     while (const std::optional<std::size_t> next = take()) {
       try {
         measure(*next);
+      } catch (const Interrupted&) {
+        return;  // the replica has no result
       } catch (...) {
         const std::scoped_lock lock(mutex_);
         if (*next < failed_) {
@@ -85,11 +87,12 @@ class Replicas {
   }
 
   void measure(std::size_t index) {
-    constexpr std::uint64_t kSlice = 1 << 16;  // steps between tests for an interrupt
+    constexpr std::uint64_t kSlice = 1 << 16;  // steps between messages to progress
     const std::uint64_t seed = ensemble_.first_seed + index;
-    const auto simulation = simulation_of<D>(scene_, seed);
+    const auto simulation = simulation_of<D>(scene_, seed, interrupted);
     Measurement measurement(*simulation, scene_.measure, ensemble_.end);
-    while (!simulation->run_until(ensemble_.end, kNoLimit, simulation->counts().steps() + kSlice)) {
+    while (!simulation->run_until(ensemble_.end, kNoLimit, simulation->counts().steps() + kSlice,
+                                  interrupted)) {
       if (interrupted() || !tell(index, simulation->time())) return;
     }
     require_no_overlap(simulation->checks());

@@ -120,7 +120,6 @@ bool Film<D>::choose_ranges(Progress& progress) {
 // The largest values at the ends of the parts of the window, and of its average.
 template <int D>
 RangeEnds Film<D>::look_ahead() const {
-  constexpr std::uint64_t kSteps = 50'000;  // between tests for an interrupt
   const ScheduledRun<D>& run = run_.scheduled();
   ScheduledRun<D> ahead(scene_, run.seed(), run.simulation().save());
   ahead.show(view_, run.save_shown(), state_.exposure());
@@ -130,9 +129,7 @@ RangeEnds Film<D>::look_ahead() const {
   try {
     for (int part = 1; part <= kWindowParts; ++part) {
       const double time = start + window * part / kWindowParts;
-      while (!ahead.run_until(time, kNoLimit, ahead.simulation().counts().steps() + kSteps)) {
-        if (interrupted()) return ends;
-      }
+      if (!ahead.run_until(time, kNoLimit, kNoLimit, interrupted)) return ends;
       const double disks = ends.disks;
       ends = range_ends(ahead.snapshot(), view_);
       ends.disks = std::max(ends.disks, disks);

@@ -75,11 +75,11 @@ Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions&
       resumed_(std::move(resumed)),
       seed_(seed_of(options, resumed_)) {
   if (!resumed_) {
-    run_.emplace(scene, seed_);
+    run_.emplace(scene, seed_, interrupted);
     return;
   }
   auto& saved = std::get<RunState<D>>(resumed_->checkpoint.saved);
-  run_.emplace(scene, seed_, saved);
+  run_.emplace(scene, seed_, saved, interrupted);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
@@ -129,14 +129,13 @@ void Run<D>::tell_new_averages() const {
 template <int D>
 bool Run<D>::until(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
-  std::uint64_t slice = 1024;  // steps; adapted while running
   ended_early_ = true;
   try {
     for (bool arrived = false; !arrived; progress.update(simulation().time())) {
       if (interrupted()) return false;
-      const auto began = Clock::now();
-      arrived = run_->run_until(time, kNoLimit, simulation().counts().steps() + slice);
-      slice = Clock::now() - began < kSlice ? 2 * slice : std::max<std::uint64_t>(1, slice / 2);
+      const auto due = Clock::now() + kSlice;
+      arrived = run_->run_until(time, kNoLimit, kNoLimit,
+                                [due] { return interrupted() || Clock::now() >= due; });
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();
     }
@@ -144,7 +143,7 @@ bool Run<D>::until(double time, Progress& progress) {
     stop_ = stop;
     return false;
   }
-  // An interrupt after the end has no effect: the run is complete.
+  // An interrupt after the end has no effect on the run: it is complete.
   ended_early_ = false;
   return true;
 }

@@ -37,7 +37,7 @@ void require_checkpoint_place(const std::filesystem::path& file,
 template <int D>
 class Run {
  public:
-  /// `file` is the result of checkpoint_path().
+  /// `file` is the result of checkpoint_path(). Throws Interrupted before the run begins.
   Run(const std::string& command, const Scene& scene, const CommonOptions& options,
       const CheckpointOptions& checkpoints, std::optional<Resumed> resumed,
       const std::filesystem::path& file);
@@ -56,6 +56,8 @@ class Run {
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
   bool until(double time, Progress& progress);
+  /// Whether the last until() had an early end.
+  bool ended_early() const { return ended_early_; }
   /// The film state for checkpoints, at the time of the run. Empty without a film.
   std::function<std::string()> film_state;
   /// Until the next call, checkpoints have the present state of the run.

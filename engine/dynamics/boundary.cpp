@@ -14,7 +14,9 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
 }
 
 template <int D>
-Boundary<D>::Boundary(const Model<D>& model, const Clock& clock) : model_(model) {
+Boundary<D>::Boundary(const Model<D>& model, const Clock& clock,
+                      const std::array<double, 2 * D>& phase_shifts)
+    : model_(model), phase_shifts_(phase_shifts) {
   move_base(clock);
 }
 
@@ -24,7 +26,8 @@ void Boundary<D>::move_base(const Clock& clock) {
   for (int side = 0; side < 2 * D; ++side) {
     if (!model_.walls[side] || !model_.walls[side]->moves()) continue;
     motions_[side] = motions[side];
-    motions_[side]->phase = clock.periods(motions[side].frequency, motions[side].phase);
+    motions_[side]->phase =
+        clock.periods(motions[side].frequency, motions[side].phase + phase_shifts_[side]);
   }
 }
 

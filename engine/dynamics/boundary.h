@@ -19,12 +19,15 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 template <int D>
 class Boundary {
  public:
-  /// The walls of `model`, which must outlive this object.
-  Boundary(const Model<D>& model, const Clock& clock);
+  /// The walls of `model`, which must outlive this object. For `phase_shifts` see RunState.
+  Boundary(const Model<D>& model, const Clock& clock,
+           const std::array<double, 2 * D>& phase_shifts = {});
 
   /// Computes the phases of moving walls at the clock's new base.
   void move_base(const Clock& clock);
 
+  /// Added to the phases of the walls, in periods.
+  const std::array<double, 2 * D>& phase_shifts() const { return phase_shifts_; }
   /// Displacement into the box, velocity and acceleration of a wall along its inward normal.
   WallState wall(int side, double time) const;
   /// Coordinate, along the wall's axis, of a particle that touches the wall. The contact times use
@@ -40,6 +43,7 @@ class Boundary {
 
  private:
   const Model<D>& model_;
+  std::array<double, 2 * D> phase_shifts_;
   std::array<std::optional<WallMotion>, 2 * D> motions_;  // of the walls that move
 };
 

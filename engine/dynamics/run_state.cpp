@@ -15,7 +15,7 @@ static bool is_flight(const Flight<D>& flight, double now, const Vec<D>& gravity
 }
 
 static bool is_motion(const WallMotion& motion) {
-  return motion.stroke >= 0.0 && motion.frequency >= 0.0 && motion.phase >= 0.0 &&
+  return motion.stroke >= 0.0 && motion.frequency >= 0.0 &&
          std::isfinite(motion.stroke * motion.frequency + motion.phase);
 }
 
@@ -38,6 +38,7 @@ bool makes_sense(const RunState<D>& state) {
          (state.kick_interval == 0.0 || kicked + state.kick_interval >= time * (1.0 - kLate)) &&
          fits(state.spins) && fits(state.last_collisions) && fits(state.remainders) &&
          std::ranges::all_of(state.wall_motions, is_motion) &&
+         std::ranges::all_of(state.phase_shifts, [](double s) { return std::isfinite(s); }) &&
          std::ranges::all_of(
              state.flights,
              [&](const Flight<D>& f) { return is_flight<D>(f, state.now, state.gravity); }) &&

@@ -46,8 +46,10 @@ struct RunChecks {
 template <int D>
 struct RunState {
   Vec<D> gravity = Vec<D>::Zero();  ///< of the flights
-  /// Motions of the walls during the flights; phases at simulation time 0.
+  /// Motions of the walls during the flights, as their laws describe them.
   std::array<WallMotion, 2 * D> wall_motions;
+  /// Added to the phases of these motions, in periods: the result of changes of frequency.
+  std::array<double, 2 * D> phase_shifts = {};
   LongTime base;                        ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
   std::vector<Flight<D>> flights;       ///< [N] in original order
@@ -115,10 +117,10 @@ void visit(Archive& io, Flight<D>& flight) {
 /// Visits all members, in order, and requires that the state makes sense.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
-  auto& [gravity, wall_motions, base, now, flights, spins, last_collisions, remainders,
-         until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
+  auto& [gravity, wall_motions, phase_shifts, base, now, flights, spins, last_collisions,
+         remainders, until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
          kicks_since_origin, counts, checks] = state;
-  io(gravity, wall_motions, base, now, flights, spins, last_collisions, remainders,
+  io(gravity, wall_motions, phase_shifts, base, now, flights, spins, last_collisions, remainders,
      until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
      kicks_since_origin, counts, checks);
   io.require(makes_sense(state));

@@ -1,8 +1,9 @@
 #include "engine/dynamics/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
+#include "engine/physics/fraction.h"
 
 namespace clatter {
 
@@ -66,15 +68,72 @@ static RunState<D> fresh(const Model<D>& model, State<D> state, double start_tim
   return saved;
 }
 
+// A clock with its base at the time of the state.
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time)
-    : Simulation(model, fresh<D>(model, std::move(state), start_time)) {}
+static Clock clock_at(const RunState<D>& saved) {
+  Clock clock(saved.base);
+  clock.advance(saved.now);
+  return clock;
+}
+
+// The shifts of phases that keep walls at their places if their frequencies change now. Rest is a
+// motion of frequency 0.
+template <int D>
+static std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunState<D>& saved) {
+  const std::array<WallMotion, 2 * D> motions = wall_motions<D>(model);
+  std::array<double, 2 * D> shifts = saved.phase_shifts;
+  const Clock now = clock_at(saved);
+  for (int side = 0; side < 2 * D; ++side) {
+    const double before = saved.wall_motions[side].frequency, after = motions[side].frequency;
+    if (!model.walls[side] || !model.walls[side]->moves()) {
+      shifts[side] = 0.0;
+    } else if (before != after) {
+      shifts[side] = fraction(shifts[side] + now.periods(before, 0.0) - now.periods(after, 0.0));
+    }
+  }
+  return shifts;
+}
+
+// The error of a start with overlaps. If walls have changed their motion, they are the cause. Just
+// after the beginning of a period a wall is at its resting place, whatever its stroke.
+template <int D>
+static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved,
+                                     double overlap) {
+  constexpr double kJustAfter = 1e-4;  // periods
+  const std::string deepest = fmt::format("by {:.3g} diameters", overlap);
+  const Clock now = clock_at(saved);
+  const double time = now.absolute(0.0);
+  std::string changed, remedy = "make a smaller change";
+  for (int side = 0; side < 2 * D; ++side) {
+    const WallMotion& before = saved.wall_motions[side];
+    const WallMotion after = wall_motions<D>(model)[side];
+    if (before == after) continue;
+    changed += std::string(changed.empty() ? "" : ", ") + "walls." + kSideNames[side];
+    if (before.frequency == 0.0 || before.phase != after.phase) continue;
+    const double phase = now.periods(before.frequency, before.phase + saved.phase_shifts[side]);
+    remedy +=
+        fmt::format(", or change walls.{} without a ramp at its resting place, as at t = {:.9g}",
+                    kSideNames[side], time + (1.0 + kJustAfter - phase) / before.frequency);
+  }
+  if (!changed.empty()) {
+    return PhysicalStop(
+        fmt::format("the change of {} at t = {:.9g} moves a wall into a particle, {}; {}", changed,
+                    time, deepest, remedy));
+  }
+  return PhysicalStop("particles overlap each other or a wall at the start, the deepest " +
+                      deepest + "; move them apart");
+}
 
 template <int D>
-Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
+Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time,
+                          const StopRequest& stop)
+    : Simulation(model, fresh<D>(model, std::move(state), start_time), stop) {}
+
+template <int D>
+Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop)
     : model_(model),
       clock_(saved.base),
-      boundary_(model_, clock_),
+      boundary_(model_, clock_, phase_shifts<D>(model_, saved)),
       now_(saved.now),
       particles_(saved.flights.size()),
       spins_(saved.spins.begin(), saved.spins.end()),
@@ -113,18 +172,14 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved)
     }
   }
   saved.flights = {};
-  fill_cells();
-  fit_cells();
+  fill_cells(stop);
+  fit_cells(stop);
   // Overlaps that the run has already accepted at contacts are accepted at a restart too.
   const double borne = kStartRounding + checks_.deepest_overlap;
-  if (const double overlap = deepest_overlap(); overlap > borne) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", overlap);
-    throw PhysicalStop(
-        std::string("particles overlap each other or a wall at the start, the deepest by ") + text +
-        " diameters; move them apart");
+  if (const double overlap = deepest_overlap(stop); overlap > borne) {
+    throw overlap_at_start<D>(model_, saved, overlap);
   }
-  plan_all();
+  plan_all(stop);
 }
 
 // A sinusoidal wall moves out of the box by less than the box side. Positions farther out are
@@ -140,8 +195,9 @@ static bool is_inside(const Model<D>& model, const Vec<D>& r) {
 }
 
 template <int D>
-void Simulation<D>::fill_cells() {
+void Simulation<D>::fill_cells(const StopRequest& stop) {
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     if (!is_inside<D>(model_, r)) {
       throw PhysicalStop("particle " + std::to_string(i) + " is outside of the walls at the start");
@@ -156,7 +212,7 @@ void Simulation<D>::fill_cells() {
 // shorten these lists, up to kMax cells per particle, a limit of memory. The events do not depend
 // on the number of cells.
 template <int D>
-void Simulation<D>::fit_cells() {
+void Simulation<D>::fit_cells(const StopRequest& stop) {
   // Thresholds of the crowding: other particles near a particle per neighbouring cell. It is 1 for
   // evenly spread points. Between kEven and kCrowded the cells stay as they are (hysteresis).
   constexpr double kCellsAbout = D == 2 ? 9.0 : 27.0;
@@ -178,14 +234,15 @@ void Simulation<D>::fit_cells() {
   }
   cells_per_particle_ = per_particle;
   grid_ = CellGrid<D>(model_, per_particle * count);
-  fill_cells();
+  fill_cells(stop);
 }
 
 template <int D>
-void Simulation<D>::plan_all() {
+void Simulation<D>::plan_all(const StopRequest& stop) {
   std::vector<Event> events;
   events.reserve(particles_.size());
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
     prediction_.plan({i, &plans_[i]}, now_);
     const Plan<D>& plan = plans_[i];
     if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
@@ -249,17 +306,21 @@ bool Simulation<D>::is_too_fast(std::uint32_t number) const {
 }
 
 template <int D>
-bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
-  for (;;) {
+bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
+                              const StopRequest& stop_request) {
+  constexpr std::uint64_t kStepsPerLook = 1000;  // at the request
+  while (!stop_request.made()) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);
     double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
     const double kick_time = next_kick();
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
-    const Halt halt = advance(stop, collisions, steps);
-    if (halt == Halt::BaseMoved) continue;
-    if (halt == Halt::Limit) return false;
+    const Halt halt = advance(stop, collisions, std::min(steps, counts_.steps() + kStepsPerLook));
+    if (halt == Halt::Limit && (counts_.collisions() >= collisions || counts_.steps() >= steps)) {
+      return false;
+    }
+    if (halt != Halt::Time) continue;
     if (stop == kNever) return true;
     now_ = std::max(now_, stop);
     if (kicks) {
@@ -270,6 +331,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
       return true;
     }
   }
+  return false;
 }
 
 template <int D>
@@ -336,6 +398,7 @@ RunState<D> Simulation<D>::save() const {
   RunState<D> saved;
   saved.gravity = model_.gravity;
   saved.wall_motions = wall_motions<D>(model_);
+  saved.phase_shifts = boundary_.phase_shifts();
   saved.base = clock_.base();
   saved.now = now_;
   saved.flights.reserve(particles_.size());
@@ -401,9 +464,10 @@ double Simulation<D>::spin_energy() const {
 }
 
 template <int D>
-double Simulation<D>::deepest_overlap() const {
+double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
   double deepest = 0.0;
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     grid_.visit(plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
       if (j <= i) return;

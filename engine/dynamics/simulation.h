@@ -17,6 +17,7 @@
 #include "engine/dynamics/prediction.h"
 #include "engine/dynamics/run_state.h"
 #include "engine/dynamics/watchdog.h"
+#include "engine/stop_request.h"
 
 namespace clatter {
 
@@ -27,20 +28,24 @@ template <int D>
 class Simulation {
  public:
   /// Starts at simulation time `start_time`. Throws PhysicalStop if particles of the state overlap
-  /// each other or a wall, or are outside of the walls.
-  Simulation(const Model<D>& model, State<D> state, double start_time = 0.0);
+  /// each other or a wall, or are outside of the walls. Throws Interrupted.
+  Simulation(const Model<D>& model, State<D> state, double start_time = 0.0,
+             const StopRequest& stop = {});
   /// Continues a saved run under the laws of `model`. Under the same laws the result has the same
   /// bits as the uninterrupted run. If the interval of kicks differs, kicks are counted from now.
-  /// Throws PhysicalStop if a wall now overlaps a particle.
-  Simulation(const Model<D>& model, RunState<D> saved);
+  /// A wall whose frequency differs continues at its place, and one that begins to move has its
+  /// phase now. Throws PhysicalStop if a wall now overlaps a particle. Throws Interrupted.
+  Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or
-  /// `steps` of any kind (EventCounts::steps), since its start. Throws PhysicalStop at inelastic
+  /// `steps` of any kind (EventCounts::steps), since its start. A stop request halts it
+  /// within a thousand steps, and before the next timer or kick. Throws PhysicalStop at inelastic
   /// collapse or if speeds diverge; the state then is valid, at the last collision.
-  bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
+  bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit,
+                 const StopRequest& stop_request = {});
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... when run_until()
   /// reaches these times, after the physical events and kicks of the same time. interval = 0: once.
@@ -70,8 +75,8 @@ class Simulation {
   /// inward normal.
   WallState wall(int side) const { return boundary_.wall(side, now_); }
   /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the
-  /// diameter; 0: none. Checks all particles.
-  double deepest_overlap() const;
+  /// diameter; 0: none. Checks all particles. Throws Interrupted.
+  double deepest_overlap(const StopRequest& stop = {}) const;
 
   /// The laws of the run.
   const Model<D>& model() const { return model_; }
@@ -118,9 +123,9 @@ class Simulation {
   [[gnu::always_inline]] inline void renew_flight(Particle<D>& particle, const Vec<D>& position,
                                                   const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
-  void fill_cells();
-  void fit_cells();
-  void plan_all();
+  void fill_cells(const StopRequest& stop = {});
+  void fit_cells(const StopRequest& stop = {});
+  void plan_all(const StopRequest& stop = {});
   void move_base();
   bool is_current(const Event& event) const;
   void prefetch_ahead();

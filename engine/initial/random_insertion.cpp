@@ -39,15 +39,16 @@ class Insertion {
   }
 
   // Places particles until there are `count`, no voxel is open, or voxels cannot be split further.
-  void place(std::size_t count, Random& random) {
+  void place(std::size_t count, Random& random, const StopRequest& stop) {
     placed_.reserve(count);
     for (int level = 0; level < kLevels && !open_.empty(); ++level) {
       const std::size_t tries = open_.size();
       for (std::size_t k = 0; k < tries; ++k) {
         if (placed_.size() == count) return;
+        stop.check();
         try_once(open_[random.below(open_.size())], random);
       }
-      split_voxels();
+      split_voxels(stop);
     }
   }
 
@@ -106,7 +107,7 @@ class Insertion {
     return true;
   }
 
-  void split_voxels() {
+  void split_voxels(const StopRequest& stop) {
     ++level_;
     widths_ *= 0.5;
     std::vector<Voxel> split;
@@ -120,6 +121,7 @@ class Insertion {
       });
     };
     for (const Voxel& parent : open_) {
+      stop.check();
       collect(2 * parent, 2 * parent + Voxel::Ones(), is_covered, split);
     }
     open_ = std::move(split);
@@ -189,8 +191,9 @@ class SparseInsertion {
     placed_.reserve(count);
   }
 
-  void place(std::size_t count, Random& random) {
+  void place(std::size_t count, Random& random, const StopRequest& stop) {
     while (placed_.size() < count) {
+      stop.check();
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));
@@ -242,11 +245,12 @@ class SparseInsertion {
 // room.
 template <int D, class Places>
 std::vector<Vec<D>> filled(Places places, int count, Random& random,
-                           const std::vector<Vec<D>>& wanted, std::vector<std::size_t>& kept) {
+                           const std::vector<Vec<D>>& wanted, std::vector<std::size_t>& kept,
+                           const StopRequest& stop) {
   for (std::size_t i = 0; i < wanted.size() && static_cast<int>(kept.size()) < count; ++i) {
     if (places.place_first(wanted[i])) kept.push_back(i);
   }
-  places.place(static_cast<std::size_t>(count), random);
+  places.place(static_cast<std::size_t>(count), random, stop);
   if (static_cast<int>(places.placed().size()) < count) return {};
   return std::move(places.placed());
 }
@@ -254,32 +258,33 @@ std::vector<Vec<D>> filled(Places places, int count, Random& random,
 }  // namespace
 
 template <int D>
-std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random) {
+std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
+                                     const StopRequest& stop) {
   std::vector<std::size_t> none;
-  return random_insertion<D>(room, count, random, {}, none);
+  return random_insertion<D>(room, count, random, {}, none, stop);
 }
 
 template <int D>
 std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
                                      const std::vector<Vec<D>>& wanted,
-                                     std::vector<std::size_t>& kept) {
+                                     std::vector<std::size_t>& kept, const StopRequest& stop) {
   constexpr double kSparse = 50.0;  // room per particle, in cubed (2D: squared) diameters
   const double cube =
       D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
   if (room.box.prod() > kSparse * cube * count) {
     const auto places = static_cast<std::size_t>(count);
-    return filled<D>(SparseInsertion<D>(room, places), count, random, wanted, kept);
+    return filled<D>(SparseInsertion<D>(room, places), count, random, wanted, kept, stop);
   }
-  return filled<D>(Insertion<D>(room), count, random, wanted, kept);
+  return filled<D>(Insertion<D>(room), count, random, wanted, kept, stop);
 }
 
-template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&);
-template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&);
+template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&, const StopRequest&);
+template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&, const StopRequest&);
 template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&,
-                                              const std::vector<Vec<2>>&,
-                                              std::vector<std::size_t>&);
+                                              const std::vector<Vec<2>>&, std::vector<std::size_t>&,
+                                              const StopRequest&);
 template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&,
-                                              const std::vector<Vec<3>>&,
-                                              std::vector<std::size_t>&);
+                                              const std::vector<Vec<3>>&, std::vector<std::size_t>&,
+                                              const StopRequest&);
 
 }  // namespace clatter

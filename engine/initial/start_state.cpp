@@ -25,10 +25,11 @@ static constexpr double kFluidFraction = D == 2 ? 0.7 : 0.54;
 
 template <int D>
 static std::vector<Vec<D>> gaussian_velocities(std::size_t count, double temperature,
-                                               std::uint64_t seed) {
+                                               std::uint64_t seed, const StopRequest& stop) {
   std::vector<Vec<D>> velocities(count);
   Vec<D> mean = Vec<D>::Zero();
   for (std::size_t i = 0; i < count; ++i) {
+    stop.check();
     Random random(seed, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
     for (double& component : velocities[i]) component = random.normal();
     mean += velocities[i] / static_cast<double>(count);
@@ -47,11 +48,12 @@ static std::vector<Vec<D>> gaussian_velocities(std::size_t count, double tempera
 // The mean is not removed, because spins have no conservation law.
 template <int D>
 static std::vector<Spin<D>> gaussian_spins(std::size_t count, double temperature, double inertia,
-                                           std::uint64_t seed) {
+                                           std::uint64_t seed, const StopRequest& stop) {
   std::vector<Spin<D>> spins(count, Spin<D>::Zero());
   if (!(temperature > 0.0)) return spins;
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
+    stop.check();
     Random random(seed, Stream::StartSpin, static_cast<std::uint32_t>(i), 0);
     for (double& component : spins[i]) component = random.normal();
     sum += spins[i].squaredNorm();
@@ -129,7 +131,7 @@ static bool is_fluid(const Model<3>& model, const State<3>& state,
 // Melts a lattice by elastic motion, until is_fluid() or for at most kRounds rounds.
 template <int D>
 static std::vector<Vec<D>> melt(const Room<D>& room, const std::vector<Vec<D>>& sites,
-                                std::uint64_t seed) {
+                                std::uint64_t seed, const StopRequest& stop) {
   constexpr int kRounds = 10;
   constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
   // Longest time of a round. At T = 1 in a dense gas a round takes less than 10; a lone particle
@@ -141,20 +143,24 @@ static std::vector<Vec<D>> melt(const Room<D>& room, const std::vector<Vec<D>>& 
   for (int side = 0; side < 2 * D; ++side) {
     if (room.walled[side / 2]) elastic.walls[side] = Wall{};
   }
-  Simulation<D> simulation(elastic, {sites, gaussian_velocities<D>(sites.size(), 1.0, ~seed)});
+  Simulation<D> simulation(elastic, {sites, gaussian_velocities<D>(sites.size(), 1.0, ~seed, stop)},
+                           0.0, stop);
   for (int round = 1; round <= kRounds; ++round) {
-    simulation.run_until(kLongestRound * round, kCollisionsPerRound * round * sites.size() / 2);
+    simulation.run_until(kLongestRound * round, kCollisionsPerRound * round * sites.size() / 2,
+                         kNoLimit, stop);
+    stop.check();
     if (is_fluid(elastic, simulation.state(), sites)) break;
   }
   return simulation.state().positions;
 }
 
 template <int D>
-static std::vector<Vec<D>> random_positions(const Room<D>& room, int count, std::uint64_t seed) {
+static std::vector<Vec<D>> random_positions(const Room<D>& room, int count, std::uint64_t seed,
+                                            const StopRequest& stop) {
   Random random(seed, Stream::Placement, 0, 0);
   const double fraction = packing_fraction(D, count / room.box.prod());
   if (fraction <= kInsertionFraction<D>) {
-    std::vector<Vec<D>> placed = random_insertion(room, count, random);
+    std::vector<Vec<D>> placed = random_insertion(room, count, random, stop);
     if (static_cast<int>(placed.size()) == count) return placed;
   }
   std::vector<Vec<D>> sites = primitive_lattice(room, count);
@@ -166,7 +172,7 @@ static std::vector<Vec<D>> random_positions(const Room<D>& room, int count, std:
   // most 0.52.
   const bool melts = primitive || D == 3;
   if (!melts || fraction > kFluidFraction<D>) return sites;
-  return melt(room, sites, seed);
+  return melt(room, sites, seed, stop);
 }
 
 template <int D>
@@ -194,26 +200,26 @@ static void number_by_rows(std::vector<Vec<D>>& positions) {
 }
 
 template <int D>
-State<D> start_state(const Scene& scene, std::uint64_t seed) {
+State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop) {
   const Start& start = scene.particles.start;
   if (start.layout == Layout::File) return std::get<State<D>>(start.state);
   const Room<D> room = scene.start_room<D>();
   const int count = scene.particles.count;
   State<D> state;
-  state.positions = start.layout == Layout::Random ? random_positions(room, count, seed)
+  state.positions = start.layout == Layout::Random ? random_positions(room, count, seed, stop)
                                                    : lattice_positions(room, count, seed);
   number_by_rows<D>(state.positions);
   const Vec<D> corner = scene.clear_corner();
   for (Vec<D>& position : state.positions) position += corner;
-  state.velocities = gaussian_velocities<D>(state.positions.size(), start.temperature, seed);
+  state.velocities = gaussian_velocities<D>(state.positions.size(), start.temperature, seed, stop);
   if (scene.spins()) {
     state.spins = gaussian_spins<D>(state.positions.size(), start.spin_temperature,
-                                    scene.particles.inertia, seed);
+                                    scene.particles.inertia, seed, stop);
   }
   return state;
 }
 
-template State<2> start_state(const Scene&, std::uint64_t);
-template State<3> start_state(const Scene&, std::uint64_t);
+template State<2> start_state(const Scene&, std::uint64_t, const StopRequest&);
+template State<3> start_state(const Scene&, std::uint64_t, const StopRequest&);
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 
 #include "engine/dynamics/model.h"
 #include "engine/scene/scene.h"
+#include "engine/stop_request.h"
 
 namespace clatter {
 
@@ -16,7 +17,8 @@ namespace clatter {
 /// spheres. Up to 0.7 and 0.54, where a fluid exists, it melts a lattice. Above it is a lattice
 /// with random vacancies. From 0.49 on a crystal of spheres is stable beside the fluid, and some of
 /// its order may remain. The scene must be validated: its count fits one of the lattices.
+/// Throws Interrupted.
 template <int D>
-State<D> start_state(const Scene& scene, std::uint64_t seed);
+State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
 
 }  // namespace clatter

@@ -173,11 +173,12 @@ void Measurement<D>::close_balance() {
 }
 
 template <int D>
-void Measurement<D>::add_maps(Measured& measured) const {
+void Measurement<D>::add_maps(Measured& measured, const StopRequest& stop) const {
   const FieldGrid<D> grid(simulation_.model(), cells_of<D>(measure_));
   const auto maps_of = [&](const CellSums& sums, double begin, double end) {
     FieldMaps maps{begin, end, {grid.widths().begin(), grid.widths().end()}, {}};
     for (const Field field : measure_.fields) {
+      stop.check();
       maps.maps.push_back(field_map(field, sums, grid, cells_->layout()));
     }
     return maps;
@@ -297,7 +298,7 @@ Measured Measurement<D>::means() const {
 }
 
 template <int D>
-Measured Measurement<D>::result() {
+Measured Measurement<D>::result(const StopRequest& stop) {
   // The last window ends with the run, possibly a rounding error early.
   const double next_close = averages_start_ + static_cast<double>(windows_.size() + 1) * window_;
   if (started_ && simulation_.time() > next_close - 1e-6 * window_) close_window();
@@ -311,7 +312,7 @@ Measured Measurement<D>::result() {
     measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,
                                   measure_.profile_axis);
   }
-  if (cells_ || balance_) add_maps(measured);
+  if (cells_ || balance_) add_maps(measured, stop);
   return measured;
 }
 

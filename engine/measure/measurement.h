@@ -14,6 +14,7 @@
 #include "engine/measure/residuals.h"
 #include "engine/measure/totals.h"
 #include "engine/scene/scene.h"
+#include "engine/stop_request.h"
 
 namespace clatter {
 
@@ -67,8 +68,8 @@ class Measurement {
   /// same. Windows keep their length; averages continue as long as the run.
   Measurement(Simulation<D>& simulation, const Measure& measure, ArchiveReader saved);
 
-  /// The results up to the simulation's time.
-  Measured result();
+  /// The results up to the simulation's time. Throws Interrupted.
+  Measured result(const StopRequest& stop = {});
   /// The same over whole windows and without fields. Before the first window ends, means are 0; the
   /// same results are present as in result().
   Measured means() const;
@@ -91,7 +92,7 @@ class Measurement {
   void observe_cells();
   void close_window();
   void close_balance();
-  void add_maps(Measured& measured) const;
+  void add_maps(Measured& measured, const StopRequest& stop) const;
 
   Simulation<D>& simulation_;
   Measure measure_;  // without residuals among its fields

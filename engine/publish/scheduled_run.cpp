@@ -11,31 +11,35 @@
 namespace clatter {
 
 template <int D>
-std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed) {
+std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed,
+                                             const StopRequest& stop) {
   require_memory(scene);
-  return std::make_unique<Simulation<D>>(model_of<D>(scene, seed), start_state<D>(scene, seed));
+  return std::make_unique<Simulation<D>>(model_of<D>(scene, seed),
+                                         start_state<D>(scene, seed, stop), 0.0, stop);
 }
 
 template <int D>
-ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed)
-    : schedule_(scene), seed_(seed), simulation_(simulation_of<D>(scene, seed)) {}
+ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const StopRequest& stop)
+    : schedule_(scene), seed_(seed), simulation_(simulation_of<D>(scene, seed, stop)) {}
 
 template <int D>
-ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved)
+ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
+                              const StopRequest& stop)
     : schedule_(scene), seed_(seed) {
   schedule_.skip_to(Clock(saved.base).absolute(saved.now));
-  simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved);
+  simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved, stop);
 }
 
 template <int D>
-bool ScheduledRun<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
+bool ScheduledRun<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
+                                const StopRequest& stop) {
   while (schedule_.next() <= time) {
-    if (!simulation_->run_until(schedule_.next(), collisions, steps)) return false;
+    if (!simulation_->run_until(schedule_.next(), collisions, steps, stop)) return false;
     Schedule changed = schedule_;
     changed.advance();
     change_laws(std::move(changed));
   }
-  return simulation_->run_until(time, collisions, steps);
+  return simulation_->run_until(time, collisions, steps, stop);
 }
 
 template <int D>
@@ -113,8 +117,10 @@ Snapshot ScheduledRun<D>::snapshot() {
   return snapshot;
 }
 
-template std::unique_ptr<Simulation<2>> simulation_of(const Scene&, std::uint64_t);
-template std::unique_ptr<Simulation<3>> simulation_of(const Scene&, std::uint64_t);
+template std::unique_ptr<Simulation<2>> simulation_of(const Scene&, std::uint64_t,
+                                                      const StopRequest&);
+template std::unique_ptr<Simulation<3>> simulation_of(const Scene&, std::uint64_t,
+                                                      const StopRequest&);
 template class ScheduledRun<2>;
 template class ScheduledRun<3>;
 

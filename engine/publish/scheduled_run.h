@@ -14,9 +14,10 @@
 namespace clatter {
 
 /// The simulation of a scene and a seed, at time 0. Throws UserError if the machine has not enough
-/// memory.
+/// memory. Throws Interrupted.
 template <int D>
-std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed);
+std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed,
+                                             const StopRequest& stop = {});
 
 /// A simulation with the changes of its scene, and the observers of its view. At a change a new
 /// simulation continues the run under the new laws. All observers must then be handed over, see
@@ -24,10 +25,11 @@ std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t s
 template <int D>
 class ScheduledRun {
  public:
-  /// Starts a run as the scene describes.
-  ScheduledRun(const Scene& scene, std::uint64_t seed);
-  /// Continues a saved run. The scene's changes up to its time are in force.
-  ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved);
+  /// Starts a run as the scene describes. Throws Interrupted.
+  ScheduledRun(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
+  /// Continues a saved run. The scene's changes up to its time are in force. Throws Interrupted.
+  ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
+               const StopRequest& stop = {});
 
   /// The current simulation; a change of laws replaces it.
   Simulation<D>& simulation() { return *simulation_; }
@@ -41,7 +43,8 @@ class ScheduledRun {
 
   /// As Simulation::run_until, with the scene's changes up to and at `time`. Throws PhysicalStop
   /// also if the gas cannot continue under new laws; the old laws then remain.
-  bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit);
+  bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit,
+                 const StopRequest& stop = {});
   /// Runs for a few rounding errors of the time. Afterwards all events up to simulation().time()
   /// are processed, independent of the way in which the run was halted. At a PhysicalStop it halts
   /// silently; the next run_until() throws it.

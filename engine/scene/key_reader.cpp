@@ -117,7 +117,7 @@ static std::optional<double> number_in(const toml::node& node, Limits limits) {
   } else {
     return std::nullopt;
   }
-  return limits.allow(number) ? std::optional(number) : std::nullopt;
+  return limits.allow(number) ? std::optional(number + 0.0) : std::nullopt;  // no -0
 }
 
 /// An integer within the limits that fits an int.

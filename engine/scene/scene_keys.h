@@ -225,8 +225,12 @@ inline constexpr auto kWallKeys = key_table(
      {"drive_speed", "a/t", "Gain in normal velocity at each bounce."},
      {"temperature", "m a^2/t^2", "Temperature of the particles that leave the wall."},
      {"stroke", "a", "Whole travel of the motion."},
-     {"frequency", "1/t", "Periods of the motion per time unit."},
-     {"phase", "1", "Phase of the motion at time 0, in periods."}});
+     {"frequency", "1/t",
+      "Periods of the motion per time unit. A wall whose frequency changes during a run continues "
+      "from its place."},
+     {"phase", "1",
+      "Phase of the motion in periods, at time 0. For a wall that begins to move later, at that "
+      "time."}});
 
 /// The keys of one wall. Its kind determines which of them are allowed.
 template <class Visitor>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "engine/error.h"
@@ -51,6 +52,10 @@ static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Ove
       throw UserError({},
                       "'" + key + "' has no " + (to ? "number to start from" : "number to go to"),
                       "let it change without a ramp");
+    }
+    if (std::isinf(*from) || std::isinf(*to)) {
+      throw UserError({}, "'" + key + "' has no ramp " + (std::isinf(*to) ? "to" : "from") + " inf",
+                      "use a large number, or let it change without a ramp");
     }
     settings.push_back({key, value_text(*from + share * (*to - *from))});
   }

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/printable.h"
+
 namespace clatter {
 
 std::string number_text(double number) {
@@ -15,18 +17,12 @@ std::string number_text(double number) {
 }
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::string_view hex = "0123456789abcdef";
-  std::string result = "\"";
+  std::string escaped;
   for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) {
-      result += {'\\', 'u', '0', '0', hex[byte >> 4], hex[byte & 15]};
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
+    if (c == '"' || c == '\\') escaped += '\\';
+    escaped += c;
   }
-  return result + '"';
+  return '"' + printable(escaped) + '"';
 }
 
 std::string in_words(std::string_view name) {

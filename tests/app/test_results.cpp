@@ -512,6 +512,20 @@ TEST_CASE("Results: tables of an earlier run stay until the new ones are written
   CHECK(shell.files() == std::vector<std::string>{"temperature_series.csv"});
 }
 
+TEST_CASE("Results: a request stops the writing of maps, and leaves no part of a file") {
+  const Witnessed run(uneven_scene());
+  const Shell shell;
+  int looks = 0;
+  const auto at_the_second = [&] { return ++looks % 2 == 0; };
+  CHECK_THROWS_AS(write_tables(shell.path(""), run.measured, at_the_second), Interrupted);
+  CHECK_THROWS_AS(write_vtk(shell.path(""), run.measured, "who made it", at_the_second),
+                  Interrupted);
+  CHECK_THROWS_AS(write_hdf5(shell.path("r.h5"), run.result(), run.measured, at_the_second),
+                  Interrupted);
+  CHECK(looks == 6);
+  CHECK(shell.files() == std::vector<std::string>{"profile.csv", "temperature_series.csv"});
+}
+
 TEST_CASE("Results: every cell of the maps follows from its events, in all files") {
   Witnessed run(uneven_scene());
   const auto sums = cell_sums_of(run.witness, run.windows, kBox, {kColumns, kRows});

@@ -89,6 +89,32 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
   leaves("clatter render vibrated --size 64x64 --to 1e5 --out frames/", "frames.checkpoint");
 }
 
+TEST_CASE("Resume: an interrupt before the run began leaves nothing, and is said") {
+  const Shell shell;
+  // A fluid of a million disks, which starts from a lattice that melts slowly.
+  const std::string many = "--set box.size=[1144,1144] --set particles.count=1000000";
+  for (const std::string command :
+       {"measure vibrated --out r.json", "render vibrated --out a.png"}) {
+    CAPTURE(command);
+    const Outcome outcome =
+        shell.run("timeout --preserve-status -s INT 1 clatter " + command + ' ' + many);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 130);
+    CHECK(says(outcome.err, "interrupted before the run began; nothing was saved"));
+    CHECK(shell.files().empty());
+  }
+}
+
+TEST_CASE(
+    "Resume: an interrupt is obeyed between the windows of a picture, however many there are") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "timeout --preserve-status -s INT 1 clatter render vibrated --out a.png --to 0.1 "
+      "--set view.window=1e-8 --set view.field=density");
+  CHECK(outcome.code == 130);
+  CHECK(says(outcome.err, "continue with --resume a.checkpoint"));
+}
+
 TEST_CASE("Resume: a run that is continued for longer equals one long run") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --set measure.burn_in=20 --quiet ";
@@ -199,6 +225,29 @@ TEST_CASE(
     CHECK_FALSE(says(outcome.err, "averages restart"));
     CHECK(json::parse(outcome.out).at("time").at("burn_in") == 1.0);
   }
+}
+
+TEST_CASE("Resume: a run stopped by an impossible change of a wall continues with another change") {
+  const Shell shell;
+  const auto write_change_at = [&](const std::string& time) {
+    shell.write("s.toml",
+                "box.size = [12, 10]\nparticles = { count = 60, restitution = 0.9 }\n"
+                "walls.left = { kind = 'sawtooth', stroke = 0.5, frequency = 1 }\n"
+                "walls.right = { kind = 'thermal', temperature = 1.5 }\nmeasure.burn_in = 1\n"
+                "[[change]]\ntime = " +
+                    time + "\nset = { 'walls.left.stroke' = 4 }\n");
+  };
+  const std::string line = "clatter measure s.toml --until 11.2 --out r.json ";
+  write_change_at("10.75");
+  for (const std::string resume : {"", "--resume r.checkpoint"}) {
+    const Outcome stopped = shell.run(line + resume);
+    CAPTURE(stopped.err);
+    CHECK(stopped.code == 3);
+    CHECK(says(stopped.err, "the change of walls.left at t = 10.75 moves a wall into a particle"));
+    CHECK(says(stopped.err, "at its resting place, as at t = 11.0001"));
+  }
+  write_change_at("11.0001");
+  CHECK(shell.run(line + "--resume r.checkpoint").code == 0);
 }
 
 TEST_CASE("Resume: a run continues without the file of its start state") {

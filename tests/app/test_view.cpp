@@ -141,7 +141,7 @@ TEST_CASE("Window: a refused change stays neither in the panels nor in the saved
   std::size_t told = driver.told();
   driver.drag("walls.bottom.stroke", 0.1, 0.95);
   const json message = driver.wait_for("message", told);
-  CHECK(says(message["text"], "overlap"));
+  CHECK(says(message["text"], "into a particle"));
   driver.key("r");
   driver.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
   told = driver.told();

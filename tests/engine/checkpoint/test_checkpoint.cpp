@@ -24,6 +24,8 @@ std::string archived(Checkpoint& checkpoint) {
 Checkpoint example() {
   RunState<2> saved;
   saved.gravity = {0.5, -1.5};
+  saved.wall_motions[1] = {WallPath::Sinusoidal, 0.75, 21.0, -0.25};
+  saved.phase_shifts = {0.1, 0.2, 0.3, 0.4};
   saved.base = {1e9, 1e-9};
   saved.now = 3.25;
   saved.flights = {{{1.0, 2.0}, {-0.0, 1e-300}, 0.25, 7}, {{3.0, 4.0}, {5.0, 6.0}, 0.75, 8}};
@@ -76,6 +78,8 @@ TEST_CASE("Checkpoint: all that is written is read back, bit for bit") {
   CHECK(disks(read).last_collisions[0] == -HUGE_VAL);
   CHECK(disks(read).counts.stale == 20);
   CHECK(disks(read).checks.clock_steps_back == 1e-15);
+  CHECK(disks(read).wall_motions[1].phase == -0.25);
+  CHECK(disks(read).phase_shifts[3] == 0.4);
   CHECK(read.measurement == written.measurement);
   CHECK(archived(read) == archived(written));
 }
@@ -161,7 +165,8 @@ TEST_CASE("Checkpoint: a state that no run has is refused") {
       [](RunState<2>& s) { s.until_base_moves = ~std::uint64_t{0}; },
       [](RunState<2>& s) { s.kick_origin = -1e300; },
       [](RunState<2>& s) { s.kick_interval = -1.0; },
-      [](RunState<2>& s) { s.wall_motions[2].phase = -1.0; },
+      [&](RunState<2>& s) { s.wall_motions[2].phase = nan; },
+      [&](RunState<2>& s) { s.phase_shifts[2] = nan; },
       [&](RunState<2>& s) { s.wall_motions[2].frequency = nan; },
       [&](RunState<2>& s) { s.checks.deepest_overlap = nan; },
   };

@@ -116,3 +116,39 @@ TEST_CASE("Timers: one with an interval near the largest double fires once") {
   simulation.run_until(5.0);
   CHECK(times == std::vector<double>{1.0});
 }
+
+TEST_CASE("Timers: a request to stop halts the run before the next one, and changes no bit") {
+  Simulation<2> straight(driven_box(), random_gas(driven_box(), 20, 116));
+  straight.run_until(3.0);
+
+  Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 116));
+  int fired = 0;
+  bool stop = false;
+  simulation.every(1.0, 0x1p-13, [&](double) {
+    ++fired;
+    stop = true;
+  });
+  const auto run = [&] {
+    return simulation.run_until(3.0, kNoLimit, kNoLimit, [&] { return stop; });
+  };
+  CHECK_FALSE(run());
+  CHECK(simulation.time() == 1.0);
+  CHECK_FALSE(run());
+  CHECK(fired == 1);
+  for (int expected = 2; expected <= 10; ++expected) {
+    stop = false;
+    CHECK_FALSE(run());
+    CHECK(fired == expected);
+  }
+  CHECK(simulation.run_until(3.0));
+  CHECK(fired == 16385);
+  CHECK(simulation.state_hash() == straight.state_hash());
+}
+
+TEST_CASE("Timers: a request to stop halts a run without timers within a thousand steps") {
+  Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 117));
+  int looks = 0;
+  CHECK_FALSE(simulation.run_until(kNever, kNoLimit, kNoLimit, [&] { return ++looks == 5; }));
+  CHECK(simulation.counts().steps() > 0);
+  CHECK(simulation.counts().steps() <= 4000);
+}

@@ -343,6 +343,31 @@ void check_other_laws() {
   CHECK(other.velocities == plain.velocities);
 }
 
+// The number of times that a start state asks whether to stop, if the answer is yes from number
+// `yes` on. Requires that it then stops.
+template <int D>
+int looks_until(const Scene& scene, int yes) {
+  int looks = 0;
+  CHECK_THROWS_AS(start_state<D>(scene, 89, [&] { return ++looks >= yes; }), Interrupted);
+  return looks;
+}
+
+template <int D>
+void check_interrupted() {
+  for (const Case& c : cases<D>()) {
+    CAPTURE(c.fraction);
+    CAPTURE(c.how);
+    const Scene scene = scene_of<D>(c.fraction, {});
+    int all = 0;
+    start_state<D>(scene, 89, [&] { return ++all < 0; });
+    CHECK(all >= scene.particles.count);
+    for (const int yes : {1, 2, all / 2, all}) CHECK(looks_until<D>(scene, yes) == yes);
+  }
+  Scene thin = channel<D>(0.01);
+  thin.particles.count = 40;
+  CHECK(looks_until<D>(thin, 20) == 20);
+}
+
 template <int D>
 void check_saved() {
   const auto restarted = [](Scene scene, const State<D>& saved) {
@@ -497,6 +522,11 @@ TEST_CASE("Start state: particles keep clear of moving walls, at any density") {
 TEST_CASE("Start state: forces, roughness and driving do not change the places") {
   check_other_laws<2>();
   check_other_laws<3>();
+}
+
+TEST_CASE("Start state: a request stops the making of it at any place, at once") {
+  check_interrupted<2>();
+  check_interrupted<3>();
 }
 
 TEST_CASE("Start state: a saved state starts a run, bit for bit") {

@@ -391,3 +391,23 @@ TEST_CASE("Measurement: a gas at rest") {
   CHECK(finite(result));
   CHECK(result.temperature.mean == 0.0);
 }
+
+TEST_CASE("Measurement: a request stops the results at any field, and changes nothing") {
+  const auto simulation = simulation_of<2>(rough_mixture(20), 53);
+  Measure measure = measure_for(2.0, 8.0);
+  measure.fields = {Quantity::Density, Quantity::Temperature};
+  Measurement<2> measurement(*simulation, measure, 10.0);
+  simulation->run_until(10.0);
+  for (const int yes : {1, 2, 3}) {
+    int looks = 0;
+    CHECK_THROWS_AS(measurement.result([&] { return ++looks == yes; }), Interrupted);
+  }
+  const auto again = simulation_of<2>(rough_mixture(20), 53);
+  Measurement<2> other(*again, measure, 10.0);
+  again->run_until(10.0);
+  const Measured stopped = measurement.result(), straight = other.result();
+  CHECK(stopped.duration == straight.duration);
+  CHECK(stopped.temperature.mean == straight.temperature.mean);
+  REQUIRE(stopped.maps);
+  CHECK(stopped.maps->maps[0].values == straight.maps->maps[0].values);
+}

@@ -9,6 +9,7 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
+#include "tests/support/messages.h"
 #include "tests/support/scenes.h"
 
 using namespace clatter;
@@ -18,6 +19,17 @@ namespace {
 
 Scene vibrated() {
   return load_scene("vibrated", {{"view.window", "2.0"}});
+}
+
+// A gas between a saw-tooth wall and a thermal wall. At t = 10.3 the saw-tooth has 0.3 of its
+// stroke.
+Scene shaken(const std::string& changes = "") {
+  return parse_scene(
+      "box.size = [12, 10]\nparticles = { count = 60, restitution = 0.9 }\n"
+      "walls.left = { kind = 'sawtooth', stroke = 0.5, frequency = 1 }\n"
+      "walls.right = { kind = 'thermal', temperature = 1.5 }\n" +
+          changes,
+      "");
 }
 
 }  // namespace
@@ -260,4 +272,95 @@ TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint equal one 
   other.trails.reset();
   ScheduledRun<2> unlike(scene, 15, whole.simulation().save());
   CHECK_THROWS_AS(unlike.show(other, shown), UserError);
+}
+
+TEST_CASE("ScheduledRun: a request to stop halts it between changes of laws") {
+  Scene scene = vibrated();
+  scene.changes.push_back({.time = 1.0,
+                           .set = {{"particles.restitution", "0.5"}},
+                           .ramp = Ramp::Linear,
+                           .until = 1.064});
+  ScheduledRun<2> run(scene, 16);
+  int changes = 0;
+  run.on_change = [&](Simulation<2>&) { ++changes; };
+  CHECK_FALSE(run.run_until(2.0, kNoLimit, kNoLimit, [&] { return changes == 3; }));
+  CHECK(changes == 3);
+  CHECK(run.run_until(2.0));
+  CHECK(changes == Schedule::kRampSteps);
+  CHECK_THROWS_AS(ScheduledRun<2>(scene, 16, [] { return true; }), Interrupted);
+}
+
+TEST_CASE("ScheduledRun: a wall whose frequency changes continues from its place") {
+  const auto displacement = [](const ScheduledRun<2>& run) {
+    return run.simulation().wall(kLeft).displacement;
+  };
+  ScheduledRun<2> run(shaken(), 1);
+  run.run_until(10.3);
+  CHECK(displacement(run) == doctest::Approx(0.15));
+  run.change({{"walls.left.frequency", "1.5"}});
+  CHECK(displacement(run) == doctest::Approx(0.15));
+  run.run_until(10.5);
+  CHECK(displacement(run) == doctest::Approx(0.5 * (0.3 + 1.5 * 0.2)));
+  run.change({{"walls.left.frequency", "0"}});
+  run.run_until(20.0);
+  CHECK(displacement(run) == doctest::Approx(0.3));
+  run.change({{"walls.left.frequency", "2"}});
+  run.run_until(20.15);
+  CHECK(displacement(run) == doctest::Approx(0.5 * 0.9));
+  // A wall at rest is at its resting place. It begins to move from its phase.
+  run.change({{"walls.left", "{ kind = 'static' }"}});
+  CHECK(displacement(run) == 0.0);
+  run.run_until(23.7);
+  run.change({{"walls.left", "{ kind = 'sinusoidal', stroke = 0.5, frequency = 0.5, phase = 1 }"}});
+  CHECK(displacement(run) == doctest::Approx(0.0));
+  run.run_until(24.2);
+  CHECK(displacement(run) == doctest::Approx(0.25));
+}
+
+TEST_CASE(
+    "ScheduledRun: changes of a wall's motion are played, resumed and ramped to the same bits") {
+  const Scene scene = shaken(
+      "[[change]]\ntime = 10.3\nset = { 'walls.left.frequency' = 1.5 }\n"
+      "[[change]]\ntime = 12.1\nset = { 'walls.left.frequency' = 0.2 }\nramp = 'linear'\n"
+      "until = 16\n");
+  ScheduledRun<2> straight(scene, 1);
+  REQUIRE(straight.run_until(20.0));
+
+  ScheduledRun<2> live(shaken(), 1);
+  live.run_until(10.3);
+  live.change({{"walls.left.frequency", "1.5"}});
+  live.run_until(12.0);
+  Scene recorded = shaken();
+  recorded.changes = live.scene().changes;
+  ScheduledRun<2> played(recorded, 1);
+  played.run_until(12.0);
+  CHECK(live.simulation().state_hash() == played.simulation().state_hash());
+
+  for (const double time : {10.3, 11.0, 14.123}) {
+    CAPTURE(time);
+    ScheduledRun<2> first(scene, 1);
+    first.run_until(time);
+    ScheduledRun<2> resumed(scene, 1, first.simulation().save());
+    resumed.run_until(20.0);
+    CHECK(resumed.simulation().state_hash() == straight.simulation().state_hash());
+  }
+}
+
+TEST_CASE(
+    "ScheduledRun: a change that moves a wall into a particle names the wall, and a time for it") {
+  ScheduledRun<2> run(shaken(), 1);
+  run.run_until(10.75);
+  const auto refusal_of_stroke = [&] {
+    try {
+      run.change({{"walls.left.stroke", "4"}});
+    } catch (const PhysicalStop& stop) {
+      return std::string(stop.what());
+    }
+    return std::string();
+  };
+  CHECK(says(refusal_of_stroke(), "the change of walls.left at t = 10.75 moves a wall into a"));
+  CHECK(says(refusal_of_stroke(),
+             "change walls.left without a ramp at its resting place, as at t = 11.0001"));
+  run.run_until(11.0001);
+  CHECK(refusal_of_stroke() == "");
 }

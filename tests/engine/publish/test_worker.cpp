@@ -366,7 +366,7 @@ TEST_CASE("Worker: if the run stops before the next collision, it reports none")
   const Frame& stopped = worker.frames().front();
   CHECK(stopped.snapshot.time == 0.05);
   CHECK(stopped.snapshot.collisions > 0);
-  CHECK(says(stopped.message, "overlap"));
+  CHECK(says(stopped.message, "into a particle"));
   CHECK_FALSE(stopped.partners);
 }
 

@@ -548,3 +548,11 @@ TEST_CASE("Scene file: the gallery's scenes are sound and presented") {
     check_equal(parse_scene(scene_to_toml(scene), "s.toml"), scene);
   }
 }
+
+TEST_CASE("Scene file: a zero has no sign") {
+  const Scene scene = parse_scene(
+      "particles = { count = 10, start.temperature = -0.0 }\ngravity.acceleration = [-0.0, -1.0]\n",
+      "s.toml");
+  CHECK_FALSE(std::signbit(scene.particles.start.temperature));
+  CHECK_FALSE(std::signbit((*scene.gravity)[0]));
+}

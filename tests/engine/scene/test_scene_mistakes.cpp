@@ -36,6 +36,8 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {kParticles + "[gravty]\n", "s.toml:3:1: unknown key 'gravty'; did you mean 'gravity'?"},
       {kParticles + "[bulk_drive]\nkick_sped = 1\n",
        "s.toml:4:1: unknown key 'kick_sped'; did you mean 'kick_speed'?"},
+      {"[particles.start]\nlayout = 'file'\nfile = \"no\\u0000such.csv\"\n",
+       "s.toml:3:1: there is no file 'no\\u0000such.csv'; name a CSV file"},
       {"\"a.b\\u001b\" = 1\n" + kParticles,
        "s.toml:1:1: unknown key 'a.b\\u001b'; the keys here are"},
       {"\"particles.count\" = 1\n" + kParticles, "s.toml:1:1: unknown key 'particles.count'; "},

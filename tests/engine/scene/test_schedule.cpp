@@ -135,6 +135,14 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
       {head + "set = {}\nramp = 'linear'\nuntil = 0.5\n", {"s.toml:13:1", "greater than 1"}},
       {head + "set = { 'particles.friction' = 0.5 }\nramp = 'linear'\nuntil = 4\n",
        {"s.toml:9:1", "'particles.friction' has no number to start from"}},
+      {head + "set = { 'particles.friction' = inf }\n[[change]]\ntime = 2\n"
+              "set = { 'particles.friction' = 0.5 }\nramp = 'linear'\nuntil = 4\n",
+       {"s.toml:12:1", "'particles.friction' has no ramp from inf; use a large number"}},
+      {head + "set = { 'particles.friction' = 0.5 }\n[[change]]\ntime = 2\n"
+              "set = { 'particles.friction' = inf }\nramp = 'linear'\nuntil = 4\n",
+       {"s.toml:12:1", "'particles.friction' has no ramp to inf; use a large number"}},
+      {head + "set = { \"particles.\\u001b[2J\\u0000x\" = 1 }\n",
+       {"'particles.\\u001b[2J\\u0000x' cannot change"}},
   };
   for (const auto& [text, parts] : wrong) {
     CAPTURE(text);
