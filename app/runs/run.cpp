@@ -156,9 +156,7 @@ Checkpoint Run<D>::checkpoint() {
           .start_temperature = scene_.particles.start.temperature,
           .seed = seed_,
           .saved = simulation().save(),
-          .measurement = averages_      ? *averages_
-                         : measurement_ ? measurement_->save()
-                                        : "",
+          .measurement = measurement_ ? measurement_->save() : "",
           .film = film_state ? film_state() : ""};
 }
 
@@ -193,7 +191,6 @@ std::string Run<D>::rescue() {
 
 template <int D>
 void Run<D>::put_aside() {
-  if (measurement_) averages_ = measurement_->save();
   if (!ended_early_ && options_.file.empty()) return;
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {

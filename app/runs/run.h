@@ -65,7 +65,7 @@ class Run {
   /// Writes a checkpoint after a failed output. Returns a sentence about it for the error.
   std::string rescue();
   /// Writes the checkpoint that the end of the run requires. To be called before the results of the
-  /// measurement are read: later checkpoints continue the averages from here.
+  /// measurement are read, which close its last window.
   void put_aside();
   /// Returns the exit code, or throws the error of the run. To be called after the results are
   /// written.
@@ -90,7 +90,6 @@ class Run {
   std::optional<ScheduledRun<D>> run_;
   double measure_end_ = 0.0;
   std::optional<Measurement<D>> measurement_;
-  std::optional<std::string> averages_;  // saved measurement at the end of the run
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // failure of the last checkpoint

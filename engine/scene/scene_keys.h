@@ -415,11 +415,11 @@ inline constexpr auto kViewKeys = key_table(
      {"speed", "t/s", "Simulation time per second of film or window."},
      {"palette", "", "Colours of the particles. Quantities with a sign are blue and red."},
      {"range", "",
-      "Range of the particles' colours. auto follows the picture in the window; films keep the "
+      "Range of the particles' colours. auto follows the picture in the window. Films keep the "
       "range of their first averaging window. locked keeps the first range."},
      {"field_palette", "", "Colours of the heatmap. Without a value `palette` applies."},
      {"field_range", "",
-      "Range of the heatmap's colours. auto follows the picture in the window; films keep the "
+      "Range of the heatmap's colours. auto follows the picture in the window. Films keep the "
       "range of their first averaging window. locked keeps the range of the first whole window."},
      {"arrows", "", "Field of the arrows. Without a value there are none."},
      {"theme", "",

@@ -49,10 +49,10 @@ struct ColourRange {
 
 /// A key of the camera's path. Between two keys the camera is interpolated.
 struct CameraKey {
-  double time = 0.0;                ///< simulation time, >= 0
-  std::optional<VecX> centre;       ///< world point in the middle; absent: centre of the box
-  std::optional<int> follow;        ///< number of the particle in the middle, instead of a centre
-  std::optional<double> width;      ///< width in world units, > 0; absent: the whole box is visible
+  double time = 0.0;            ///< simulation time, >= 0
+  std::optional<VecX> centre;   ///< world point in the middle; absent: centre of the box
+  std::optional<int> follow;    ///< number of the particle in the middle, instead of a centre
+  std::optional<double> width;  ///< width in world units, > 0; absent: the whole box is visible
   std::optional<double> azimuth = {};    ///< of spheres, degrees; absent: as View::azimuth
   std::optional<double> elevation = {};  ///< of spheres, degrees; absent: as View::elevation
 };
@@ -91,10 +91,10 @@ struct View {
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
   /// about the y axis towards x, elevation raises the viewer towards y.
   double azimuth = 30.0, elevation = 20.0;
-  double view_angle = 25.0;   ///< of spheres: horizontal angle of view, degrees; 0: orthographic
-  std::optional<Slab> slab;   ///< only spheres, or their parts, in it are drawn; absent: all
-  std::vector<Slice> slices;  ///< of the heatmap of spheres; empty: the middle plane across z
-  std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
+  double view_angle = 25.0;  ///< of spheres: horizontal angle of view, degrees; 0: orthographic
+  std::optional<Slab> slab = {};   ///< only spheres, or their parts, in it are drawn; absent: all
+  std::vector<Slice> slices = {};  ///< of the heatmap of spheres; empty: the middle plane across z
+  std::vector<CameraKey> camera;   ///< in order of time; empty: always the whole box
 
   /// Whether it shows time averages: a heatmap or arrows.
   bool shows_averages() const { return field || arrows; }

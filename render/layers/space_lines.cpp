@@ -1,5 +1,6 @@
 #include "render/layers/space_lines.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -91,7 +91,7 @@ constexpr std::array kGolden = {Golden{"driven", R"(
                                        4.0},
                                 Golden{"packing", R"(
         box.size = [7.0, 7.0, 7.0]
-        particles = { volume_fraction = 0.6, restitution = 0.9 }
+        particles = { volume_fraction = 0.55, restitution = 0.9 }
         [view]
         colour_by = "velocity_z"
         range = [-2.0, 2.0]
