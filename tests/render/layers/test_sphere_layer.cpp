@@ -159,6 +159,24 @@ TEST_CASE("Sphere layer: the edge of a sphere covers its share of pixels") {
   CHECK(std::fabs(right - 141.2) < 1.3);
 }
 
+TEST_CASE("Sphere layer: the edge of a sphere blends with the sphere behind it") {
+  // Two spheres of one colour, one behind the other and to the right: along the row through both
+  // centres no pixel between them is as dark as the background would make it.
+  Snapshot snapshot;
+  snapshot.box = Vec3(4.0, 4.0, 4.0);
+  snapshot.positions = as_columns<3>({{1.7125, 2.0, 3.0}, {2.2, 2.0, 1.5}});
+  snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+  const Camera camera{{2.0, 2.0}, 6.0, {.z = 2.0}};  // 40 pixels a unit
+  View view = plain_view();
+  view.background = Rgb{0, 0, 0};
+  const Image image = draw(snapshot, camera, view);
+  // The silhouette of the first is at 120 + 40 (1.7125 + 0.5 - 2) = 128.5.
+  const int inside = pixel(image, 124, 89).red, behind = pixel(image, 132, 89).red;
+  CHECK(inside > 60);
+  CHECK(behind > 60);
+  for (int x = 124; x <= 132; ++x) CHECK(pixel(image, x, 89).red > 0.7 * std::min(inside, behind));
+}
+
 TEST_CASE("Sphere layer: a slab hides what lies outside of it, and cuts spheres flat") {
   Snapshot snapshot;
   snapshot.box = Vec3(4.0, 4.0, 4.0);
