@@ -1,7 +1,6 @@
 #version 330 core
 // A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
-// planes of periodic borders and of a slab cut it, and the cut is flat. With MARKED marks show its
-// rotation.
+// planes of periodic borders and of a slab cut it, and the cut is flat.
 
 flat in vec3 v_centre;    // view coordinates, see render/eye.h
 flat in vec4 v_colour;    // linear light
@@ -9,7 +8,6 @@ flat in vec4 v_crowding;  // direction and weight of the neighbours
 flat in vec3 v_squares;   // xx, yy, zz of their second moments
 flat in vec3 v_products;  // xy, xz, yz of these
 flat in float v_uncut;    // 1: no plane cuts the sphere
-flat in vec4 v_turn;      // quaternion (x, y, z, w) of the rotation of the sphere
 
 uniform vec2 u_origin;             // pixel of the centre of the view
 uniform float u_scale;             // pixels per world unit, at the centre
@@ -52,22 +50,6 @@ float light(vec3 n) {
   float sky = mix(0.3, 0.6, 0.5 + 0.5 * dot(n, up));
   return open * sky + 0.8 * max(dot(n, kKey), 0.0) * mix(0.6, 1.0, open);
 }
-
-#ifdef MARKED
-// The vector v, rotated back by the quaternion of the sphere.
-vec3 turned_back(vec3 v) {
-  return v + 2.0 * cross(-v_turn.xyz, cross(-v_turn.xyz, v) + v_turn.w * v);
-}
-
-// Darkness of the marks: an equator and a meridian that rotate with the sphere.
-float mark(vec3 n, float pixels) {
-  vec3 own = turned_back(u_axes * n);
-  float width = max(0.07, 0.6 * u_samples / pixels), soft = 1.0 / pixels;
-  float equator = clamp((width - abs(own.y)) / soft + 0.5, 0.0, 1.0);
-  float meridian = clamp((width - abs(own.x)) / soft + 0.5, 0.0, 1.0) * step(0.0, own.z);
-  return max(equator, meridian);
-}
-#endif
 
 #ifdef CUT
 // First and last t of the part of a ray between two corners.
@@ -114,9 +96,6 @@ void main() {
   vec3 point = v_centre + nearest + t * along;
   vec3 normal = (nearest - half_chord * along) / u_radius;
   float shade = light(normal);
-#ifdef MARKED
-  if (!cut) shade *= mix(1.0, 0.3, mark(normal, pixels));
-#endif
 #ifdef CUT
   if (cut) {
     shade = 0.8;  // a flat cut, with a darker rim

@@ -6,7 +6,6 @@ layout(location = 1) in vec4 a_colour;     // linear light
 layout(location = 2) in vec4 a_crowding;   // direction and weight of the neighbours
 layout(location = 3) in vec3 a_squares;    // xx, yy, zz of their second moments
 layout(location = 4) in vec3 a_products;   // xy, xz, yz of these
-layout(location = 5) in vec4 a_turn;       // quaternion (x, y, z, w) of the rotation of the sphere
 
 uniform vec2 u_size;               // size of the picture, pixels
 uniform vec2 u_origin;             // pixel of the centre of the view
@@ -23,7 +22,6 @@ flat out vec4 v_colour;
 flat out vec4 v_crowding;
 flat out vec3 v_squares;
 flat out vec3 v_products;
-flat out vec4 v_turn;
 flat out float v_uncut;  // 1: no plane cuts the sphere
 
 // Ends of the shadow of the sphere on one axis of the picture, in world units at the centre.
@@ -41,7 +39,6 @@ void main() {
   v_crowding = a_crowding;
   v_squares = a_squares;
   v_products = a_products;
-  v_turn = a_turn;
   vec3 position = u_axes * a_centre + u_centre;
   v_uncut = float(all(greaterThan(position, u_low + u_radius)) &&
                   all(lessThan(position, u_high - u_radius)));

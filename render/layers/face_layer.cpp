@@ -168,7 +168,7 @@ void BoxLayer::draw_edges(const Snapshot& snapshot, const Projection& projection
 }
 
 SliceLayer::SliceLayer(const Gl& gl)
-    : gl_(&gl), faces_(gl, "slice.frag"), cells_(generate<Texture>(gl, gl.GenTextures)) {
+    : gl_(&gl), faces_(gl, "field.frag"), cells_(generate<Texture>(gl, gl.GenTextures)) {
   gl.BindTexture(GL_TEXTURE_2D, cells_.id());
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

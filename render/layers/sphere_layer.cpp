@@ -138,7 +138,6 @@ SphereLayer::SphereLayer(const Gl& gl)
   attribute(2, 4, offsetof(Sphere, crowding));
   attribute(3, 3, offsetof(Sphere, squares));
   attribute(4, 3, offsetof(Sphere, products));
-  attribute(5, 4, offsetof(Sphere, turn));
 }
 
 // The spheres that nearer ones do not hide, from back to front, by their index in `all`.
@@ -181,8 +180,7 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
                         light_of(colours.of(snapshot, seen.number)),
                         {x, y, z, shade.weight},
                         as_floats(shade.squares),
-                        as_floats(shade.products),
-                        {0.0f, 0.0f, 0.0f, 1.0f}});
+                        as_floats(shade.products)});
   }
 }
 

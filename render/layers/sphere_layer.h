@@ -41,7 +41,6 @@ class SphereLayer {
     Light light;
     std::array<float, 4> crowding;  // direction and weight of its NeighbourShade
     std::array<float, 3> squares, products;
-    std::array<float, 4> turn;  // quaternion (x, y, z, w)
   };
 
   void collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
