@@ -113,9 +113,6 @@ inline constexpr Presence kNotOfBox = {Presence::Forbidden,
                                        "has no meaning for the box kernel: cells have their size",
                                        "remove it, or set measure.kernel = \"gaussian\""};
 
-inline constexpr Presence kNotOfDisks = {Presence::Forbidden, "has no meaning for disks",
-                                         "remove it, or give box.size a third number"};
-
 inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
                                               "remove one of the two"};
 
@@ -373,9 +370,10 @@ void visit_camera(Visitor& io, CameraKey& key, int dimension) {
   io.value(kCameraKeys.at("centre"), key.centre, between(-kMaxCameraWidth, kMaxCameraWidth),
            key.follow ? kNotBesideFollow : kOptional);
   io.value(kCameraKeys.at("width"), key.width, between(kMinCameraWidth, kMaxCameraWidth));
-  const Presence of_spheres = dimension == 3 ? kOptional : kNotOfDisks;
-  io.value(kCameraKeys.at("azimuth"), key.azimuth, kAzimuths, of_spheres);
-  io.value(kCameraKeys.at("elevation"), key.elevation, kElevations, of_spheres);
+  if (dimension == 3) {
+    io.value(kCameraKeys.at("azimuth"), key.azimuth, kAzimuths);
+    io.value(kCameraKeys.at("elevation"), key.elevation, kElevations);
+  }
 }
 
 inline constexpr auto kSlabKeys = key_table(
@@ -463,11 +461,10 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.value(kViewKeys.at("overlay"), view.overlay);
   io.value(kViewKeys.at("trails"), view.trails, times);
   io.value(kViewKeys.at("card"), view.card, times);
-  const Presence of_spheres = dimension == 3 ? kOptional : kNotOfDisks;
-  io.value(kViewKeys.at("azimuth"), view.azimuth, kAzimuths, of_spheres);
-  io.value(kViewKeys.at("elevation"), view.elevation, kElevations, of_spheres);
-  io.value(kViewKeys.at("view_angle"), view.view_angle, between(0.0, kMaxViewAngle), of_spheres);
   if (dimension == 3) {
+    io.value(kViewKeys.at("azimuth"), view.azimuth, kAzimuths);
+    io.value(kViewKeys.at("elevation"), view.elevation, kElevations);
+    io.value(kViewKeys.at("view_angle"), view.view_angle, between(0.0, kMaxViewAngle));
     io.table("slab", view.slab, [](auto& io, Slab& slab) { visit_slab(io, slab); });
     io.list("slices", view.slices, [](auto& io, Slice& slice) { visit_slice(io, slice); });
   }

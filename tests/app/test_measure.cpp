@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "tests/app/shell.h"
 
@@ -496,6 +497,76 @@ TEST_CASE("Measure: check predicts the memory that a measurement takes") {
     CHECK(1e6 * megabytes < 1.5 * peak);
     CHECK(1e6 * megabytes > 0.7 * peak);
   }
+}
+
+TEST_CASE("Measure: spheres have a third axis, six walls, and maps with depth") {
+  const Shell shell;
+  shell.write("s.toml", R"(
+      box.size = [6.0, 5.0, 4.0]
+      particles = { count = 40, restitution = 0.9, friction = 0.3 }
+      gravity.acceleration = [0.1, -0.3, 0.2]
+      walls.left = { kind = "driven", drive_speed = 1.0 }
+      walls.right = { kind = "static" }
+      walls.bottom = { kind = "sinusoidal", stroke = 0.1, frequency = 1.0 }
+      walls.top = { kind = "static" }
+      walls.back = { kind = "thermal", temperature = 2.0 }
+      walls.front = { kind = "static", restitution = 0.8 }
+      [measure]
+      burn_in = 10.0
+      duration = 50.0
+      fields = ["density", "velocity", "temperature", "stress", "balance"]
+      cells = [3, 2, 4]
+      profile_axis = "z")");
+  REQUIRE(shell.run("clatter measure s.toml --quiet --out whole.json --csv tables").code == 0);
+  const json result = json::parse(shell.read("whole.json"));
+  const auto mean_at = [&](const std::string& pointer) {
+    return result.at(json::json_pointer(pointer)).at("mean").get<double>();
+  };
+  CHECK(mean_at("/temperature") ==
+        doctest::Approx(
+            (mean_at("/temperature_x") + mean_at("/temperature_y") + mean_at("/temperature_z")) /
+            3.0));
+  CHECK(mean_at("/kurtosis_excess_z") > -1.0);
+  CHECK(mean_at("/spin_temperature") > 0.0);
+  // The forces of each pair of walls differ by the weight of the gas, per area of the wall.
+  const double weight = 40.0;
+  for (const auto& [near, far, share] : {std::tuple("left", "right", 0.1 / 20.0),
+                                         {"bottom", "top", -0.3 / 24.0},
+                                         {"back", "front", 0.2 / 30.0}}) {
+    CAPTURE(near);
+    const double difference =
+        mean_at("/pressure/" + std::string(far)) - mean_at("/pressure/" + std::string(near));
+    CHECK(difference == doctest::Approx(weight * share).epsilon(0.1));
+  }
+  CHECK(result.at("checks").at("deepest_overlap") < 1e-9);
+  CHECK(result.at("balance").at("energy") < 1e-9);
+  const json& profile = result.at("profile");
+  CHECK(profile.at("edges") == json({0.0, 1.0, 2.0, 3.0, 4.0}));
+  for (const char* name : {"velocity_z", "temperature_z", "stress_zz", "stress_xz", "stress_yz"}) {
+    CHECK(profile.at(name).size() == 4);
+  }
+  // The density, 40 spheres in all, from the cells of the map.
+  double spheres = 0.0;
+  std::istringstream maps(shell.read("tables/maps.csv"));
+  std::string line;
+  std::getline(maps, line);
+  std::getline(maps, line);
+  CHECK(line.starts_with("x,y,z,density,"));
+  for (int k = 0; k < 24; ++k) {
+    std::getline(maps, line);
+    double x, y, z, density;
+    REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &x, &y, &z, &density) == 4);
+    CHECK(x == doctest::Approx(2.0 * (k % 3) + 1.0));
+    CHECK(y == doctest::Approx(2.5 * (k / 3 % 2) + 1.25));
+    CHECK(z == doctest::Approx(1.0 * (k / 6) + 0.5));
+    spheres += 5.0 * density;
+  }
+  CHECK(spheres == doctest::Approx(40.0).epsilon(1e-9));
+  // A run in two parts is the same run.
+  REQUIRE(shell.run("clatter measure s.toml --quiet --until 30 --checkpoint c --out a.json").code ==
+          0);
+  REQUIRE(shell.run("clatter measure s.toml --quiet --until 60 --resume c --out b.json").code == 0);
+  CHECK(json::parse(shell.read("b.json")).at("state_hash") == result.at("state_hash"));
 }
 
 }  // namespace clatter
