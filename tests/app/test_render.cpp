@@ -310,4 +310,29 @@ TEST_CASE("Render: an interrupted film plays up to where it got") {
   CHECK(frames > 0);
 }
 
+TEST_CASE("Render: a film of spheres in two parts has the pictures of one") {
+  const Shell shell;
+  shell.write("s.toml", R"(
+      box.size = [6.0, 5.0, 4.0]
+      particles = { count = 40, restitution = 0.9 }
+      walls.left = { kind = "driven", drive_speed = 1.0 }
+      walls.right = { kind = "static" }
+      [view]
+      field = "density"
+      arrows = "velocity"
+      trails = 0.3
+      window = 0.5
+      camera = [{ time = 0.0 }, { time = 2.0, azimuth = 200.0, elevation = -30.0 }])");
+  const std::string film = "clatter render s.toml --quiet --size 64x48 --fps 5 --speed 1 ";
+  REQUIRE(shell.run(film + "--to 2 --out whole").code == 0);
+  REQUIRE(shell.run(film + "--to 1 --checkpoint c --out parts").code == 0);
+  REQUIRE(shell.run(film + "--to 2 --resume c --out parts").code == 0);
+  CHECK(shell.run("ls whole").out == shell.run("ls parts").out);
+  CHECK(shell.run("diff -r whole parts").code == 0);
+  CHECK(shell.run("cmp whole/frame_000000.png whole/frame_000008.png").code == 1);
+  const Outcome refused = shell.run(film + "--to 1 --shutter 0.5 --out blurred");
+  CHECK(refused.code == 2);
+  CHECK(says(refused.err, "--shutter: spheres have no motion blur; omit --shutter"));
+}
+
 }  // namespace clatter
