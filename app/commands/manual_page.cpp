@@ -75,7 +75,7 @@ std::string manual_page(const CommandInfo& program) {
       ".\\\" Written by `clatter help --man`.\n"
       ".TH CLATTER 1 \"\" \"clatter " CLATTER_VERSION
       "\" \"User Commands\"\n"
-      ".SH NAME\nclatter \\- simulate driven granular gases of hard disks\n"
+      ".SH NAME\nclatter \\- simulate driven granular gases of hard disks and spheres\n"
       ".SH SYNOPSIS\n\\fBclatter\\fR [\\fICOMMAND\\fR] [\\fIOPTIONS\\fR]\n"
       ".SH DESCRIPTION\n";
   page += paragraphs(program.help);

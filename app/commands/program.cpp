@@ -23,8 +23,8 @@ static void require_command(const CLI::App& parent, const std::string& word, con
   if (!word.starts_with('-')) find_command(parent, word, what);
 }
 
-// The arguments with the default command, if none is given. The program alone opens the window.
-// `bench` alone prints the table of the engine.
+// Adds the default command to the arguments: `view` without a command, `engine` to `bench` without
+// a table.
 static std::vector<const char*> with_commands(int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2) words.push_back("view");
@@ -44,7 +44,8 @@ int run_program(int argc, const char* const* argv) {
   int exit_code = kOk;
   try {
     CLI::App program(
-        "Simulate driven granular gases of hard disks. Explore, film and measure them.\n"
+        "Simulate driven granular gases of hard disks and spheres. Explore, film and measure "
+        "them.\n"
         "Without a command the program opens a window.\n"
         "Without a display, begin with these commands:\n"
         "  clatter scenes\n"

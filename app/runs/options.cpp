@@ -31,14 +31,6 @@ Scene load(const CommonOptions& options, StartFile start_file) {
   return load_any_scene(options.scene, overrides, start_file);
 }
 
-Scene load_disks(const CommonOptions& options, StartFile start_file) {
-  Scene scene = load(options, start_file);
-  if (scene.dimension() == 2) return scene;
-  throw UserError({options.scene},
-                  "the box has three dimensions, and this command supports disks only",
-                  "give box.size two numbers, or use `clatter check`");
-}
-
 std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,
                                              const CheckpointOptions& checkpoints,
                                              const Scene& scene,

@@ -39,8 +39,6 @@ struct CheckpointOptions {
 
 /// The scene with the settings of the flags. Throws UserError.
 Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
-/// The same for a command that supports disks only. Throws UserError for spheres too.
-Scene load_disks(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
 /// The files that a command reads and must not overwrite: scene, start state and resumed
 /// checkpoint. The list omits a resumed checkpoint that is `checkpoint`, which the command keeps up

@@ -14,7 +14,7 @@ TEST_CASE("Manual: man formats the page without warnings") {
   const Outcome outcome = shell.run("LC_ALL=C.UTF-8 man --warnings -l clatter.1 | cat");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
-  CHECK(says(outcome.out, "clatter - simulate driven granular gases of hard disks"));
+  CHECK(says(outcome.out, "clatter - simulate driven granular gases of hard disks and spheres"));
 }
 
 TEST_CASE("Manual: the page has every command, its flags, and the exit codes") {
