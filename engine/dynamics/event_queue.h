@@ -27,8 +27,8 @@ class EventQueue {
   /// Adds an event at a finite time.
   void push(Event event);
 
-  /// The earliest live event in the order of `before`, or null if none is left. It stays in the
-  /// queue until pop(). `live(event)` returns whether an event is still valid.
+  /// Returns the earliest live event, or null without one. The order is that of `before`. The event
+  /// stays in the queue until pop(). `live(event)` returns whether an event is still valid.
   template <typename Live>
   const Event* top(const Live& live);
 

@@ -122,9 +122,9 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
                                                model_.gravity.data());
 }
 
-// The fast path, which fits most events. It requires that a list has no continuation, and that the
-// first contact is unique. None of its particles may have a wrap, or have crossed a periodic border
-// in its flight. Returns false for other lists; the plans are then invalid.
+// The fast path, which fits most events. It requires a list without continuation, a unique first
+// contact, and particles without wraps. No particle may have crossed a periodic border in its flight.
+// Returns false for other lists; the plans are then invalid.
 template <int D>
 template <bool kFalling, std::size_t kParticles>
 bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
