@@ -20,4 +20,8 @@ namespace clatter {
 /// particle.
 Camera camera_at(const std::vector<CameraKey>& keys, const Snapshot& snapshot, const Camera& whole);
 
+/// The camera of a view of spheres that shows the whole box inside the margins of a picture of
+/// `size`. It is far enough away for all angles of the view's path, which turns at one distance.
+Camera whole_box(const Snapshot& snapshot, const View& view, Size size, const Margins& margins);
+
 }  // namespace clatter

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace clatter {
 
@@ -33,6 +34,34 @@ Eye::Eye(const Projection& projection)
       origin_(0.5 * Vec2(projection.drawn().width, projection.drawn().height) +
               projection.camera.orbit.shift * projection.drawn().width),
       scale_(projection.scale()) {}
+
+std::array<Vec2, 2> Eye::around(const Vec3& seen, double radius) const {
+  std::array<Vec2, 2> corners;
+  const double near = w(seen);
+  for (const int axis : {0, 1}) {
+    double low = seen[axis] - radius, high = seen[axis] + radius;
+    if (inverse_distance_ > 0.0) {
+      // Tangents from the viewer in the plane of this axis, with lengths in distances of the
+      // viewer.
+      const double x = seen[axis] * inverse_distance_, r = radius * inverse_distance_;
+      const double below = (near * near - r * r) * inverse_distance_;
+      const double root = r * std::sqrt(x * x + near * near - r * r);
+      low = (x * near - root) / below;
+      high = (x * near + root) / below;
+    }
+    corners[0][axis] = origin_[axis] + scale_ * low;
+    corners[1][axis] = origin_[axis] + scale_ * high;
+  }
+  return corners;
+}
+
+double Eye::depth_range(const Vec3& box) const {
+  constexpr double kDiameter = 1.0;
+  const double radius = box.norm() + 2.0 * kDiameter + (centre_ - 0.5 * box).norm();
+  if (inverse_distance_ == 0.0) return radius;
+  const double front = std::min(radius, (1.0 - kNearest) / inverse_distance_);
+  return std::max(radius, front / (1.0 - front * inverse_distance_));
+}
 
 Camera fit_orbit(const Vec3& centre, std::span<const Vec3> points, Orbit angles, Size size,
                  const Margins& margins) {

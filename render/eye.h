@@ -1,6 +1,6 @@
 #pragma once
 
-#include <numbers>
+#include <array>
 #include <span>
 
 #include "render/camera.h"
@@ -18,6 +18,9 @@ using Vec3 = Vec<3>;
 /// straight lines of the picture.
 class Eye {
  public:
+  /// Least w of drawn points: nearer to the viewer than this share of his distance is nothing.
+  static constexpr double kNearest = 0.02;
+
   /// The viewer of a projection.
   explicit Eye(const Projection& projection);
 
@@ -35,6 +38,11 @@ class Eye {
   double w(const Vec3& seen) const { return 1.0 - seen.z() * inverse_distance_; }
   /// Drawn pixel of a position in view coordinates with w > 0.
   Vec2 pixels(const Vec3& seen) const { return origin_ + scale_ / w(seen) * seen.head<2>(); }
+  /// Lower left and upper right corner of the smallest rectangle around a sphere on the picture, in
+  /// drawn pixels. `seen` is its centre in view coordinates; the viewer is outside of the sphere.
+  std::array<Vec2, 2> around(const Vec3& seen, double radius) const;
+  /// Largest |z/w| in a box from the origin and one diameter around it: the scale of depths.
+  double depth_range(const Vec3& box) const;
   /// Drawn pixel of the centre.
   const Vec2& origin() const { return origin_; }
   /// Drawn pixels per world unit at the centre.

@@ -12,14 +12,13 @@ Occlusion::Occlusion(Size size, double radius)
       rows_((size.height + block_ - 1) / block_),
       covered_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
-bool Occlusion::hides(const Vec2& centre, double half_side) const {
+bool Occlusion::hides(const Vec2& low, const Vec2& high) const {
   const auto index = [&](double place, int count) {
     return static_cast<int>(std::clamp(std::floor(place / block_), 0.0, count - 1.0));
   };
-  const int right = index(centre.x() + half_side, columns_);
-  const int top = index(centre.y() + half_side, rows_);
-  for (int row = index(centre.y() - half_side, rows_); row <= top; ++row) {
-    for (int column = index(centre.x() - half_side, columns_); column <= right; ++column) {
+  const int right = index(high.x(), columns_), top = index(high.y(), rows_);
+  for (int row = index(low.y(), rows_); row <= top; ++row) {
+    for (int column = index(low.x(), columns_); column <= right; ++column) {
       if (!covered_[static_cast<std::size_t>(row) * columns_ + column]) return false;
     }
   }

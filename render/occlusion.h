@@ -14,9 +14,9 @@ class Occlusion {
   /// An empty picture of `size`. Disks of this radius in pixels can cover blocks.
   Occlusion(Size size, double radius);
 
-  /// Whether covered blocks hide the square with this centre and half side, in pixels. True also
-  /// outside of the picture.
-  bool hides(const Vec2& centre, double half_side) const;
+  /// Whether covered blocks hide the rectangle between two corners, in pixels. Parts outside of the
+  /// picture count as the blocks at its edge.
+  bool hides(const Vec2& low, const Vec2& high) const;
   /// Covers the blocks inside a disk, in pixels.
   void cover(const Vec2& centre, double radius);
 

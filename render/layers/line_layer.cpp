@@ -21,16 +21,10 @@ LineLayer::LineLayer(const Gl& gl)
   for (const GLuint attribute : {0, 1, 2}) gl.EnableVertexAttribArray(attribute);
 }
 
-void LineLayer::restart(const Eye& eye, double depth_range) {
-  corners_.clear();
-  eye_ = &eye;
-  depth_range_ = depth_range;
-}
-
-void LineLayer::add(const Vec3& from, const Vec3& to, double width, Colour colour) {
-  constexpr double kNearest = 0.02;  // least w of what is drawn
-  Vec3 a = eye_->seen(from), b = eye_->seen(to);
-  double w_a = eye_->w(a), w_b = eye_->w(b);
+void LineLayer::add(const Line& line, const Eye& eye, double depth_range) {
+  constexpr double kNearest = Eye::kNearest;
+  Vec3 a = eye.seen(line.from), b = eye.seen(line.to);
+  double w_a = eye.w(a), w_b = eye.w(b);
   if (std::max(w_a, w_b) < kNearest) return;
   // The part behind the viewer is cut off.
   if (w_a < kNearest) {
@@ -38,24 +32,24 @@ void LineLayer::add(const Vec3& from, const Vec3& to, double width, Colour colou
   } else if (w_b < kNearest) {
     b += (kNearest - w_b) / (w_a - w_b) * (a - b);
   }
-  w_a = eye_->w(a);
-  w_b = eye_->w(b);
-  const Vec2 start = eye_->pixels(a), end = eye_->pixels(b), way = end - start;
+  w_a = eye.w(a);
+  w_b = eye.w(b);
+  const Vec2 start = eye.pixels(a), end = eye.pixels(b), way = end - start;
   const double length = way.norm();
   if (!(length > 0.0)) return;
-  const double half = 0.5 * width, reach = half + 1.0;
+  const double half = 0.5 * line.width, reach = half + 1.0;
   const Vec2 along = way / length, across(-along.y(), along.x());
   const auto corner = [&](bool at_end, double side) {
     const Vec2 place =
         (at_end ? Vec2(end + half * along) : Vec2(start - half * along)) + side * reach * across;
-    const double depth = (at_end ? b.z() / w_b : a.z() / w_a) / depth_range_;
+    const double depth = (at_end ? b.z() / w_b : a.z() / w_a) / depth_range;
     return Vertex{static_cast<float>(place.x()),
                   static_cast<float>(place.y()),
                   static_cast<float>(0.5 - 0.5 * depth),
                   static_cast<float>(side * reach),
                   static_cast<float>(at_end ? length : 0.0),
                   static_cast<float>(half),
-                  colour};
+                  line.colour};
   };
   for (const auto& [at_end, side] : {std::pair(false, -1.0),
                                      {true, -1.0},
@@ -67,7 +61,11 @@ void LineLayer::add(const Vec3& from, const Vec3& to, double width, Colour colou
   }
 }
 
-void LineLayer::draw(Size drawn, double dash) const {
+void LineLayer::draw(std::span<const Line> lines, const Vec3& box, const Projection& projection,
+                     const Eye& eye, double dash) {
+  corners_.clear();
+  for (const Line& line : lines) add(line, eye, eye.depth_range(box));
+  const Size drawn = projection.drawn();
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, corners_.size() * sizeof(Vertex), corners_.data(),
                   GL_STREAM_DRAW);

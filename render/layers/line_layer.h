@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "render/eye.h"
@@ -7,17 +8,22 @@
 
 namespace clatter {
 
-/// Draws straight lines in space with a constant width on the picture. Spheres hide them.
+/// A straight line in space.
+struct Line {
+  Vec3 from, to;       ///< world positions
+  double width = 1.0;  ///< on the picture, drawn pixels
+  Colour colour;
+};
+
+/// Draws straight lines in space with a constant width on the picture. Spheres hide them where the
+/// depth test is enabled.
 class LineLayer {
  public:
   explicit LineLayer(const Gl& gl);
 
-  /// Removes all lines. Later ones are for this eye and scale of depths.
-  void restart(const Eye& eye, double depth_range);
-  /// Adds a line between two world positions. `width` is in drawn pixels.
-  void add(const Vec3& from, const Vec3& to, double width, Colour colour);
-  /// Draws the lines. `dash` is the period of dashes in drawn pixels; 0: no dashes.
-  void draw(Size drawn, double dash = 0.0) const;
+  /// Draws lines in a box of spheres. `dash` is the period of dashes in drawn pixels; 0: none.
+  void draw(std::span<const Line> lines, const Vec3& box, const Projection& projection,
+            const Eye& eye, double dash = 0.0);
 
  private:
   struct Vertex {
@@ -26,13 +32,13 @@ class LineLayer {
     Colour colour;
   };
 
+  void add(const Line& line, const Eye& eye, double depth_range);
+
   const Gl* gl_;
   Program program_;
   Buffer buffer_;
   VertexArray vertices_;
-  std::vector<Vertex> corners_;  ///< six of each line, two triangles
-  const Eye* eye_ = nullptr;
-  double depth_range_ = 1.0;
+  std::vector<Vertex> corners_;  ///< six of each line, two triangles; reused to avoid allocations
 };
 
 }  // namespace clatter

@@ -17,7 +17,7 @@ namespace clatter {
 namespace {
 
 // A logarithmic axis between whole or half powers of ten.
-struct Axis {
+struct PlotAxis {
   double low = 0.0;   // decimal logarithm of the lower end
   double high = 1.0;  // decimal logarithm of the upper end
 
@@ -28,7 +28,7 @@ struct Axis {
 
 // The axis that contains all values up to this number of decades below the largest.
 template <class Coordinate>
-Axis axis_of(const Plot& plot, double most_decades, Coordinate coordinate) {
+PlotAxis axis_of(const Plot& plot, double most_decades, Coordinate coordinate) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const PlotPanel& panel : plot.panels) {
     for (const PlotPoint& point : panel.points) {
@@ -67,7 +67,7 @@ Colour faded(Colour colour, int alpha) {
 class PanelDrawing {
  public:
   PanelDrawing(ImDrawList& list, const Fonts& fonts, const ThemeColours& theme,
-               const Rectangle& frame, const Axis& x, const Axis& y)
+               const Rectangle& frame, const PlotAxis& x, const PlotAxis& y)
       : list_(list), fonts_(fonts), theme_(theme), frame_(frame), x_(x), y_(y) {}
 
   void draw(const PlotPanel& panel, bool names_x, bool names_y) {
@@ -92,7 +92,7 @@ class PanelDrawing {
   }
 
   // Lines at the powers of ten, fainter lines at their multiples.
-  void draw_axis(const Axis& axis, bool across, bool named) {
+  void draw_axis(const PlotAxis& axis, bool across, bool named) {
     for (int decade = static_cast<int>(std::floor(axis.low)); decade <= axis.high; ++decade) {
       for (int multiple = 1; multiple < 10; ++multiple) {
         const double value = multiple * std::pow(10.0, decade);
@@ -167,7 +167,7 @@ class PanelDrawing {
   const Fonts& fonts_;
   const ThemeColours& theme_;
   Rectangle frame_;
-  Axis x_, y_;
+  PlotAxis x_, y_;
   std::vector<Rectangle> taken_;  // areas of lines, points and labels
 };
 
@@ -191,8 +191,8 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
   const float across = (size.width - edge - left) / static_cast<float>(columns);
   const float down = (bottom - top) / static_cast<float>(rows);
   constexpr double kAllDecades = 600.0, kErrorDecades = 4.0;
-  const Axis x = axis_of(plot, kAllDecades, [](const PlotPoint& point) { return point.x; });
-  const Axis y = axis_of(plot, kErrorDecades, [](const PlotPoint& point) { return point.y; });
+  const PlotAxis x = axis_of(plot, kAllDecades, [](const PlotPoint& point) { return point.x; });
+  const PlotAxis y = axis_of(plot, kErrorDecades, [](const PlotPoint& point) { return point.y; });
   for (int k = 0; k < count; ++k) {
     const int column = k % columns, row = k / columns;
     const ImVec2 corner(std::round(left + across * column), std::round(top + down * row));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/camera_path.h"
 #include "render/label.h"
 #include "render/layers/space_lines.h"
 #include "render/theme.h"
@@ -147,61 +148,19 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
 
 Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
                      const OverlayText& text) {
-  if (snapshot.box.size() == 3) return fit_spheres(snapshot, size, view, text);
+  const double wall = wall_thickness(size);
+  Margins margins{wall, wall, wall, wall};
+  if (view.overlay) {
+    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
+  }
+  if (snapshot.box.size() == 3) return whole_box(snapshot, view, size, margins);
   // Disks extend over a periodic border by half their diameter.
   Vec2 overhang(0.0, 0.0);
   for (int axis : {0, 1}) {
     if (!snapshot.walls[2 * axis]) overhang[axis] = 0.5 * snapshot.diameter;
   }
   const Faces faces = outermost_faces(snapshot);
-  const double wall = wall_thickness(size);
-  Margins margins{wall, wall, wall, wall};
-  if (view.overlay) {
-    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
-  }
   return Camera::fit(faces.low - overhang, faces.high + overhang, size, margins);
-}
-
-Camera Renderer::fit_spheres(const Snapshot& snapshot, Size size, const View& view,
-                             const OverlayText& text) {
-  Margins margins;
-  if (view.overlay) {
-    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
-  }
-  Vec3 low = Vec3::Zero(), high = snapshot.box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto &near = snapshot.walls[2 * axis], &far = snapshot.walls[2 * axis + 1];
-    low[axis] -= near ? near->outermost_travel() : 0.5 * snapshot.diameter;
-    high[axis] += far ? far->outermost_travel() : 0.5 * snapshot.diameter;
-  }
-  std::vector<Vec3> corners;
-  for (int k = 0; k < 8; ++k) {
-    corners.emplace_back(k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(),
-                         k & 4 ? high.z() : low.z());
-  }
-  // As far away as the path of the camera needs: it turns about the box at one distance.
-  Orbit angles;
-  angles.azimuth = view.azimuth;
-  angles.elevation = view.elevation;
-  angles.view_angle = view.view_angle;
-  const Vec3 centre = 0.5 * (low + high);
-  Camera camera = fit_orbit(centre, corners, angles, size, margins);
-  for (std::size_t k = 0; k < view.camera.size(); ++k) {
-    constexpr int kParts = 16;  // of the turn to the next key
-    const auto angles_at = [&](const CameraKey& key) {
-      return Vec2(key.azimuth.value_or(view.azimuth), key.elevation.value_or(view.elevation));
-    };
-    const Vec2 from = angles_at(view.camera[k]);
-    const Vec2 to = angles_at(view.camera[std::min(k + 1, view.camera.size() - 1)]);
-    for (int part = 0; part < kParts; ++part) {
-      const Vec2 turned = from + (to - from) * part / kParts;
-      angles.azimuth = turned.x();
-      angles.elevation = turned.y();
-      camera.width =
-          std::max(camera.width, fit_orbit(centre, corners, angles, size, margins).width);
-    }
-  }
-  return camera;
 }
 
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
@@ -276,19 +235,15 @@ void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection
                           const Legends& legends, const ThemeColours& theme,
                           const DiskColours& colours, const Eye& eye) {
   LineLayer& lines = space_->lines;
-  const Size drawn = projection.drawn();
-  const double width = std::max(1.0 * projection.samples, 0.0025 * drawn.height);
+  const double width = std::max(1.0 * projection.samples, 0.0025 * projection.drawn().height);
   if (view.trails) {
-    lines.restart(eye, depth_range(snapshot, eye));
-    add_trails(lines, snapshot, colours, *view.trails, width);
-    lines.draw(drawn);
+    lines.draw(trail_lines(snapshot, colours, *view.trails, width), snapshot.box, projection, eye);
   }
   if (legends.arrows) {
-    lines.restart(eye, depth_range(snapshot, eye));
     const double scale = projection.samples * legends.arrows->pixels / projection.scale();
-    add_arrows(lines, *snapshot.arrows, eye, scale, width, theme.text);
     gl_->Disable(GL_DEPTH_TEST);
-    lines.draw(drawn);
+    lines.draw(arrow_lines(*snapshot.arrows, eye, scale, width, theme.text), snapshot.box,
+               projection, eye);
     gl_->Enable(GL_DEPTH_TEST);
   }
 }

@@ -8,11 +8,12 @@
 #include "render/colour_range.h"
 #include "render/layers/arrow_layer.h"
 #include "render/layers/average_layer.h"
+#include "render/layers/box_layer.h"
 #include "render/layers/disk_layer.h"
-#include "render/layers/face_layer.h"
 #include "render/layers/field_layer.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
+#include "render/layers/slice_layer.h"
 #include "render/layers/sphere_layer.h"
 #include "render/layers/trail_layer.h"
 #include "render/layers/wall_layer.h"
@@ -82,8 +83,6 @@ class Renderer {
   void draw_lines(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme, const DiskColours& colours,
                   const Eye& eye);
-  Camera fit_spheres(const Snapshot& snapshot, Size size, const View& view,
-                     const OverlayText& text);
   void draw_spheres(const Snapshot& snapshot, const Projection& projection, const View& view,
                     const Legends& legends, const ThemeColours& theme);
   void clear(const Projection& projection, const ThemeColours& theme);

@@ -6,8 +6,9 @@
 
 namespace clatter {
 
-void add_trails(LineLayer& lines, const Snapshot& snapshot, const DiskColours& colours, double time,
-                double width) {
+std::vector<Line> trail_lines(const Snapshot& snapshot, const DiskColours& colours, double time,
+                              double width) {
+  std::vector<Line> lines;
   constexpr double kMaxParts = 256.0;  // of a flight
   for (const FlightPiece& piece : snapshot.flights) {
     const double from = std::max(piece.from, -time);
@@ -29,13 +30,15 @@ void add_trails(LineLayer& lines, const Snapshot& snapshot, const DiskColours& c
       }
       colour.alpha =
           static_cast<std::uint8_t>(std::lround(200.0 * (1.0 + 0.5 * (begin + end) / time)));
-      lines.add(start, stop, width, colour);
+      lines.push_back({start, stop, width, colour});
     }
   }
+  return lines;
 }
 
-void add_arrows(LineLayer& lines, const ArrowMap& map, const Eye& eye, double scale, double width,
-                Colour colour) {
+std::vector<Line> arrow_lines(const ArrowMap& map, const Eye& eye, double scale, double width,
+                              Colour colour) {
+  std::vector<Line> lines;
   constexpr double kHead = 0.3;  // of the length
   const double longest = 2.0 * map.cell.minCoeff();
   const Vec3 towards = eye.axes().row(2);
@@ -45,15 +48,16 @@ void add_arrows(LineLayer& lines, const ArrowMap& map, const Eye& eye, double sc
     const double length = std::min(scale * size, longest);
     const Vec3 direction = value / size;
     const Vec3 tail = Vec3(place) - 0.5 * length * direction, tip = tail + length * direction;
-    lines.add(tail, tip, width, colour);
+    lines.push_back({tail, tip, width, colour});
     // The head lies in the plane that faces the viewer most.
     const Vec3 across = direction.cross(towards);
     if (!(across.norm() > 0.0)) continue;
     for (const double side : {-1.0, 1.0}) {
       const Vec3 barb = tip - kHead * length * (direction + 0.5 * side * across.normalized());
-      lines.add(tip, barb, width, colour);
+      lines.push_back({tip, barb, width, colour});
     }
   }
+  return lines;
 }
 
 }  // namespace clatter

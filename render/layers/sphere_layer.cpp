@@ -12,12 +12,12 @@ namespace clatter {
 
 namespace {
 
-constexpr double kFar = 1e9;       // beyond every box
-constexpr double kNearest = 0.02;  // least w of what is drawn: a fiftieth of the viewer's distance
+constexpr double kFar = 1e9;  // beyond every box
 
-// An image of a sphere in view coordinates.
+// An image of a sphere.
 struct Seen {
-  Vec3 centre;
+  Vec3 centre;                // view coordinates
+  std::array<Vec2, 2> shape;  // rectangle around it on the picture, drawn pixels
   std::uint32_t number;
   double distance;  // increases with the distance from the viewer
 };
@@ -44,13 +44,9 @@ void visit_images(const Snapshot& snapshot, const Vec3& position, Visit visit) {
   shifted(shifted, 0, position);
 }
 
-bool in_sight(const Vec3& seen, double radius, const Projection& projection, const Eye& eye) {
-  if (eye.w({seen.x(), seen.y(), seen.z() + radius}) < kNearest) return false;
-  const Vec2 pixel = eye.pixels(seen);
-  const double reach = 2.0 * radius * eye.scale() / eye.w(seen) + 1.0;
-  const Size size = projection.drawn();
-  return (pixel.array() > -reach).all() && pixel.x() < size.width + reach &&
-         pixel.y() < size.height + reach;
+bool in_sight(const std::array<Vec2, 2>& shape, Size drawn) {
+  const auto& [low, high] = shape;
+  return (high.array() > 0.0).all() && low.x() < drawn.width && low.y() < drawn.height;
 }
 
 // Equal spheres that do not overlap hide each other in the order of their distances.
@@ -72,8 +68,13 @@ std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection
         return;
       }
       const Vec3 centre = eye.seen(place);
-      if (!in_sight(centre, radius, projection, eye)) return;
-      all.push_back({centre, static_cast<std::uint32_t>(i), distance_from(eye, centre)});
+      if (eye.w(centre + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
+      // The soft edge reaches half a pixel beyond the sphere.
+      auto shape = eye.around(centre, radius);
+      shape[0].array() -= 1.0;
+      shape[1].array() += 1.0;
+      if (!in_sight(shape, projection.drawn())) return;
+      all.push_back({centre, shape, static_cast<std::uint32_t>(i), distance_from(eye, centre)});
     });
   }
   std::ranges::sort(all, [](const Seen& a, const Seen& b) {
@@ -110,15 +111,6 @@ DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& sl
   return region;
 }
 
-double depth_range(const Snapshot& snapshot, const Eye& eye) {
-  const double radius =
-      (snapshot.box.norm() + 2.0 * snapshot.diameter) + (eye.centre() - 0.5 * snapshot.box).norm();
-  const double front = eye.inverse_distance() > 0.0
-                           ? std::min(radius, (1.0 - kNearest) / eye.inverse_distance())
-                           : radius;
-  return std::max(radius, front / (1.0 - front * eye.inverse_distance()));
-}
-
 SphereLayer::SphereLayer(const Gl& gl)
     : gl_(&gl),
       plain_(gl, "sphere.vert", "sphere.frag"),
@@ -144,20 +136,17 @@ SphereLayer::SphereLayer(const Gl& gl)
 static std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, const Snapshot& snapshot,
                                              const Projection& projection, const Eye& eye,
                                              const DrawnRegion& region) {
-  // On the picture a sphere is an ellipse, which contains most of the circle of its radius.
-  constexpr double kInside = 0.93;
   const double radius = 0.5 * snapshot.diameter;
   Occlusion occlusion(projection.drawn(), radius * eye.scale());
   std::vector<std::uint32_t> shown;
   for (std::size_t k = all.size(); k-- > 0;) {
     const Seen& seen = all[k];
-    const Vec2 centre = eye.pixels(seen.centre);
-    const double pixels = radius * eye.scale() / eye.w(seen.centre);
-    if (occlusion.hides(centre, pixels / kInside + 1.0)) continue;
+    if (occlusion.hides(seen.shape[0], seen.shape[1])) continue;
     shown.push_back(static_cast<std::uint32_t>(k));
-    if (!region.cuts(eye.world(seen.centre), radius)) {
-      occlusion.cover(centre, kInside * pixels - 1.0);
-    }
+    if (region.cuts(eye.world(seen.centre), radius)) continue;
+    // On the picture a sphere is an ellipse, which contains the circle of its radius.
+    const double pixels = radius * eye.scale() / eye.w(seen.centre);
+    occlusion.cover(eye.pixels(seen.centre), pixels - 1.0);
   }
   std::ranges::reverse(shown);
   return shown;
@@ -200,7 +189,7 @@ void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   gl_->Uniform2f(program.uniform("u_origin"), eye.origin().x(), eye.origin().y());
   gl_->Uniform1f(program.uniform("u_scale"), eye.scale());
   gl_->Uniform1f(program.uniform("u_inverse_distance"), eye.inverse_distance());
-  gl_->Uniform1f(program.uniform("u_depth_range"), depth_range(snapshot, eye));
+  gl_->Uniform1f(program.uniform("u_depth_range"), eye.depth_range(snapshot.box));
   gl_->Uniform1f(program.uniform("u_radius"), 0.5 * snapshot.diameter);
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
   // Transposed: from the view to the world.

@@ -56,7 +56,4 @@ class SphereLayer {
   std::vector<Sphere> spheres_;  ///< from back to front; reused to avoid allocations
 };
 
-/// Largest |z/w| in the view of a snapshot: the scale of depths.
-double depth_range(const Snapshot& snapshot, const Eye& eye);
-
 }  // namespace clatter

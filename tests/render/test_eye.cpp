@@ -55,6 +55,32 @@ TEST_CASE("Eye: nearer things are larger by the ratio of the distances") {
   CHECK(eye.pixels({x, 0.0, z}).x() == doctest::Approx(800.0));
 }
 
+TEST_CASE("Eye: the rectangle around a sphere touches its outline") {
+  // The pixels of many points of a sphere: none is outside of the rectangle, and some are at each
+  // of its sides. At 45 degrees off the axis the outline is an ellipse, wider than the radius
+  // by 1.4.
+  for (const double view_angle : {0.0, 25.0, 100.0}) {
+    CAPTURE(view_angle);
+    const Eye eye(projection({.view_angle = view_angle}));
+    for (const Vec3& seen : {Vec3(0.0, 0.0, 2.0), Vec3(-8.0, 5.0, -1.0), Vec3(9.0, -6.0, 3.0)}) {
+      const auto [low, high] = eye.around(seen, 1.5);
+      Vec2 least = Vec2::Constant(HUGE_VAL), most = Vec2::Constant(-HUGE_VAL);
+      for (int i = 0; i < 400; ++i) {
+        for (int j = 0; j < 800; ++j) {
+          const double z = std::cos(M_PI * (i + 0.5) / 400.0), r = std::sqrt(1.0 - z * z);
+          const double turn = 2.0 * M_PI * j / 800.0;
+          const Vec3 point = seen + 1.5 * Vec3(r * std::cos(turn), r * std::sin(turn), z);
+          least = least.cwiseMin(eye.pixels(point));
+          most = most.cwiseMax(eye.pixels(point));
+        }
+      }
+      CHECK(((least - low).array() > -1e-9).all());
+      CHECK(((high - most).array() > -1e-9).all());
+      CHECK((least - low).norm() + (high - most).norm() < 0.05);
+    }
+  }
+}
+
 TEST_CASE("Eye: a fitted camera shows all points, and one of them at the margin") {
   const std::array<Vec3, 4> points = {Vec3(0.0, 0.0, 0.0), Vec3(9.0, 1.0, 2.0),
                                       Vec3(3.0, 7.0, -4.0), Vec3(5.0, 5.0, 8.0)};

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/neighbour_shade.h"
-#include "render/occlusion.h"
 
 namespace clatter {
 
@@ -61,22 +60,6 @@ TEST_CASE("Neighbour shade: all neighbours within 1.75 diameters count, and no o
     CHECK(shades[i].weight == doctest::Approx(weight).epsilon(1e-5));
     CHECK((shades[i].direction.cast<double>() - direction).norm() < 1e-4 * (1.0 + weight));
     CHECK(shades[i].squares.sum() == doctest::Approx(weight).epsilon(1e-5));
-  }
-}
-
-TEST_CASE("Occlusion: a disk hides what lies behind it, and nothing beside it") {
-  Occlusion occlusion({100, 80}, 12.0);
-  occlusion.cover({50.0, 40.0}, 20.0);
-  CHECK(occlusion.hides({50.0, 40.0}, 8.0));
-  CHECK(occlusion.hides({58.0, 44.0}, 3.0));
-  CHECK_FALSE(occlusion.hides({50.0, 40.0}, 16.0));  // the corners of the square
-  CHECK_FALSE(occlusion.hides({72.0, 40.0}, 3.0));
-  CHECK_FALSE(occlusion.hides({4.0, 4.0}, 3.0));
-  // Every block that counts as covered lies inside the disk: no pixel of it is farther away.
-  for (double x = 0.5; x < 100.0; ++x) {
-    for (double y = 0.5; y < 80.0; ++y) {
-      if (occlusion.hides({x, y}, 0.25)) CHECK(std::hypot(x - 50.0, y - 40.0) < 20.0);
-    }
   }
 }
 

@@ -45,9 +45,9 @@ Snapshot random_spheres(int count) {
   return snapshot;
 }
 
-Image draw(const Snapshot& snapshot, const Camera& camera, const View& view, int samples = 1) {
+Image draw(const Snapshot& snapshot, const Camera& camera, const View& view) {
   const auto context = open_context(Backend::Osmesa);
-  Renderer renderer(context->gl(), samples);
+  Renderer renderer(context->gl());
   const Canvas canvas(context->gl(), kSize);
   canvas.bind();
   renderer.draw(snapshot, camera, kSize, view, {});
@@ -107,8 +107,8 @@ bool is_blue(Colour colour) {
 }  // namespace
 
 TEST_CASE("Sphere layer: every pixel shows the first sphere on its ray") {
-  // Red and blue spheres. Pixels within a pixel and a half of any silhouette do not count; all
-  // others have the colour of the sphere, or of the background.
+  // Red and blue spheres. Pixels within two pixels of any silhouette do not count. All others on a
+  // sphere have its colour.
   const Snapshot snapshot = random_spheres(50);
   for (const double view_angle : {0.0, 40.0, 90.0}) {
     const Camera camera{{23.0, 22.5},
@@ -133,8 +133,8 @@ TEST_CASE("Sphere layer: every pixel shows the first sphere on its ray") {
   }
 }
 
-TEST_CASE("Sphere layer: the edge of a sphere covers its share of pixels") {
-  // The area of a disk of 20 pixels radius, from the light of white on black: within 1 %.
+TEST_CASE("Sphere layer: a sphere is drawn where it is and as large as it is") {
+  // A radius of 20 pixels, seen along the row through the centre.
   Snapshot snapshot;
   snapshot.box = Vec3(4.0, 4.0, 4.0);
   snapshot.positions = as_columns<3>({{2.03, 1.96, 2.0}});

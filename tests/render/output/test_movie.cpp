@@ -187,9 +187,9 @@ TEST_CASE("Movie: the pieces of a film that was cut are not overwritten unless a
   later.goes_on = true;
   CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", later), doctest::Contains("000060.mp4"),
                        UserError);
-  SinkOptions anew = options();
-  anew.overwrite = true;
-  Movie movie(folder / "film.mp4", anew);
+  SinkOptions overwriting = options();
+  overwriting.overwrite = true;
+  Movie movie(folder / "film.mp4", overwriting);
   write_film(movie, 3);
   CHECK(frames_of(folder / "film.mp4") == 3);
   CHECK_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
@@ -206,10 +206,10 @@ TEST_CASE("Movie: only files of films are removed from the folder of the pieces"
   for (const auto* names : {&others, &own}) {
     for (const std::string& name : *names) write_bytes(part / name, "precious");
   }
-  SinkOptions anew = options();
-  anew.overwrite = true;
+  SinkOptions overwriting = options();
+  overwriting.overwrite = true;
   {
-    Movie movie(folder / "film.mp4", anew);
+    Movie movie(folder / "film.mp4", overwriting);
     write_film(movie, 3);
   }
   CHECK(frames_of(folder / "film.mp4") == 3);
@@ -222,9 +222,9 @@ TEST_CASE("Movie: pieces are not written through a link in the place of their fo
   std::filesystem::create_directory(folder / "mine");
   write_bytes(folder / "mine/000000.mp4", "precious");
   std::filesystem::create_symlink("mine", folder / "film.mp4.part");
-  SinkOptions anew = options();
-  anew.overwrite = true;
-  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", anew),
+  SinkOptions overwriting = options();
+  overwriting.overwrite = true;
+  CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", overwriting),
                        doctest::Contains("the folder for the pieces of the film is a link"),
                        UserError);
   CHECK(bytes_of(folder / "mine/000000.mp4") == "precious");

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "engine/publish/snapshot.h"
+#include "render/layers/face_layer.h"
+#include "render/layers/line_layer.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+/// Draws the sides of a box of spheres: the far ones as walls with a pattern of their kind, and all
+/// edges as lines, dashed between periodic borders.
+class BoxLayer {
+ public:
+  explicit BoxLayer(const Gl& gl);
+
+  /// Draws the sides that face the viewer from behind the spheres.
+  void draw_sides(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+                  const ThemeColours& theme) const;
+  /// Draws the edges that no sphere hides.
+  void draw_edges(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
+                  const ThemeColours& theme);
+
+ private:
+  const Gl* gl_;
+  FaceLayer faces_;
+  LineLayer lines_;
+};
+
+}  // namespace clatter
