@@ -123,8 +123,8 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
 }
 
 // The fast path, which fits most events. It requires a list without continuation, a unique first
-// contact, and particles without wraps. No particle may have crossed a periodic border in its flight.
-// Returns false for other lists; the plans are then invalid.
+// contact, and particles without wraps. No particle may have crossed a periodic border in its
+// flight. Returns false for other lists; the plans are then invalid.
 template <int D>
 template <bool kFalling, std::size_t kParticles>
 bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
