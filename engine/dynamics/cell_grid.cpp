@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -37,7 +36,8 @@ static IntVec<D> choose_counts(const Model<D>& model, double cells) {
 }
 
 template <int D>
-CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_counts(model, cells)) {
+CellGrid<D>::CellGrid(const Model<D>& model, double cells)
+    : cells_(cells), counts_(choose_counts(model, cells)) {
   int stride = 1;
   for (int axis = 0; axis < D; ++axis) {
     const int count = counts_[axis];
@@ -57,7 +57,7 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
       // Seen from beyond the low border, the box is one length higher; from beyond the high border,
       // one length lower.
       const auto wrap = [&](unsigned bits) {
-        return Neighbour{bits} << (kParticleBits + 2 * axis);
+        return Neighbour{bits} << (kParticleBits<D> + 2 * axis);
       };
       places.front() = {places[static_cast<std::size_t>(count)].index, wrap(0b01)};
       places.back() = {places[1].index, wrap(0b11)};
@@ -67,8 +67,6 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells) : counts_(choose_coun
     }
     stride *= count;
   }
-  // In a dilute gas about one list in 25 is continued. Room for these avoids a reallocation.
-  lists_.reserve(static_cast<std::size_t>(stride) + static_cast<std::size_t>(stride) / 8);
   lists_.resize(static_cast<std::size_t>(stride));
 }
 
@@ -84,14 +82,16 @@ IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
 
 template <int D>
 void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell) {
-  visit_lists<D - 1>(about(cell), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, particle | wrap); });
+  visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+    continuations_.put_on(lists_[list], particle | wrap);
+  });
 }
 
 template <int D>
 void CellGrid<D>::remove(std::uint32_t particle, const IntVec<D>& cell) {
-  visit_lists<D - 1>(about(cell), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, particle | wrap); });
+  visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+    continuations_.take_off(lists_[list], particle | wrap);
+  });
 }
 
 template <int D>
@@ -104,90 +104,43 @@ void CellGrid<D>::move(std::uint32_t particle, const IntVec<D>& cell, int axis, 
     return;
   }
   visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { take_off(list, particle | wrap); });
-  visit_lists<D - 1>(row(cell, axis, next + step), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) { put_on(list, particle | wrap); });
+                     [&](std::uint32_t list, Neighbour wrap) {
+                       continuations_.take_off(lists_[list], particle | wrap);
+                     });
+  visit_lists<D - 1>(row(cell, axis, next + step), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+    continuations_.put_on(lists_[list], particle | wrap);
+  });
 }
 
 template <int D>
-void CellGrid<D>::put_on(std::uint32_t at, Neighbour neighbour) {
-  while (lists_[at].count == List::kCapacity) {
-    if (lists_[at].next == kNone) {
-      const std::uint32_t added = new_list();  // may move lists_
-      lists_[at].next = added;
-    }
-    at = lists_[at].next;
-  }
-  List& list = lists_[at];
-  list.neighbours[list.count++] = neighbour;
-  list.wraps = list.wraps || neighbour != particle_of(neighbour);
-}
-
-// Index of a neighbour in a list; 0 if it is not there. Compares all entries at once, because a
-// branch on the index would be unpredictable.
-template <class List>
-static std::uint32_t place_of(std::uint32_t neighbour, const List& list) {
-  using Four = std::uint32_t __attribute__((vector_size(16)));
-  // The last two words of a list hold no neighbours.
-  constexpr std::uint32_t kCapacity = List::kCapacity;
-  static_assert(kCapacity % 4 == 2 && sizeof(List) == (kCapacity + 2) * sizeof(std::uint32_t));
-  Four found{};
-  for (std::uint32_t k = 0; k < kCapacity; k += 4) {
-    Four four;
-    std::memcpy(&four, reinterpret_cast<const char*>(&list) + k * sizeof k, sizeof four);
-    const bool last = k + 4 > kCapacity;
-    const Four places = {k, k + 1, last ? 0 : k + 2, last ? 0 : k + 3};
-    found |= (four == neighbour) & places;
-  }
-  return (found[0] | found[1]) | (found[2] | found[3]);
+Vec<D> CellGrid<D>::leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t border) {
+  const auto [axis, step] = crossing_of(border);
+  const IntVec<D> next = neighbour(cell, axis, step);
+  Vec<D> boxes = Vec<D>::Zero();
+  if (next[axis] != cell[axis] + step) boxes[axis] = step;
+  move(particle, cell, axis, step);
+  cell = next;
+  return boxes;
 }
 
 template <int D>
-void CellGrid<D>::take_off(std::uint32_t at, Neighbour neighbour) {
-  List& list = lists_[at];
-  if (list.next != kNone) [[unlikely]]
-    return take_off_chain(at, neighbour);
-  Neighbour& last = list.neighbours[--list.count];
-  list.neighbours[place_of(neighbour, list)] = last;
-  last = kNobody;
-}
-
-// The last entry of the chain replaces the neighbour.
-template <int D>
-void CellGrid<D>::take_off_chain(std::uint32_t at, Neighbour neighbour) {
-  Neighbour* place = nullptr;
-  List* holder = nullptr;
-  List* list = &lists_[at];
-  List* before_last = nullptr;
-  for (;; list = &lists_[list->next]) {
-    Neighbour& found = list->neighbours[place_of(neighbour, *list)];
-    if (found == neighbour) {
-      place = &found;
-      holder = list;
-    }
-    if (list->next == kNone) break;
-    before_last = list;
-  }
-  Neighbour& last = list->neighbours[--list->count];
-  *place = last;
-  holder->wraps = holder->wraps || list->wraps;
-  last = kNobody;
-  if (list->count == 0) {
-    spare_.push_back(before_last->next);
-    before_last->next = kNone;
-  }
-}
-
-template <int D>
-std::uint32_t CellGrid<D>::new_list() {
-  if (spare_.empty()) {
-    lists_.emplace_back();
-    return static_cast<std::uint32_t>(lists_.size() - 1);
-  }
-  const std::uint32_t list = spare_.back();
-  spare_.pop_back();
-  lists_[list] = List{};
-  return list;
+bool CellGrid<D>::fit(const Model<D>& model, double particles, double near) {
+  // Thresholds of the crowding: other particles near a particle per neighbouring cell, in cells for
+  // the mean density. It is 1 for evenly spread points. Between kEven and kCrowded the cells stay
+  // as they are (hysteresis).
+  constexpr double kCellsAbout = D == 2 ? 9.0 : 27.0;
+  constexpr double kEven = 9.5 / 9.0, kCrowded = 10.5 / 9.0, kWanted = 5.5 / 9.0;
+  constexpr double kMax = 4.0;          // cells for each particle
+  constexpr double kWorthwhile = 1.25;  // ratio of numbers of cells
+  if (particles == 0.0) return false;
+  const double others = near - particles;  // a particle is near itself
+  const double cells = counts_.template cast<double>().prod();
+  const double crowding = others * cells / (particles * particles * kCellsAbout);
+  const bool fine = crowding > (cells_ > particles ? kEven : kCrowded);
+  const double wanted = particles * (fine ? std::min(crowding / kWanted, kMax) : 1.0);
+  if (std::max(wanted, cells_) < kWorthwhile * std::min(wanted, cells_)) return false;
+  *this = CellGrid(model, wanted);
+  return true;
 }
 
 template class CellGrid<2>;

@@ -1,12 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/event.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
+#include "engine/dynamics/near_list.h"
+#include "engine/dynamics/particle.h"
+#include "engine/physics/fall_time.h"
+#include "engine/physics/neighbour.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -16,7 +23,8 @@ namespace clatter {
 /// overhang. This hysteresis prevents repeated crossings; the overhang is as wide as the first
 /// condition allows.
 ///
-/// The list of a cell holds the particles of the cell and of all neighbouring cells. A search for
+/// The list of a cell holds the particles of the cell and of all neighbouring cells. If the box is
+/// only one or two cells wide, a particle occurs several times with different wraps. A search for
 /// partners reads one list. A crossing removes the particle from one row of lists and adds it to
 /// another. Searches are far more frequent than crossings.
 template <int D>
@@ -49,50 +57,38 @@ class CellGrid {
   double border(int axis, int cell, bool upper) const {
     return borders_[axis][static_cast<std::size_t>(2 * cell + upper)];
   }
-  /// Least distance of a particle in cell number `cell` from the lower or upper end of the box.
-  double distance_from_end(int axis, int cell, bool upper) const {
-    const int cells = upper ? counts_[axis] - 1 - cell : cell;
+
+  /// A list fills one cache line in 2D and two in 3D.
+  static constexpr int kCapacity = D == 2 ? 14 : 30;
+  struct alignas(64) List : NearList<kCapacity> {};
+
+  /// Least distance of a particle in a cell from the lower or upper end of the box.
+  double distance_from_end(const IntVec<D>& cell, int axis, bool upper) const {
+    const int cells = upper ? counts_[axis] - 1 - cell[axis] : cell[axis];
     return cells * widths_[axis] - overhangs_[axis];
   }
-
-  /// A near particle and its periodic image. The low bits are its number. Two bits per axis above
-  /// give its wrap: the box lengths -1, 0 or +1 across the periodic border. If the box is only one
-  /// or two cells wide, a particle occurs several times with different wraps.
-  using Neighbour = std::uint32_t;
-  static constexpr int kParticleBits = 32 - 2 * D;
-  static_assert(kMaxParticles<D> < (std::uint64_t{1} << kParticleBits));  // the last is kNobody
-  static std::uint32_t particle_of(Neighbour neighbour) { return neighbour & kParticleMask; }
-  static int wrap_of(Neighbour neighbour, int axis) {
-    // Two bits with their sign.
-    return static_cast<std::int32_t>(neighbour << (2 * (D - 1 - axis))) >> 30;
-  }
-
-  /// The particles near a cell, or a part of them. A list fills one cache line in 2D and two in 3D.
-  struct alignas(64) List {
-    static constexpr int kCapacity = D == 2 ? 14 : 30;
-    std::array<Neighbour, kCapacity> neighbours;  ///< entries beyond the count are kNobody
-    std::uint16_t count = 0;
-    bool wraps = false;          ///< whether a neighbour may have a wrap other than 0
-    std::uint32_t next = kNone;  ///< list that continues this one, which is full; or kNone
-
-    List() { neighbours.fill(kNobody); }
-  };
-  static constexpr Neighbour kParticleMask = (Neighbour{1} << kParticleBits) - 1;
-  static constexpr Neighbour kNobody = ~Neighbour{0};
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  /// The exits of a particle from its cell along each axis.
+  template <bool kFalling>
+  std::array<Exit, D> exits(const Model<D>& model, const Particle<D>& particle,
+                            const IntVec<D>& cell, double now) const;
+  /// Moves a particle across a border of its cell. Returns its shift to another periodic image, in
+  /// box lengths.
+  Vec<D> leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t border);
+  /// Adapts the number of cells to a sum over all particles of the numbers near each. Cells for the
+  /// mean density have long lists in clusters; finer cells shorten these lists, up to a limit of
+  /// memory. Returns whether the number has changed; the grid then is empty.
+  bool fit(const Model<D>& model, double particles, double near);
 
   /// The list of a cell.
   const List& near(const IntVec<D>& cell) const { return lists_[index(cell)]; }
-  /// The list that continues `list`, or null.
-  const List* next(const List& list) const {
-    return list.next == kNone ? nullptr : &lists_[list.next];
-  }
-  /// Number of particles near a cell.
-  std::size_t count_near(const IntVec<D>& cell) const;
+  /// The lists that continue the lists of cells.
+  const Continuations<D, List>& continuations() const { return continuations_; }
   /// Calls visit(particle, wrap) for each particle near a cell. `wrap` is its periodic image in box
   /// lengths.
   template <typename Visit>
-  void visit(const IntVec<D>& cell, const Visit& visit) const;
+  void visit(const IntVec<D>& cell, const Visit& visit) const {
+    continuations_.visit(near(cell), visit);
+  }
 
   /// Calls visit(list) for the first list of each cell that move() changes. Across a periodic
   /// border move() changes further lists.
@@ -101,6 +97,7 @@ class CellGrid {
 
  private:
   // A cell along one axis. There is one more beyond either end.
+  static constexpr std::uint32_t kNone = List::kNone;
   struct Place {
     std::uint32_t index = kNone;  // this axis' part of the index of its list; kNone: a wall
     Neighbour wrap = 0;           // wrap of a particle within the box, seen from there
@@ -115,44 +112,24 @@ class CellGrid {
   template <int Axis, typename Visit>
   void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap,
                    const Visit& visit) const;
-  void put_on(std::uint32_t list, Neighbour neighbour);
-  void take_off(std::uint32_t list, Neighbour neighbour);
-  void take_off_chain(std::uint32_t list, Neighbour neighbour);
   std::uint32_t index(const IntVec<D>& cell) const;
-  std::uint32_t new_list();
+  Exit exit_falling(const Model<D>& model, const Particle<D>& particle, const IntVec<D>& cell,
+                    int axis, double now) const;
 
+  double cells_;  // requested
   IntVec<D> counts_;
   IntVec<D> strides_;
   Vec<D> widths_;
   Vec<D> overhangs_;
   std::array<std::vector<double>, D> borders_;  // [2 counts] along each axis: lower, upper, ...
   std::array<std::vector<Place>, D> places_;    // [counts + 2] along each axis
-  LargeArray<List> lists_;            // the first list of each cell, then the continuations
-  std::vector<std::uint32_t> spare_;  // unused continuations
+  LargeArray<List> lists_;                      // of each cell
+  Continuations<D, List> continuations_;
 };
 
 template <int D>
 [[gnu::always_inline]] inline std::uint32_t CellGrid<D>::index(const IntVec<D>& cell) const {
   return static_cast<std::uint32_t>(cell.dot(strides_));
-}
-
-template <int D>
-std::size_t CellGrid<D>::count_near(const IntVec<D>& cell) const {
-  std::size_t count = 0;
-  for (const List* list = &near(cell); list; list = next(*list)) count += list->count;
-  return count;
-}
-
-template <int D>
-template <typename Visit>
-void CellGrid<D>::visit(const IntVec<D>& cell, const Visit& visit) const {
-  for (const List* list = &near(cell); list; list = next(*list)) {
-    for (std::uint32_t k = 0; k < list->count; ++k) {
-      Vec<D> wrap;
-      for (int axis = 0; axis < D; ++axis) wrap[axis] = wrap_of(list->neighbours[k], axis);
-      visit(particle_of(list->neighbours[k]), wrap);
-    }
-  }
 }
 
 template <int D>
@@ -193,6 +170,56 @@ void CellGrid<D>::visit_moved(const IntVec<D>& cell, int axis, int step, const V
   const auto visit_list = [&](std::uint32_t list, Neighbour) { visit(lists_[list]); };
   visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0, visit_list);
   visit_lists<D - 1>(row(cell, axis, next[axis] + step), 0, 0, visit_list);
+}
+
+// A particle on a parabola may leave through the border by which it entered. The calculation starts
+// at the current position: unlike a contact time, a crossing time need not be a function of the
+// stored state alone.
+template <int D>
+[[gnu::always_inline]] inline Exit CellGrid<D>::exit_falling(const Model<D>& model,
+                                                             const Particle<D>& particle,
+                                                             const IntVec<D>& cell, int axis,
+                                                             double now) const {
+  const double a = model.gravity[axis];
+  const double since = now - particle.flight.time;
+  const double r = particle.flight.r[axis] + (particle.flight.v[axis] + a * (0.5 * since)) * since -
+                   particle.image[axis] * model.box[axis];
+  const double v = particle.flight.v[axis] + a * since;
+  const double lower = border(axis, cell[axis], false);
+  const double upper = border(axis, cell[axis], true);
+  const WayOut out = exit_time(r - lower, upper - r, v, a);
+  double time = now + out.time;
+  // A particle that turns just beyond a border returns later, at least by the smallest time step.
+  if (time == now && (v < 0.0) == out.upper) [[unlikely]]
+    time = std::nextafter(now, kNever);
+  return {time, border_of(axis, out.upper)};
+}
+
+// Branch-free, because the signs of the velocity are unpredictable.
+template <int D>
+template <bool kFalling>
+[[gnu::always_inline]] inline std::array<Exit, D> CellGrid<D>::exits(const Model<D>& model,
+                                                                     const Particle<D>& particle,
+                                                                     const IntVec<D>& cell,
+                                                                     double now) const {
+  std::array<bool, D> upper;
+  Vec<D> place;
+  for (int axis = 0; axis < D; ++axis) {
+    upper[axis] = particle.flight.v[axis] >= 0.0;
+    place[axis] = border(axis, cell[axis], upper[axis]);
+  }
+  const Vec<D> way = place + particle.image.cwiseProduct(model.box) - particle.flight.r;
+  // v + 0.0 turns -0 into +0: a particle at rest reaches its upper border at time infinity.
+  const Vec<D> time = particle.flight.time + way.array() / (particle.flight.v.array() + 0.0);
+  std::array<Exit, D> exits;
+  for (int axis = 0; axis < D; ++axis) {
+    if (kFalling && model.gravity[axis] != 0.0) {
+      exits[axis] = exit_falling(model, particle, cell, axis, now);
+    } else {
+      exits[axis] = {std::max(now, time[axis]), border_of(axis, upper[axis])};
+    }
+  }
+  return exits;
 }
 
 extern template class CellGrid<2>;

@@ -20,6 +20,17 @@ inline Crossing crossing_of(std::uint32_t border) {
   return {side / 2, side % 2 ? 1 : -1};
 }
 
+/// The border of a cell's side, as Event::partner.
+inline std::uint32_t border_of(int axis, bool upper) {
+  return kCellBorder + static_cast<std::uint32_t>(2 * axis + upper);
+}
+
+/// The end of a particle's stay in its cell or region.
+struct Exit {
+  double time;           ///< infinite or NaN: never
+  std::uint32_t border;  ///< as Event::partner
+};
+
 /// An entry of the event queue: a predicted event of one particle.
 struct Event {
   double time = 0.0;  ///< on the moving base

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/dimension.h"
-#include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/event.h"
+#include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/particle.h"
 #include "engine/dynamics/prediction.h"
 #include "engine/error.h"
@@ -17,9 +17,9 @@
 
 namespace clatter {
 
-// Bytes of a particle, its plan, one cell list, and two entries of the event queue with room to
-// grow. In clusters there may be up to four cells per particle and continued lists
-// (Simulation::fit_cells), which are not counted.
+// Bytes of a particle, its plan, one list of near particles, and two entries of the event queue
+// with room to grow. In clusters there may be up to four cells per particle and continued lists
+// (CellGrid::fit), which are not counted. Lists of particles need no more than those of cells.
 template <int D>
 static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
                                             sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event);

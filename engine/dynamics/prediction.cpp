@@ -20,16 +20,16 @@ constexpr bool are_rows() {
          offsetof(Particle<D>, flight) == 0 && offsetof(Flight<D>, v) == D * sizeof(double) &&
          offsetof(Flight<D>, time) == 2 * D * sizeof(double) &&
          offsetof(Particle<D>, image) == (2 * D + 2) * sizeof(double) &&
-         Candidates<D>::kCapacity >= CellGrid<D>::List::kCapacity;
+         Candidates<D>::kCapacity >= Neighbourhood<D>::kCapacity;
 }
 static_assert(are_rows<2>() && are_rows<3>());
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
-                          const LargeArray<Particle<D>>& particles, const CellGrid<D>& grid)
+                          const LargeArray<Particle<D>>& particles, const Neighbourhood<D>& near)
     : model_(model),
       boundary_(boundary),
       particles_(particles),
-      grid_(grid),
+      near_(near),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
       planners_(model.has_gravity() ? widest_planners<true>() : widest_planners<false>()) {
   // Slightly farther than the wall moves in, so that rounding at a cell's border does not matter.
@@ -66,10 +66,9 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
 // Periodic image of a pair: box lengths to add to the particle's r minus the candidate's.
 template <int D>
 Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i) const {
-  Vec<D> image = particles_[near.particles[i]].image - particles_[particle].image;
-  if (near.wrapped) {
-    for (int k = 0; k < D; ++k) image[k] -= near.wraps[k][i];
-  }
+  const Neighbour neighbour = near.neighbours[i];
+  Vec<D> image = particles_[particle_of<D>(neighbour)].image - particles_[particle].image;
+  for (int k = 0; k < D; ++k) image[k] -= wrap_of<D>(neighbour, k);
   return image;
 }
 
@@ -78,13 +77,14 @@ Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near
 template <int D>
 void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& near, int i,
                                    double time, Plan<D>& plan) const {
+  const std::uint32_t partner = particle_of<D>(near.neighbours[i]);
   const Vec<D> image = image_of(particle, near, i);
   if (time == kTouching) {
     const Vec<D> shift = image.cwiseProduct(model_.box);
-    time = contact_time<D>(particles_[particle].flight, particles_[near.particles[i]].flight, shift,
+    time = contact_time<D>(particles_[particle].flight, particles_[partner].flight, shift,
                            model_.diameter, model_.gravity);
   }
-  offer(time, particle, near.particles[i], image.template cast<int>(), plan);
+  offer(time, particle, partner, image.template cast<int>(), plan);
 }
 
 template <int D>
@@ -93,23 +93,18 @@ void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near
   for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
 }
 
-// Separates the particle numbers of a list from their wraps.
+// Copies a whole list, because its length is unpredictable; its capacity is the same in a run.
 template <int D>
-static void unwrap(const typename CellGrid<D>::List& list, Candidates<D>& near) {
-  for (int i = 0; i < near.size; ++i) {
-    near.particles[i] = CellGrid<D>::particle_of(list.neighbours[i]);
-    for (int k = 0; k < D; ++k) near.wraps[k][i] = CellGrid<D>::wrap_of(list.neighbours[i], k);
+[[gnu::always_inline]] static inline void take(const NearListView& list, Candidates<D>& near) {
+  using Longest = typename CellGrid<D>::List;
+  using Shortest = NearList<Neighbourhood<D>::kLeastCapacity>;
+  static_assert(sizeof near.neighbours >= sizeof(Longest));
+  if (sizeof(Longest) > sizeof(Shortest) && list.capacity > Neighbourhood<D>::kLeastCapacity) {
+    std::memcpy(near.neighbours, list.list, sizeof(Longest));
+  } else {
+    std::memcpy(near.neighbours, list.list, sizeof(Shortest));
   }
-}
-
-// Copies a whole list, because its length is unpredictable.
-template <int D>
-[[gnu::always_inline]] static inline void take(const typename CellGrid<D>::List& list,
-                                               Candidates<D>& near) {
-  static_assert(sizeof near.particles >= sizeof list);
-  std::memcpy(near.particles, &list, sizeof list);
-  near.size = static_cast<int>(list.count);
-  near.wrapped = list.wraps;
+  near.size = list.count;
 }
 
 template <int D>
@@ -122,17 +117,17 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
                                                model_.gravity.data());
 }
 
-// The fast path, which fits most events. It requires a list without continuation, a unique first
-// contact, and particles without wraps. No particle may have crossed a periodic border in its
-// flight. Returns false for other lists; the plans are then invalid.
+// The fast path, which fits most events. It requires lists without continuations and wraps, and a
+// unique first contact. No particle may have crossed a periodic border in its flight. Returns false
+// for other lists; the plans are then invalid.
 template <int D>
 template <bool kFalling, std::size_t kParticles>
 bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
   std::array<std::uint32_t, kParticles> particles;
   std::array<Candidates<D>, kParticles> near;
   for (std::size_t k = 0; k < kParticles; ++k) {
-    const auto& list = grid_.near(requests[k].plan->cell);
-    if (list.wraps || list.next != CellGrid<D>::kNone) return false;
+    const NearListView list = near_.near(requests[k].particle, requests[k].plan->cell);
+    if (list.wraps || list.next != NearListView::kNone) return false;
     particles[k] = requests[k].particle;
     take<D>(list, near[k]);
   }
@@ -143,7 +138,7 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
     // Whether there is a contact is unpredictable. Without a contact the time is kNever, and the
     // other members have no effect.
     plan.time = first[k].time;
-    plan.partner = near[k].particles[first[k].candidate];
+    plan.partner = near[k].neighbours[first[k].candidate];
     plan.partner_flight = particles_[plan.partner].flight.number;
     plan.image.setZero();
     unique = unique && first[k].unique;
@@ -151,22 +146,40 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
   return unique;
 }
 
+// Any lists. The first lists of all particles are searched together, then their continuations.
 template <int D>
-template <bool kFalling>
-void Prediction<D>::look_at_lists(const Request& request) const {
-  const auto& [particle, plan] = request;
-  plan->time = kNever;
-  std::array<Candidates<D>, 1> nears;
-  Candidates<D>& near = nears[0];
-  for (const auto* list = &grid_.near(plan->cell); list; list = grid_.next(*list)) {
-    take<D>(*list, near);
-    if (near.wrapped) unwrap<D>(*list, near);
-    const FirstContact first = first_of<kFalling, true, 1>({particle}, nears)[0];
-    if (!first.unique) {
-      weigh_each(particle, near, *plan);
-    } else if (first.time <= plan->time) {
-      offer_particle(particle, near, first.candidate, first.time, *plan);
+template <bool kFalling, std::size_t kParticles>
+void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
+  std::array<std::uint32_t, kParticles> particles;
+  std::array<Candidates<D>, kParticles> near;
+  for (std::size_t k = 0; k < kParticles; ++k) {
+    particles[k] = requests[k].particle;
+    take<D>(near_.near(particles[k], requests[k].plan->cell), near[k]);
+  }
+  const auto first = first_of<kFalling, true>(particles, near);
+  for (std::size_t k = 0; k < kParticles; ++k) {
+    Plan<D>& plan = *requests[k].plan;
+    plan.time = kNever;
+    offer_first(particles[k], near[k], first[k], plan);
+    NearListView list = near_.near(particles[k], plan.cell);
+    while (list.next != NearListView::kNone) {
+      list = near_.next(list);
+      std::array<Candidates<D>, 1> more;
+      take<D>(list, more[0]);
+      const FirstContact of_more = first_of<kFalling, true, 1>({particles[k]}, more)[0];
+      offer_first(particles[k], more[0], of_more, plan);
     }
+  }
+}
+
+// Offers the first contact of a particle with the candidates of one list.
+template <int D>
+void Prediction<D>::offer_first(std::uint32_t particle, const Candidates<D>& near,
+                                const FirstContact& first, Plan<D>& plan) const {
+  if (!first.unique) {
+    weigh_each(particle, near, plan);
+  } else if (first.time <= plan.time) {
+    offer_particle(particle, near, first.candidate, first.time, plan);
   }
 }
 
@@ -175,7 +188,7 @@ void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& p
   for (int axis = 0; axis < D; ++axis) {
     if (model_.periodic(axis)) continue;
     for (const int side : {2 * axis, 2 * axis + 1}) {
-      if (grid_.distance_from_end(axis, plan.cell[axis], side % 2) > reach_[side]) continue;
+      if (near_.distance_from_end(particle, plan.cell, axis, side % 2) > reach_[side]) continue;
       offer(boundary_.contact_time(side, particles_[particle].flight, now), particle,
             kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }
@@ -185,55 +198,9 @@ void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& p
 // A contact at the same time keeps precedence. A NaN compares as false, and std::min then returns
 // its first argument.
 template <int D>
-void Prediction<D>::offer_border(double time, int axis, bool upper, Plan<D>& plan) const {
-  const std::uint32_t border = kCellBorder + static_cast<std::uint32_t>(2 * axis + upper);
-  plan.partner += (time < plan.time) * (border - plan.partner);
-  plan.time = std::min(plan.time, time);
-}
-
-// A particle on a parabola may leave through the border by which it entered. The calculation starts
-// at the current position: unlike a contact time, a crossing time need not be a function of the
-// stored state alone.
-template <int D>
-void Prediction<D>::look_at_border_falling(std::uint32_t particle, double now, int axis,
-                                           Plan<D>& plan) const {
-  const Particle<D>& self = particles_[particle];
-  const double a = model_.gravity[axis];
-  const double since = now - self.flight.time;
-  const double r = self.flight.r[axis] + (self.flight.v[axis] + a * (0.5 * since)) * since -
-                   self.image[axis] * model_.box[axis];
-  const double v = self.flight.v[axis] + a * since;
-  const double lower = grid_.border(axis, plan.cell[axis], false);
-  const double upper = grid_.border(axis, plan.cell[axis], true);
-  const WayOut out = exit_time(r - lower, upper - r, v, a);
-  double time = now + out.time;
-  // A particle that turns just beyond a border returns later, at least by the smallest time step.
-  if (time == now && (v < 0.0) == out.upper) [[unlikely]]
-    time = std::nextafter(now, kNever);
-  offer_border(time, axis, out.upper, plan);
-}
-
-// Branch-free, because the signs of the velocity and the first event are unpredictable.
-template <int D>
-template <bool kFalling>
-void Prediction<D>::look_at_borders(std::uint32_t particle, double now, Plan<D>& plan) const {
-  const Particle<D>& self = particles_[particle];
-  std::array<bool, D> upper;
-  Vec<D> place;
-  for (int axis = 0; axis < D; ++axis) {
-    upper[axis] = self.flight.v[axis] >= 0.0;
-    place[axis] = grid_.border(axis, plan.cell[axis], upper[axis]);
-  }
-  const Vec<D> way = place + self.image.cwiseProduct(model_.box) - self.flight.r;
-  // v + 0.0 turns -0 into +0: a particle at rest reaches its upper border at time infinity.
-  const Vec<D> time = self.flight.time + way.array() / (self.flight.v.array() + 0.0);
-  for (int axis = 0; axis < D; ++axis) {
-    if (kFalling && model_.gravity[axis] != 0.0) {
-      look_at_border_falling(particle, now, axis, plan);
-    } else {
-      offer_border(std::max(now, time[axis]), axis, upper[axis], plan);
-    }
-  }
+void Prediction<D>::offer_exit(const Exit& exit, Plan<D>& plan) const {
+  plan.partner += (exit.time < plan.time) * (exit.border - plan.partner);
+  plan.time = std::min(plan.time, exit.time);
 }
 
 template <int D>
@@ -241,13 +208,18 @@ template <bool kFalling, bool kPlain, std::size_t kParticles>
 void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now) const {
   if constexpr (kPlain) {
     if (!look_at_plain_lists<kFalling>(requests)) [[unlikely]] {
-      for (const Request& request : requests) planners_.any(*this, {request}, now);
+      planners_.template any<kParticles>()(*this, requests, now);
       return;
     }
   } else {
-    for (const Request& request : requests) look_at_lists<kFalling>(request);
+    look_at_lists<kFalling>(requests);
   }
-  for (const auto& [particle, plan] : requests) look_at_borders<kFalling>(particle, now, *plan);
+  for (const auto& [particle, plan] : requests) {
+    for (const Exit& exit :
+         near_.template exits<kFalling>(model_, particles_[particle], particle, plan->cell, now)) {
+      offer_exit(exit, *plan);
+    }
+  }
   if (!walled_) return;
   for (const auto& [particle, plan] : requests) look_at_walls(particle, now, *plan);
 }
@@ -274,11 +246,11 @@ typename Prediction<D>::Planners Prediction<D>::widest_planners() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) {
     return {plan_avx2<kFalling, true, 1>, plan_avx2<kFalling, true, 2>,
-            plan_avx2<kFalling, false, 1>};
+            plan_avx2<kFalling, false, 1>, plan_avx2<kFalling, false, 2>};
   }
 #endif
   return {plan_baseline<kFalling, true, 1>, plan_baseline<kFalling, true, 2>,
-          plan_baseline<kFalling, false, 1>};
+          plan_baseline<kFalling, false, 1>, plan_baseline<kFalling, false, 2>};
 }
 
 template class Prediction<2>;

@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "engine/dynamics/boundary.h"
-#include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
+#include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/particle.h"
 #include "engine/physics/contact.h"
 
@@ -25,7 +25,7 @@ struct Plan {
   std::uint32_t partner_flight = 0;  ///< number of the partner's flight at the prediction
   IntVec<D> image =
       IntVec<D>::Zero();  ///< box lengths to add to this particle's r minus the partner's
-  IntVec<D> cell = IntVec<D>::Zero();
+  IntVec<D> cell = IntVec<D>::Zero();  ///< of the particle, see Neighbourhood
 };
 
 /// Predicts the next event of a particle from stored states alone. The result has the same bits
@@ -39,10 +39,10 @@ class Prediction {
     Plan<D>* plan;
   };
 
-  /// Keeps references to the model, walls, particles and grid of a simulation, which must outlive
-  /// this object.
+  /// Keeps references to the model, walls, particles and near particles of a simulation, which must
+  /// outlive this object.
   Prediction(const Model<D>& model, const Boundary<D>& boundary,
-             const LargeArray<Particle<D>>& particles, const CellGrid<D>& grid);
+             const LargeArray<Particle<D>>& particles, const Neighbourhood<D>& near);
 
   /// Plans the first contact with a particle or wall near the particle's cell, or the exit from the
   /// cell.
@@ -61,7 +61,17 @@ class Prediction {
   struct Planners {
     Planner<1>* one;
     Planner<2>* two;
-    Planner<1>* any;  // for lists that are not plain, see look_at_plain_lists()
+    Planner<1>* any_one;  // for lists that are not plain, see look_at_plain_lists()
+    Planner<2>* any_two;
+
+    template <std::size_t kParticles>
+    Planner<kParticles>* any() const {
+      if constexpr (kParticles == 1) {
+        return any_one;
+      } else {
+        return any_two;
+      }
+    }
   };
   template <bool kFalling>
   static Planners widest_planners();
@@ -81,15 +91,11 @@ class Prediction {
   template <bool kFalling, std::size_t kParticles>
   [[gnu::always_inline]] inline bool look_at_plain_lists(
       const Requests<kParticles>& requests) const;
-  template <bool kFalling>
-  [[gnu::always_inline]] inline void look_at_lists(const Request& request) const;
-  template <bool kFalling>
-  [[gnu::always_inline]] inline void look_at_borders(std::uint32_t particle, double now,
-                                                     Plan<D>& plan) const;
-  [[gnu::always_inline]] inline void look_at_border_falling(std::uint32_t particle, double now,
-                                                            int axis, Plan<D>& plan) const;
-  [[gnu::always_inline]] inline void offer_border(double time, int axis, bool upper,
-                                                  Plan<D>& plan) const;
+  template <bool kFalling, std::size_t kParticles>
+  [[gnu::always_inline]] inline void look_at_lists(const Requests<kParticles>& requests) const;
+  void offer_first(std::uint32_t particle, const Candidates<D>& near, const FirstContact& first,
+                   Plan<D>& plan) const;
+  [[gnu::always_inline]] inline void offer_exit(const Exit& exit, Plan<D>& plan) const;
   [[gnu::always_inline]] inline Vec<D> image_of(std::uint32_t particle, const Candidates<D>& near,
                                                 int i) const;
   template <bool kFalling, bool kShifted, std::size_t kParticles>
@@ -106,7 +112,7 @@ class Prediction {
   const Model<D>& model_;
   const Boundary<D>& boundary_;
   const LargeArray<Particle<D>>& particles_;
-  const CellGrid<D>& grid_;
+  const Neighbourhood<D>& near_;
   bool walled_;  // whether there are walls
   Planners planners_;
   std::array<double, 2 * D> reach_;  // range of each side's wall, from the box's edge

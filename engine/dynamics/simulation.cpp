@@ -20,8 +20,6 @@ namespace clatter {
 // below a few ten mean free times. See also renew_flight().
 static constexpr std::uint64_t kEventsPerBase = 32;
 static constexpr std::uint64_t kMinEventsPerBase = 64;
-// Measured best from phi = 0.1 to 0.7. More cells make shorter lists but more crossings.
-static constexpr double kCellsPerParticle = 1.0;
 // Measured numbers of particles from which prefetching pays: of the next plans, once the data no
 // longer fit an L2 cache of 1 MB; of cell lists; and of the particles on these lists, whose many
 // cache misses then overlap.
@@ -140,9 +138,8 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
       last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
       remainders_(saved.remainders.begin(), saved.remainders.end()),
       plans_(particles_.size()),
-      cells_per_particle_(kCellsPerParticle),
-      grid_(model_, cells_per_particle_ * static_cast<double>(particles_.size())),
-      prediction_(model_, boundary_, particles_, grid_),
+      near_(model_, static_cast<double>(particles_.size())),
+      prediction_(model_, boundary_, particles_, near_),
       until_base_moves_(saved.until_base_moves),
       start_speed_(saved.start_speed),
       fastest_(fastest_speed<D>(model_, start_speed_)),
@@ -172,8 +169,8 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
     }
   }
   saved.flights = {};
-  fill_cells(stop);
-  fit_cells(stop);
+  place_all(stop);
+  if (near_.fit(model_, plans_)) place_all(stop);
   // Overlaps that the run has already accepted at contacts are accepted at a restart too.
   const double borne = kStartRounding + checks_.deepest_overlap;
   if (const double overlap = deepest_overlap(stop); overlap > borne) {
@@ -195,7 +192,7 @@ static bool is_inside(const Model<D>& model, const Vec<D>& r) {
 }
 
 template <int D>
-void Simulation<D>::fill_cells(const StopRequest& stop) {
+void Simulation<D>::place_all(const StopRequest& stop) {
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
     stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
@@ -203,38 +200,9 @@ void Simulation<D>::fill_cells(const StopRequest& stop) {
       throw PhysicalStop("particle " + std::to_string(i) + " is outside of the walls at the start");
     }
     particles_[i].image = model_.image_index(r);
-    plans_[i].cell = grid_.cell_at(r - particles_[i].image.cwiseProduct(model_.box));
-    grid_.insert(i, plans_[i].cell);
+    plans_[i].cell = near_.place(i, r - particles_[i].image.cwiseProduct(model_.box));
   }
-}
-
-// Chooses the number of cells. Cells for the mean density have long lists in clusters; finer cells
-// shorten these lists, up to kMax cells per particle, a limit of memory. The events do not depend
-// on the number of cells.
-template <int D>
-void Simulation<D>::fit_cells(const StopRequest& stop) {
-  // Thresholds of the crowding: other particles near a particle per neighbouring cell. It is 1 for
-  // evenly spread points. Between kEven and kCrowded the cells stay as they are (hysteresis).
-  constexpr double kCellsAbout = D == 2 ? 9.0 : 27.0;
-  constexpr double kEven = 9.5 / 9.0, kCrowded = 10.5 / 9.0, kWanted = 5.5 / 9.0;
-  constexpr double kMax = 4.0;          // cells for each particle
-  constexpr double kWorthwhile = 1.25;  // ratio of numbers of cells
-  if (particles_.empty()) return;
-  const double count = static_cast<double>(particles_.size());
-  double near = -count;  // a particle is near itself
-  for (const Plan<D>& plan : plans_) near += static_cast<double>(grid_.count_near(plan.cell));
-  const double cells = grid_.counts().template cast<double>().prod();
-  const double crowding =
-      near * cells / (count * count * kCellsAbout);  // in cells for the mean density
-  const bool fine = crowding > (cells_per_particle_ > kCellsPerParticle ? kEven : kCrowded);
-  const double per_particle = fine ? std::min(crowding / kWanted, kMax) : kCellsPerParticle;
-  if (std::max(per_particle, cells_per_particle_) <
-      kWorthwhile * std::min(per_particle, cells_per_particle_)) {
-    return;
-  }
-  cells_per_particle_ = per_particle;
-  grid_ = CellGrid<D>(model_, per_particle * count);
-  fill_cells(stop);
+  near_.list_all();
 }
 
 template <int D>
@@ -262,7 +230,7 @@ void Simulation<D>::move_base() {
   now_ = 0.0;
   until_base_moves_ =
       std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * particles_.size());
-  fit_cells();
+  if (near_.fit(model_, plans_)) place_all();
   plan_all();
   if (watchdog_) watchdog_->on_base_moved(shift);
   for (Observer<D>* observer : observers_) observer->on_base_moved(shift);
@@ -469,7 +437,7 @@ double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
     stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
-    grid_.visit(plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
+    near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
       if (j <= i) return;
       const Vec<D> image = particles_[j].image - particles_[i].image - wrap;
       const Vec<D> x =
@@ -508,38 +476,36 @@ void Simulation<D>::prefetch_ahead() {
   queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
     if (!is_current(event)) return;
     if (event.partner >= kCellBorder) {
-      const auto [axis, step] = crossing_of(event.partner);
-      grid_.visit_moved(plans_[event.particle].cell, axis, step,
-                        [](const auto& list) { prefetch(list); });
+      near_.prefetch_crossing(plans_[event.particle].cell, event.partner);
     }
-    visit_cells_needed(event, [this](const IntVec<D>& cell) { prefetch(grid_.near(cell)); });
+    visit_searches(event, [this](std::uint32_t particle, const IntVec<D>& cell) {
+      near_.prefetch_near(particle, cell);
+    });
   });
   if (!neighbours) return;
   queue_.look_ahead(1, [&](const Event& event) {
     if (!is_current(event)) return;
-    visit_cells_needed(event, [this](const IntVec<D>& cell) {
-      for (const auto neighbour : grid_.near(cell).neighbours) {
-        if (neighbour != CellGrid<D>::kNobody)
-          prefetch(particles_[CellGrid<D>::particle_of(neighbour)]);
+    visit_searches(event, [this](std::uint32_t particle, const IntVec<D>& cell) {
+      const NearListView list = near_.near(particle, cell);
+      for (int k = 0; k < list.capacity; ++k) {
+        const Neighbour neighbour = list.neighbours[k];
+        if (neighbour != kNobody) prefetch(particles_[particle_of<D>(neighbour)]);
       }
     });
   });
 }
 
-// Visits the cells whose lists the particles of an event search for partners.
+// Visits the particles of an event that search for partners, and their cells.
 template <int D>
 template <typename Visit>
-void Simulation<D>::visit_cells_needed(const Event& event, const Visit& visit) const {
+void Simulation<D>::visit_searches(const Event& event, const Visit& visit) const {
   const IntVec<D>& cell = plans_[event.particle].cell;
   if (event.partner >= kCellBorder) {
-    const auto [axis, step] = crossing_of(event.partner);
-    visit(grid_.neighbour(cell, axis, step));
+    visit(event.particle, near_.cell_after(cell, event.partner));
     return;
   }
-  visit(cell);
-  if (event.partner < kWall && plans_[event.partner].cell != cell) {
-    visit(plans_[event.partner].cell);
-  }
+  visit(event.particle, cell);
+  if (event.partner < kWall) visit(event.partner, plans_[event.partner].cell);
 }
 
 template class Simulation<2>;

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
-#include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/event_queue.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
+#include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/particle.h"
 #include "engine/dynamics/prediction.h"
@@ -123,14 +123,13 @@ class Simulation {
   [[gnu::always_inline]] inline void renew_flight(Particle<D>& particle, const Vec<D>& position,
                                                   const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
-  void fill_cells(const StopRequest& stop = {});
-  void fit_cells(const StopRequest& stop = {});
+  void place_all(const StopRequest& stop = {});
   void plan_all(const StopRequest& stop = {});
   void move_base();
   bool is_current(const Event& event) const;
   void prefetch_ahead();
   template <typename Visit>
-  void visit_cells_needed(const Event& event, const Visit& visit) const;
+  void visit_searches(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
   ParticleChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
                               const Impulse<D>& gain) const;
@@ -145,8 +144,7 @@ class Simulation {
   LargeArray<double> last_collisions_;  // [N] times on the base; empty without a t_c
   LargeArray<Vec<D>> remainders_;  // [N] rounding errors of positions in long boxes; else empty
   LargeArray<Plan<D>> plans_;
-  double cells_per_particle_;  // requested of the grid
-  CellGrid<D> grid_;
+  Neighbourhood<D> near_;
   Prediction<D> prediction_;
   EventQueue queue_;
   std::uint64_t until_base_moves_;    // physical events left

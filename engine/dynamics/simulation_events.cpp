@@ -14,11 +14,8 @@ namespace clatter {
 template <int D>
 void Simulation<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
-  const auto [axis, step] = crossing_of(plan.partner);
-  const IntVec<D> next = grid_.neighbour(plan.cell, axis, step);
-  if (next[axis] != plan.cell[axis] + step) particles_[number].image[axis] += step;
-  grid_.move(number, plan.cell, axis, step);
-  plan.cell = next;
+  particles_[number].image +=
+      near_.leave(model_, particles_[number], number, plan.cell, plan.partner, now_);
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
@@ -96,7 +93,9 @@ template <int D>
 void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   // The lists arrive while the collision is computed; the processor would not load them this early
   // by itself.
-  for (const std::uint32_t particle : {first, second}) prefetch(grid_.near(plans_[particle].cell));
+  for (const std::uint32_t particle : {first, second}) {
+    near_.prefetch_near(particle, plans_[particle].cell);
+  }
   Particle<D>& a = particles_[first];
   Particle<D>& b = particles_[second];
   const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/physics/neighbour.h"
 #include "engine/physics/pair_contact.h"
 
 namespace clatter {
@@ -21,12 +22,10 @@ template <int D>
 struct Candidates {
   static constexpr int kCapacity = D == 2 ? 16 : 32;
 
-  /// Numbers of the rows. kMargin further elements may be read and written.
+  /// kMargin further elements may be read and written.
   static constexpr int kMargin = 4;
-  std::uint32_t particles[kCapacity + kMargin];
-  double wraps[D][kCapacity + kMargin];  ///< box lengths to subtract from each image; if `wrapped`
+  Neighbour neighbours[kCapacity + kMargin];
   int size = 0;
-  bool wrapped = false;
 };
 
 /// The first contact of a particle with its candidates.
@@ -80,6 +79,15 @@ using Bits = std::int64_t __attribute__((vector_size(8 * kCount)));
   return lesser(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
 }
 
+// The wraps of four neighbours along an axis.
+template <int D>
+[[gnu::always_inline]] inline Doubles wraps_of(const Neighbour* neighbours, int axis) {
+  using Ints = std::int32_t __attribute__((vector_size(4 * kCount)));
+  Ints bits;
+  std::memcpy(&bits, neighbours, sizeof bits);
+  return __builtin_convertvector((bits << bits_above<D>(axis)) >> 30, Doubles);
+}
+
 // A particle and its candidates, in groups of four.
 template <int D>
 struct Groups {
@@ -107,20 +115,20 @@ template <int D, bool kFalling, bool kShifted>
   const Doubles time = broadcast(own[2 * D]);
   groups.frames = reinterpret_cast<Bits>(load(own + kImage + D - kCount));
   for (int i = 0; i < Candidates<D>::kMargin; ++i)
-    candidates.particles[candidates.size + i] = particle;
+    candidates.neighbours[candidates.size + i] = particle;
   for (int i = 0; i == 0 || i < candidates.size; i += kCount) {
     const double* row[kCount];
     for (int lane = 0; lane < kCount; ++lane) {
-      row[lane] = rows + static_cast<std::size_t>(candidates.particles[i + lane]) * kRowLength<D>;
+      row[lane] = rows + static_cast<std::size_t>(particle_of<D>(candidates.neighbours[i + lane])) *
+                             kRowLength<D>;
     }
     Doubles columns[kColumns];
     for (int k = 0; k < kColumns; k += 4) transpose(row, k, columns + k);
     Doubles shift[D];
     if constexpr (kShifted) {
       for (int k = 0; k < D; ++k) {
-        shift[k] = columns[kImage + k] - broadcast(own[kImage + k]);
-        if (candidates.wrapped) shift[k] -= load(&candidates.wraps[k][i]);
-        shift[k] *= box[k];
+        const Doubles wraps = wraps_of<D>(candidates.neighbours + i, k);
+        shift[k] = (columns[kImage + k] - broadcast(own[kImage + k]) - wraps) * box[k];
       }
     } else {
       for (const double* other : row) {
@@ -160,7 +168,7 @@ template <int D, bool kShifted>
 /// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `gravity` is
 /// read only with kFalling. The result has the same bits with any instruction set.
 ///
-/// Without kShifted, no candidate may be wrapped, and all rows must be in the frame of the box. If
+/// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box. If
 /// a row is in another frame, `unique` is false and the other results are invalid.
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(

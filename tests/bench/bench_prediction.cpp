@@ -36,15 +36,14 @@ static Taken time_plans(int side, double area_fraction) {
   const double edge = side * std::sqrt(std::numbers::pi / (4.0 * area_fraction));
   model.box = {edge, edge};
   const LargeArray<Particle<2>> particles = lattice(side, edge);
-  CellGrid<2> grid(model, static_cast<double>(particles.size()));
+  Neighbourhood<2> near(model, static_cast<double>(particles.size()));
   std::vector<Plan<2>> plans(particles.size());
   for (std::uint32_t i = 0; i < particles.size(); ++i) {
-    plans[i].cell = grid.cell_at(particles[i].flight.r);
-    grid.insert(i, plans[i].cell);
+    plans[i].cell = near.place(i, particles[i].flight.r);
   }
   const Clock clock({0.0, 0.0});
   const Boundary<2> boundary(model, clock);
-  const Prediction<2> prediction(model, boundary, particles, grid);
+  const Prediction<2> prediction(model, boundary, particles, near);
   const int rounds = 400000 / static_cast<int>(particles.size()) + 1;
   const auto count = static_cast<std::uint32_t>(particles.size() / 2 * 2);
   const double alone = bench::seconds([&] {

@@ -28,13 +28,13 @@ std::multiset<Image> near(const CellGrid<2>& grid, const IntVec<2>& cell) {
 
 // Whether each list with a particle across a periodic border is marked.
 bool wraps_are_told(const CellGrid<2>& grid, const IntVec<2>& cell) {
-  for (const auto* list = &grid.near(cell); list; list = grid.next(*list)) {
-    for (std::uint32_t k = 0; k < list->count; ++k) {
-      const auto neighbour = list->neighbours[k];
-      if (neighbour != CellGrid<2>::particle_of(neighbour) && !list->wraps) return false;
+  for (NearListView list(grid.near(cell));; list = grid.continuations().next(list)) {
+    for (int k = 0; k < list.count; ++k) {
+      const Neighbour neighbour = list.neighbours[k];
+      if (neighbour != particle_of<2>(neighbour) && !list.wraps) return false;
     }
+    if (list.next == NearListView::kNone) return true;
   }
-  return true;
 }
 
 // A box of random size, down to less than two diameters, with walled or periodic pairs of sides.
@@ -133,7 +133,7 @@ TEST_CASE("CellGrid: a list holds the particles about its cell, however many") {
     REQUIRE(near(grid, cell) == inside);
     REQUIRE(near(grid, beside) == inside);
     REQUIRE(near(grid, off).size() == inside.size());
-    REQUIRE(grid.count_near(cell) == inside.size());
+    REQUIRE(grid.continuations().count(grid.near(cell)) == inside.size());
   }
 }
 
@@ -219,9 +219,8 @@ TEST_CASE("CellGrid: every image within one diameter is found exactly once") {
       for (int axis = 0; axis < 2; ++axis) {
         if (model.periodic(axis)) continue;
         const double r = guests[k].r[axis];
-        REQUIRE(r >= grid.distance_from_end(axis, guests[k].cell[axis], false) - 1e-14);
-        REQUIRE(model.box[axis] - r >=
-                grid.distance_from_end(axis, guests[k].cell[axis], true) - 1e-14);
+        REQUIRE(r >= grid.distance_from_end(guests[k].cell, axis, false) - 1e-14);
+        REQUIRE(model.box[axis] - r >= grid.distance_from_end(guests[k].cell, axis, true) - 1e-14);
       }
       const std::multiset<Image> visited = near(grid, guests[k].cell);
       REQUIRE(std::set<Image>(visited.begin(), visited.end()).size() == visited.size());

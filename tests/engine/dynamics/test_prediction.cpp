@@ -47,15 +47,15 @@ struct Planned {
     clock.emplace(simulation->time() - now);
     particles = simulation->particles();
     plans.resize(particles.size());
-    grid.emplace(model, static_cast<double>(particles.size()));
+    near.emplace(model, static_cast<double>(particles.size()));
     for (std::uint32_t i = 0; i < particles.size(); ++i) {
       const Vec2 r = particles[i].flight.at(now, model.gravity);
       particles[i].image = model.image_index(r);
-      plans[i].cell = grid->cell_at(r - particles[i].image.cwiseProduct(model.box));
-      grid->insert(i, plans[i].cell);
+      plans[i].cell = near->place(i, r - particles[i].image.cwiseProduct(model.box));
     }
+    near->list_all();
     boundary.emplace(model, *clock);
-    prediction.emplace(model, *boundary, particles, *grid);
+    prediction.emplace(model, *boundary, particles, *near);
     for (std::uint32_t i = 0; i < particles.size(); ++i) prediction->plan({i, &plans[i]}, now);
   }
 
@@ -64,7 +64,7 @@ struct Planned {
   std::optional<Clock> clock;
   LargeArray<Particle<2>> particles;
   std::vector<Plan<2>> plans;
-  std::optional<CellGrid<2>> grid;
+  std::optional<Neighbourhood<2>> near;
   std::optional<Boundary<2>> boundary;
   std::optional<Prediction<2>> prediction;
 };

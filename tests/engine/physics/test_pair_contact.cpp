@@ -198,14 +198,16 @@ struct Crowd {
       particles.push_back(particle);
     }
     candidates.size = size;
-    candidates.wrapped = random.below(2) == 0;
+    const bool wraps = random.below(2) == 0;
     for (int i = 0; i < size; ++i) {
       const Particle<2>& particle = particles[static_cast<std::size_t>(i)];
-      candidates.particles[i] = static_cast<std::uint32_t>(i);
+      candidates.neighbours[i] = static_cast<Neighbour>(i);
       Vec2 shift = particle.image - particles.back().image;
-      for (int k = 0; k < 2; ++k) {
-        candidates.wraps[k][i] = image();
-        if (candidates.wrapped) shift[k] -= candidates.wraps[k][i];
+      for (int k = 0; wraps && k < 2; ++k) {
+        const double wrap = image();
+        candidates.neighbours[i] |= (static_cast<Neighbour>(static_cast<int>(wrap)) & 3u)
+                                    << (kParticleBits<2> + 2 * k);
+        shift[k] -= wrap;
       }
       times.push_back(encounter(particles.back().flight, particle.flight, shift.cwiseProduct(box),
                                 1.0, gravity));
@@ -303,7 +305,9 @@ TEST_CASE("Contact kernel: if no particle has left the box, the shorter form giv
     const Vec2& gravity = kGravities[number % 2];
     const int size = 1 + static_cast<int>(number % Candidates<2>::kCapacity);
     Crowd crowd(number, size, gravity);
-    crowd.candidates.wrapped = false;
+    for (int i = 0; i < size; ++i) {
+      crowd.candidates.neighbours[i] = particle_of<2>(crowd.candidates.neighbours[i]);
+    }
     for (Particle<2>& particle : crowd.particles) particle.image.setZero();
     const FirstContact first = first_within_box(crowd, gravity)[0];
     REQUIRE(same(first, first_of(crowd, gravity)[0]));
@@ -326,8 +330,7 @@ TEST_CASE("Contact kernel: it says whether the first contact is unique; later on
     const int copied = static_cast<int>(number % 12);
     const int copy = static_cast<int>(number / 12 % 12);
     if (copy == copied || copy == alone.candidate) continue;
-    crowd.candidates.particles[copy] = crowd.candidates.particles[copied];
-    for (auto& wraps : crowd.candidates.wraps) wraps[copy] = wraps[copied];
+    crowd.candidates.neighbours[copy] = crowd.candidates.neighbours[copied];
     const FirstContact first = first_of(crowd, kNone)[0];
     REQUIRE(bits(first.time) == bits(alone.time));
     REQUIRE(first.unique == (copied != alone.candidate));

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "engine/dynamics/large_array.h"
+#include "engine/physics/neighbour.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// Near particles, or a part of them: up to kCapacity entries.
+template <int kCapacity>
+struct NearList {
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  std::array<Neighbour, kCapacity> neighbours;  ///< entries beyond the count are kNobody
+  std::uint16_t count = 0;
+  bool wraps = false;          ///< whether a neighbour may have a wrap other than 0
+  std::uint32_t next = kNone;  ///< list that continues this one, which is full; or kNone
+
+  NearList() { neighbours.fill(kNobody); }
+};
+
+/// A list of any capacity, for reading.
+struct NearListView {
+  static constexpr std::uint32_t kNone = NearList<2>::kNone;
+
+  const void* list;  ///< the NearList
+  int capacity;      ///< of the NearList
+  const Neighbour* neighbours;
+  int count;
+  bool wraps;          ///< as NearList::wraps
+  std::uint32_t next;  ///< as NearList::next
+
+  template <int kCapacity>
+  explicit NearListView(const NearList<kCapacity>& of)
+      : list(&of),
+        capacity(kCapacity),
+        neighbours(of.neighbours.data()),
+        count(of.count),
+        wraps(of.wraps),
+        next(of.next) {}
+};
+
+/// The lists that continue full lists.
+template <int D, class List>
+class Continuations {
+ public:
+  /// The list that continues a list, which must not be the last.
+  NearListView next(const NearListView& list) const { return NearListView(lists_[list.next]); }
+  /// Calls visit(particle, wrap) for each neighbour of a list and of its continuations. `wrap` is
+  /// its periodic image in box lengths.
+  template <typename Visit>
+  void visit(const List& first, const Visit& visit) const;
+  /// Appends the neighbours of a list and of its continuations.
+  void append_to(std::vector<Neighbour>& neighbours, const List& first) const;
+  /// Number of neighbours in a list and its continuations.
+  std::size_t count(const List& first) const;
+  /// Appends a neighbour to a list.
+  void put_on(List& list, Neighbour neighbour);
+  /// Removes a neighbour from a list or from its continuations. The last entry replaces it.
+  void take_off(List& list, Neighbour neighbour);
+  /// Removes all neighbours from a list.
+  void clear(List& list);
+
+ private:
+  void take_off_chain(List& list, Neighbour neighbour);
+  std::uint32_t new_list();
+
+  LargeArray<List> lists_;
+  std::vector<std::uint32_t> spare_;  // unused elements of lists_
+};
+
+template <int D, class List>
+template <typename Visit>
+void Continuations<D, List>::visit(const List& first, const Visit& visit) const {
+  for (const List* list = &first;; list = &lists_[list->next]) {
+    for (std::uint32_t k = 0; k < list->count; ++k) {
+      Vec<D> wrap;
+      for (int axis = 0; axis < D; ++axis) wrap[axis] = wrap_of<D>(list->neighbours[k], axis);
+      visit(particle_of<D>(list->neighbours[k]), wrap);
+    }
+    if (list->next == List::kNone) return;
+  }
+}
+
+template <int D, class List>
+void Continuations<D, List>::append_to(std::vector<Neighbour>& neighbours,
+                                       const List& first) const {
+  for (const List* list = &first;; list = &lists_[list->next]) {
+    const auto begin = list->neighbours.begin();
+    neighbours.insert(neighbours.end(), begin, begin + list->count);
+    if (list->next == List::kNone) return;
+  }
+}
+
+template <int D, class List>
+std::size_t Continuations<D, List>::count(const List& first) const {
+  std::size_t count = first.count;
+  for (std::uint32_t at = first.next; at != List::kNone; at = lists_[at].next) {
+    count += lists_[at].count;
+  }
+  return count;
+}
+
+template <int D, class List>
+void Continuations<D, List>::put_on(List& first, Neighbour neighbour) {
+  List* list = &first;
+  while (list->count == list->neighbours.size()) {
+    if (list->next == List::kNone) {
+      const std::ptrdiff_t place = list == &first ? -1 : list - lists_.data();
+      const std::uint32_t added = new_list();  // may move lists_
+      list = place < 0 ? &first : lists_.data() + place;
+      list->next = added;
+    }
+    list = &lists_[list->next];
+  }
+  list->neighbours[list->count++] = neighbour;
+  list->wraps = list->wraps || neighbour != particle_of<D>(neighbour);
+}
+
+// Index of a neighbour in a list; 0 if it is not there. Compares all entries at once, because a
+// branch on the index would be unpredictable.
+template <int kCapacity>
+std::uint32_t place_of(Neighbour neighbour, const NearList<kCapacity>& list) {
+  using Four = std::uint32_t __attribute__((vector_size(16)));
+  // The last two words of a list hold no neighbours.
+  static_assert(kCapacity % 4 == 2 && sizeof(list) >= (kCapacity + 2) * sizeof(Neighbour));
+  Four found{};
+  for (std::uint32_t k = 0; k < kCapacity; k += 4) {
+    Four four;
+    std::memcpy(&four, reinterpret_cast<const char*>(&list) + k * sizeof k, sizeof four);
+    const bool last = k + 4 > kCapacity;
+    const Four places = {k, k + 1, last ? 0 : k + 2, last ? 0 : k + 3};
+    found |= (four == neighbour) & places;
+  }
+  return (found[0] | found[1]) | (found[2] | found[3]);
+}
+
+template <int D, class List>
+void Continuations<D, List>::take_off(List& list, Neighbour neighbour) {
+  if (list.next != List::kNone) [[unlikely]]
+    return take_off_chain(list, neighbour);
+  Neighbour& last = list.neighbours[--list.count];
+  list.neighbours[place_of(neighbour, list)] = last;
+  last = kNobody;
+}
+
+template <int D, class List>
+void Continuations<D, List>::take_off_chain(List& first, Neighbour neighbour) {
+  Neighbour* place = nullptr;
+  List* holder = nullptr;
+  List* list = &first;
+  List* before_last = nullptr;
+  for (;; list = &lists_[list->next]) {
+    Neighbour& found = list->neighbours[place_of(neighbour, *list)];
+    if (found == neighbour) {
+      place = &found;
+      holder = list;
+    }
+    if (list->next == List::kNone) break;
+    before_last = list;
+  }
+  Neighbour& last = list->neighbours[--list->count];
+  *place = last;
+  holder->wraps = holder->wraps || list->wraps;
+  last = kNobody;
+  if (list->count > 0) return;
+  spare_.push_back(before_last->next);
+  before_last->next = List::kNone;
+}
+
+template <int D, class List>
+void Continuations<D, List>::clear(List& list) {
+  for (std::uint32_t next = list.next; next != List::kNone; next = lists_[next].next) {
+    spare_.push_back(next);
+  }
+  list = List{};
+}
+
+template <int D, class List>
+std::uint32_t Continuations<D, List>::new_list() {
+  if (spare_.empty()) {
+    lists_.emplace_back();
+    return static_cast<std::uint32_t>(lists_.size() - 1);
+  }
+  const std::uint32_t list = spare_.back();
+  spare_.pop_back();
+  lists_[list] = List{};
+  return list;
+}
+
+}  // namespace clatter

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/event.h"
+#include "engine/dynamics/large_array.h"
+#include "engine/dynamics/model.h"
+#include "engine/dynamics/near_list.h"
+#include "engine/dynamics/particle.h"
+#include "engine/physics/fall_time.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// Lists of near particles, one per particle. Each particle has a region, a ball about a centre. It
+/// gets a new region before it leaves the ball. Its list holds all particles that it can touch
+/// while both are in their regions.
+///
+/// The search for new neighbours uses cells of the centres. The region of a particle shrinks in
+/// dense surroundings, where its list would become long.
+template <int D>
+class NeighbourLists {
+ public:
+  static constexpr int kCapacity = 22;
+  using List = NearList<kCapacity>;
+
+  /// Lists for a number of particles.
+  NeighbourLists(const Model<D>& model, double particles);
+
+  /// Puts a particle at a position inside the box. Call list_all() after the last particle.
+  void place(std::uint32_t particle, const Vec<D>& position);
+  /// Lists the neighbours of all particles.
+  void list_all();
+
+  /// Least distance of a particle in its region from the lower or upper end of the box.
+  double distance_from_end(std::uint32_t particle, int axis, bool upper) const;
+  /// A time by which a particle needs a new region. Under gravity it may precede the exit.
+  template <bool kFalling>
+  Exit exit(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
+            double now) const;
+  /// Gives a particle a new region. Returns its shift to another periodic image, in box lengths.
+  Vec<D> leave(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
+               double now);
+
+  /// The list of a particle.
+  const List& near(std::uint32_t particle) const { return regions_[particle].list; }
+  /// The lists that continue the lists of particles.
+  const Continuations<D, List>& continuations() const { return continuations_; }
+
+ private:
+  static constexpr int kFour = 4;
+  using Floats = float __attribute__((vector_size(4 * kFour)));
+  using Ints = std::int32_t __attribute__((vector_size(4 * kFour)));
+  static constexpr std::uint32_t kNone = List::kNone;
+
+  struct alignas(64) Region {
+    List list;
+    Vec<D> centre = Vec<D>::Zero();  // in the box
+    double radius = 0.0;
+  };
+  // Up to four particles of a cell. Single precision is enough with the margin of kContact.
+  struct Block {
+    std::array<Floats, D> centres;  // from the lower corner of the cell
+    Floats radii;
+    std::array<std::uint32_t, kFour> particles = {kNobody, kNobody, kNobody, kNobody};
+    std::uint32_t next = kNone;  // block of the same cell
+  };
+  // A neighbouring cell along one axis.
+  struct Step {
+    std::uint32_t index = kNone;  // this axis' part of the index of the cell; kNone: a wall
+    Neighbour wrap = 0;           // of the particles there
+  };
+
+  IntVec<D> cell_at(const Vec<D>& position) const;
+  std::uint32_t first_block(const IntVec<D>& cell) const;
+  std::uint32_t new_block();
+  void put_in_cell(std::uint32_t particle);
+  void take_from_cell(std::uint32_t particle);
+  void find_neighbours(std::uint32_t particle);
+  void find_in_cell(std::uint32_t block, Neighbour wrap, const std::array<Floats, D>& centre,
+                    Floats reach, std::uint32_t particle);
+  void fill(List& list);
+  void mend_lists(std::uint32_t particle);
+
+  Vec<D> box_;
+  std::array<bool, D> flat_;  // axes along which regions are unlimited, see the constructor
+  bool any_flat_ = false;
+  double contact_;     // distance of centres at contact, with a margin
+  double max_radius_;  // of regions
+  IntVec<D> counts_;
+  Vec<D> widths_;
+  std::array<std::vector<Step>, D> steps_;  // [counts + 2] along each axis: of cells -1 ... counts
+  LargeArray<Region> regions_;              // [N]
+  Continuations<D, List> continuations_;
+  LargeArray<Block> blocks_;  // the first block of each cell, then further blocks
+  std::vector<std::uint32_t> spare_blocks_;
+  std::vector<Neighbour> known_;  // the list of a particle that gets a new one
+  std::vector<Neighbour> found_;  // the new list, and room for kFour elements
+  std::size_t count_ = 0;         // of the new list
+};
+
+template <int D>
+template <bool kFalling>
+[[gnu::always_inline]] inline Exit NeighbourLists<D>::exit(const Model<D>& model,
+                                                           const Particle<D>& particle,
+                                                           std::uint32_t number, double now) const {
+  const Region& region = regions_[number];
+  const Flight<D>& flight = particle.flight;
+  const double since = now - flight.time;
+  Vec<D> v = flight.v;
+  Vec<D> r = flight.r - particle.image.cwiseProduct(box_);
+  double radius = region.radius;
+  double latest = kNever;
+  if constexpr (kFalling) {
+    // In this time gravity bends the path by a quarter of the radius.
+    latest = std::sqrt(0.5 * radius / model.gravity.norm());
+    radius *= 0.75;
+    r += (v + model.gravity * (0.5 * since)) * since;
+    v += model.gravity * since;
+  } else {
+    r += v * since;
+  }
+  Vec<D> d = r - region.centre;
+  if (any_flat_) [[unlikely]] {
+    for (int axis = 0; axis < D; ++axis) {
+      if (!flat_[axis]) continue;
+      const double overhang = 0.5 * std::max(0.0, box_[axis] - contact_);
+      const double a = kFalling ? model.gravity[axis] : 0.0;
+      latest = std::min(latest, fall_time(r[axis] + overhang, v[axis], a));
+      latest = std::min(latest, fall_time(box_[axis] + overhang - r[axis], -v[axis], -a));
+      d[axis] = v[axis] = 0.0;
+    }
+  }
+  // The later root of |d + v t| = radius, in the form without cancellation. A particle at rest
+  // leaves never: the time is infinite or NaN.
+  const double depth = radius * radius - d.squaredNorm();
+  const double square = v.squaredNorm(), rate = d.dot(v);
+  const double sum = std::sqrt(rate * rate + square * depth) + std::fabs(rate);
+  const double time = (rate < 0.0 ? sum : depth) / (rate < 0.0 ? square : sum);
+  return {now + (depth > 0.0 ? std::min(latest, time) : 0.0), kCellBorder};
+}
+
+extern template class NeighbourLists<2>;
+extern template class NeighbourLists<3>;
+
+}  // namespace clatter

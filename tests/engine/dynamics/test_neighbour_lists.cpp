@@ -1,0 +1,177 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "engine/dynamics/neighbour_lists.h"
+#include "engine/physics/random.h"
+
+using namespace clatter;
+
+namespace {
+
+// Particles that fly through each other, with their lists.
+template <int D>
+struct Ghosts {
+  Model<D> model;
+  std::vector<Particle<D>> particles;
+  NeighbourLists<D> lists;
+  std::vector<double> exits;  // [N] times
+  double now = 0.0;
+
+  Ghosts(const Model<D>& laws, std::vector<Particle<D>> ghosts)
+      : model(laws),
+        particles(std::move(ghosts)),
+        lists(model, static_cast<double>(particles.size())),
+        exits(particles.size()) {
+    for (std::uint32_t i = 0; i < particles.size(); ++i) lists.place(i, particles[i].flight.r);
+    lists.list_all();
+    for (std::uint32_t i = 0; i < particles.size(); ++i) plan(i);
+  }
+
+  void plan(std::uint32_t i) {
+    const Particle<D>& particle = particles[i];
+    exits[i] = model.has_gravity() ? lists.template exit<true>(model, particle, i, now).time
+                                   : lists.template exit<false>(model, particle, i, now).time;
+  }
+
+  // Gives the next particle a new region. Returns false if no particle leaves its region.
+  bool step() {
+    const auto next = std::min_element(exits.begin(), exits.end());
+    if (!(*next < kNever)) return false;
+    REQUIRE(*next >= now);
+    now = *next;
+    const auto i = static_cast<std::uint32_t>(next - exits.begin());
+    particles[i].image += lists.leave(model, particles[i], i, now);
+    plan(i);
+    return true;
+  }
+
+  Vec<D> position(std::uint32_t i) const {
+    return particles[i].flight.at(now, model.gravity) - particles[i].image.cwiseProduct(model.box);
+  }
+
+  // Each periodic image within a diameter of a particle occurs exactly once in its list.
+  int check() const {
+    int touching = 0;
+    for (std::uint32_t i = 0; i < particles.size(); ++i) {
+      std::map<std::vector<double>, int> listed;
+      lists.continuations().visit(lists.near(i), [&](std::uint32_t j, const Vec<D>& wrap) {
+        std::vector<double> key(wrap.begin(), wrap.end());
+        key.push_back(j);
+        ++listed[key];
+      });
+      for (const auto& [key, times] : listed) REQUIRE(times == 1);
+      for (int axis = 0; axis < D; ++axis) {
+        if (model.periodic(axis)) continue;
+        const double r = position(i)[axis];
+        REQUIRE(r >= lists.distance_from_end(i, axis, false) - 1e-9);
+        REQUIRE(model.box[axis] - r >= lists.distance_from_end(i, axis, true) - 1e-9);
+      }
+      for (std::uint32_t j = 0; j < particles.size(); ++j) {
+        if (i == j) continue;
+        for (int k = 0; k < (D == 2 ? 49 : 343); ++k) {
+          Vec<D> wrap;
+          bool exists = true;
+          for (int axis = 0, digits = k; axis < D; ++axis, digits /= 7) {
+            wrap[axis] = digits % 7 - 3;
+            exists = exists && (wrap[axis] == 0.0 || model.periodic(axis));
+          }
+          const Vec<D> x = position(i) - position(j) - wrap.cwiseProduct(model.box);
+          if (!exists || x.norm() > model.diameter) continue;
+          std::vector<double> key(wrap.begin(), wrap.end());
+          key.push_back(j);
+          REQUIRE(listed.count(key) == 1);
+          ++touching;
+        }
+      }
+    }
+    return touching;
+  }
+};
+
+// A box of random size, down to about one diameter, with walled or periodic pairs of sides. The
+// ghosts do not move towards walls.
+template <int D>
+Ghosts<D> random_ghosts(Random& random, bool falls) {
+  constexpr double kEdges[] = {1.001, 1.2, 1.6, 2.05, 3.1, 4.0, 5.0, 7.3};
+  Model<D> model;
+  for (int axis = 0; axis < D; ++axis) {
+    model.box[axis] = kEdges[random.below(std::size(kEdges))];
+    if (random.below(3) == 0) model.walls[2 * axis] = model.walls[2 * axis + 1] = Wall{};
+    if (falls && model.periodic(axis)) model.gravity[axis] = random.normal();
+  }
+  std::vector<Particle<D>> particles(2 + random.below(30));
+  for (Particle<D>& particle : particles) {
+    const double speed = std::pow(10.0, 4.0 * random.uniform() - 2.0);
+    for (int axis = 0; axis < D; ++axis) {
+      particle.flight.r[axis] = model.box[axis] * random.uniform();
+      if (model.periodic(axis)) particle.flight.v[axis] = speed * random.normal();
+    }
+    if (random.below(8) == 0) particle.flight.v.setZero();
+  }
+  return {model, particles};
+}
+
+template <int D>
+void find_every_neighbour(std::uint32_t seed) {
+  Random random(seed, Stream::Placement, 0, 0);
+  int touching = 0;
+  for (int i = 0; i < 150; ++i) {
+    Ghosts<D> ghosts = random_ghosts<D>(random, i % 2 == 1);
+    touching += ghosts.check();
+    for (int step = 0; step < 60 && ghosts.step(); ++step) {
+      if (step % 7 == 0) touching += ghosts.check();
+    }
+  }
+  CHECK(touching > 10000);
+}
+
+// Spheres on a cubic lattice of some spacing in a cubic box, with thermal velocities.
+std::vector<Particle<3>> lattice(int side, double spacing) {
+  std::vector<Particle<3>> particles(static_cast<std::size_t>(side * side * side));
+  for (std::uint32_t i = 0; i < particles.size(); ++i) {
+    Random random(7, Stream::Placement, i, 0);
+    const int k = static_cast<int>(i);
+    particles[i].flight.r = Vec<3>(k % side, k / side % side, k / side / side) * spacing;
+    for (double& v : particles[i].flight.v) v = random.normal();
+  }
+  return particles;
+}
+
+double mean_neighbours(const Ghosts<3>& ghosts) {
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < ghosts.particles.size(); ++i) {
+    count += ghosts.lists.continuations().count(ghosts.lists.near(i));
+  }
+  return static_cast<double>(count) / static_cast<double>(ghosts.particles.size());
+}
+
+}  // namespace
+
+TEST_CASE("NeighbourLists: every image within one diameter is found exactly once") {
+  find_every_neighbour<2>(70);
+  find_every_neighbour<3>(71);
+}
+
+TEST_CASE("NeighbourLists: lists are short, also in a cluster") {
+  Model<3> model;
+  model.box.setConstant(10.0 * 1.05);
+  Ghosts<3> even(model, lattice(10, 1.05));
+  CHECK(mean_neighbours(even) < 30.0);
+  for (int step = 0; step < 20000; ++step) even.step();
+  CHECK(mean_neighbours(even) > 8.0);
+  CHECK(mean_neighbours(even) < 24.0);
+
+  // The same spheres in a corner of a box with 1000 times the volume. Regions for the mean density
+  // would list nearly all spheres.
+  model.box.setConstant(100.0 * 1.05);
+  std::vector<Particle<3>> crowd = lattice(10, 1.05);
+  for (Particle<3>& particle : crowd) particle.flight.v *= 1e-3;
+  Ghosts<3> cluster(model, crowd);
+  CHECK(mean_neighbours(cluster) > 400.0);
+  for (int step = 0; step < 60000; ++step) cluster.step();
+  CHECK(mean_neighbours(cluster) < 40.0);
+}
