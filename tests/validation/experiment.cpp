@@ -60,7 +60,6 @@ void check_energy_balance(const Measured& measured, int count) {
 }
 
 double sphere_compressibility(double packing_fraction) {
-  // Their equation of the stable and the metastable fluid.
   constexpr std::pair<int, double> kTerms[] = {
       {0, 1.0},         {1, 4.0},          {2, 6.0},         {3, 2.3647684},
       {4, -0.8698551},  {5, 1.1062803},    {6, -1.1014221},  {7, 0.66605866},

@@ -22,8 +22,9 @@ Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
 /// energy of the gas. The second limit is much tighter.
 void check_energy_balance(const Measured& measured, int count);
 
-/// The compressibility of the fluid of elastic hard spheres by Kolafa, Labik & Malijevsky 2004,
-/// Phys. Chem. Chem. Phys. 6, 2335: a power series in phi/(1 - phi), fitted to molecular dynamics.
+/// The compressibility of the fluid of elastic hard spheres: the power series in phi/(1 - phi) of
+/// Kolafa, Labik & Malijevsky 2004, Phys. Chem. Chem. Phys. 6, 2335, with the coefficients of
+/// Pieprzyk, Bannerman, Branka, Chudak & Heyes 2019, Phys. Chem. Chem. Phys. 21, 6886.
 double sphere_compressibility(double packing_fraction);
 
 /// Deviation from an expected value, relative to it.
