@@ -10,8 +10,9 @@ namespace clatter::testing {
 
 namespace {
 
-double kinetic_energy(const Vec2& v, double spin, double moment_of_inertia) {
-  return 0.5 * v.squaredNorm() + 0.5 * moment_of_inertia * spin * spin;
+template <int D>
+double kinetic_energy(const Vec<D>& v, const Spin<D>& spin, double moment_of_inertia) {
+  return 0.5 * v.squaredNorm() + 0.5 * moment_of_inertia * spin.squaredNorm();
 }
 
 // Adds the times between `from` and `to` at which a coordinate equals `place`.
@@ -32,12 +33,15 @@ void add_crossings(std::vector<double>& times, double from, double to, double co
 }
 
 // The cell of a position. Positions outside the box belong to the cells at its edge.
-std::size_t cell_of(const Vec2& place, const Vec2& box, const IntVec<2>& cells) {
-  const auto along = [&](int axis) {
+template <int D>
+std::size_t cell_of(const Vec<D>& place, const Vec<D>& box, const IntVec<D>& cells) {
+  std::size_t cell = 0;
+  for (int axis = D - 1; axis >= 0; --axis) {
     const auto index = static_cast<int>(std::floor(place[axis] / box[axis] * cells[axis]));
-    return std::clamp(index, 0, cells[axis] - 1);
-  };
-  return static_cast<std::size_t>(along(0) + along(1) * cells[0]);
+    cell = cell * static_cast<std::size_t>(cells[axis]) +
+           static_cast<std::size_t>(std::clamp(index, 0, cells[axis] - 1));
+  }
+  return cell;
 }
 
 // Calls visit(middle, from, to) for each part of a motion inside one cell. `crossings` has its
@@ -63,72 +67,78 @@ Numbers integral(double from, double to, Rate&& rate) {
 
 }  // namespace
 
-Witness::Witness(const Simulation<2>& simulation)
+template <int D>
+Witness<D>::Witness(const Simulation<D>& simulation)
     : simulation_(simulation),
       model_(simulation.model()),
       now_(simulation.particles().size()),
       last_touch_(now_.size(), -std::numeric_limits<double>::infinity()) {
-  const State<2> state = simulation.state();
+  const State<D> state = simulation.state();
   for (std::size_t i = 0; i < now_.size(); ++i) {
-    now_[i] = {i,
-               simulation.time(),
-               0.0,
-               state.positions[i],
-               state.velocities[i],
-               state.spins.empty() ? 0.0 : state.spins[i][0]};
+    now_[i] = {i, simulation.time(), 0.0, state.positions[i], state.velocities[i]};
+    if (!state.spins.empty()) now_[i].spin = state.spins[i];
   }
 }
 
-Vec2 Witness::position(const WitnessedFlight& flight, double time) const {
+template <int D>
+Vec<D> Witness<D>::position(const WitnessedFlight<D>& flight, double time) const {
   const double dt = time - flight.from;
   return flight.position + dt * flight.velocity + 0.5 * dt * dt * model_.gravity;
 }
 
-Vec2 Witness::velocity(const WitnessedFlight& flight, double time) const {
+template <int D>
+Vec<D> Witness<D>::velocity(const WitnessedFlight<D>& flight, double time) const {
   return flight.velocity + (time - flight.from) * model_.gravity;
 }
 
-// Ends a disk's flight. Returns the energy gain of the disk.
-double Witness::gain(const ParticleChange<2>& change, double time) {
-  WitnessedFlight& flight = now_[change.particle];
+// Ends a particle's flight. Returns the energy gain of the particle.
+template <int D>
+double Witness<D>::gain(const ParticleChange<D>& change, double time) {
+  WitnessedFlight<D>& flight = now_[change.particle];
   flight.to = time;
   flights_.push_back(flight);
-  const Vec2 position = this->position(flight, time), before = velocity(flight, time);
+  const Vec<D> position = this->position(flight, time), before = velocity(flight, time);
   falls_.push_back({time, model_.gravity.dot(position - flight.position)});
-  const WitnessedFlight next{flight.disk,
-                             time,
-                             0.0,
-                             position,
-                             before + change.gain.momentum,
-                             flight.spin + change.gain.spin[0]};
-  const double gained = kinetic_energy(next.velocity, next.spin, moment_of_inertia()) -
-                        kinetic_energy(before, flight.spin, moment_of_inertia());
+  const WitnessedFlight<D> next{flight.particle,
+                                time,
+                                0.0,
+                                position,
+                                before + change.gain.momentum,
+                                flight.spin + change.gain.spin};
+  const double gained = kinetic_energy<D>(next.velocity, next.spin, moment_of_inertia()) -
+                        kinetic_energy<D>(before, flight.spin, moment_of_inertia());
   flight = next;
   return gained;
 }
 
-// Walton's model: beta limited by Coulomb's law.
-double Witness::loss_by_law(const WitnessedFlight& a, const WitnessedFlight& b, double time,
-                            const Vec2& separation) const {
-  const Vec2 n = separation.normalized(), t(-n.y(), n.x());
-  const Vec2 v = velocity(a, time) - velocity(b, time);
-  const double g_n = v.dot(n), g_t = v.dot(t) - 0.5 * (a.spin + b.spin);
+// Walton's model: beta limited by Coulomb's law. Disks are particles in the plane z = 0 that spin
+// about z.
+template <int D>
+double Witness<D>::loss_by_law(const WitnessedFlight<D>& a, const WitnessedFlight<D>& b,
+                               double time, const Vec<D>& separation) const {
+  Vec<3> n = Vec<3>::Zero(), v = Vec<3>::Zero(), spin = Vec<3>::Zero();
+  n.head<D>() = separation.normalized();
+  v.head<D>() = velocity(a, time) - velocity(b, time);
+  spin.tail<kSpinSize<D>>() = a.spin + b.spin;
+  const double g_n = v.dot(n);
+  const double g_t = (v + 0.5 * n.cross(spin) - g_n * n).norm();
   const double alpha = model_.restitution, q = model_.inertia;
-  const double coulomb = model_.roughness.friction_in_force() * (1.0 + alpha) * (1.0 + q) / q *
-                         std::fabs(g_n) / std::fabs(g_t);
+  const double coulomb =
+      model_.roughness.friction_in_force() * (1.0 + alpha) * (1.0 + q) / q * std::fabs(g_n) / g_t;
   const double beta = std::min(model_.roughness.tangential_restitution_in_force(), -1.0 + coulomb);
   return 0.25 * (1.0 - alpha * alpha) * g_n * g_n +
          0.25 * q / (1.0 + q) * (1.0 - beta * beta) * g_t * g_t;
 }
 
-void Witness::on_collision(const PairCollision<2>& collision) {
+template <int D>
+void Witness<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [a, b] = collision.particles;
   const double time = base_ + collision.time;
-  WitnessedTouch touch;
+  WitnessedTouch<D> touch;
   touch.time = time;
   touch.first = position(now_[a.particle], time);
-  Vec2 separation = touch.first - position(now_[b.particle], time);
-  for (int axis : {0, 1}) {
+  Vec<D> separation = touch.first - position(now_[b.particle], time);
+  for (int axis = 0; axis < D; ++axis) {
     if (!model_.periodic(axis)) continue;
     separation[axis] -= model_.box[axis] * std::round(separation[axis] / model_.box[axis]);
   }
@@ -142,37 +152,41 @@ void Witness::on_collision(const PairCollision<2>& collision) {
   touches_.push_back(touch);
 }
 
-void Witness::on_wall(const WallCollision<2>& collision) {
-  const std::array<Vec2, 4> inward = {Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(0.0, 1.0),
-                                      Vec2(0.0, -1.0)};
-  const ParticleChange<2>& disk = collision.particle;
-  WitnessedTouch touch;
+template <int D>
+void Witness<D>::on_wall(const WallCollision<D>& collision) {
+  const ParticleChange<D>& particle = collision.particle;
+  WitnessedTouch<D> touch;
   touch.time = base_ + collision.time;
   touch.side = collision.side;
-  touch.first = position(now_[disk.particle], touch.time);
-  touch.second = touch.first - 0.5 * inward[static_cast<std::size_t>(collision.side)];
-  touch.impulse = disk.gain.momentum;
-  last_touch_[disk.particle] = touch.time;
-  touch.gains = {gain(disk, touch.time), 0.0};
+  touch.first = position(now_[particle.particle], touch.time);
+  touch.second = touch.first;
+  touch.second[collision.side / 2] += collision.side % 2 ? 0.5 : -0.5;
+  touch.impulse = particle.gain.momentum;
+  last_touch_[particle.particle] = touch.time;
+  touch.gains = {gain(particle, touch.time), 0.0};
   touches_.push_back(touch);
 }
 
-void Witness::on_kick(const Kick<2>& kick) {
+template <int D>
+void Witness<D>::on_kick(const Kick<D>& kick) {
   const double time = base_ + kick.time;
   kicks_.push_back({time, gain(kick.particle, time)});
 }
 
-void Witness::finish() {
-  const State<2> state = simulation_.state();
-  for (WitnessedFlight& flight : now_) {
+template <int D>
+void Witness<D>::finish() {
+  const State<D> state = simulation_.state();
+  for (WitnessedFlight<D>& flight : now_) {
     flight.to = simulation_.time();
-    CHECK((velocity(flight, flight.to) - state.velocities[flight.disk]).norm() < 1e-9);
+    CHECK((velocity(flight, flight.to) - state.velocities[flight.particle]).norm() < 1e-9);
     flights_.push_back(flight);
   }
 }
 
-void Witness::at(double time, const std::function<void(const Vec2&, double)>& visit) const {
-  for (const WitnessedFlight& flight : flights_) {
+template <int D>
+void Witness<D>::at(double time,
+                    const std::function<void(const Vec<D>&, const Spin<D>&)>& visit) const {
+  for (const WitnessedFlight<D>& flight : flights_) {
     if (flight.from <= time && time < flight.to) visit(velocity(flight, time), flight.spin);
   }
 }
@@ -182,77 +196,78 @@ int Windows::of(double time) const {
   return place >= 0.0 && place < count ? static_cast<int>(place) : -1;
 }
 
-std::vector<Numbers> totals_of(const Witness& witness, const Windows& windows) {
-  std::vector<Numbers> totals(static_cast<std::size_t>(windows.count), Numbers::Zero(kTotals));
-  const auto book = [&](double time, Total total, double amount) {
+template <int D>
+std::vector<Numbers> totals_of(const Witness<D>& witness, const Windows& windows) {
+  using T = TotalsOf<D>;
+  std::vector<Numbers> totals(static_cast<std::size_t>(windows.count), Numbers::Zero(T::kSize));
+  const auto book = [&](double time, int total, double amount) {
     const int window = windows.of(time);
     if (window >= 0) totals[static_cast<std::size_t>(window)][total] += amount;
   };
   const auto count = static_cast<double>(witness.count());
-  for (const WitnessedFlight& flight : witness.flights()) {
+  for (const WitnessedFlight<D>& flight : witness.flights()) {
     std::vector<double> borders;
     for (int k = 0; k <= windows.count; ++k) {
       const double border = windows.begin + k * windows.length;
       if (border > flight.from && border < flight.to) borders.push_back(border);
     }
     in_parts(borders, flight.from, flight.to, [&](double middle, double from, double to) {
-      const Numbers sums = integral(from, to, [&](double time) {
-        const Vec2 v = witness.velocity(flight, time);
-        return Numbers{{v.x() * v.x(), v.y() * v.y(), flight.spin * flight.spin}};
+      const Numbers sums = integral(from, to, [&](double time) -> Numbers {
+        return witness.velocity(flight, time).array().square();
       });
-      book(middle, kSquaresX, sums[0]);
-      book(middle, kSquaresY, sums[1]);
-      book(middle, kSpinSquares, sums[2]);
+      for (int axis = 0; axis < D; ++axis) book(middle, T::kSquares + axis, sums[axis]);
+      book(middle, T::kSpinSquares, (to - from) * flight.spin.squaredNorm());
     });
   }
-  for (const WitnessedTouch& touch : witness.touches()) {
+  for (const WitnessedTouch<D>& touch : witness.touches()) {
     if (touch.side >= 0) {
-      book(touch.time, kWallsIn, touch.gains[0]);
-      const auto wall = static_cast<Total>(kLeftImpulse + touch.side);
-      book(touch.time, wall, std::fabs(touch.impulse[touch.side / 2]));
+      book(touch.time, T::kWallsIn, touch.gains[0]);
+      book(touch.time, T::kImpulse + touch.side, std::fabs(touch.impulse[touch.side / 2]));
     } else {
-      book(touch.time, kCollisions, 1.0);
-      book(touch.time, kDissipated, -touch.gains[0] - touch.gains[1]);
-      book(touch.time, kVirial, touch.impulse.dot(touch.first - touch.second));
+      book(touch.time, T::kCollisions, 1.0);
+      book(touch.time, T::kDissipated, -touch.gains[0] - touch.gains[1]);
+      book(touch.time, T::kVirial, touch.impulse.dot(touch.first - touch.second));
     }
   }
-  for (const WitnessedGain& kick : witness.kicks()) book(kick.time, kBulkIn, kick.energy);
-  for (const WitnessedGain& fall : witness.falls()) book(fall.time, kGravityIn, fall.energy);
+  for (const WitnessedGain& kick : witness.kicks()) book(kick.time, T::kBulkIn, kick.energy);
+  for (const WitnessedGain& fall : witness.falls()) book(fall.time, T::kGravityIn, fall.energy);
   for (int k = 0; k < windows.count; ++k) {
     Numbers& window = totals[static_cast<std::size_t>(k)];
     // The last window ends with the run.
-    witness.at(windows.begin + (k + 1) * windows.length - 1e-9, [&](const Vec2& v, double) {
-      const Vec2 squares = v.cwiseAbs2();
-      window[kSecondX] += squares.x() / count;
-      window[kSecondY] += squares.y() / count;
-      window[kFourthX] += squares.x() * squares.x() / count;
-      window[kFourthY] += squares.y() * squares.y() / count;
-    });
+    witness.at(windows.begin + (k + 1) * windows.length - 1e-9,
+               [&](const Vec<D>& v, const Spin<D>&) {
+                 const Eigen::Array<double, D, 1> squares = v.array().square();
+                 window.template segment<D>(T::kSecond) += squares / count;
+                 window.template segment<D>(T::kFourth) += squares.square() / count;
+               });
   }
   return totals;
 }
 
-std::vector<std::vector<Numbers>> cell_sums_of(const Witness& witness, const Windows& windows,
-                                               const Vec2& box, const IntVec<2>& cells) {
+template <int D>
+std::vector<std::vector<Numbers>> cell_sums_of(const Witness<D>& witness, const Windows& windows,
+                                               const Vec<D>& box, const IntVec<D>& cells) {
+  using C = CellOf<D>;
   std::vector<std::vector<Numbers>> sums(
       static_cast<std::size_t>(windows.count),
-      std::vector<Numbers>(static_cast<std::size_t>(cells.prod()), Numbers::Zero(kCellSums)));
-  const auto cell_at = [&](double time, const Vec2& place) -> Numbers* {
+      std::vector<Numbers>(static_cast<std::size_t>(cells.prod()), Numbers::Zero(C::kSize)));
+  const auto cell_at = [&](double time, const Vec<D>& place) -> Numbers* {
     const int window = windows.of(time);
     if (window < 0) return nullptr;
-    return &sums[static_cast<std::size_t>(window)][cell_of(place, box, cells)];
+    return &sums[static_cast<std::size_t>(window)][cell_of<D>(place, box, cells)];
   };
   // Adds the borders that a motion with these coordinates crosses.
   const auto add_borders = [&](std::vector<double>& times, double from, double to,
-                               const Vec2& position, const Vec2& v, const Vec2& acceleration) {
-    for (int axis : {0, 1}) {
+                               const Vec<D>& position, const Vec<D>& v,
+                               const Vec<D>& acceleration) {
+    for (int axis = 0; axis < D; ++axis) {
       for (int k = 1; k < cells[axis]; ++k) {
         add_crossings(times, from, to, position[axis], v[axis], acceleration[axis],
                       k * box[axis] / cells[axis]);
       }
     }
   };
-  for (const WitnessedFlight& flight : witness.flights()) {
+  for (const WitnessedFlight<D>& flight : witness.flights()) {
     std::vector<double> borders;
     for (int k = 0; k <= windows.count; ++k) {
       const double border = windows.begin + k * windows.length;
@@ -263,52 +278,59 @@ std::vector<std::vector<Numbers>> cell_sums_of(const Witness& witness, const Win
     in_parts(borders, flight.from, flight.to, [&](double middle, double from, double to) {
       Numbers* cell = cell_at(middle, witness.position(flight, middle));
       if (!cell) return;
-      const double spin_energy = 0.5 * witness.moment_of_inertia() * flight.spin * flight.spin;
+      const double spin_energy = 0.5 * witness.moment_of_inertia() * flight.spin.squaredNorm();
       *cell += integral(from, to, [&](double time) {
-        const Vec2 v = witness.velocity(flight, time);
+        const Vec<D> v = witness.velocity(flight, time);
         const double energy = 0.5 * v.squaredNorm() + spin_energy;
-        Numbers rate = Numbers::Zero(kCellSums);
-        rate[kCount] = 1.0;
-        rate[kVx] = v.x();
-        rate[kVy] = v.y();
-        rate[kVxVx] = v.x() * v.x();
-        rate[kVyVy] = v.y() * v.y();
-        rate[kVxVy] = v.x() * v.y();
-        rate[kEnergyVx] = energy * v.x();
-        rate[kEnergyVy] = energy * v.y();
-        rate[kSpin] = flight.spin;
-        rate[kSpinEnergy] = spin_energy;
+        Numbers rate = Numbers::Zero(C::kSize);
+        rate[C::kCount] = 1.0;
+        for (int k = 0; k < D; ++k) {
+          rate[C::kVelocity + k] = v[k];
+          for (int l = 0; l < D; ++l) rate[C::kSquares + D * k + l] = v[k] * v[l];
+          rate[C::kEnergyFlow + k] = energy * v[k];
+        }
+        for (int k = 0; k < kSpinSize<D>; ++k) rate[C::kSpin + k] = flight.spin[k];
+        rate[C::kSpinEnergy] = spin_energy;
         return rate;
       });
     });
   }
-  for (const WitnessedTouch& touch : witness.touches()) {
-    const Vec2 branch = touch.first - touch.second;
-    // A collision of two disks transfers half the difference along the branch. A wall transfers
+  for (const WitnessedTouch<D>& touch : witness.touches()) {
+    const Vec<D> branch = touch.first - touch.second;
+    // A collision of two particles transfers half the difference along the branch. A wall transfers
     // all.
     const double passed =
         touch.side >= 0 ? touch.gains[0] : 0.5 * (touch.gains[0] - touch.gains[1]);
     std::vector<double> borders;
-    add_borders(borders, 0.0, 1.0, touch.second, branch, Vec2::Zero());
+    add_borders(borders, 0.0, 1.0, touch.second, branch, Vec<D>::Zero());
     in_parts(borders, 0.0, 1.0, [&](double middle, double from, double to) {
       Numbers* cell = cell_at(touch.time, touch.second + middle * branch);
       if (!cell) return;
-      const Vec2 part = (to - from) * branch;
-      (*cell)[kTransferXX] += part.x() * touch.impulse.x();
-      (*cell)[kTransferXY] += part.x() * touch.impulse.y();
-      (*cell)[kTransferYX] += part.y() * touch.impulse.x();
-      (*cell)[kTransferYY] += part.y() * touch.impulse.y();
-      (*cell)[kEnergyX] += part.x() * passed;
-      (*cell)[kEnergyY] += part.y() * passed;
+      const Vec<D> part = (to - from) * branch;
+      for (int k = 0; k < D; ++k) {
+        for (int l = 0; l < D; ++l) {
+          (*cell)[C::kTransfer + D * k + l] += part[k] * touch.impulse[l];
+        }
+        (*cell)[C::kEnergyTransfer + k] += part[k] * passed;
+      }
     });
     if (touch.side >= 0) continue;
-    for (const Vec2& end : {touch.first, touch.second}) {
+    for (const Vec<D>& end : {touch.first, touch.second}) {
       Numbers* cell = cell_at(touch.time, end);
-      if (cell) (*cell)[kSources] += 0.5 * (touch.gains[0] + touch.gains[1]);
+      if (cell) (*cell)[C::kSources] += 0.5 * (touch.gains[0] + touch.gains[1]);
     }
   }
   return sums;
 }
+
+template class Witness<2>;
+template class Witness<3>;
+template std::vector<Numbers> totals_of(const Witness<2>&, const Windows&);
+template std::vector<Numbers> totals_of(const Witness<3>&, const Windows&);
+template std::vector<std::vector<Numbers>> cell_sums_of(const Witness<2>&, const Windows&,
+                                                        const Vec<2>&, const IntVec<2>&);
+template std::vector<std::vector<Numbers>> cell_sums_of(const Witness<3>&, const Windows&,
+                                                        const Vec<3>&, const IntVec<3>&);
 
 namespace {
 

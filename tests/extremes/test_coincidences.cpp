@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/dynamics/simulation.h"
 #include "engine/dynamics/state_hash.h"
@@ -56,66 +57,61 @@ TEST_CASE("Coincidences: Newton's cradle of ten touching particles between walls
 namespace {
 
 // Compares with brute force. Ties have a defined order.
-void compare_by_brute_force(const Model<2>& model, const State<2>& start,
+template <int D>
+void compare_by_brute_force(const Model<D>& model, const State<D>& start,
                             std::uint64_t collisions) {
-  Simulation<2> simulation(model, start);
-  const BaseMoves<2> moves(simulation);
-  Reference<2> reference(model, start, moves);
+  Simulation<D> simulation(model, start);
+  const BaseMoves<D> moves(simulation);
+  Reference<D> reference(model, start, moves);
   simulation.run_until(kNever, collisions);
   reference.run_until_collisions(collisions);
   CHECK(simulation.counts().collisions() == collisions);
-  CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
   check_sound(simulation);
 }
 
-double energy_of(const State<2>& state) {
+template <int D>
+double energy_of(const State<D>& state) {
   double twice = 0.0;
-  for (const Vec2& v : state.velocities) twice += v.squaredNorm();
+  for (const Vec<D>& v : state.velocities) twice += v.squaredNorm();
   return 0.5 * twice;
 }
 
-}  // namespace
-
-TEST_CASE("Coincidences: a lattice whose rows and columns all meet at once" *
-          doctest::description("the same bits by brute force; energy and momentum within "
-                               "1e-13")) {
-  // Neighbours approach along x, or rest: 32 collisions at each of the first times.
-  const Model<2> model = periodic_box(16.0, 12.0);
-  State<2> start;
-  for (int i = 0; i < 48; ++i) {
-    const int column = i % 8, row = i / 8;
-    start.positions.push_back({1.0 + 2.0 * column, 1.0 + 2.0 * row});
-    start.velocities.push_back({column % 2 ? -1.0 : 1.0, row % 3 == 2 ? 0.5 : -0.25});
-  }
-  compare_by_brute_force(model, start, 2000);
-  Simulation<2> simulation(model, start);
-  simulation.run_until(kNever, 2000);
-  const State<2> end = simulation.state();
+template <int D>
+void check_lattice(const Model<D>& model, const State<D>& start) {
+  constexpr std::uint64_t kCollisions = D == 2 ? 2000 : 1000;
+  compare_by_brute_force(model, start, kCollisions);
+  Simulation<D> simulation(model, start);
+  simulation.run_until(kNever, kCollisions);
+  const State<D> end = simulation.state();
   const double energy_off = std::fabs(energy_of(end) / energy_of(start) - 1.0);
-  const double momentum_off = (momentum(end) - momentum(start)).norm() / 48.0;
+  const double momentum_off = (momentum(end) - momentum(start)).norm() / start.positions.size();
   MESSAGE("energy off by ", brief(energy_off), ", momentum by ", brief(momentum_off));
   CHECK(energy_off < 1e-13);
   CHECK(momentum_off < 1e-13);
 }
 
-TEST_CASE("Coincidences: one particle hits two that touch, at once" *
-          doctest::description("the same bits by brute force; energy and momentum within "
-                               "1e-15, inelastic ones lose energy")) {
+// The first particle arrives at the place from which all others are one diameter away, along x. The
+// others touch each other.
+template <int D>
+void check_simultaneous_hits(const std::vector<Vec<D>>& others) {
   double energy_off = 0.0, momentum_off = 0.0;
   for (const double restitution : {1.0, 0.9, 0.0}) {
     for (const double height : {0.0, 1e-16, 1e-9}) {
       CAPTURE(restitution);
       CAPTURE(height);
-      const Model<2> model = inelastic(periodic_box(40.0, 40.0), restitution);
-      // Both are at a distance of 1 from (20, 20) when the first arrives there.
-      const double up = 0.5, along = 0.5 * std::sqrt(3.0);
-      const State<2> start{
-          {{17.0, 20.0 + height}, {20.0 + along, 20.0 - up}, {20.0 + along, 20.0 + up}},
-          {{1.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}};
-      Simulation<2> simulation(model, start);
+      const Model<D> model = inelastic(periodic_box<D>(Vec<D>::Constant(40.0)), restitution);
+      const Vec<D> middle = Vec<D>::Constant(20.0);
+      State<D> start{{middle - 3.0 * Vec<D>::UnitX() + height * Vec<D>::UnitY()},
+                     {Vec<D>::UnitX()}};
+      for (const Vec<D>& other : others) {
+        start.positions.push_back(middle + other);
+        start.velocities.push_back(Vec<D>::Zero());
+      }
+      Simulation<D> simulation(model, start);
       simulation.run_until(4.0);
-      const State<2> end = simulation.state();
-      CHECK(simulation.counts().pair_collisions >= 2);
+      const State<D> end = simulation.state();
+      CHECK(simulation.counts().pair_collisions >= others.size());
       CHECK(finite_and_inside(model, end));
       check_sound(simulation);
       compare_by_brute_force(model, start, simulation.counts().pair_collisions);
@@ -130,6 +126,97 @@ TEST_CASE("Coincidences: one particle hits two that touch, at once" *
   MESSAGE("energy off by ", brief(energy_off), ", momentum by ", brief(momentum_off));
   CHECK(energy_off <= 1e-15);
   CHECK(momentum_off <= 1e-15);
+}
+
+// A box of 9 x 8 (x 7) between elastic walls. Every number of the first two flights is exact.
+template <int D>
+void check_corners() {
+  const Vec<D> box = Vec<3>(9.0, 8.0, 7.0).head<D>();
+  const Model<D> model = walled(periodic_box<D>(box), kStatic);
+  // Along the diagonal into the corner at the origin.
+  const Vec<D> place = Vec<D>::Constant(2.5);
+  Simulation<D> alone(model, State<D>{{place}, {-Vec<D>::Ones()}});
+  alone.run_until(4.0);
+  CHECK(alone.counts().wall_collisions == D);
+  CHECK(alone.state().positions[0] == place);
+  CHECK(alone.state().velocities[0] == Vec<D>::Ones());
+  // One rests in the corner. Others arrive at the same time, along each edge.
+  State<D> crowd{{Vec<D>::Constant(0.5)}, {Vec<D>::Zero()}};
+  for (int axis = 0; axis < D; ++axis) {
+    crowd.positions.push_back(Vec<D>::Constant(0.5) + 3.0 * Vec<D>::Unit(axis));
+    crowd.velocities.push_back(-Vec<D>::Unit(axis));
+  }
+  Simulation<D> all(model, crowd);
+  all.run_until(6.0);
+  for (int axis = 0; axis < D; ++axis) {
+    CHECK(all.state().positions[static_cast<std::size_t>(axis) + 1] ==
+          Vec<D>::Constant(0.5) + 5.0 * Vec<D>::Unit(axis));
+  }
+  CHECK(all.kinetic_energy() == 0.5 * D);
+  compare_by_brute_force(model, crowd, all.counts().collisions());
+  // From many positions into every corner. Rounding decides which wall comes first.
+  double energy_off = 0.0, deepest = 0.0;
+  for (int k = 0; k < 64; ++k) {
+    Vec<D> corner;
+    for (int axis = 0; axis < D; ++axis) {
+      corner[axis] = k >> axis & 1 ? box[axis] - 0.5 : 0.5;
+    }
+    const Vec<D> from = Vec<3>(2.0 + 0.07 * k, 6.0 - 0.05 * k, 1.5 + 0.061 * k).head<D>();
+    Simulation<D> simulation(model, State<D>{{from}, {corner - from}});
+    const double energy = simulation.kinetic_energy();
+    simulation.run_until(1.5);
+    CHECK(simulation.counts().wall_collisions == D);
+    CHECK(simulation.state().velocities[0] == from - corner);
+    energy_off = std::max(energy_off, std::fabs(simulation.kinetic_energy() / energy - 1.0));
+    deepest = std::max(deepest, simulation.checks().deepest_overlap);
+  }
+  MESSAGE("energy off by ", brief(energy_off), ", deepest overlap ", brief(deepest));
+  CHECK(energy_off == 0.0);
+  CHECK(deepest < 1e-14);
+}
+
+}  // namespace
+
+TEST_CASE("Coincidences: a lattice whose rows and columns all meet at once" *
+          doctest::description("the same bits by brute force; energy and momentum within "
+                               "1e-13")) {
+  // Neighbours approach along x, or rest: 32 collisions at each of the first times.
+  State<2> start;
+  for (int i = 0; i < 48; ++i) {
+    const int column = i % 8, row = i / 8;
+    start.positions.push_back({1.0 + 2.0 * column, 1.0 + 2.0 * row});
+    start.velocities.push_back({column % 2 ? -1.0 : 1.0, row % 3 == 2 ? 0.5 : -0.25});
+  }
+  check_lattice(periodic_box(16.0, 12.0), start);
+}
+
+TEST_CASE("Coincidences: a cubic lattice whose rows all meet at once" *
+          doctest::description("the same bits by brute force; energy and momentum within "
+                               "1e-13")) {
+  State<3> start;
+  for (int i = 0; i < 48; ++i) {
+    const int column = i % 4, row = i / 4 % 4, layer = i / 16;
+    start.positions.push_back({1.0 + 2.0 * column, 1.0 + 2.0 * row, 1.0 + 2.0 * layer});
+    start.velocities.push_back(
+        {column % 2 ? -1.0 : 1.0, row % 3 == 2 ? 0.5 : -0.25, layer == 1 ? 0.5 : 0.0});
+  }
+  check_lattice(periodic_box(8.0, 8.0, 6.0), start);
+}
+
+TEST_CASE("Coincidences: one particle hits two that touch, at once" *
+          doctest::description("the same bits by brute force; energy and momentum within "
+                               "1e-15, inelastic ones lose energy")) {
+  const double along = 0.5 * std::sqrt(3.0);
+  check_simultaneous_hits<2>({{along, -0.5}, {along, 0.5}});
+}
+
+TEST_CASE("Coincidences: one sphere hits three that touch, at once" *
+          doctest::description("the same bits by brute force; energy and momentum within "
+                               "1e-15, inelastic ones lose energy")) {
+  // A regular tetrahedron.
+  const double along = std::sqrt(2.0 / 3.0), across = 1.0 / std::sqrt(3.0);
+  check_simultaneous_hits<3>(
+      {{along, across, 0.0}, {along, -0.5 * across, 0.5}, {along, -0.5 * across, -0.5}});
 }
 
 TEST_CASE(
@@ -162,37 +249,12 @@ TEST_CASE("Coincidences: a particle flies into a corner" *
           doctest::description(
               "it comes back on its way, speed and place exact; so does a particle whose "
               "way through the corner two walls share with another particle")) {
-  const Model<2> model = four(kStatic, kStatic);  // 9 x 8
-  // Along the diagonal into the corner at (0, 0), with exact numbers.
-  Simulation<2> alone(model, State<2>{{{2.5, 2.5}}, {{-1.0, -1.0}}});
-  alone.run_until(4.0);
-  CHECK(alone.counts().wall_collisions == 2);
-  CHECK(alone.state().positions[0] == Vec2(2.5, 2.5));
-  CHECK(alone.state().velocities[0] == Vec2(1.0, 1.0));
-  // One rests in the corner. Two others arrive at the same time, along the floor and along the
-  // wall.
-  const State<2> crowd{{{0.5, 0.5}, {3.5, 0.5}, {0.5, 3.5}},
-                       {{0.0, 0.0}, {-1.0, 0.0}, {0.0, -1.0}}};
-  Simulation<2> three(model, crowd);
-  three.run_until(6.0);
-  CHECK(three.state().positions[1] == Vec2(5.5, 0.5));
-  CHECK(three.state().positions[2] == Vec2(0.5, 5.5));
-  CHECK(three.kinetic_energy() == 1.0);
-  compare_by_brute_force(model, crowd, three.counts().collisions());
-  // From many positions into every corner. Rounding decides which wall comes first.
-  double energy_off = 0.0, deepest = 0.0;
-  for (int k = 0; k < 64; ++k) {
-    const Vec2 corner(k % 2 ? 8.5 : 0.5, k % 4 < 2 ? 7.5 : 0.5);
-    const Vec2 from(2.0 + 0.07 * k, 6.0 - 0.05 * k);
-    Simulation<2> simulation(model, State<2>{{from}, {corner - from}});
-    const double energy = simulation.kinetic_energy();
-    simulation.run_until(1.5);
-    CHECK(simulation.counts().wall_collisions == 2);
-    CHECK(simulation.state().velocities[0] == from - corner);
-    energy_off = std::max(energy_off, std::fabs(simulation.kinetic_energy() / energy - 1.0));
-    deepest = std::max(deepest, simulation.checks().deepest_overlap);
-  }
-  MESSAGE("energy off by ", brief(energy_off), ", deepest overlap ", brief(deepest));
-  CHECK(energy_off == 0.0);
-  CHECK(deepest < 1e-14);
+  check_corners<2>();
+}
+
+TEST_CASE(
+    "Coincidences: a sphere flies into a corner of three walls" *
+    doctest::description("it comes back on its way, speed and place exact; so does a sphere whose "
+                         "way through the corner three walls share with others")) {
+  check_corners<3>();
 }

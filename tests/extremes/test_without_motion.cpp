@@ -13,12 +13,14 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
-          doctest::description("nothing moves, to the bit, and time goes on")) {
-  const Model<2> model = with_walls(periodic_box(9.0, 8.0), 0, kDriven);
-  State<2> start = random_gas(model, 20, 121);
-  for (Vec2& v : start.velocities) v.setZero();
-  Simulation<2> simulation(model, start);
+namespace {
+
+template <int D>
+void check_at_rest(const Vec<D>& box) {
+  const Model<D> model = with_walls(periodic_box<D>(box), 0, kDriven);
+  State<D> start = random_gas(model, 20, 121);
+  for (Vec<D>& v : start.velocities) v.setZero();
+  Simulation<D> simulation(model, start);
   const std::uint64_t before = simulation.state_hash();
   simulation.run_until(100.0);
   simulation.run_until(kNever, 1);
@@ -27,16 +29,15 @@ TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
   CHECK(simulation.counts().wall_collisions + simulation.counts().pair_collisions == 0);
 }
 
-TEST_CASE(
-    "Without motion: walls that give nothing back: v_dr = 0, T_w = 0, alpha_w = 0" *
-    doctest::description("energy constant to 1e-12 or lost, all finite, overlap below 1e-12")) {
+template <int D>
+void check_dead_walls(const Vec<D>& box) {
   const Wall walls[] = {{.kind = WallKind::Driven, .drive_speed = 0.0},
                         {.kind = WallKind::Driven, .restitution = 0.0, .drive_speed = 0.0},
                         {.kind = WallKind::Thermal, .temperature = 0.0}};
   for (const Wall& wall : walls) {
-    const Model<2> model = with_walls(with_walls(periodic_box(9.0, 8.0), 0, wall), 1, wall);
-    const State<2> start = random_gas(model, 20, 122);
-    Simulation<2> simulation(model, start);
+    const Model<D> model = with_walls(with_walls(periodic_box<D>(box), 0, wall), 1, wall);
+    const State<D> start = random_gas(model, 20, 122);
+    Simulation<D> simulation(model, start);
     const double energy = simulation.kinetic_energy();
     simulation.run_until(100.0);
     const bool elastic = wall.kind == WallKind::Driven && wall.restitution == 1.0;
@@ -49,6 +50,21 @@ TEST_CASE(
     CHECK(overlap < 1e-12);
     check_sound(simulation);
   }
+}
+
+}  // namespace
+
+TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
+          doctest::description("nothing moves, to the bit, and time goes on")) {
+  check_at_rest<2>({9.0, 8.0});
+  check_at_rest<3>({5.0, 4.0, 4.5});
+}
+
+TEST_CASE(
+    "Without motion: walls that give nothing back: v_dr = 0, T_w = 0, alpha_w = 0" *
+    doctest::description("energy constant to 1e-12 or lost, all finite, overlap below 1e-12")) {
+  check_dead_walls<2>({9.0, 8.0});
+  check_dead_walls<3>({5.0, 4.0, 4.5});
 }
 
 namespace {
@@ -86,7 +102,19 @@ const std::string kStill[] = {
     "equilibrium --set particles.count=0",
     "equilibrium --set particles.count=1",
     "equilibrium --set particles.count=2",
-    "equilibrium --set particles.count=3"};
+    "equilibrium --set particles.count=3",
+    "spheres.toml --set particles.start.temperature=0",
+    "spheres.toml --set particles.count=0",
+    "spheres.toml --set particles.count=1",
+    "spheres.toml --set particles.count=2"};
+
+// A scene of spheres beside the gallery's scenes of disks.
+void write_spheres(const Shell& shell) {
+  shell.write("spheres.toml", R"(
+      box.size = [6.0, 5.0, 4.0]
+      particles = { count = 20, restitution = 0.9, friction = 0.3 }
+      measure.cells = [3, 2, 4])");
+}
 
 }  // namespace
 
@@ -95,6 +123,7 @@ TEST_CASE(
     doctest::description("every number of the result is finite; tables have nan only where no "
                          "particle ever was, with density 0")) {
   const Shell shell;
+  write_spheres(shell);
   int numbers = 0, lines = 0;
   for (const std::string& scene : kStill) {
     CAPTURE(scene);
@@ -108,7 +137,7 @@ TEST_CASE(
     json result = json::parse(outcome.out);
     if (result.contains("profile")) take_out_unvisited(result.at("profile"));
     numbers += numbers_in(result);
-    for (const std::string& name : shell.files()) CHECK(name == "tables");
+    CHECK(shell.files() == std::vector<std::string>{"spheres.toml", "tables"});
     for (const char* table :
          {"tables/temperature_series.csv", "tables/profile.csv", "tables/maps.csv"}) {
       std::istringstream text(shell.read(table));
@@ -125,6 +154,7 @@ TEST_CASE(
 TEST_CASE("Without motion: pictures at T_w = 0, T = 0, v_dr = 0, and of few particles" *
           doctest::description("every field, colour and arrow is drawn")) {
   const Shell shell;
+  write_spheres(shell);
   const std::string views[] = {"--set view.field=temperature --set view.colour_by=speed",
                                "--set view.field=heat_flux_x --set view.arrows=heat_flux",
                                "--set view.field=balance_energy --set view.arrows=velocity"};

@@ -13,6 +13,15 @@ inline Scene gas(double lx, double ly, int count, double restitution) {
   return scene;
 }
 
+/// The same in a box of two or three sides.
+inline Scene gas(const VecX& box, int count, double restitution) {
+  Scene scene = default_scene(static_cast<int>(box.size()));
+  scene.box = box;
+  scene.particles.count = count;
+  scene.particles.restitution = restitution;
+  return scene;
+}
+
 /// Puts the same wall at both ends of an axis (0: x, 1: y, 2: z).
 inline void wall_in(Scene& scene, int axis, const Wall& wall) {
   scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;

@@ -8,8 +8,8 @@
 
 namespace clatter::testing {
 
-/// A gas of the given area fraction in a square, periodic box.
-Scene gas_of_fraction(double area_fraction, int count, double restitution);
+/// A gas of the given packing fraction in a square or cubic, periodic box.
+Scene gas_of_fraction(double packing_fraction, int count, double restitution, int dimension = 2);
 
 /// The standard gas of these tests: N = 100 in 20 x 25 between vibrated walls, v_dr = 1.
 Scene vibrated_gas(double restitution, double wall_restitution);
@@ -21,6 +21,11 @@ Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
 /// kicks and gravity equals the loss in collisions. The limits are 5 standard errors, and the
 /// energy of the gas. The second limit is much tighter.
 void check_energy_balance(const Measured& measured, int count);
+
+/// The compressibility of the fluid of elastic hard spheres: the power series in phi/(1 - phi) of
+/// Kolafa, Labik & Malijevsky 2004, Phys. Chem. Chem. Phys. 6, 2335, with the coefficients of
+/// Pieprzyk, Bannerman, Branka, Chudak & Heyes 2019, Phys. Chem. Chem. Phys. 21, 6886.
+double sphere_compressibility(double packing_fraction);
 
 /// Deviation from an expected value, relative to it.
 inline double relative(const Estimate& estimate, double expected) {

@@ -22,30 +22,34 @@ namespace {
 
 constexpr double kTemperature = 2.0;
 
-Scene column(double lx, double ly, int count, double gravity) {
-  Scene scene = gas(lx, ly, count, 1.0);
+// The floor and the lid are at the ends of y.
+Scene column(const VecX& box, int count, double gravity) {
+  Scene scene = gas(box, count, 1.0);
   scene.walls[kBottom] = {.kind = WallKind::Thermal, .temperature = kTemperature};
   scene.walls[kTop] = Wall{};
-  scene.gravity = Vec2(0.0, -gravity);
+  scene.gravity = VecX::Zero(box.size());
+  (*scene.gravity)[1] = -gravity;
   scene.particles.start.temperature = kTemperature;
   return scene;
 }
 
-// The density at a given `potential`: ln rho + pi rho + g y/T is the same at all heights. The
-// second virial coefficient is pi/2. The third changes a density of .015 by a relative 1e-3.
-double virial_density(double potential) {
+// The density at a given `potential`: ln rho + 2 B_2 rho + g y/T is the same at all heights. The
+// third virial coefficient changes a density of .015 disks by a relative 1e-3.
+double virial_density(double potential, double second_virial) {
   double rho = std::exp(potential);
   for (int step = 0; step < 50; ++step) {
-    rho -= (std::log(rho) + std::numbers::pi * rho - potential) / (1.0 / rho + std::numbers::pi);
+    rho -=
+        (std::log(rho) + 2.0 * second_virial * rho - potential) / (1.0 / rho + 2.0 * second_virial);
   }
   return rho;
 }
 
 // Mean densities of equal layers, by Simpson's rule. The constant of the barometric law gives
-// `total` particles per length.
-std::vector<double> virial_layers(int layers, double thickness, double slope, double total) {
+// `total` particles per size of the floor.
+std::vector<double> virial_layers(int layers, double thickness, double slope, double total,
+                                  double second_virial) {
   const auto layer = [&](double constant, int i) {
-    const auto at = [&](double y) { return virial_density(constant - slope * y); };
+    const auto at = [&](double y) { return virial_density(constant - slope * y, second_virial); };
     return (at(i * thickness) + 4.0 * at((i + 0.5) * thickness) + at((i + 1) * thickness)) / 6.0;
   };
   double low = -20.0, high = 0.0;
@@ -92,6 +96,64 @@ Layers layers_of(const CellSums& stress, const MomentLayout<2>& stress_layout,
   return layers;
 }
 
+// The difference of the pressures on floor and lid is the weight. The standard error is at most 2
+// %.
+void check_weight(const VecX& box, int count, double gravity, double duration, std::uint64_t seed) {
+  const Measured result = run(column(box, count, gravity), 100.0, duration, seed);
+  const Estimate& floor = *result.pressure[kBottom];
+  const Estimate& lid = *result.pressure[kTop];
+  const double size = box.prod() / box[1];
+  const double weight = count * gravity / size;
+  const double error = std::hypot(floor.standard_error, lid.standard_error);
+  MESSAGE("pressures ", floor.mean, " and ", lid.mean, ", difference ", floor.mean - lid.mean,
+          " +- ", error, ", weight per size ", weight);
+  CHECK(error < 0.02 * weight);
+  CHECK(std::fabs(floor.mean - lid.mean - weight) < 5.0 * error);
+  // The remainder is the change of momentum from start to end: variance 2 N T, 5 standard errors.
+  CHECK(std::fabs(floor.mean - lid.mean - weight) * size * result.duration <
+        5.0 * std::sqrt(2.0 * count * kTemperature));
+  MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error);
+  CHECK(relative_error(result.temperature) < 0.006);
+  CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.015);
+  CHECK(std::fabs(result.walls_in->mean) < 5.0 * result.walls_in->standard_error);
+  check_energy_balance(result, count);
+}
+
+// T/g = 20. Layers with less than one particle on average are omitted, of 16 layers of height 10.
+// Layers begin at the lowest centres, y = 1/2: the lowest half diameter above the floor has none.
+// Samples every 100: almost three times the time of a bounce, with enough collisions for mixing.
+template <int D>
+void check_profile(const Vec<D>& box, int count, int windows, std::uint64_t seed) {
+  constexpr int kLayers = 16;
+  constexpr double kGravity = 0.1;
+  const Scene scene = column(box, count, kGravity);
+  Simulation<D> simulation(model_of<D>(scene, seed), start_state<D>(scene, seed));
+  std::vector<Sample> densities(kLayers), temperatures(kLayers);
+  const double size = box.prod() / box[1];
+  for (int window = -20; window < windows; ++window) {
+    simulation.run_until(100.0 * (window + 21));
+    if (window < 0) continue;
+    const State<D> state = simulation.state();
+    std::vector<double> counts(kLayers);
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      const auto layer = static_cast<std::size_t>((state.positions[i].y() - 0.5) / 10.0);
+      counts[layer] += 1.0;
+      temperatures[layer].add(state.velocities[i].squaredNorm() / D);
+    }
+    for (std::size_t k = 0; k < kLayers; ++k) densities[k].add(counts[k] / (size * 10.0));
+  }
+  const double second_virial = D == 2 ? std::numbers::pi / 2.0 : 2.0 * std::numbers::pi / 3.0;
+  const auto expected =
+      virial_layers(kLayers, 10.0, kGravity / kTemperature, count / size, second_virial);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Sample &density = densities[k], &temperature = temperatures[k];
+    MESSAGE("layer ", k, ": rho = ", density.mean(), " +- ", density.standard_error(), ", law ",
+            expected[k], "; T = ", temperature.mean(), " +- ", temperature.standard_error());
+    CHECK(std::fabs(density.mean() - expected[k]) < 5.0 * density.standard_error());
+    CHECK(std::fabs(temperature.mean() - kTemperature) < 5.0 * temperature.standard_error());
+  }
+}
+
 }  // namespace
 
 TEST_CASE("Barometer: the height of one particle on a thermal floor is exponentially distributed") {
@@ -102,7 +164,7 @@ TEST_CASE("Barometer: the height of one particle on a thermal floor is exponenti
   constexpr int kSamples = 20000;
   constexpr int kBins = 40;
   constexpr double kGravity = 0.5;
-  const Scene scene = column(10.0, 160.0, 1, kGravity);
+  const Scene scene = column(Vec2(10.0, 160.0), 1, kGravity);
   Simulation<2> simulation(model_of<2>(scene, 401), start_state<2>(scene, 401));
   std::vector<double> counts(kBins), speeds(kBins);
   double sum = 0.0;
@@ -131,7 +193,7 @@ TEST_CASE("Barometer: the height of one particle on a thermal floor is exponenti
 }
 
 TEST_CASE("Barometer: one particle has the temperature of the floor and presses with its weight") {
-  const Scene scene = column(10.0, 160.0, 1, 0.5);
+  const Scene scene = column(Vec2(10.0, 160.0), 1, 0.5);
   const Measured result = run(scene, 100.0, 400000.0, 402);
   MESSAGE("T = ", result.temperature.mean, " +- ", result.temperature.standard_error, ", pressure ",
           result.pressure[kBottom]->mean, " +- ", result.pressure[kBottom]->standard_error);
@@ -145,63 +207,25 @@ TEST_CASE("Barometer: one particle has the temperature of the floor and presses 
 }
 
 TEST_CASE("Barometer: a dense gas presses on the floor with its weight, and has its temperature") {
-  // 120 particles in 15 x 15 (phi = .42), g Ly = 3.75 T.
-  constexpr int kCount = 120;
-  constexpr double kGravity = 0.5;
-  const Scene scene = column(15.0, 15.0, kCount, kGravity);
-  const Measured result = run(scene, 100.0, 4000.0, 403);
-  const Estimate& floor = *result.pressure[kBottom];
-  const Estimate& lid = *result.pressure[kTop];
-  const double weight = kCount * kGravity / 15.0;
-  const double error = std::hypot(floor.standard_error, lid.standard_error);
-  MESSAGE("pressures ", floor.mean, " and ", lid.mean, ", difference ", floor.mean - lid.mean,
-          " +- ", error, ", weight per length ", weight);
-  CHECK(error < 0.02 * weight);
-  CHECK(std::fabs(floor.mean - lid.mean - weight) < 5.0 * error);
-  // The remainder is the change of momentum from start to end: variance 2 N T, 5 standard errors.
-  CHECK(std::fabs(floor.mean - lid.mean - weight) * 15.0 * result.duration <
-        5.0 * std::sqrt(2.0 * kCount * kTemperature));
-  CHECK(relative_error(result.temperature) < 0.006);
-  CHECK(std::fabs(relative(result.temperature, kTemperature)) < 0.015);
-  CHECK(std::fabs(result.walls_in->mean) < 5.0 * result.walls_in->standard_error);
-  check_energy_balance(result, kCount);
+  // 120 disks in 15 x 15 (phi = .42), g Ly = 3.75 T.
+  check_weight(Vec2(15.0, 15.0), 120, 0.5, 4000.0, 403);
+}
+
+TEST_CASE("Barometer: dense spheres press on the floor with their weight") {
+  // 300 spheres in 7 x 8 x 7.5 (phi = .37), g Ly = 4 T.
+  check_weight(Vec<3>(7.0, 8.0, 7.5), 300, 1.0, 600.0, 406);
 }
 
 TEST_CASE("Barometer: a thin gas has the barometric profile at one temperature") {
-  // 100 particles in a width of 200, T/g = 20: rho = .025 at the floor, and e^-8 times smaller at
-  // the lid. Layers with less than one particle on average are omitted, of 16 layers of height 10.
-  // The two virial coefficients of the law change a layer by up to 8 %, the next one by .3 %. The
-  // lowest half diameter above the floor has no centres.
-  constexpr int kLayers = 16;
-  constexpr int kWindows = 400;
-  constexpr double kGravity = 0.1;
-  constexpr double kCount = 100.0;
-  const Scene scene = column(200.0, 160.5, 100, kGravity);
-  const Model<2> model = model_of<2>(scene, 404);
-  // Layers begin at the lowest centres, y = 1/2. Samples every 100: almost three times the time of
-  // a bounce, with enough collisions for mixing.
-  Simulation<2> simulation(model, start_state<2>(scene, 404));
-  std::vector<Sample> densities(kLayers), temperatures(kLayers);
-  for (int window = -20; window < kWindows; ++window) {
-    simulation.run_until(100.0 * (window + 21));
-    if (window < 0) continue;
-    const State<2> state = simulation.state();
-    std::vector<double> counts(kLayers);
-    for (std::size_t i = 0; i < state.positions.size(); ++i) {
-      const auto layer = static_cast<std::size_t>((state.positions[i].y() - 0.5) / 10.0);
-      counts[layer] += 1.0;
-      temperatures[layer].add(0.5 * state.velocities[i].squaredNorm());
-    }
-    for (std::size_t k = 0; k < kLayers; ++k) densities[k].add(counts[k] / (200.0 * 10.0));
-  }
-  const auto expected = virial_layers(kLayers, 10.0, kGravity / kTemperature, kCount / 200.0);
-  for (std::size_t k = 0; k < 8; ++k) {
-    const Sample &density = densities[k], &temperature = temperatures[k];
-    MESSAGE("layer ", k, ": rho = ", density.mean(), " +- ", density.standard_error(), ", law ",
-            expected[k], "; T = ", temperature.mean(), " +- ", temperature.standard_error());
-    CHECK(std::fabs(density.mean() - expected[k]) < 5.0 * density.standard_error());
-    CHECK(std::fabs(temperature.mean() - kTemperature) < 5.0 * temperature.standard_error());
-  }
+  // 100 disks in a width of 200, T/g = 20: rho = .025 at the floor, and e^-8 times smaller at the
+  // lid. The two virial coefficients of the law change a layer by up to 8 %, the next one by .3 %.
+  check_profile<2>(Vec2(200.0, 160.5), 100, 400, 404);
+}
+
+TEST_CASE("Barometer: thin spheres have the barometric profile at one temperature") {
+  // 200 spheres over a floor of 24 x 25, T/g = 20: rho = .017 at the floor. The second virial
+  // coefficient changes a layer by up to 7 %, the next one by .2 %.
+  check_profile<3>(Vec<3>(24.0, 160.5, 25.0), 200, 200, 407);
 }
 
 TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
@@ -216,7 +240,7 @@ TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
   constexpr double kSpan = 100.0;
   constexpr double kWidth = 20.0;
   constexpr double kGravity = 0.2;
-  const Scene scene = column(kWidth, kLayers, 160, kGravity);
+  const Scene scene = column(Vec2(kWidth, kLayers), 160, kGravity);
   Simulation<2> simulation(model_of<2>(scene, 405), start_state<2>(scene, 405));
   const Field stress = Field(Quantity::Stress, 1, 1), density = Quantity::Density;
   CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false));

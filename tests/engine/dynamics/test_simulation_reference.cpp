@@ -92,38 +92,65 @@ TEST_CASE("Reference: wholly inelastic particles between driven walls") {
   for (const int count : {2, 5, 20}) compare(model, random_gas(model, count, 82));
 }
 
-// Particles on a square lattice with four repeating velocities: several pairs collide at the same
-// times.
-TEST_CASE("Reference: simultaneous collisions") {
-  for (const bool walled : {false, true}) {
+namespace {
+
+// Particles on a square or cubic lattice of spacing 2, four along each axis, whose velocities
+// along the axes repeat: several pairs collide at the same times.
+template <int D>
+State<D> lattice_start() {
+  State<D> start;
+  for (int i = 0; i < 1 << 2 * D; ++i) {
+    Vec<D> place, velocity = Vec<D>::Zero();
+    for (int axis = 0; axis < D; ++axis) place[axis] = 1.0 + 2.0 * (i >> 2 * axis & 3);
+    const int direction = (i + i / 4 + i / 16) % (2 * D);
+    velocity[direction % D] = direction < D ? 1.0 : -1.0;
+    start.positions.push_back(place);
+    start.velocities.push_back(velocity);
+  }
+  return start;
+}
+
+template <int D>
+void compare_simultaneous(std::uint64_t collisions) {
+  for (const bool closed : {false, true}) {
     for (const double restitution : {1.0, 0.5}) {
-      Model<2> model = inelastic(periodic_box(8.0, 8.0), restitution);
-      if (walled) model = with_walls(with_walls(model, 0, kDriven), 1, kStatic);
-      State<2> start;
-      for (int i = 0; i < 16; ++i) {
-        const Vec2 directions[] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
-        start.positions.push_back({1.0 + 2.0 * (i % 4), 1.0 + 2.0 * (i / 4)});
-        start.velocities.push_back(directions[(i + i / 4) % 4]);
-      }
-      compare(model, start);
+      Model<D> model = inelastic(periodic_box<D>(Vec<D>::Constant(8.0)), restitution);
+      if (closed) model = with_walls(with_walls(model, 0, kDriven), 1, kStatic);
+      compare(model, lattice_start<D>(), collisions);
     }
   }
 }
 
-// The second particle crosses the box some hundred times before it meets the first.
-TEST_CASE("Reference: a first contact after many box lengths") {
-  const Model<2> model = periodic_box(10.0, 9.0);
-  State<2> start;
-  start.positions = {{1.0, 1.0}, {4.0, 6.0}};
-  start.velocities = {{0.0, 0.0}, {1.0, -0.001}};
-  Simulation<2> simulation(model, start);
-  const BaseMoves<2> moves(simulation);
-  Reference<2> reference(model, start, moves);
+// The second particle crosses the box many times before it meets the first.
+template <int D>
+void compare_late_contact(const Vec<D>& box, const State<D>& start, double least) {
+  const Model<D> model = periodic_box<D>(box);
+  Simulation<D> simulation(model, start);
+  const BaseMoves<D> moves(simulation);
+  Reference<D> reference(model, start, moves);
   simulation.run_until(kNever, 1);
   reference.run_until_collisions(1);
-  CHECK(simulation.time() > 1000.0);
-  CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+  CHECK(simulation.time() > least);
+  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
   check_sound(simulation);
+}
+
+}  // namespace
+
+TEST_CASE("Reference: simultaneous collisions") {
+  compare_simultaneous<2>(2000);
+}
+
+TEST_CASE("Reference: simultaneous collisions of spheres") {
+  compare_simultaneous<3>(200);
+}
+
+TEST_CASE("Reference: a first contact after many box lengths") {
+  compare_late_contact<2>({10.0, 9.0}, {{{1.0, 1.0}, {4.0, 6.0}}, {{0.0, 0.0}, {1.0, -0.001}}},
+                          1000.0);
+  compare_late_contact<3>({10.0, 9.0, 8.0},
+                          {{{1.0, 1.0, 1.0}, {4.0, 6.0, 5.0}}, {{0, 0, 0}, {1.0, -0.01, 0.008}}},
+                          200.0);
 }
 
 // The reference tests all images that a pair can reach. A pair in a wide box passes thousands of
@@ -154,6 +181,30 @@ TEST_CASE("Reference: spheres between walls of every kind, along every axis") {
       compare_shortly(inelastic(with_walls(periodic_box(4.0, 4.2, 3.9), axis, wall), 0.8), {15});
     }
   }
+}
+
+TEST_CASE("Reference: spheres between four walls and six") {
+  const auto lengthwise = [](const Model<3>& box, const Wall& wall) {
+    return inelastic(with_walls(with_walls(box, 0, kDriven), 1, wall), 0.8);
+  };
+  compare_shortly(lengthwise(periodic_box(3.0, 3.2, 2.9), kLossy), {2, 5});
+  compare_shortly(lengthwise(periodic_box(4.0, 4.2, 3.9), kThermal), {15});
+  compare_shortly(lengthwise(periodic_box(4.0, 4.2, 1.2), kLossy), {5});  // one sphere between
+  for (const Wall& wall :
+       {kStatic, kLossy, kDriven, kRoughDriven, kThermal, kSawtooth, kSinusoidal}) {
+    CAPTURE(static_cast<int>(wall.kind));
+    compare_shortly(inelastic(rough(walled(periodic_box(4.0, 4.2, 3.9), wall), 0.4, 0.6), 0.9),
+                    {1, 2, 15});
+  }
+  // A channel and a slit that hold one sphere across.
+  compare_shortly(with_walls(with_walls(periodic_box(6.0, 1.5, 1.4), 1, kStatic), 2, kStatic),
+                  {2, 4});
+  compare_shortly(with_walls(periodic_box(4.0, 5.0, 1.5), 2, kStatic), {2, 8});
+}
+
+TEST_CASE("Reference: wholly inelastic spheres between driven walls") {
+  const Model<3> model = inelastic(with_walls(periodic_box(4.0, 4.5, 4.0), 0, kDriven), 0.0);
+  for (const int count : {2, 5, 20}) compare(model, random_gas(model, count, 82), 300);
 }
 
 TEST_CASE("Reference: spheres under gravity, kicked, rough, and with a t_c") {

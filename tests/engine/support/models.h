@@ -26,22 +26,31 @@ inline const Wall kSinusoidal{.kind = WallKind::Sinusoidal,
                               .phase = 0.125};
 
 /// An elastic gas in a periodic box.
-inline Model<2> periodic_box(double lx, double ly) {
-  Model<2> model;
-  model.box = {lx, ly};
+template <int D>
+Model<D> periodic_box(const Vec<D>& box) {
+  Model<D> model;
+  model.box = box;
+  if (D == 3) model.inertia = 0.4;
   return model;
 }
+inline Model<2> periodic_box(double lx, double ly) {
+  return periodic_box<2>({lx, ly});
+}
 inline Model<3> periodic_box(double lx, double ly, double lz) {
-  Model<3> model;
-  model.box = {lx, ly, lz};
-  model.inertia = 0.4;
-  return model;
+  return periodic_box<3>({lx, ly, lz});
 }
 
 /// The same model with equal walls at both ends of an axis.
 template <int D>
 Model<D> with_walls(Model<D> model, int axis, const Wall& wall) {
   model.walls[2 * axis] = model.walls[2 * axis + 1] = wall;
+  return model;
+}
+
+/// The same model with equal walls at all sides.
+template <int D>
+Model<D> walled(Model<D> model, const Wall& wall) {
+  model.walls.fill(wall);
   return model;
 }
 
