@@ -62,7 +62,7 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
 
   Start& start = made.particles.start;
   remove_if(start.layout == Layout::File, "particles.start.file",
-            [&] { start = {.layout = Layout::Random, .temperature = start.temperature}; });
+            [&] { start = Start{.file = "", .temperature = start.temperature}; });
   const double usual_inertia = default_scene(scene.dimension()).particles.inertia;
   if (made.particles.inertia == usual_inertia) {
     made.particles.inertia = default_scene(dimension).particles.inertia;

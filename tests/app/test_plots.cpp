@@ -262,7 +262,7 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
   TwoFrames frames;
   Profile profile;
   profile.edges = {0.0, 2.0, 6.0};
-  for (const Field field : kProfiledFields) {
+  for (const Field field : profiled_fields(Axis::X)) {
     const double number = static_cast<double>(profile.fields.size());
     profile.fields.push_back(field);
     profile.values.push_back({{10.0 + number, 0.1 + number}, {20.0 + number, 0.2 + number}});
@@ -277,7 +277,7 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
   for (std::size_t k = 0; k < told.size(); ++k) {
     CAPTURE(told[k][0]);
     const double number = static_cast<double>(k);
-    CHECK(profile_names()[k] == told[k][0]);
+    CHECK(profile_names(Axis::X)[k] == told[k][0]);
     CHECK(profiled_by(k) == Profiled::Fields);
     const LivePlot plot = frames.plot("Profile", k);
     check_axes(plot, "x in a", told[k][2], false, false);
@@ -286,7 +286,7 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
     CHECK(plot.curves[0].points == std::vector<Vec2>{{1.0, 10.0 + number}, {4.0, 20.0 + number}});
     CHECK(plot.curves[0].errors == std::vector<double>{0.1 + number, 0.2 + number});
   }
-  CHECK(profile_names()[told.size()] == "balance residuals");
+  CHECK(profile_names(Axis::X)[told.size()] == "balance residuals");
   CHECK(profiled_by(told.size()) == Profiled::Balances);
 }
 
@@ -463,7 +463,7 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
     CAPTURE(settings.front().key);
     for (const Profiled profiled : {Profiled::Fields, Profiled::Balances}) {
       const auto run = watched_run(load_scene("vibrated", settings), 1);
-      run->show_profile(profiled);
+      run->show_profile(profiled, Axis::X);
       History history;
       Frame frame;
       frame.run = 1;
@@ -471,7 +471,7 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
         go_on(*run, time);
         run->tell(frame, false);
         history.add(frame);
-        for (std::size_t name = 0; name < profile_names().size(); ++name) {
+        for (std::size_t name = 0; name < profile_names(Axis::X).size(); ++name) {
           for (const LivePlot& plot : plots_of(history, frame, name, kDarkTheme)) {
             check_finite(plot);
           }
