@@ -76,7 +76,7 @@ bool faces_viewer(const Eye& eye, const VecX& box, Side side) {
 // The handle of an edge; absent if it grips no wall.
 std::optional<WallGrip::Handle> handle_of(const Edge& edge, const Viewport& viewport,
                                           const Snapshot& gas, ImVec2 corner, float scale) {
-  constexpr float kLeastOutward = 0.2f;  // cosine to the outward direction
+  constexpr float kLeastOutward = 0.2f;  // of the length of a diameter on the viewport
   const Eye eye = viewport.eye();
   if (edge.sides.size() == 2 &&
       faces_viewer(eye, gas.box, edge.sides[0]) == faces_viewer(eye, gas.box, edge.sides[1])) {
@@ -92,7 +92,7 @@ std::optional<WallGrip::Handle> handle_of(const Edge& edge, const Viewport& view
   if (dot(*a - *middle, outward) < 0.0f) outward = -1.0f * outward;
 
   std::optional<WallGrip::Handle> best;
-  float most = kLeastOutward;
+  float most = kLeastOutward * static_cast<float>(eye.scale()) / scale;
   for (const Side side : edge.sides) {
     if (!gas.walls[side]) continue;
     VecX half = VecX::Zero(gas.box.size());
@@ -102,9 +102,8 @@ std::optional<WallGrip::Handle> handle_of(const Edge& edge, const Viewport& view
     if (!low || !high) continue;
     const ImVec2 unit = *high - *low;
     const float way = (is_low(side) ? -1.0f : 1.0f) * dot(unit, outward);
-    const float share = way / std::sqrt(std::max(1e-12f, dot(unit, unit)));
-    if (share <= most) continue;
-    most = share;
+    if (way <= most) continue;
+    most = way;
     best = {side, {*a, *b}, 1.2f * ImGui::GetFontSize() * outward, unit};
   }
   return best;
