@@ -217,38 +217,39 @@ void Gui::viewport() {
 
 // Handles the mouse on the viewport and draws the marks there.
 void Gui::use_viewport() {
+  if (!viewport_.drawn()) return;
   const Frame& frame = session_.frame();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool over = mouse.x >= area_.low.x && mouse.y >= area_.low.y && mouse.x < area_.high.x &&
                     mouse.y < area_.high.y && !ImGui::GetIO().WantCaptureMouse;
+  const WindowMap map = viewport_.map(area_.low, scale_);
+  if (log_.on()) log_handles(map);
+  if (const auto resized = wall_grip_.use(map, frame, over)) {
+    controls_.set({{"box.size", value_text(session_.scene().box)}},
+                  {{"box.size", value_text(resized->box)}}, resized->shift);
+  }
+  View view = session_.view();
+  const bool turned = viewport_.use_mouse(frame, view, map, over && !wall_grip_.active());
+  controls_.show(view, turned);
+  session_.pick(viewport_.picked());
+
+  // A zoom has changed the mapping.
+  const WindowMap now = viewport_.map(area_.low, scale_);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect(area_.low, area_.high);
-  if (viewport_.drawn()) {
-    const auto resized = wall_grip_.use(viewport_, frame, area_.low, scale_, over);
-    wall_grip_.mark(list, viewport_, frame, area_.low, scale_);
-    if (log_.on()) log_handles();
-    if (resized) {
-      controls_.set({{"box.size", value_text(session_.scene().box)}},
-                    {{"box.size", value_text(resized->box)}}, resized->shift);
-    }
-    View view = session_.view();
-    const bool turned =
-        viewport_.use_mouse(frame, view, area_.low, scale_, over && !wall_grip_.active());
-    controls_.show(view, turned);
-  }
-  viewport_.mark(list, frame, area_.low, scale_);
+  wall_grip_.mark(list, now, frame);
+  viewport_.mark(list, frame, now);
   list.PopClipRect();
-  session_.pick(viewport_.picked());
-  if (const auto place = viewport_.picked_place(frame, area_.low, scale_)) {
+  if (const auto place = viewport_.picked_place(frame, now)) {
     particle_label(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
   }
 }
 
 // Logs the longest handle of each wall.
-void Gui::log_handles() const {
+void Gui::log_handles(const WindowMap& map) const {
   std::array<float, 6> longest{};
   std::array<Area, 6> areas;
-  for (const auto& handle : WallGrip::handles(viewport_, session_.frame(), area_.low, scale_)) {
+  for (const auto& handle : WallGrip::handles(map, session_.frame())) {
     const auto [a, b] = handle.edge;
     const float length = std::hypot(b.x - a.x, b.y - a.y);
     if (length <= longest[handle.side]) continue;

@@ -50,7 +50,7 @@ class Gui {
   Axis profile_axis() const;
   void viewport();
   void use_viewport();
-  void log_handles() const;
+  void log_handles(const WindowMap& map) const;
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void toggle_full_screen();

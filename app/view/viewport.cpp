@@ -59,36 +59,21 @@ void Viewport::aim(const Vec3& centre) {
   camera_.orbit.z = centre.z();
 }
 
-Vec2 Viewport::pixel(ImVec2 mouse, ImVec2 corner, float scale) const {
-  return {(mouse.x - corner.x) * scale, canvas_->size().height - (mouse.y - corner.y) * scale};
+std::optional<ImVec2> Viewport::picked_place(const Frame& frame, const WindowMap& map) const {
+  if (!picked_ || *picked_ >= frame.snapshot.count()) return std::nullopt;
+  return map.place(frame.snapshot.positions.col(static_cast<Eigen::Index>(*picked_)));
 }
 
-std::optional<ImVec2> Viewport::place(const VecX& world, ImVec2 corner, float scale) const {
-  const Eye eye = this->eye();
-  const Vec3 seen = eye.seen(in_space(world));
-  if (eye.w(seen) < Eye::kNearest) return std::nullopt;
-  const Vec2 pixel = eye.pixels(seen);
-  return ImVec2(corner.x + static_cast<float>(pixel.x()) / scale,
-                corner.y + static_cast<float>(canvas_->size().height - pixel.y()) / scale);
-}
-
-std::optional<ImVec2> Viewport::picked_place(const Frame& frame, ImVec2 corner, float scale) const {
-  if (!canvas_ || !picked_ || *picked_ >= frame.snapshot.count()) return std::nullopt;
-  return place(frame.snapshot.positions.col(static_cast<Eigen::Index>(*picked_)), corner, scale);
-}
-
-bool Viewport::use_mouse(const Frame& frame, View& view, ImVec2 corner, float scale, bool over) {
-  if (!canvas_) return false;
-  const ImGuiIO& io = ImGui::GetIO();
-  if (over && io.MouseWheel != 0.0f) zoom(frame, corner, scale);
-  if (over && (ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2))) pan(scale);
-  return drag_or_click(frame, view, corner, scale, over);
+bool Viewport::use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over) {
+  if (over && ImGui::GetIO().MouseWheel != 0.0f) zoom(frame, map);
+  if (over && (ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2))) pan(map);
+  return drag_or_click(frame, view, map, over);
 }
 
 // The point under the mouse, at the depth of the camera's centre, stays there.
-void Viewport::zoom(const Frame& frame, ImVec2 corner, float scale) {
-  const Eye eye = this->eye();
-  const Vec2 off = (pixel(ImGui::GetIO().MousePos, corner, scale) - eye.origin()) / eye.scale();
+void Viewport::zoom(const Frame& frame, const WindowMap& map) {
+  const Eye& eye = map.eye();
+  const Vec2 off = (map.pixel(ImGui::GetIO().MousePos) - eye.origin()) / eye.scale();
   const Vec3 point = eye.world({off.x(), off.y(), 0.0});
   const double factor = std::pow(0.85, ImGui::GetIO().MouseWheel);
   const double wide = frame.snapshot.box.maxCoeff() * 10.0;
@@ -99,12 +84,10 @@ void Viewport::zoom(const Frame& frame, ImVec2 corner, float scale) {
   stale_ = true;
 }
 
-void Viewport::pan(float scale) {
+void Viewport::pan(const WindowMap& map) {
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   if (moved.x == 0.0f && moved.y == 0.0f) return;
-  const Eye eye = this->eye();
-  const double unit = scale / eye.scale();
-  aim(eye.world({-moved.x * unit, moved.y * unit, 0.0}));
+  aim(map.eye().world({-moved.x / map.units(), moved.y / map.units(), 0.0}));
   fits_ = false;
   follows_ = false;
   stale_ = true;
@@ -112,14 +95,12 @@ void Viewport::pan(float scale) {
 
 // A click picks the particle that was under the mouse at the press. A drag turns spheres, or moves
 // the view with Shift.
-bool Viewport::drag_or_click(const Frame& frame, View& view, ImVec2 corner, float scale,
-                             bool over) {
+bool Viewport::drag_or_click(const Frame& frame, View& view, const WindowMap& map, bool over) {
   constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
   const ImGuiIO& io = ImGui::GetIO();
   if (over && ImGui::IsMouseClicked(0)) {
     press_ = Press{io.MousePos};
-    press_->particle =
-        particle_at(frame.snapshot, eye(), pixel(io.MousePos, corner, scale), view.slab);
+    press_->particle = particle_at(frame.snapshot, map.eye(), map.pixel(io.MousePos), view.slab);
     press_->twice = ImGui::IsMouseDoubleClicked(0);
   }
   if (!press_) return false;
@@ -127,7 +108,7 @@ bool Viewport::drag_or_click(const Frame& frame, View& view, ImVec2 corner, floa
   press_->dragged |= std::hypot(x, y) >= kClick;
   bool turned = false;
   if (press_->dragged && io.KeyShift) {
-    pan(scale);
+    pan(map);
   } else if (press_->dragged && frame.snapshot.box.size() == 3) {
     turned = turn(view, io.MouseDelta.x, io.MouseDelta.y);
   }
@@ -141,21 +122,17 @@ bool Viewport::drag_or_click(const Frame& frame, View& view, ImVec2 corner, floa
   return turned;
 }
 
-void Viewport::mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const {
-  if (!canvas_) return;
-  const Eye eye = this->eye();
+void Viewport::mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const {
+  const Eye& eye = map.eye();
   const double radius = 0.5 * frame.snapshot.diameter;
   const auto ring = [&](std::uint32_t particle, ImU32 ink) {
     if (particle >= frame.snapshot.count()) return;
     const Vec3 seen = eye.seen(in_space(frame.snapshot.positions.col(particle)));
     if (eye.w(seen + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
     const auto [low, high] = eye.around(seen, radius);
-    const Vec2 middle = 0.5 * (low + high);
-    const auto size = static_cast<float>(0.5 * (high - low).maxCoeff()) / scale;
-    list.AddCircle(
-        ImVec2(corner.x + static_cast<float>(middle.x()) / scale,
-               corner.y + static_cast<float>(canvas_->size().height - middle.y()) / scale),
-        size + 2.0f, ink, 0, 2.5f);
+    const float size =
+        0.5f * static_cast<float>((high - low).maxCoeff() / eye.scale()) * map.units();
+    list.AddCircle(map.of_pixel(0.5 * (low + high)), size + 2.0f, ink, 0, 2.5f);
   };
   if (picked_) ring(static_cast<std::uint32_t>(*picked_), packed(accent_colour()));
   if (!frame.partners) return;

@@ -5,15 +5,13 @@
 #include <optional>
 
 #include "app/view/session.h"
-#include "render/eye.h"
+#include "app/view/window_map.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 
 namespace clatter {
 
-/// The picture of the gas in the window, drawn as in films, and its mouse actions. Arguments
-/// `corner` are the upper left corner of the viewport in window units. Arguments `scale` are the
-/// pixels per window unit. World positions have the dimension of the gas.
+/// The picture of the gas in the window, drawn as in films, and its mouse actions.
 class Viewport {
  public:
   explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
@@ -26,23 +24,23 @@ class Viewport {
   /// The current picture. Requires drawn().
   Image picture() const { return canvas_->read(); }
 
+  /// The mapping between the world and the window, if the viewport has its upper left corner at
+  /// `corner` and `scale` pixels per window unit. Requires drawn().
+  WindowMap map(ImVec2 corner, float scale) const {
+    return {camera_, canvas_->size(), corner, scale};
+  }
   /// Pans, zooms, turns spheres and picks particles with the mouse. `over`: the mouse is over the
   /// viewport. Returns true if the angles of the view changed.
-  bool use_mouse(const Frame& frame, View& view, ImVec2 corner, float scale, bool over);
+  bool use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over);
   /// Marks the picked particle and the pair of the last collision step.
-  void mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const;
-
-  /// The mapping from the world to pixels; of disks seen from the front. Requires drawn().
-  Eye eye() const { return Eye({camera_, canvas_->size()}); }
-  /// Position in the window of a world position. Requires drawn(). Absent: behind the viewer.
-  std::optional<ImVec2> place(const VecX& world, ImVec2 corner, float scale) const;
+  void mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const;
 
   /// Shows the whole box again.
   void fit();
   /// The picked particle; absent: none.
   const std::optional<std::size_t>& picked() const { return picked_; }
   /// Position of the picked particle in the window; absent: not there.
-  std::optional<ImVec2> picked_place(const Frame& frame, ImVec2 corner, float scale) const;
+  std::optional<ImVec2> picked_place(const Frame& frame, const WindowMap& map) const;
   /// True if the camera follows the picked particle.
   bool follows() const { return follows_; }
   /// Deselects the picked particle. Returns true if there was one.
@@ -61,10 +59,9 @@ class Viewport {
     bool dragged = false;  // the mouse has moved since
   };
 
-  Vec2 pixel(ImVec2 mouse, ImVec2 corner, float scale) const;
-  void zoom(const Frame& frame, ImVec2 corner, float scale);
-  void pan(float scale);
-  bool drag_or_click(const Frame& frame, View& view, ImVec2 corner, float scale, bool over);
+  void zoom(const Frame& frame, const WindowMap& map);
+  void pan(const WindowMap& map);
+  bool drag_or_click(const Frame& frame, View& view, const WindowMap& map, bool over);
   void aim(const Vec3& centre);
 
   const Gl* gl_;

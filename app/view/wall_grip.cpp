@@ -74,15 +74,15 @@ bool faces_viewer(const Eye& eye, const VecX& box, Side side) {
 }
 
 // The handle of an edge; absent if it grips no wall.
-std::optional<WallGrip::Handle> handle_of(const Edge& edge, const Viewport& viewport,
-                                          const Snapshot& gas, ImVec2 corner, float scale) {
+std::optional<WallGrip::Handle> handle_of(const Edge& edge, const WindowMap& map,
+                                          const Snapshot& gas) {
   constexpr float kLeastOutward = 0.2f;  // of the length of a diameter on the viewport
-  const Eye eye = viewport.eye();
+  const Eye& eye = map.eye();
   if (edge.sides.size() == 2 &&
       faces_viewer(eye, gas.box, edge.sides[0]) == faces_viewer(eye, gas.box, edge.sides[1])) {
     return std::nullopt;
   }
-  const auto at = [&](const VecX& world) { return viewport.place(world, corner, scale); };
+  const auto at = [&](const VecX& world) { return map.place(world); };
   const auto a = at(edge.ends[0]), b = at(edge.ends[1]), middle = at(0.5 * gas.box);
   if (!a || !b || !middle) return std::nullopt;
   const ImVec2 along = *b - *a;
@@ -92,7 +92,7 @@ std::optional<WallGrip::Handle> handle_of(const Edge& edge, const Viewport& view
   if (dot(*a - *middle, outward) < 0.0f) outward = -1.0f * outward;
 
   std::optional<WallGrip::Handle> best;
-  float most = kLeastOutward * static_cast<float>(eye.scale()) / scale;
+  float most = kLeastOutward * map.units();
   for (const Side side : edge.sides) {
     if (!gas.walls[side]) continue;
     VecX half = VecX::Zero(gas.box.size());
@@ -145,19 +145,18 @@ Area WallGrip::Handle::bounds() const {
   return area;
 }
 
-std::vector<WallGrip::Handle> WallGrip::handles(const Viewport& viewport, const Frame& frame,
-                                                ImVec2 corner, float scale) {
+std::vector<WallGrip::Handle> WallGrip::handles(const WindowMap& map, const Frame& frame) {
   std::vector<Handle> handles;
   for (const Edge& edge : edges_of(frame.snapshot.box)) {
-    if (auto handle = handle_of(edge, viewport, frame.snapshot, corner, scale)) {
+    if (auto handle = handle_of(edge, map, frame.snapshot)) {
       handles.push_back(*handle);
     }
   }
   return handles;
 }
 
-std::optional<WallGrip::Resized> WallGrip::use(const Viewport& viewport, const Frame& frame,
-                                               ImVec2 corner, float scale, bool over) {
+std::optional<WallGrip::Resized> WallGrip::use(const WindowMap& map, const Frame& frame,
+                                               bool over) {
   constexpr double kShortest = 4.0;
   constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
   const VecX& box = frame.snapshot.box;
@@ -165,8 +164,9 @@ std::optional<WallGrip::Resized> WallGrip::use(const Viewport& viewport, const F
   if (grip_ && axis_of(grip_->side) >= box.size()) held_ = false;  // the gas became another one
   if (!held_) {
     grip_.reset();
-    for (const Handle& handle : handles(viewport, frame, corner, scale)) {
-      if (over && is_over(handle, mouse)) grip_ = handle;
+    const std::vector<Handle> near = over ? handles(map, frame) : std::vector<Handle>();
+    for (const Handle& handle : near) {
+      if (is_over(handle, mouse)) grip_ = handle;
     }
     if (grip_) length_ = box[axis_of(grip_->side)];
     held_ = grip_ && ImGui::IsMouseClicked(0);
@@ -195,15 +195,14 @@ std::optional<WallGrip::Resized> WallGrip::use(const Viewport& viewport, const F
   return resized;
 }
 
-void WallGrip::mark(ImDrawList& list, const Viewport& viewport, const Frame& frame, ImVec2 corner,
-                    float scale) const {
+void WallGrip::mark(ImDrawList& list, const WindowMap& map, const Frame& frame) const {
   const VecX& box = frame.snapshot.box;
   if (!grip_ || axis_of(grip_->side) >= box.size()) return;
   const int axis = axis_of(grip_->side);
   std::vector<ImVec2> points;
   for (const VecX& end :
        outline(box, grip_->side, is_low(grip_->side) ? box[axis] - length_ : length_)) {
-    const auto place = viewport.place(end, corner, scale);
+    const auto place = map.place(end);
     if (!place) return;
     points.push_back(*place);
   }

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "app/view/messages.h"
-#include "app/view/viewport.h"
+#include "app/view/window_map.h"
 
 namespace clatter {
 
 /// Resizes the box by dragging its walls with the mouse. A wall moves by as much as the mouse, and
-/// a click changes nothing. Arguments `corner` and `scale` are as in Viewport.
+/// a click changes nothing.
 class WallGrip {
  public:
   /// A new box for the gas.
@@ -32,19 +32,16 @@ class WallGrip {
 
   /// Handles the mouse. Returns the new box when a moved wall is released. `over`: the mouse is
   /// over the viewport.
-  std::optional<Resized> use(const Viewport& viewport, const Frame& frame, ImVec2 corner,
-                             float scale, bool over);
+  std::optional<Resized> use(const WindowMap& map, const Frame& frame, bool over);
   /// True if a wall is under the mouse or being dragged.
   bool active() const { return grip_.has_value(); }
   /// Marks that wall, at its new position while it is dragged.
-  void mark(ImDrawList& list, const Viewport& viewport, const Frame& frame, ImVec2 corner,
-            float scale) const;
+  void mark(ImDrawList& list, const WindowMap& map, const Frame& frame) const;
 
   /// The handles of all walls that can be grabbed. Disks have one at each side. Spheres have them
   /// at the edges of the outline of the box. Such an edge belongs to two sides, and grips the wall
   /// that moves outwards there.
-  static std::vector<Handle> handles(const Viewport& viewport, const Frame& frame, ImVec2 corner,
-                                     float scale);
+  static std::vector<Handle> handles(const WindowMap& map, const Frame& frame);
 
  private:
   std::optional<Handle> grip_;  // wall under the mouse or being dragged
