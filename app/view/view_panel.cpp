@@ -68,21 +68,20 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
   return true;
 }
 
-// `ends` is a range of the values in the picture; without values both ends are 0.
+// `ends()` is a range of the values in the picture; without values both ends are 0.
+template <class Ends>
 static bool choose_range(Controls& controls, const std::string& key, const char* name,
-                         ColourRange& range, const ColourRange& usual,
-                         const std::array<double, 2>& ends) {
+                         ColourRange& range, const ColourRange& usual, const Ends& ends) {
   int chosen = range.kind;
   bool changed = controls.choice(key.c_str(), name,
                                  "auto follows the picture, locked keeps the first range, given is "
                                  "set by two numbers",
                                  {"auto", "locked", "given"}, chosen, usual.kind);
   if (changed) {
-    const bool given = chosen == ColourRange::Given;
-    if (given && usual.kind != ColourRange::Given && ends[1] > 0.0) {
-      range.ends = ends;
-    } else {
-      range.ends = usual.ends;
+    range.ends = usual.ends;
+    if (chosen == ColourRange::Given && usual.kind != ColourRange::Given) {
+      const std::array<double, 2> shown = ends();
+      if (shown[1] > 0.0) range.ends = shown;
     }
     range.kind = static_cast<ColourRange::Kind>(chosen);
   }
@@ -116,7 +115,9 @@ static bool choose_heatmap(const Session& session, Controls& controls, View& vie
                     view.field_palette, usual.field_palette);
   const auto& map = session.frame().snapshot.field;
   changed |= choose_range(controls, "view.field_range", "Range of the heatmap", view.field_range,
-                          usual.field_range, map ? ends_of(*map) : std::array<double, 2>{0.0, 0.0});
+                          usual.field_range, [&] {
+                            return map ? ends_of(*map) : std::array<double, 2>{0.0, 0.0};
+                          });
   return changed;
 }
 
@@ -154,9 +155,9 @@ void view_panel(Session& session, Controls& controls) {
   if (view.colour_by != ColourBy::None) {
     changed |= choose(controls, "view.palette", "Palette", "All are fit for the colour-blind",
                       kPalettes, view.palette, usual.palette);
-    changed |= choose_range(controls, "view.range",
-                            disks ? "Range of the disks" : "Range of the spheres", view.range,
-                            usual.range, colour_ends(session.frame().snapshot, view.colour_by));
+    changed |= choose_range(
+        controls, "view.range", disks ? "Range of the disks" : "Range of the spheres", view.range,
+        usual.range, [&] { return colour_ends(session.frame().snapshot, view.colour_by); });
   }
   changed |= choose_heatmap(session, controls, view);
   if (!disks && view.field) changed |= choose_slices(session, controls, view);
