@@ -84,6 +84,20 @@ json picked_in_the_middle(const GuiDriver& driver) {
   return driver.wait_for("pick", told)["particle"];
 }
 
+// Waits for a picture from another direction or place after the first `told` events: the handles of
+// the walls are then elsewhere. Clicks refer to the picture on the screen.
+void wait_for_picture(const GuiDriver& driver, std::size_t told) {
+  driver.wait_for("widget", told, [](const json& event) {
+    return event["name"].get<std::string>().starts_with("wall.");
+  });
+}
+
+void look_from(const GuiDriver& driver, const std::string& key) {
+  const std::size_t told = driver.told();
+  driver.key(key);
+  wait_for_picture(driver, told);
+}
+
 bool turned(const json& event, double azimuth, double elevation) {
   return std::fabs(event["azimuth"].get<double>() - azimuth) < 1e-9 &&
          std::fabs(event["elevation"].get<double>() - elevation) < 1e-9;
@@ -122,18 +136,21 @@ TEST_CASE("Window: a click picks the sphere in front, from each direction") {
   const Scenes scenes;
   const GuiDriver driver(scenes.rows());
   CHECK(picked_in_the_middle(driver) == 0);
-  driver.key("x");
+  look_from(driver, "x");
   CHECK(picked_in_the_middle(driver) == 2);
-  driver.key("y");
+  look_from(driver, "y");
   CHECK(picked_in_the_middle(driver) == 4);
-  driver.key("i");
+  look_from(driver, "i");
   CHECK(picked_in_the_middle(driver) == 6);
-  driver.key("z");
+  look_from(driver, "z");
+  std::size_t told = driver.told();
   driver.pull("viewport", 450, 0);
+  driver.wait_for("turn", told);
+  wait_for_picture(driver, told);
   CHECK(picked_in_the_middle(driver) == 1);
   // Away from all spheres it picks none, and a drag picks nothing.
   driver.key("Escape");
-  const std::size_t told = driver.told();
+  told = driver.told();
   driver.pull("viewport", 0, 60);
   driver.wait_for("turn", told);
   CHECK(driver.events("pick").back()["particle"].is_null());
@@ -185,22 +202,26 @@ TEST_CASE("Window: a drag turns the view, undo turns it back, and the saved scen
 
 TEST_CASE("Window: the buttons of the view turn it, and Shift and drag moves it") {
   const Scenes scenes;
-  const GuiDriver driver(scenes.rows(), "1280x2000");
+  const GuiDriver driver(scenes.rows(), "1280x1300");
   std::size_t told = driver.told();
   driver.click("view.from.y");
   driver.wait_for("turn", told, [](const json& turn) { return turned(turn, 0.0, 90.0); });
   told = driver.told();
   driver.click("view.from.iso");
   driver.wait_for("turn", told);
+  wait_for_picture(driver, told);
+  told = driver.told();
   driver.click("view.from.z");
+  wait_for_picture(driver, told);
   CHECK(picked_in_the_middle(driver) == 0);
   // The view moves with the mouse: another sphere, or none, is then in the middle.
   told = driver.told();
   driver.tool("keydown shift");
   driver.pull("viewport", 60, 0);
   driver.tool("keyup shift");
+  wait_for_picture(driver, told);
   CHECK(picked_in_the_middle(driver).is_null());
-  driver.key("f");
+  look_from(driver, "f");
   CHECK(picked_in_the_middle(driver) == 0);
 }
 
