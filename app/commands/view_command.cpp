@@ -25,10 +25,6 @@ int view(const ViewOptions& options) {
   }
   WindowOptions window;
   window.scene = load(options.common);
-  if (window.scene.dimension() != 2) {
-    throw UserError({options.common.scene}, "the window shows disks only",
-                    "give box.size two numbers, or film the spheres with `clatter render`");
-  }
   window.seed = options.common.seed.value_or(1);
   window.until = options.common.until;
   window.script_log = options.script_log;

@@ -23,7 +23,7 @@ std::string inline_table(Wall wall) {
 
 std::string inline_table(const std::array<std::optional<Wall>, 6>& walls) {
   std::string all;
-  for (std::size_t side = 0; side < 4; ++side) {
+  for (std::size_t side = 0; side < walls.size(); ++side) {
     if (!walls[side]) continue;
     all += (all.empty() ? "" : ", ") + std::string(kSideNames[side]) + " = " +
            inline_table(*walls[side]);
@@ -46,7 +46,8 @@ Wall wall_of(WallKind kind, const Wall& before) {
   return wall;
 }
 
-constexpr std::array<const char*, 4> kSideTitles = {"Left", "Right", "Bottom", "Top"};
+constexpr std::array<const char*, 6> kSideTitles = {"Left", "Right", "Bottom",
+                                                    "Top",  "Back",  "Front"};
 
 void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std::string& path,
                   Controls& controls) {
@@ -72,7 +73,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
              {.name = "Temperature",
               .symbol = "T_w",
               .unit = "m a²/t²",
-              .help = "Of the disks that it emits",
+              .help = "Of the particles that it emits",
               .high = 10.0},
              wall.temperature, usual.temperature);
       return;
@@ -81,7 +82,7 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
       slider("stroke",
              {.name = "Stroke",
               .unit = "a",
-              .help = "Its whole travel, in disk diameters",
+              .help = "Its whole travel, in particle diameters",
               .high = 4.0},
              wall.stroke, usual.stroke);
       slider("frequency",
@@ -142,8 +143,9 @@ void bulk_drive(Session& session, Controls& controls) {
   const BulkDrive usual = session.opened().bulk_drive.value_or(BulkDrive{0.05, 0.1, 0.0});
   if (!drive) {
     const std::string kicks = "{ interval = " + value_text(usual.interval) + ", kick_speed = ";
-    if (controls.button("bulk_drive", "Kick all disks",
-                        "Homogeneous driving: all disks get random kicks at equal intervals")) {
+    if (controls.button("bulk_drive",
+                        session.scene().dimension() == 2 ? "Kick all disks" : "Kick all spheres",
+                        "Homogeneous driving: all particles get random kicks at equal intervals")) {
       controls.set({{"bulk_drive", kicks + "0.0 }"}},
                    {{"bulk_drive", kicks + value_text(usual.kick_speed) + " }"}});
     }
@@ -157,40 +159,64 @@ void bulk_drive(Session& session, Controls& controls) {
                drive->kick_speed, usual.kick_speed);
 }
 
+// Switches between disks and spheres. Returns true if it did.
+bool choose_dimension(Session& session, Controls& controls) {
+  const int now = session.scene().dimension() - 2;
+  int chosen = now;
+  if (!controls.choice("dimension", "Dimension",
+                       "Starts the gas as disks or as spheres of the same number. The depth of the "
+                       "box becomes its height. The box is scaled so that the filled share stays, "
+                       "up to 0.4",
+                       {"2: disks", "3: spheres"}, chosen, now)) {
+    return false;
+  }
+  session.switch_dimension();
+  return true;
+}
+
 }  // namespace
 
 void box_panel(Session& session, Controls& controls) {
-  if (!group("Box and walls")) return;
+  if (!group("Box and walls") || choose_dimension(session, controls)) return;
+  constexpr std::array<const char*, 3> kSizes = {"Width", "Height", "Depth"};
+  constexpr std::array<const char*, 3> kLengths = {"Lx", "Ly", "Lz"};
+  constexpr std::array<const char*, 3> kGravities = {"Gravity along x", "Gravity along y",
+                                                     "Gravity along z"};
+  constexpr std::array<const char*, 3> kAccelerations = {"g_x", "g_y", "g_z"};
   const Scene& scene = session.scene();
   const Scene& usual = session.opened();
-  for (int axis : {0, 1}) {
+  const int dimension = scene.dimension();
+  for (int axis = 0; axis < dimension; ++axis) {
     const double longest = std::max(100.0, 2.0 * usual.box[axis]);
     controls.component(
         {.key = "box.size",
-         .name = axis == 0 ? "Width" : "Height",
-         .symbol = axis == 0 ? "Lx" : "Ly",
+         .name = kSizes[axis],
+         .symbol = kLengths[axis],
          .unit = "a",
-         .help = "Of the box, in disk diameters; disks that no longer fit are removed",
+         .help = "Of the box, in particle diameters; particles that no longer fit are removed",
          .low = 4.0,
          .high = longest,
          .format = "%.1f"},
         scene.box, axis, usual.box, false);
   }
-  for (std::size_t side = 0; side < 4; ++side) {
+  for (std::size_t side = 0; side < static_cast<std::size_t>(2 * dimension); ++side) {
     // A periodic axis is listed once.
     if (side % 2 == 1 && !scene.walls[side]) continue;
     side_panel(session, controls, side);
   }
-  const Vec2 gravity = scene.gravity.value_or(Vec2::Zero());
-  for (int axis : {0, 1}) {
+  const auto gravity_of = [&](const Scene& which) -> VecX {
+    if (which.gravity) return *which.gravity;
+    return VecX::Zero(dimension);
+  };
+  for (int axis = 0; axis < dimension; ++axis) {
     controls.component({.key = "gravity.acceleration",
-                        .name = axis == 0 ? "Gravity along x" : "Gravity along y",
-                        .symbol = axis == 0 ? "g_x" : "g_y",
+                        .name = kGravities[axis],
+                        .symbol = kAccelerations[axis],
                         .unit = "a/t²",
-                        .help = "Acceleration of every disk",
+                        .help = "Acceleration of every particle",
                         .low = -2.0,
                         .high = 2.0},
-                       gravity, axis, usual.gravity.value_or(Vec2::Zero()));
+                       gravity_of(scene), axis, gravity_of(usual));
   }
   bulk_drive(session, controls);
   ImGui::Spacing();

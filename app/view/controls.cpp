@@ -153,13 +153,13 @@ void Controls::whole(const Slider& slider, int value, int usual) {
   if (moved.reset) put(usual);
 }
 
-void Controls::component(const Slider& slider, const Vec2& pair, int axis, const Vec2& usual,
+void Controls::component(const Slider& slider, const VecX& vector, int axis, const VecX& usual,
                          bool at_once) {
   const std::string name = std::string(slider.key) + slider.name;
-  Vec2 now = pair;
+  VecX now = vector;
   if (holding_ == name) now[axis] = held_;
   const Moved moved = draw(slider, now[axis], usual[axis]);
-  Vec2 before = pair;
+  VecX before = vector;
   if (moved.changed && at_once) session_.set({{slider.key, value_text(now)}});
   if (moved.changed && !at_once) {
     holding_ = name;
@@ -169,12 +169,12 @@ void Controls::component(const Slider& slider, const Vec2& pair, int axis, const
     before[axis] = before_;
     if (at_once)
       session_.remember({{{slider.key, value_text(before)}}, {{slider.key, value_text(now)}}});
-    if (!at_once) set({{slider.key, value_text(pair)}}, {{slider.key, value_text(now)}});
+    if (!at_once) set({{slider.key, value_text(vector)}}, {{slider.key, value_text(now)}});
     holding_.clear();
   }
   if (moved.reset) {
     now[axis] = usual[axis];
-    set({{slider.key, value_text(pair)}}, {{slider.key, value_text(now)}});
+    set({{slider.key, value_text(vector)}}, {{slider.key, value_text(now)}});
   }
 }
 
@@ -250,13 +250,13 @@ void Controls::show(const View& view, bool changed) {
     if (!shown_before_) shown_before_ = session_.view();
     session_.set_view(view);
   }
-  if (!shown_before_ || ImGui::IsAnyItemActive()) return;
+  if (!shown_before_ || ImGui::IsAnyItemActive() || ImGui::IsMouseDown(0)) return;
   session_.remember({.views = {{*shown_before_, session_.view()}}});
   shown_before_.reset();
 }
 
 void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after,
-                   const Vec2& shift) {
+                   const VecX& shift) {
   session_.set(after, shift);
   session_.remember({.before = before, .after = after, .shift = shift});
 }

@@ -29,9 +29,9 @@ class Controls {
   void law(const Slider& slider, double value, double usual);
   /// Slider for an integer. The value is set when the slider is released, and restarts the gas.
   void whole(const Slider& slider, int value, int usual);
-  /// Slider for one component of a two-component key. `axis` is 0 or 1. Without `at_once` the value
-  /// is set when the slider is released.
-  void component(const Slider& slider, const Vec2& pair, int axis, const Vec2& usual,
+  /// Slider for one component of a vector. Without `at_once` the value is set when the slider is
+  /// released.
+  void component(const Slider& slider, const VecX& vector, int axis, const VecX& usual,
                  bool at_once = true);
   /// Slider for a setting of the window. Returns true if the value changed.
   bool number(const Slider& slider, double& value, double usual);
@@ -54,9 +54,9 @@ class Controls {
   /// Sets the view if it has `changed`. All changes up to the end of a drag are one undo entry.
   /// Call it in every frame.
   void show(const View& view, bool changed);
-  /// Sets keys as one undo entry. If the box changes, `shift` moves its disks.
+  /// Sets keys as one undo entry. If the box changes, `shift` moves its particles.
   void set(const std::vector<Override>& before, const std::vector<Override>& after,
-           const Vec2& shift = Vec2::Zero());
+           const VecX& shift = {});
 
  private:
   struct Moved {

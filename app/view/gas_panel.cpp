@@ -3,19 +3,20 @@
 #include <algorithm>
 
 #include "app/view/panels.h"
+#include "engine/dimension.h"
 #include "engine/physics/lattice.h"
 #include "engine/scene/key_writer.h"
 
 namespace clatter {
 
-// Switches roughness on and off. The default coefficients, 0.5, are those of a moderately rough
-// disk.
+// Switches roughness on and off. The default coefficients, 0.5, are moderately rough.
 static void roughness(Session& session, Controls& controls) {
   const Roughness& rough = session.scene().particles.roughness;
   const Roughness& usual = session.opened().particles.roughness;
   bool any = rough.any();
-  if (controls.toggle("rough", "Rough disks", "Collisions turn slip into spin, Walton's model",
-                      any)) {
+  const bool disks = session.scene().dimension() == 2;
+  if (controls.toggle("rough", disks ? "Rough disks" : "Rough spheres",
+                      "Collisions turn slip into spin, Walton's model", any)) {
     const auto keys = [](bool on) {
       return std::vector<Override>{{"particles.friction", on ? "0.5" : "0.0"},
                                    {"particles.tangential_restitution", on ? "0.5" : "-1.0"}};
@@ -45,23 +46,28 @@ static void roughness(Session& session, Controls& controls) {
 void gas_panel(Session& session, Controls& controls) {
   if (!group("Gas")) return;
   const Scene& scene = session.scene();
+  const bool disks = scene.dimension() == 2;
   if (session.opened().particles.start.layout != Layout::File) {
-    const int most = std::min(lattice_capacity(scene.start_room<2>()), 100'000);
+    const int capacity = with_dimension(scene.dimension(), [&](auto dimension) {
+      return lattice_capacity(scene.start_room<dimension>());
+    });
+    const int most = std::min(capacity, 100'000);
     controls.whole({.key = "particles.count",
-                    .name = "Disks",
+                    .name = disks ? "Disks" : "Spheres",
                     .symbol = "N",
-                    .help = "Removes disks, or adds them at random free places",
+                    .help = "Removes particles, or adds them at random free places",
                     .low = 1.0,
                     .high = static_cast<double>(most),
                     .logarithmic = true,
                     .format = "%.0f"},
                    scene.particles.count, session.opened().particles.count);
   }
-  ImGui::TextDisabled("Area fraction φ = %.3f", scene.packing_fraction());
+  ImGui::TextDisabled(disks ? "Area fraction φ = %.3f" : "Volume fraction %.3f",
+                      scene.packing_fraction());
   controls.law({.key = "particles.restitution",
                 .name = "Restitution",
                 .symbol = "α",
-                .help = "Share of the normal velocity that a collision of two disks keeps; "
+                .help = "Share of the normal velocity that a collision of two particles keeps; "
                         "1: elastic"},
                scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);

@@ -16,6 +16,7 @@
 #include "app/view/top_bar.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 
@@ -69,7 +70,8 @@ void Gui::draw() {
   }
   watch_film();
   use_keys();
-  session_.show_profile(panels_.plots ? profiled_by(profiled()) : Profiled::Nothing);
+  session_.show_profile(panels_.plots ? profiled_by(profiled()) : Profiled::Nothing,
+                        profile_axis());
   panels();
   viewport();
   ImGui::Render();
@@ -80,7 +82,10 @@ void Gui::draw() {
                   static_cast<int>((area_.high.y - area_.low.y) * scale_)};
   if (size.width > 0 && size.height > 0 && session_.frame().scene) {
     if (std::exchange(drawn_views_, session_.views()) != session_.views()) viewport_.redraw();
-    viewport_.draw(session_.frame(), shown_view(), size, panels_.lecture ? kLectureLetters : 1.0);
+    // Until the engine has opened a scene of another dimension, its view does not fit the frame.
+    if (session_.scene().dimension() == session_.frame().scene->dimension()) {
+      viewport_.draw(session_.frame(), shown_view(), size, panels_.lecture ? kLectureLetters : 1.0);
+    }
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));
   }
@@ -157,18 +162,31 @@ void Gui::left_panel(float top, float width) {
   ImGui::End();
 }
 
+// The chosen axis of the profile; x if the box lacks it.
+Axis Gui::profile_axis() const {
+  return profile_axis_ < session_.scene().dimension() ? static_cast<Axis>(profile_axis_) : Axis::X;
+}
+
 void Gui::plots_drawer(float top, float width) {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(whole.x - width, top));
   ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
   ImGui::Begin("plots", nullptr, kFixedPanel);
   const ThemeColours theme = panel_theme(shown_view());
+  std::vector<std::string> axes;
+  for (int axis = 0; axis < session_.scene().dimension(); ++axis) {
+    axes.emplace_back(kAxes[static_cast<std::size_t>(axis)].name);
+  }
+  int axis = static_cast<int>(profile_axis());
+  if (controls_.choice("plots.axis", "Profile along", "Axis of the profile", axes, axis, 0)) {
+    profile_axis_ = axis;
+  }
   controls_.choice(
-      "plots.profile", "Profile along x",
+      "plots.profile", "Profile of",
       "Averages with a band of one standard error, or the relative residuals of the balances of "
       "mass, momentum and energy in the worst window. They start when the plots open, or when "
       "laws, averages or trails change. The engine then does about twice the work",
-      profile_names(), profiled_, 0);
+      profile_names(profile_axis()), profiled_, 0);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();
@@ -186,44 +204,63 @@ void Gui::viewport() {
     const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y);
     if (chosen) open_gallery_scene(*chosen);
   }
-  if (panels_.help) help_window(whole.x, whole.y);
+  if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
   if (!frame.scene) return;
   use_viewport();
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
   if (!session_message(session_, area_) && panels_.hint && !panels_.help && !panels_.lecture)
-    hint_line(area_);
+    hint_line(session_.scene().dimension(), area_);
   log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }
 
 // Handles the mouse on the viewport and draws the marks there.
 void Gui::use_viewport() {
+  if (!viewport_.drawn()) return;
   const Frame& frame = session_.frame();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool over = mouse.x >= area_.low.x && mouse.y >= area_.low.y && mouse.x < area_.high.x &&
                     mouse.y < area_.high.y && !ImGui::GetIO().WantCaptureMouse;
+  const WindowMap map = viewport_.map(area_.low, scale_);
+  if (log_.on()) log_handles(map);
+  if (const auto resized = wall_grip_.use(map, frame, over)) {
+    controls_.set({{"box.size", value_text(session_.scene().box)}},
+                  {{"box.size", value_text(resized->box)}}, resized->shift);
+  }
+  View view = session_.view();
+  const bool turned = viewport_.use_mouse(frame, view, map, over && !wall_grip_.active());
+  controls_.show(view, turned);
+  session_.pick(viewport_.picked());
+
+  // A zoom has changed the mapping.
+  const WindowMap now = viewport_.map(area_.low, scale_);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect(area_.low, area_.high);
-  if (viewport_.drawn()) {
-    const auto resized = wall_grip_.use(viewport_, frame, area_.low, scale_, over);
-    wall_grip_.mark(list, viewport_, frame, area_.low, scale_);
-    for (const Side side : {kLeft, kRight, kBottom, kTop}) {
-      const auto& [low, high] = WallGrip::handle(viewport_, frame, area_.low, scale_, side);
-      log_.widget(std::string("wall.") + kSideNames[side], low.x, low.y, high.x - low.x,
-                  high.y - low.y);
-    }
-    if (resized) {
-      controls_.set({{"box.size", value_text(session_.scene().box)}},
-                    {{"box.size", value_text(resized->box)}}, resized->shift);
-    }
-  }
-  if (over && !wall_grip_.active()) viewport_.use_mouse(frame, area_.low, scale_);
-  viewport_.mark(list, frame, area_.low, scale_);
+  wall_grip_.mark(list, now, frame);
+  viewport_.mark(list, frame, now);
   list.PopClipRect();
-  session_.pick(viewport_.picked());
-  if (const auto place = viewport_.picked_place(frame, area_.low, scale_)) {
-    disk_label(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
+  if (const auto place = viewport_.picked_place(frame, now)) {
+    particle_label(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
+  }
+}
+
+// Logs the longest handle of each wall.
+void Gui::log_handles(const WindowMap& map) const {
+  std::array<float, 6> longest{};
+  std::array<Area, 6> areas;
+  for (const auto& handle : WallGrip::handles(map, session_.frame())) {
+    const auto [a, b] = handle.edge;
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    if (length <= longest[handle.side]) continue;
+    longest[handle.side] = length;
+    areas[handle.side] = handle.bounds();
+  }
+  for (std::size_t side = 0; side < longest.size(); ++side) {
+    if (longest[side] == 0.0f) continue;
+    const auto& [low, high] = areas[side];
+    log_.widget(std::string("wall.") + kSideNames[side], low.x, low.y, high.x - low.x,
+                high.y - low.y);
   }
 }
 

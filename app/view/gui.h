@@ -47,12 +47,15 @@ class Gui {
   void left_panel(float top, float width);
   void plots_drawer(float top, float width);
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
+  Axis profile_axis() const;
   void viewport();
   void use_viewport();
+  void log_handles(const WindowMap& map) const;
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void toggle_full_screen();
   void fix_range();
+  void face_preset(char key);
   void screenshot();
   Scene recorded_beside(const std::string& file) const;
   std::string save_scene();
@@ -72,6 +75,7 @@ class Gui {
   Gallery gallery_;
   History history_;
   int profiled_ = 0;  // index into profile_names()
+  int profile_axis_ = 0;
   std::optional<FilmJob> film_;
   GuiLayer gui_;
   PanelVisibility panels_;

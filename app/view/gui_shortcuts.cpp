@@ -2,8 +2,10 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "app/view/direction.h"
 #include "app/view/gui.h"
 #include "app/view/panels.h"
 
@@ -69,7 +71,7 @@ void Gui::use_key(const KeyPress& press) {
       panels_.lesson = !panels_.lesson;
       return;
     default:
-      return;
+      return face_preset(press.letter());
   }
 }
 
@@ -111,18 +113,25 @@ void Gui::close_something() {
   viewport_.let_go();
 }
 
-// Switches the colour range of the disks between automatic and a fixed range of round numbers up to
-// twice the thermal speed.
+// Switches the colour range of the particles between automatic and a fixed range of round numbers.
 void Gui::fix_range() {
   View view = session_.view();
   if (view.range.kind != ColourRange::Auto) {
     view.range = {};
   } else {
-    const double end = disk_colour_end(session_.frame().snapshot);
-    const bool signs = view.colour_by != ColourBy::Speed;
-    if (end > 0.0) view.range = {ColourRange::Given, {signs ? -end : 0.0, end}};
+    const auto ends = colour_ends(session_.frame().snapshot, view.colour_by);
+    if (ends[1] > 0.0) view.range = {ColourRange::Given, ends};
   }
   controls_.show(view, true);
+}
+
+// Spheres are seen from the direction with this key, if there is one.
+void Gui::face_preset(char key) {
+  const auto preset = std::ranges::find(kPresets, key, &Preset::key);
+  if (preset == kPresets.end() || session_.scene().dimension() == 2) return;
+  View view = session_.view();
+  const bool changed = face(view, *preset);
+  controls_.show(view, changed);
 }
 
 }  // namespace clatter

@@ -8,7 +8,7 @@ namespace clatter {
 void VelocityHistogram::add(const Snapshot& snapshot) {
   constexpr double kForgets = 1.0 / 600.0;  // weights decay over 600 frames
   if (snapshot.count() == 0) return;
-  for (int axis : {0, 1}) {
+  for (int axis = 0; axis < snapshot.velocities.rows(); ++axis) {
     const auto velocities = snapshot.velocities.row(axis);
     const double deviation =
         std::sqrt(velocities.squaredNorm() / static_cast<double>(snapshot.count()));

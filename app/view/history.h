@@ -9,14 +9,14 @@ namespace clatter {
 
 /// Time averages of a gas between two frames.
 struct Sample {
-  double time = 0.0;              ///< middle of the averaging interval
-  Vec2 temperature = {0.0, 0.0};  ///< T_x, T_y
-  double walls_in = 0.0;          ///< power of the walls
-  double bulk_in = 0.0;           ///< power of the bulk drive
-  double gravity_in = 0.0;        ///< power of gravity
-  double dissipated = 0.0;        ///< dissipated power
-  double ledger_residual = 0.0;   ///< magnitude of Totals::ledger_residual()
-  double deepest_overlap = 0.0;   ///< see RunChecks
+  double time = 0.0;             ///< middle of the averaging interval
+  VecX temperature;              ///< [D] T_x, T_y and, for spheres, T_z
+  double walls_in = 0.0;         ///< power of the walls
+  double bulk_in = 0.0;          ///< power of the bulk drive
+  double gravity_in = 0.0;       ///< power of gravity
+  double dissipated = 0.0;       ///< dissipated power
+  double ledger_residual = 0.0;  ///< magnitude of Totals::ledger_residual()
+  double deepest_overlap = 0.0;  ///< see RunChecks
 };
 
 /// Histogram of the velocities over the last seconds, with bins of equal width.
@@ -27,14 +27,14 @@ class VelocityHistogram {
 
   /// Removes all counts.
   void clear() { weights_ = {}; }
-  /// Adds all disks of a frame.
+  /// Adds all particles of a frame.
   void add(const Snapshot& snapshot);
-  /// Probability density of v_x (axis 0) or v_y (axis 1) over its standard deviation, at the middle
+  /// Probability density of the velocity along an axis over its standard deviation, at the middle
   /// of each bin. Empty bins have density 0.
   std::vector<Vec2> density(int axis) const;
 
  private:
-  std::array<std::array<double, kClasses>, 2> weights_ = {};
+  std::array<std::array<double, kClasses>, 3> weights_ = {};
 };
 
 /// Time series for the plots. The number of samples is bounded: their spacing grows with the length
@@ -46,7 +46,7 @@ class History {
 
   /// The samples in order of time.
   const std::vector<Sample>& samples() const { return samples_; }
-  /// Histogram of all disks over the last seconds.
+  /// Histogram of all particles over the last seconds.
   const VelocityHistogram& velocities() const { return velocities_; }
 
  private:

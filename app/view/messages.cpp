@@ -1,8 +1,10 @@
 #include "app/view/messages.h"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <string>
 
 namespace clatter {
 
@@ -26,11 +28,12 @@ static void end_note() {
   ImGui::PopStyleColor();
 }
 
-void hint_line(const Area& area) {
+void hint_line(int dimension, const Area& area) {
   const float unit = ImGui::GetFontSize();
   begin_note("hint", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
              ImVec2(0.5f, 1.0f));
-  ImGui::TextDisabled("drag a slider  ·  scroll to zoom  ·  G for the gallery");
+  ImGui::TextDisabled("%s  ·  scroll to zoom  ·  G for the gallery",
+                      dimension == 2 ? "drag a slider" : "drag to turn");
   end_note();
 }
 
@@ -48,75 +51,97 @@ bool session_message(const Session& session, const Area& area) {
   return true;
 }
 
-static void show_collision(const char* which, const ParticleCollision& collision) {
+static void show_collision(const char* which, const ParticleCollision& collision, bool disks) {
   if (collision.partner) {
-    ImGui::TextDisabled("%s t = %.4f, disk %u", which, collision.time, *collision.partner);
+    ImGui::TextDisabled("%s t = %.4f, %s %u", which, collision.time, disks ? "disk" : "sphere",
+                        *collision.partner);
   } else {
     ImGui::TextDisabled("%s t = %.4f, %s wall", which, collision.time,
                         kSideNames[static_cast<std::size_t>(collision.side)]);
   }
 }
 
-void disk_label(const Frame& frame, std::size_t disk, bool follows, ImVec2 place,
-                const Area& area) {
+static void show_vector(const char* name, const VecX& vector, const char* format) {
+  std::string text;
+  for (const double component : vector) {
+    text += (text.empty() ? "" : ", ") + fmt::sprintf(format, component);
+  }
+  ImGui::TextDisabled("%s %s", name, text.c_str());
+}
+
+void particle_label(const Frame& frame, std::size_t particle, bool follows, ImVec2 place,
+                    const Area& area) {
   const Snapshot& gas = frame.snapshot;
-  if (disk >= gas.count()) return;
+  if (particle >= gas.count()) return;
   const float unit = ImGui::GetFontSize();
-  // The label is on the side of the disk that faces the middle of the area.
+  // The label is on the side of the particle that faces the middle of the area.
   const bool left = place.x > 0.5f * (area.low.x + area.high.x);
   const bool up = place.y > 0.5f * (area.low.y + area.high.y);
-  begin_note("disk",
+  begin_note("particle",
              ImVec2(std::clamp(place.x + (left ? -unit : unit), area.low.x, area.high.x),
                     std::clamp(place.y + (up ? -unit : unit), area.low.y, area.high.y)),
              ImVec2(left ? 1.0f : 0.0f, up ? 1.0f : 0.0f));
-  ImGui::Text("Disk %zu", disk);
-  const auto column = static_cast<Eigen::Index>(disk);
-  const Vec2 r = gas.positions.col(column), v = gas.velocities.col(column);
-  ImGui::TextDisabled("place %.2f, %.2f", r.x(), r.y());
-  ImGui::TextDisabled("velocity %.3f, %.3f", v.x(), v.y());
-  ImGui::TextDisabled("speed %.3f", v.norm());
-  if (gas.spins.size() > 0) ImGui::TextDisabled("spin %.3f", gas.spins(0, column));
-  if (frame.last_collision) show_collision("last hit", *frame.last_collision);
-  if (frame.next_collision) show_collision("next hit", *frame.next_collision);
+  const bool disks = gas.positions.rows() == 2;
+  ImGui::Text("%s %zu", disks ? "Disk" : "Sphere", particle);
+  const auto column = static_cast<Eigen::Index>(particle);
+  show_vector("place", gas.positions.col(column), "%.2f");
+  show_vector("velocity", gas.velocities.col(column), "%.3f");
+  ImGui::TextDisabled("speed %.3f", gas.velocities.col(column).norm());
+  if (gas.spins.size() > 0) show_vector("spin", gas.spins.col(column), "%.3f");
+  if (frame.last_collision) show_collision("last hit", *frame.last_collision, disks);
+  if (frame.next_collision) show_collision("next hit", *frame.next_collision, disks);
   ImGui::TextDisabled(follows ? "followed; Esc lets go" : "double-click to follow");
   end_note();
 }
 
-void help_window(float width, float height) {
-  static constexpr std::array<std::pair<const char*, const char*>, 24> kKeys = {{
-      {"Space", "play or pause"},
-      {".", "next frame"},
-      {"Shift + .", "next collision, with the pair marked"},
-      {"R   Shift + R", "restart; with a new seed"},
-      {"+  −", "faster, slower"},
-      {"G", "gallery; / searches it"},
-      {"[  ]", "previous scene, next scene"},
-      {"Ctrl + Z   Ctrl + Y", "undo, redo"},
-      {"Ctrl + Q", "quit"},
-      {"Ctrl + S", "save the scene with its changes"},
-      {"F2", "screenshot"},
-      {"P", "plots"},
-      {"T", "goal and suggestions of the scene"},
-      {"M", "colour range of the disks: fixed or automatic"},
-      {"Tab", "hide or show the panels"},
-      {"L", "lecture: for a projector, large type, panels hidden"},
-      {"F11", "full screen"},
-      {"Esc", "close the open panel, or deselect the disk"},
-      {"Scroll", "zoom about the cursor"},
-      {"Right or middle drag", "move the view"},
-      {"F", "fit the box into the view"},
-      {"Click a disk", "its state; double-click follows it"},
-      {"Drag a wall", "resize the box"},
-      {"Drop a file", "open a scene, or the scene in a picture"},
-  }};
+namespace {
+
+// Keys or mouse actions and their effect.
+struct KeyLine {
+  const char* key;
+  const char* effect;
+  bool spheres_only = false;
+};
+
+constexpr std::array<KeyLine, 24> kKeys = {{
+    {"Space", "play or pause"},
+    {".", "next frame"},
+    {"Shift + .", "next collision, with the pair marked"},
+    {"R   Shift + R", "restart; with a new seed"},
+    {"+  −", "faster, slower"},
+    {"G", "gallery; / searches it"},
+    {"[  ]", "previous scene, next scene"},
+    {"Ctrl + Z   Ctrl + Y", "undo, redo"},
+    {"Ctrl + Q", "quit"},
+    {"Ctrl + S   F2", "save the scene with its changes; screenshot"},
+    {"P", "plots"},
+    {"T", "goal and suggestions of the scene"},
+    {"M", "colour range of the particles: fixed or automatic"},
+    {"Tab", "hide or show the panels"},
+    {"L", "lecture: for a projector, large type, panels hidden"},
+    {"F11", "full screen"},
+    {"Esc", "close the open panel, or deselect the particle"},
+    {"Drag", "turn the view", true},
+    {"X  Y  Z  I", "view along an axis, isometric view", true},
+    {"Right or Shift + drag", "move the view"},
+    {"Scroll   F", "zoom about the cursor; fit the box"},
+    {"Click a particle", "its state; double-click follows it"},
+    {"Drag a wall", "resize the box; press just outside of it"},
+    {"Drop a file", "open a scene, or the scene in a picture"},
+}};
+
+}  // namespace
+
+void help_window(int dimension, float width, float height) {
   const float unit = ImGui::GetFontSize();
   begin_note("help", ImVec2(0.5f * width, 0.5f * height), ImVec2(0.5f, 0.5f));
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Spacing();
-  for (const auto& [key, what] : kKeys) {
+  for (const auto& [key, effect, spheres_only] : kKeys) {
+    if (spheres_only && dimension == 2) continue;
     ImGui::TextUnformatted(key);
     ImGui::SameLine(13.0f * unit);
-    ImGui::TextDisabled("%s", what);
+    ImGui::TextDisabled("%s", effect);
   }
   end_note();
 }

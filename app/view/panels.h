@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "app/view/controls.h"
 #include "app/view/session.h"
 
@@ -7,16 +10,21 @@ namespace clatter {
 
 // The groups of the left panel. Each draws into the current ImGui window.
 
-/// Number of disks and their collision laws.
+/// Number of particles and their collision laws.
 void gas_panel(Session& session, Controls& controls);
-/// Box, walls, gravity and bulk drive.
+/// Dimension, box, walls, gravity and bulk drive.
 void box_panel(Session& session, Controls& controls);
 /// Colours, heatmap, arrows and other layers of the picture.
 void view_panel(Session& session, Controls& controls);
 /// Settings that trade accuracy for speed, with their cost.
 void accuracy_panel(Session& session, Controls& controls);
-/// End of the colour range of the disks: a round number at or above twice the thermal speed.
-double disk_colour_end(const Snapshot& snapshot);
+/// Direction of view, angle of view and slab of spheres. Returns true if the view changed.
+bool space_controls(const Session& session, Controls& controls, View& view);
+/// Slices of the heatmap of spheres. Returns true if the view changed.
+bool choose_slices(const Session& session, Controls& controls, View& view);
+/// Ends of a colour range of the particles, symmetric for quantities of both signs: a round number
+/// at or above twice the thermal speed; of depths, half the diagonal of the box.
+std::array<double, 2> colour_ends(const Snapshot& snapshot, ColourBy colour_by);
 /// Action of the record panel.
 enum class Recording { None, Screenshot, SaveScene, CopyCommand, Film, StopFilm };
 /// Buttons for pictures, scene files and films. `filmed` is the completed fraction of the current

@@ -16,16 +16,21 @@ namespace {
 // Colours for colour-blind readers (Okabe and Ito 2008).
 constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
                  kGreen = {0x00, 0x9e, 0x73}, kRed = {0xd5, 0x5e, 0x00},
-                 kPurple = {0xcc, 0x79, 0xa7};
+                 kPurple = {0xcc, 0x79, 0xa7}, kYellow = {0xcf, 0xc0, 0x2a};
+
+// Of the curves along x, y and z.
+constexpr std::array<Colour, 3> kAxisColours = {kOrange, kBlue, kYellow};
+constexpr std::array<const char*, 3> kAxisNames = {"x", "y", "z"};
 
 // The theories of chapter 7 of docs/theory.md.
-constexpr const char* kSimple = "Theory that averages over all disks; dense gases differ";
+constexpr const char* kSimple = "Theory that averages over all particles; dense gases differ";
 constexpr const char* kRefined =
-    "Theory that averages over the disks that collide; holds for 0.3 < (1 - α²) ψ < 3";
+    "Theory that averages over the particles that collide; holds for 0.3 < (1 - α²) ψ < 3";
 constexpr const char* kCorrected = "The refined theory with the dense layer at the walls";
 
 template <class Value>
-Curve over_time(const char* name, Colour colour, const std::vector<Sample>& samples, Value value) {
+Curve over_time(const std::string& name, Colour colour, const std::vector<Sample>& samples,
+                Value value) {
   Curve curve{name, colour, {}};
   for (const Sample& sample : samples) curve.points.emplace_back(sample.time, value(sample));
   return curve;
@@ -42,10 +47,12 @@ Curve level(const char* name, const char* help, Colour colour, const std::vector
 
 LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene, Colour plain) {
   LivePlot plot{"Temperature", "time t", false, false, {}, "m a²/t²"};
-  plot.curves = {
-      over_time("T_x", kOrange, samples, [](const Sample& s) { return s.temperature.x(); }),
-      over_time("T_y", kBlue, samples, [](const Sample& s) { return s.temperature.y(); }),
-      over_time("T", plain, samples, [](const Sample& s) { return 0.5 * s.temperature.sum(); })};
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
+    plot.curves.push_back(over_time(std::string("T_") + kAxisNames[axis], kAxisColours[axis],
+                                    samples, [&](const Sample& s) { return s.temperature[axis]; }));
+  }
+  plot.curves.push_back(
+      over_time("T", plain, samples, [](const Sample& s) { return s.temperature.mean(); }));
   if (const auto gas = vibrated_gas(scene); gas && gas->drive_speed > 0.0) {
     plot.curves.push_back(level("simple", kSimple, kRed, samples, gas->temperature_simple()));
     plot.curves.push_back(level("refined", kRefined, kGreen, samples, gas->temperature_refined()));
@@ -74,10 +81,15 @@ LivePlot residual_plot(const std::vector<Sample>& samples) {
   return plot;
 }
 
-// A field along x, with its standard errors.
+// Label of a plot's horizontal axis.
+std::string along(Axis axis) {
+  return std::string(kAxisNames[static_cast<std::size_t>(axis)]) + " in a";
+}
+
+// A field along an axis, with its standard errors.
 LivePlot profile_plot(const Profile& profile, std::size_t chosen, int dimension) {
   const Label label = label_of(profile.fields[chosen], dimension);
-  LivePlot plot{"Profile", "x in a", false, false, {}, label.unit};
+  LivePlot plot{"Profile", along(profile.axis), false, false, {}, label.unit};
   Curve curve{label.name, kBlue, {}};
   for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
     const Estimate& value = profile.values[chosen][i];
@@ -88,16 +100,19 @@ LivePlot profile_plot(const Profile& profile, std::size_t chosen, int dimension)
   return plot;
 }
 
-// Magnitudes of the balance residuals along x. They are rounding errors, so their signs are random.
-LivePlot balance_plot(const ResidualProfile& profile) {
+// Magnitudes of the balance residuals along an axis. They are rounding errors, so their signs are
+// random.
+LivePlot balance_plot(const ResidualProfile& profile, int dimension) {
   constexpr double kBelowRounding = 1e-18;
-  LivePlot plot{"Balance", "x in a", false, true, {}, "residual, relative", kBelowRounding};
-  constexpr std::array<const char*, 4> kNames = {"mass", "momentum x", "momentum y", "energy"};
-  constexpr std::array<Colour, 4> kColours = {kGreen, kOrange, kBlue, kRed};
-  const std::vector<Field> residuals = residual_fields(2);
-  for (std::size_t k = 0; k < kNames.size(); ++k) {
-    Curve curve{kNames[k], kColours[k], {}};
-    const std::vector<double> values = profile.residuals.map(residuals[k]);
+  LivePlot plot{"Balance", along(profile.axis),  false,         true,
+                {},        "residual, relative", kBelowRounding};
+  for (const Field residual : residual_fields(dimension)) {
+    Curve curve{"energy", kRed, {}};
+    if (residual.quantity == Quantity::BalanceMass) curve = {"mass", kGreen, {}};
+    if (residual.quantity == Quantity::BalanceMomentum) {
+      curve = {std::string("momentum ") + kAxisNames[residual.i], kAxisColours[residual.i], {}};
+    }
+    const std::vector<double> values = profile.residuals.map(residual);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double x = (static_cast<double>(i) + 0.5) * profile.width;
       curve.points.emplace_back(x, std::fabs(values[i]));
@@ -107,15 +122,17 @@ LivePlot balance_plot(const ResidualProfile& profile) {
   return plot;
 }
 
-LivePlot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
+LivePlot velocity_plot(const VelocityHistogram& velocities, int dimension, Colour plain) {
   LivePlot plot{"Velocities", "v / standard deviation", false, true, {}, "density"};
   Curve gaussian{"Gaussian", plain, {}, true};
   for (double v = -4.0; v <= 4.0; v += 0.1) {
     gaussian.points.emplace_back(v, std::exp(-0.5 * v * v) / std::sqrt(2.0 * std::numbers::pi));
   }
-  plot.curves = {{"v_x", kOrange, velocities.density(0)},
-                 {"v_y", kBlue, velocities.density(1)},
-                 std::move(gaussian)};
+  for (int axis = 0; axis < dimension; ++axis) {
+    plot.curves.push_back(
+        {std::string("v_") + kAxisNames[axis], kAxisColours[axis], velocities.density(axis)});
+  }
+  plot.curves.push_back(std::move(gaussian));
   return plot;
 }
 
@@ -123,7 +140,7 @@ LivePlot velocity_plot(const VelocityHistogram& velocities, Colour plain) {
 double settled_temperature(const std::vector<Sample>& samples) {
   double sum = 0.0;
   for (std::size_t i = samples.size() / 2; i < samples.size(); ++i) {
-    sum += 0.5 * samples[i].temperature.sum();
+    sum += samples[i].temperature.mean();
   }
   return sum / static_cast<double>(samples.size() - samples.size() / 2);
 }
@@ -155,28 +172,29 @@ LivePlot figure_plot(const std::vector<Sample>& samples, const VibratedGas& gas)
 
 }  // namespace
 
-std::vector<std::string> profile_names() {
+std::vector<std::string> profile_names(Axis axis) {
   std::vector<std::string> names;
-  for (const Field field : kProfiledFields) names.push_back(in_words(name_of(field)));
+  for (const Field field : profiled_fields(axis)) names.push_back(in_words(name_of(field)));
   names.push_back("balance residuals");
   return names;
 }
 
 Profiled profiled_by(std::size_t name) {
-  return name < kProfiledFields.size() ? Profiled::Fields : Profiled::Balances;
+  return name < profiled_fields(Axis::X).size() ? Profiled::Fields : Profiled::Balances;
 }
 
 std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
                                const ThemeColours& theme) {
   const std::vector<Sample>& samples = history.samples();
+  const int dimension = frame.scene->dimension();
   std::vector<LivePlot> plots;
   if (frame.profile && profiled < frame.profile->fields.size()) {
-    plots.push_back(profile_plot(*frame.profile, profiled, frame.scene->dimension()));
+    plots.push_back(profile_plot(*frame.profile, profiled, dimension));
   }
-  if (frame.residuals) plots.push_back(balance_plot(*frame.residuals));
+  if (frame.residuals) plots.push_back(balance_plot(*frame.residuals, dimension));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
   plots.push_back(energy_plot(samples, theme.text));
-  plots.push_back(velocity_plot(history.velocities(), theme.text));
+  plots.push_back(velocity_plot(history.velocities(), dimension, theme.text));
   const auto gas = vibrated_gas(*frame.scene);
   if (gas && gas->drive_speed > 0.0 && gas->wall_restitution == 1.0 && gas->restitution < 1.0) {
     plots.push_back(figure_plot(samples, *gas));

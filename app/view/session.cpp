@@ -1,6 +1,7 @@
 #include "app/view/session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/scene/change_dimension.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/schedule.h"
 
@@ -30,7 +32,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"plays", frame.plays},
                          {"held", frame.held},
                          {"changes", frame.scene->changes.size()},
-                         {"box", {frame.snapshot.box.x(), frame.snapshot.box.y()}},
+                         {"box", std::vector(frame.snapshot.box.begin(), frame.snapshot.box.end())},
                          {"particles", frame.snapshot.count()},
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
@@ -83,17 +85,27 @@ void Session::answered(const Frame& now) {
 }
 
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
-  if (!before_ && frame().run > 0) before_ = Before{opened_, view_, frame().run};
-  wishes_ = true;
-  scene_ = opened_ = scene;
-  view_ = scene.view;
-  speed_ = view_.speed;
   seed_ = seed;
   plays_ = plays;
   done_.clear();
   undone_.clear();
-  log_.event("open", {{"title", scene.title}, {"seed", seed}, {"command", sent_ + 1}});
-  send(command::Open{scene, seed, plays});
+  start({scene, scene}, "open");
+}
+
+// Sends a scene to the engine, whose refusal restores the present one.
+void Session::start(const OpenedScene& opened, const char* event) {
+  if (!before_ && frame().run > 0) before_ = Before{opened_, view_, frame().run};
+  wishes_ = true;
+  scene_ = opened.scene;
+  opened_ = opened.opened;
+  view_ = scene_.view;
+  speed_ = view_.speed;
+  ++views_;
+  log_.event(event, {{"title", scene_.title},
+                     {"seed", seed_},
+                     {"dimension", scene_.dimension()},
+                     {"command", sent_ + 1}});
+  send(command::Open{scene_, seed_, plays_});
 }
 
 Scene Session::recorded() const {
@@ -109,17 +121,37 @@ Scene Session::recorded() const {
   return scene;
 }
 
-void Session::restart() {
+Scene Session::restarted() const {
   Scene scene = scene_;
   scene.changes = opened_.changes;
   if (!scene.changes.empty()) scene = opened_;  // scheduled changes start from the opened laws
   scene.view = view_;
   scene.view.speed = speed_;
-  log_.event("reset", {{"seed", seed_}, {"command", sent_ + 1}});
-  send(command::Open{scene, seed_, plays_});
+  return scene;
 }
 
-void Session::refit(const Vec2& shift) {
+void Session::restart() {
+  log_.event("reset", {{"seed", seed_}, {"command", sent_ + 1}});
+  send(command::Open{restarted(), seed_, plays_});
+}
+
+void Session::switch_dimension() {
+  const OpenedScene before{restarted(), opened_};
+  try {
+    const auto [scene, removed] = change_dimension(before.scene, 5 - before.scene.dimension());
+    if (!removed.empty()) {
+      tell(fmt::format("Without meaning for {}, and removed: {}; Ctrl+Z restores the former scene",
+                       scene.dimension() == 2 ? "disks" : "spheres", fmt::join(removed, ", ")));
+    }
+    remember({.scenes = {before, {scene, scene}}});
+  } catch (const UserError& error) {
+    tell(error.problem() + "; " + error.advice());
+    return;
+  }
+  start(done_.back().scenes[1], "dimension");
+}
+
+void Session::refit(const VecX& shift) {
   Scene scene = scene_;
   scene.changes.clear();
   scene.view = view_;
@@ -161,7 +193,7 @@ void Session::set_speed(double speed) {
   send(command::SetSpeed{speed_});
 }
 
-void Session::set(const std::vector<Override>& settings, const Vec2& shift) {
+void Session::set(const std::vector<Override>& settings, const VecX& shift) {
   try {
     scene_ = with_settings(scene_, settings);
     wishes_ = true;
@@ -188,6 +220,8 @@ void Session::remember(Edit edit) {
 void Session::apply(const Edit& edit, bool again) {
   if (edit.views) {
     set_view((*edit.views)[again ? 1 : 0]);
+  } else if (!edit.scenes.empty()) {
+    start(edit.scenes[again ? 1 : 0], "dimension");
   } else {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
   }
@@ -211,20 +245,26 @@ void Session::redo() {
 
 void Session::set_view(const View& view) {
   const bool observes_anew = !view.averages_like(view_) || view.trails != view_.trails;
+  if (view.azimuth != view_.azimuth || view.elevation != view_.elevation) {
+    log_.event("turn", {{"azimuth", view.azimuth}, {"elevation", view.elevation}});
+  }
   view_ = view;
   ++views_;
   if (observes_anew) send(command::Show{view});
 }
 
-void Session::pick(std::optional<std::size_t> disk) {
-  if (std::exchange(picked_, disk) == disk) return;
+void Session::pick(std::optional<std::size_t> particle) {
+  if (std::exchange(picked_, particle) == particle) return;
   command::Pick pick;
-  if (disk) pick.particle = static_cast<std::uint32_t>(*disk);
+  if (particle) pick.particle = static_cast<std::uint32_t>(*particle);
+  log_.event("pick", {{"particle", particle ? nlohmann::json(*particle) : nlohmann::json()}});
   send(pick);
 }
 
-void Session::show_profile(Profiled what) {
-  if (std::exchange(profiled_, what) != what) send(command::ShowProfile{what});
+void Session::show_profile(Profiled what, Axis axis) {
+  if (profiled_.what == what && profiled_.axis == axis) return;
+  profiled_ = {what, axis};
+  send(profiled_);
 }
 
 void Session::tell(const std::string& message) {

@@ -10,12 +10,20 @@
 
 namespace clatter {
 
+/// A scene with its settings, and as it was opened.
+struct OpenedScene {
+  Scene scene;
+  Scene opened;
+};
+
 /// One entry of the undo history.
 struct Edit {
   std::vector<Override> before = {};  ///< keys that undo the change
   std::vector<Override> after = {};   ///< keys that make the change
-  Vec2 shift = {0.0, 0.0};            ///< shift of the disks with `after`; undo shifts them back
+  VecX shift = {};  ///< shift of the particles with `after`; undo shifts them back; empty: none
   std::optional<std::array<View, 2>> views = {};  ///< view before and after; absent: unchanged
+  /// Scenes before and after a change of dimension, which start again; empty: no such change.
+  std::vector<OpenedScene> scenes = {};
 };
 
 /// The simulation in the window: its scene, its view and the undo history. It sends commands to the
@@ -45,21 +53,24 @@ class Session {
   void restart();
   /// Calls restart() with the next seed.
   void restart_with_new_seed();
+  /// Starts the scene in the other dimension, with disks or spheres, see change_dimension(). Undo
+  /// starts the former scene.
+  void switch_dimension();
   /// Continues or pauses the simulation.
   void play(bool on);
   /// Continues the simulation up to a simulation time, and pauses it there.
   void play_until(double time);
   /// Advances the simulation by one frame at the current speed, and pauses it.
   void step_frame();
-  /// Advances the simulation to the next collision of two disks, and pauses it.
+  /// Advances the simulation to the next collision of two particles, and pauses it.
   void step_collision();
   /// Sets the speed, simulation time per second. It is clamped to 1e-4..1e6.
   void set_speed(double speed);
 
   /// Sets keys. Laws change in the running simulation. Other keys restart it from the current
-  /// disks, moved by `shift`, without those that no longer fit. An invalid setting becomes a
+  /// particles, moved by `shift`, without those that no longer fit. An invalid setting becomes a
   /// message.
-  void set(const std::vector<Override>& settings, const Vec2& shift = Vec2::Zero());
+  void set(const std::vector<Override>& settings, const VecX& shift = {});
   /// Adds an entry to the undo history, and clears the redo history.
   void remember(Edit edit);
   /// Reverts the last entry of the undo history.
@@ -69,10 +80,10 @@ class Session {
 
   /// Sets the view. Another field restarts the averages. Trails make the engine record flights.
   void set_view(const View& view);
-  /// Sets the kind of profile in later frames.
-  void show_profile(Profiled what);
-  /// Later frames contain the last and next collision of this disk; absent: of none.
-  void pick(std::optional<std::size_t> disk);
+  /// Sets the profile in later frames.
+  void show_profile(Profiled what, Axis axis);
+  /// Later frames contain the last and next collision of this particle; absent: of none.
+  void pick(std::optional<std::size_t> particle);
   /// Number of changes of the view.
   std::uint64_t views() const { return views_; }
 
@@ -96,7 +107,9 @@ class Session {
   void answered(const Frame& now);
   void send(Command command);
   void apply(const Edit& edit, bool again);
-  void refit(const Vec2& shift);
+  void refit(const VecX& shift);
+  void start(const OpenedScene& opened, const char* event);
+  Scene restarted() const;
 
   Worker& worker_;
   ScriptLog& log_;
@@ -105,7 +118,7 @@ class Session {
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;
-  Profiled profiled_ = Profiled::Nothing;
+  command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   std::optional<std::size_t> picked_;
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;

@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "engine/dimension.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/gl/canvas.h"
@@ -15,10 +16,12 @@ static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
   constexpr double kSeconds = 3.0;
   constexpr std::uint64_t kMaxSteps = 20'000;
   const Scene scene = load_gallery_scene(file);
-  ScheduledRun<2> run(scene, 1);
-  run.show(scene.view);
-  run.run_until(kSeconds * scene.view.speed, kNoLimit, kMaxSteps);
-  return run.snapshot();
+  return with_dimension(scene.dimension(), [&](auto dimension) {
+    ScheduledRun<dimension> run(scene, 1);
+    run.show(scene.view);
+    run.run_until(kSeconds * scene.view.speed, kNoLimit, kMaxSteps);
+    return run.snapshot();
+  });
 }
 
 GLuint Thumbnails::of(const EmbeddedFile& scene) {

@@ -3,64 +3,45 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/view/enum_list.h"
 #include "app/view/panels.h"
-#include "engine/scene/scene_keys.h"
-#include "engine/scene/text.h"
 #include "render/colour_range.h"
+#include "render/label.h"
 
 namespace clatter {
 
-// The names of an enumeration's values, with spaces.
-template <class E, std::size_t N>
-static std::vector<std::string> words_of(const std::array<Named<E>, N>& names) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : names) words.push_back(in_words(name));
-  return words;
-}
-
-template <class E, std::size_t N>
-static int index_of(E value, const std::array<Named<E>, N>& names) {
-  const auto found = std::ranges::find(names, value, &Named<E>::value);
-  return static_cast<int>(found - names.begin());
-}
-
-// List of an enumeration's values. Returns true if the choice changed.
-template <class E, std::size_t N>
-static bool choose(Controls& controls, const char* key, const char* name, const char* help,
-                   const std::array<Named<E>, N>& names, E& value, E usual) {
-  int chosen = index_of(value, names);
-  if (!controls.choice(key, name, help, words_of(names), chosen, index_of(usual, names))) {
-    return false;
+static bool shows_in(ColourBy colour_by, const Scene& scene) {
+  switch (colour_by) {
+    case ColourBy::VelocityZ:
+    case ColourBy::Depth:
+      return scene.dimension() == 3;
+    case ColourBy::Spin:
+      return scene.spins();
+    default:
+      return true;
   }
-  value = names[static_cast<std::size_t>(chosen)].value;
-  return true;
-}
-
-// List of an enumeration's values, with `none` as its first word.
-template <class E, std::size_t N>
-static bool choose(Controls& controls, const char* key, const char* name, const char* help,
-                   const std::array<Named<E>, N>& names, const char* none, std::optional<E>& value,
-                   std::optional<E> usual) {
-  std::vector<std::string> words = words_of(names);
-  words.insert(words.begin(), none);
-  const auto place = [&](const std::optional<E>& e) { return e ? index_of(*e, names) + 1 : 0; };
-  int chosen = place(value);
-  if (!controls.choice(key, name, help, words, chosen, place(usual))) return false;
-  value.reset();
-  if (chosen > 0) value = names[static_cast<std::size_t>(chosen) - 1].value;
-  return true;
 }
 
 static bool choose_colour(const Session& session, Controls& controls, View& view) {
-  std::vector<std::string> colours = words_of(kColourings);
-  if (!session.scene().spins()) colours.pop_back();
-  const int most = static_cast<int>(colours.size()) - 1;
-  int chosen = std::min(index_of(view.colour_by, kColourings), most);
-  const int usual = std::min(index_of(session.opened().view.colour_by, kColourings), most);
+  std::vector<std::string> words;
+  std::vector<ColourBy> colours;
+  for (const auto& [name, colour_by] : kColourings) {
+    if (!shows_in(colour_by, session.scene())) continue;
+    words.push_back(in_words(name));
+    colours.push_back(colour_by);
+  }
+  const auto place = [&](ColourBy colour_by) {
+    const auto found = std::ranges::find(colours, colour_by);
+    return static_cast<int>((found == colours.end() ? colours.begin() + 1 : found) -
+                            colours.begin());
+  };
+  const bool disks = session.scene().dimension() == 2;
+  int chosen = place(view.colour_by);
   const bool changed =
-      controls.choice("view.colour_by", "Disks coloured by",
-                      "Quantity that the colour of a disk shows", colours, chosen, usual);
-  view.colour_by = kColourings[static_cast<std::size_t>(chosen)].value;
+      controls.choice("view.colour_by", disks ? "Disks coloured by" : "Spheres coloured by",
+                      "Quantity that the colour of a particle shows", words, chosen,
+                      place(session.opened().view.colour_by));
+  if (changed) view.colour_by = colours[static_cast<std::size_t>(chosen)];
   return changed;
 }
 
@@ -77,7 +58,9 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
     return found == fields.end() ? 0 : static_cast<int>(found - fields.begin());
   };
   int chosen = place(view.field);
-  if (!controls.choice("view.field", "Heatmap", "The field below the disks", words, chosen,
+  const char* help = session.scene().dimension() == 2 ? "The field below the disks"
+                                                      : "The field, drawn on slices of the box";
+  if (!controls.choice("view.field", "Heatmap", help, words, chosen,
                        place(session.opened().view.field))) {
     return false;
   }
@@ -85,21 +68,20 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
   return true;
 }
 
-// `end` is the largest magnitude in the picture, or a round number above it; 0: unknown. `signs`:
-// the values have both signs.
+// `ends()` is a range of the values in the picture; without values both ends are 0.
+template <class Ends>
 static bool choose_range(Controls& controls, const std::string& key, const char* name,
-                         ColourRange& range, const ColourRange& usual, double end, bool signs) {
+                         ColourRange& range, const ColourRange& usual, const Ends& ends) {
   int chosen = range.kind;
   bool changed = controls.choice(key.c_str(), name,
                                  "auto follows the picture, locked keeps the first range, given is "
                                  "set by two numbers",
                                  {"auto", "locked", "given"}, chosen, usual.kind);
   if (changed) {
-    const bool given = chosen == ColourRange::Given;
-    if (given && usual.kind != ColourRange::Given && end > 0.0) {
-      range.ends = {signs ? -end : 0.0, end};
-    } else {
-      range.ends = usual.ends;
+    range.ends = usual.ends;
+    if (chosen == ColourRange::Given && usual.kind != ColourRange::Given) {
+      const std::array<double, 2> shown = ends();
+      if (shown[1] > 0.0) range.ends = shown;
     }
     range.kind = static_cast<ColourRange::Kind>(chosen);
   }
@@ -111,13 +93,16 @@ static bool choose_range(Controls& controls, const std::string& key, const char*
   return changed;
 }
 
-// A round number at or above all magnitudes of a map; 0: all are zero or missing.
-static double end_of(const FieldMap& map) {
-  double most = 0.0;
+// Round numbers around all values of a map; both 0: all are zero or missing.
+static std::array<double, 2> ends_of(const FieldMap& map) {
+  double most = 0.0, least = 0.0;
   for (const double value : map.values) {
-    if (std::isfinite(value)) most = std::max(most, std::fabs(value));
+    if (!std::isfinite(value)) continue;
+    most = std::max(most, std::fabs(value));
+    least = std::min(least, value);
   }
-  return most > 0.0 ? round_up(most) : 0.0;
+  const double end = most > 0.0 ? round_up(most) : 0.0;
+  return {least < 0.0 ? -end : 0.0, end};
 }
 
 static bool choose_heatmap(const Session& session, Controls& controls, View& view) {
@@ -126,11 +111,13 @@ static bool choose_heatmap(const Session& session, Controls& controls, View& vie
   if (!view.field) return changed;
   changed |= choose(controls, "view.field_palette", "Palette of the heatmap",
                     "For magnitudes; signed fields are blue below zero and red above", kPalettes,
-                    "as the disks", view.field_palette, usual.field_palette);
+                    session.scene().dimension() == 2 ? "as the disks" : "as the spheres",
+                    view.field_palette, usual.field_palette);
   const auto& map = session.frame().snapshot.field;
-  const bool signs = map && std::ranges::any_of(map->values, [](double v) { return v < 0.0; });
   changed |= choose_range(controls, "view.field_range", "Range of the heatmap", view.field_range,
-                          usual.field_range, map ? end_of(*map) : 0.0, signs);
+                          usual.field_range, [&] {
+                            return map ? ends_of(*map) : std::array<double, 2>{0.0, 0.0};
+                          });
   return changed;
 }
 
@@ -149,31 +136,41 @@ static bool choose_trails(Controls& controls, std::optional<double>& trails,
   return changed;
 }
 
-double disk_colour_end(const Snapshot& snapshot) {
-  return round_up(2.0 * std::sqrt(2.0 * snapshot.temperature));
+std::array<double, 2> colour_ends(const Snapshot& snapshot, ColourBy colour_by) {
+  const double most = colour_by == ColourBy::Depth ? 0.5 * snapshot.box.norm()
+                                                   : 2.0 * std::sqrt(2.0 * snapshot.temperature);
+  const double end = round_up(most);
+  const bool signs =
+      label_of(colour_by, static_cast<int>(snapshot.box.size())).sign == Sign::Either;
+  return {signs ? -end : 0.0, end};
 }
 
 void view_panel(Session& session, Controls& controls) {
   if (!group("View")) return;
   View view = session.view();
   const View& usual = session.opened().view;
-  bool changed = choose_colour(session, controls, view);
+  const bool disks = session.scene().dimension() == 2;
+  bool changed = !disks && space_controls(session, controls, view);
+  changed |= choose_colour(session, controls, view);
   if (view.colour_by != ColourBy::None) {
     changed |= choose(controls, "view.palette", "Palette", "All are fit for the colour-blind",
                       kPalettes, view.palette, usual.palette);
-    changed |=
-        choose_range(controls, "view.range", "Range of the disks", view.range, usual.range,
-                     disk_colour_end(session.frame().snapshot), view.colour_by != ColourBy::Speed);
+    changed |= choose_range(
+        controls, "view.range", disks ? "Range of the disks" : "Range of the spheres", view.range,
+        usual.range, [&] { return colour_ends(session.frame().snapshot, view.colour_by); });
   }
   changed |= choose_heatmap(session, controls, view);
+  if (!disks && view.field) changed |= choose_slices(session, controls, view);
   changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows, "none",
                     view.arrows, usual.arrows);
   changed |= choose_trails(controls, view.trails, usual.trails);
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,
                     view.theme, usual.theme);
-  changed |=
-      controls.toggle("view.grid", "Grid", "Its spacing is the length of the scale bar", view.grid);
+  if (disks) {
+    changed |= controls.toggle("view.grid", "Grid", "Its spacing is the length of the scale bar",
+                               view.grid);
+  }
   changed |= controls.toggle("view.overlay", "Title, figures and scales",
                              "Text and legends on the picture, as in films", view.overlay);
   controls.show(view, changed);

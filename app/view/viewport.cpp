@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "app/view/direction.h"
 #include "app/view/style.h"
+#include "render/picking.h"
 
 namespace clatter {
 
@@ -12,6 +15,7 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
     canvas_.emplace(*gl_, size);
     stale_ = true;
   }
+  const Snapshot& gas = frame.snapshot;
   if (frame.run != run_) {
     run_ = frame.run;
     fits_ = true;
@@ -20,12 +24,17 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
   if (!stale_) return;
   stale_ = false;
   const OverlayText text{frame.scene->title, frame.scene->caption, 0.0, letters};
-  if (fits_) camera_ = renderer_.fit(frame.snapshot, size, view, text);
-  if (follows_ && *picked_ < frame.snapshot.count()) {
-    camera_.centre = frame.snapshot.positions.col(*picked_);
+  if (fits_) camera_ = renderer_.fit(gas, size, view, text);
+  if (gas.box.size() == 3) {
+    camera_.orbit.azimuth = view.azimuth;
+    camera_.orbit.elevation = view.elevation;
+    camera_.orbit.view_angle = view.view_angle;
+  }
+  if (follows_ && *picked_ < gas.count()) {
+    aim(in_space(gas.positions.col(static_cast<Eigen::Index>(*picked_))));
   }
   canvas_->bind();
-  renderer_.draw(frame.snapshot, camera_, size, view, text);
+  renderer_.draw(gas, camera_, size, view, text);
 }
 
 void Viewport::show(int x, int y) const {
@@ -45,74 +54,91 @@ bool Viewport::let_go() {
   return had;
 }
 
-Vec2 Viewport::world(ImVec2 mouse, ImVec2 corner, float scale) const {
-  const Size size = canvas_->size();
-  const Vec2 pixel((mouse.x - corner.x) * scale, size.height - (mouse.y - corner.y) * scale);
-  return camera_.centre +
-         (pixel - 0.5 * Vec2(size.width, size.height)) / Projection{camera_, size}.scale();
+void Viewport::aim(const Vec3& centre) {
+  camera_.centre = centre.head<2>();
+  camera_.orbit.z = centre.z();
 }
 
-ImVec2 Viewport::place(const Vec2& world, ImVec2 corner, float scale) const {
-  const Vec2 pixel = Projection{camera_, canvas_->size()}.pixels(world);
-  return {corner.x + static_cast<float>(pixel.x()) / scale,
-          corner.y + static_cast<float>(canvas_->size().height - pixel.y()) / scale};
+std::optional<ImVec2> Viewport::picked_place(const Frame& frame, const WindowMap& map) const {
+  if (!picked_ || *picked_ >= frame.snapshot.count()) return std::nullopt;
+  return map.place(frame.snapshot.positions.col(static_cast<Eigen::Index>(*picked_)));
 }
 
-std::optional<ImVec2> Viewport::picked_place(const Frame& frame, ImVec2 corner, float scale) const {
-  if (!canvas_ || !picked_ || *picked_ >= frame.snapshot.count()) return std::nullopt;
-  return place(frame.snapshot.positions.col(*picked_), corner, scale);
+bool Viewport::use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over) {
+  if (over && ImGui::GetIO().MouseWheel != 0.0f) zoom(frame, map);
+  if (over && (ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2))) pan(map);
+  return drag_or_click(frame, view, map, over);
 }
 
-std::optional<std::size_t> Viewport::disk_at(const Frame& frame, const Vec2& point) const {
-  const auto& positions = frame.snapshot.positions;
-  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
-    if ((positions.col(i) - point).norm() < 0.5 * frame.snapshot.diameter) return i;
-  }
-  return std::nullopt;
+// The point under the mouse, at the depth of the camera's centre, stays there.
+void Viewport::zoom(const Frame& frame, const WindowMap& map) {
+  const Eye& eye = map.eye();
+  const Vec2 off = (map.pixel(ImGui::GetIO().MousePos) - eye.origin()) / eye.scale();
+  const Vec3 point = eye.world({off.x(), off.y(), 0.0});
+  const double factor = std::pow(0.85, ImGui::GetIO().MouseWheel);
+  const double wide = frame.snapshot.box.maxCoeff() * 10.0;
+  const double width = std::clamp(camera_.width * factor, 2.0, std::max(20.0, wide));
+  aim(point + (eye.centre() - point) * (width / camera_.width));
+  camera_.width = width;
+  fits_ = false;
+  stale_ = true;
 }
 
-void Viewport::use_mouse(const Frame& frame, ImVec2 corner, float scale) {
+void Viewport::pan(const WindowMap& map) {
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  if (moved.x == 0.0f && moved.y == 0.0f) return;
+  aim(map.eye().world({-moved.x / map.units(), moved.y / map.units(), 0.0}));
+  fits_ = false;
+  follows_ = false;
+  stale_ = true;
+}
+
+// A click picks the particle that was under the mouse at the press. A drag turns spheres, or moves
+// the view with Shift.
+bool Viewport::drag_or_click(const Frame& frame, View& view, const WindowMap& map, bool over) {
+  constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
   const ImGuiIO& io = ImGui::GetIO();
-  if (!canvas_) return;
-  if (io.MouseWheel != 0.0f) {
-    const Vec2 point = world(io.MousePos, corner, scale);
-    const double factor = std::pow(0.85, io.MouseWheel);
-    const double wide = std::max(frame.snapshot.box.x(), frame.snapshot.box.y()) * 10.0;
-    const double width = std::clamp(camera_.width * factor, 2.0, std::max(20.0, wide));
-    camera_.centre = point + (camera_.centre - point) * (width / camera_.width);
-    camera_.width = width;
-    fits_ = false;
-    stale_ = true;
+  if (over && ImGui::IsMouseClicked(0)) {
+    press_ = Press{io.MousePos};
+    press_->particle = particle_at(frame.snapshot, map.eye(), map.pixel(io.MousePos), view.slab);
+    press_->twice = ImGui::IsMouseDoubleClicked(0);
   }
-  const bool drags = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
-  if (drags && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
-    const double unit = scale / Projection{camera_, canvas_->size()}.scale();
-    camera_.centre += Vec2(-io.MouseDelta.x, io.MouseDelta.y) * unit;
-    fits_ = false;
-    follows_ = false;
-    stale_ = true;
+  if (!press_) return false;
+  const float x = io.MousePos.x - press_->place.x, y = io.MousePos.y - press_->place.y;
+  press_->dragged |= std::hypot(x, y) >= kClick;
+  bool turned = false;
+  if (press_->dragged && io.KeyShift) {
+    pan(map);
+  } else if (press_->dragged && frame.snapshot.box.size() == 3) {
+    turned = turn(view, io.MouseDelta.x, io.MouseDelta.y);
   }
-  if (ImGui::IsMouseClicked(0)) {
-    picked_ = disk_at(frame, world(io.MousePos, corner, scale));
-    follows_ = picked_ && (ImGui::IsMouseDoubleClicked(0) || follows_);
-    if (follows_) fits_ = false;
-    stale_ = true;
-  }
+  if (ImGui::IsMouseDown(0)) return turned;
+  const Press press = *std::exchange(press_, std::nullopt);
+  if (press.dragged) return turned;
+  picked_ = press.particle;
+  follows_ = picked_ && (press.twice || follows_);
+  if (follows_) fits_ = false;
+  stale_ = true;
+  return turned;
 }
 
-void Viewport::mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const {
-  if (!canvas_) return;
-  const float radius = static_cast<float>(0.5 * frame.snapshot.diameter *
-                                          Projection{camera_, canvas_->size()}.scale()) /
-                       scale;
-  const auto ring = [&](std::uint32_t disk, ImU32 ink) {
-    if (disk >= frame.snapshot.count()) return;
-    list.AddCircle(place(frame.snapshot.positions.col(disk), corner, scale), radius + 2.0f, ink, 0,
-                   2.5f);
+void Viewport::mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const {
+  const Eye& eye = map.eye();
+  const double radius = 0.5 * frame.snapshot.diameter;
+  const auto ring = [&](std::uint32_t particle, ImU32 ink) {
+    if (particle >= frame.snapshot.count()) return;
+    const Vec3 seen = eye.seen(in_space(frame.snapshot.positions.col(particle)));
+    if (eye.w(seen + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
+    const auto [low, high] = eye.around(seen, radius);
+    const float size =
+        0.5f * static_cast<float>((high - low).maxCoeff() / eye.scale()) * map.units();
+    list.AddCircle(map.of_pixel(0.5 * (low + high)), size + 2.0f, ink, 0, 2.5f);
   };
-  if (picked_) ring(*picked_, packed(accent_colour()));
+  if (picked_) ring(static_cast<std::uint32_t>(*picked_), packed(accent_colour()));
   if (!frame.partners) return;
-  for (const std::uint32_t disk : *frame.partners) ring(disk, IM_COL32(255, 214, 90, 255));
+  for (const std::uint32_t particle : *frame.partners) {
+    ring(particle, IM_COL32(255, 214, 90, 255));
+  }
 }
 
 }  // namespace clatter

@@ -5,14 +5,13 @@
 #include <optional>
 
 #include "app/view/session.h"
+#include "app/view/window_map.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 
 namespace clatter {
 
-/// The picture of the gas in the window, drawn as in films, and its mouse actions. Arguments
-/// `corner` are the upper left corner of the viewport in window units. Arguments `scale` are the
-/// pixels per window unit.
+/// The picture of the gas in the window, drawn as in films, and its mouse actions.
 class Viewport {
  public:
   explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
@@ -25,25 +24,26 @@ class Viewport {
   /// The current picture. Requires drawn().
   Image picture() const { return canvas_->read(); }
 
-  /// Pans, zooms and picks disks with the mouse. Call it only if the mouse is over the viewport.
-  void use_mouse(const Frame& frame, ImVec2 corner, float scale);
-  /// Marks the picked disk and the pair of the last collision step.
-  void mark(ImDrawList& list, const Frame& frame, ImVec2 corner, float scale) const;
-
-  /// World position at a position of the window. Requires drawn().
-  Vec2 world(ImVec2 mouse, ImVec2 corner, float scale) const;
-  /// Position in the window of a world position. Requires drawn().
-  ImVec2 place(const Vec2& world, ImVec2 corner, float scale) const;
+  /// The mapping between the world and the window, if the viewport has its upper left corner at
+  /// `corner` and `scale` pixels per window unit. Requires drawn().
+  WindowMap map(ImVec2 corner, float scale) const {
+    return {camera_, canvas_->size(), corner, scale};
+  }
+  /// Pans, zooms, turns spheres and picks particles with the mouse. `over`: the mouse is over the
+  /// viewport. Returns true if the angles of the view changed.
+  bool use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over);
+  /// Marks the picked particle and the pair of the last collision step.
+  void mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const;
 
   /// Shows the whole box again.
   void fit();
-  /// The picked disk; absent: none.
+  /// The picked particle; absent: none.
   const std::optional<std::size_t>& picked() const { return picked_; }
-  /// Position of the picked disk in the window; absent: no such disk.
-  std::optional<ImVec2> picked_place(const Frame& frame, ImVec2 corner, float scale) const;
-  /// True if the camera follows the picked disk.
+  /// Position of the picked particle in the window; absent: not there.
+  std::optional<ImVec2> picked_place(const Frame& frame, const WindowMap& map) const;
+  /// True if the camera follows the picked particle.
   bool follows() const { return follows_; }
-  /// Deselects the picked disk. Returns true if there was one.
+  /// Deselects the picked particle. Returns true if there was one.
   bool let_go();
   /// True after the first picture.
   bool drawn() const { return canvas_.has_value(); }
@@ -51,7 +51,18 @@ class Viewport {
   void redraw() { stale_ = true; }
 
  private:
-  std::optional<std::size_t> disk_at(const Frame& frame, const Vec2& point) const;
+  // A press of the left button on the viewport.
+  struct Press {
+    ImVec2 place;
+    std::optional<std::size_t> particle = {};
+    bool twice = false;    // the second press of a double click
+    bool dragged = false;  // the mouse has moved since
+  };
+
+  void zoom(const Frame& frame, const WindowMap& map);
+  void pan(const WindowMap& map);
+  bool drag_or_click(const Frame& frame, View& view, const WindowMap& map, bool over);
+  void aim(const Vec3& centre);
 
   const Gl* gl_;
   Renderer renderer_;
@@ -60,6 +71,7 @@ class Viewport {
   bool fits_ = true;
   bool stale_ = true;
   std::uint64_t run_ = 0;
+  std::optional<Press> press_;  // while the button is down
   std::optional<std::size_t> picked_;
   bool follows_ = false;
 };

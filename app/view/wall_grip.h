@@ -1,37 +1,50 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "app/view/messages.h"
-#include "app/view/viewport.h"
+#include "app/view/window_map.h"
 
 namespace clatter {
 
 /// Resizes the box by dragging its walls with the mouse. A wall moves by as much as the mouse, and
-/// a click changes nothing. Arguments `corner` and `scale` are as in Viewport.
+/// a click changes nothing.
 class WallGrip {
  public:
   /// A new box for the gas.
   struct Resized {
-    Vec2 box;    ///< new size
-    Vec2 shift;  ///< shift of the disks, which keeps them at their places on the viewport
+    VecX box;    ///< new size
+    VecX shift;  ///< shift of the particles, which keeps them at their places on the viewport
+  };
+
+  /// Area where a wall can be grabbed: a strip along an edge of the box, just outside of it, where
+  /// there are no particles to pick.
+  struct Handle {
+    Side side;
+    std::array<ImVec2, 2> edge;  ///< ends of the edge, window units
+    ImVec2 outward;              ///< width of the strip, from the edge
+    ImVec2 unit;                 ///< motion of the wall on the viewport per diameter along its axis
+
+    /// The smallest area around the strip.
+    Area bounds() const;
   };
 
   /// Handles the mouse. Returns the new box when a moved wall is released. `over`: the mouse is
   /// over the viewport.
-  std::optional<Resized> use(const Viewport& viewport, const Frame& frame, ImVec2 corner,
-                             float scale, bool over);
+  std::optional<Resized> use(const WindowMap& map, const Frame& frame, bool over);
   /// True if a wall is under the mouse or being dragged.
-  bool active() const { return side_.has_value(); }
+  bool active() const { return grip_.has_value(); }
   /// Marks that wall, at its new position while it is dragged.
-  void mark(ImDrawList& list, const Viewport& viewport, const Frame& frame, ImVec2 corner,
-            float scale) const;
+  void mark(ImDrawList& list, const WindowMap& map, const Frame& frame) const;
 
-  /// Area where the wall of a side can be grabbed, in window units. It is just outside the box,
-  /// where there are no disks to pick.
-  static Area handle(const Viewport& viewport, const Frame& frame, ImVec2 corner, float scale,
-                     Side side);
+  /// The handles of all walls that can be grabbed. Disks have one at each side. Spheres have them
+  /// at the edges of the outline of the box. Such an edge belongs to two sides, and grips the wall
+  /// that moves outwards there.
+  static std::vector<Handle> handles(const WindowMap& map, const Frame& frame);
 
  private:
-  std::optional<Side> side_;  // wall under the mouse or being dragged
+  std::optional<Handle> grip_;  // wall under the mouse or being dragged
   bool held_ = false;
   bool moved_ = false;   // the held wall follows the mouse
   ImVec2 pressed_;       // position of the mouse at the press

@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-/// Content of the profile along x that a frame carries.
+/// Content of the profile along an axis that a frame carries.
 enum class Profiled { Nothing, Fields, Balances };
 
 /// Commands of the user to a running gas.
@@ -42,6 +42,7 @@ struct Show {
 /// Selects the profile of frames from now on.
 struct ShowProfile {
   Profiled what = Profiled::Fields;
+  Axis axis = Axis::X;
 };
 /// Selects the particle whose collisions frames contain from now on; absent: none.
 struct Pick {

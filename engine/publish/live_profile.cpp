@@ -6,18 +6,20 @@
 namespace clatter {
 
 template <int D>
-static IntVec<D> columns_in(const Model<D>& model) {
+static IntVec<D> columns_in(const Model<D>& model, Axis axis) {
   constexpr double kMaxColumns = 40.0;
-  const double diameters = std::round(model.box.x() / model.diameter);
+  const auto along = static_cast<int>(axis);
+  const double diameters = std::round(model.box[along] / model.diameter);
   IntVec<D> columns = IntVec<D>::Ones();
-  columns.x() = static_cast<int>(std::clamp(diameters, 1.0, kMaxColumns));
+  columns[along] = static_cast<int>(std::clamp(diameters, 1.0, kMaxColumns));
   return columns;
 }
 
 template <int D>
-LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window)
-    : observer_(simulation, columns_in(simulation.model()),
-                moment_layout<D>(kProfiledFields, simulation.model().spins)) {
+LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis)
+    : axis_(axis),
+      observer_(simulation, columns_in(simulation.model(), axis),
+                moment_layout<D>(profiled_fields(axis), simulation.model().spins)) {
   simulation.add_observer(observer_);
   simulation.every(simulation.time() + window, window,
                    [this](double) { sums_.add(observer_.close_window()); });
@@ -26,13 +28,16 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window)
 template <int D>
 Profile LiveProfile<D>::profile() const {
   if (sums_.parts().size() < 2) return {};
-  return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), kProfiledFields, Axis::X);
+  return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), profiled_fields(axis_),
+                    axis_);
 }
 
 template <int D>
-LiveResiduals<D>::LiveResiduals(Simulation<D>& simulation, double window)
-    : observer_(simulation, columns_in(simulation.model())) {
-  profile_.width = simulation.model().box.x() / observer_.cells().x();
+LiveResiduals<D>::LiveResiduals(Simulation<D>& simulation, double window, Axis axis)
+    : observer_(simulation, columns_in(simulation.model(), axis)) {
+  const auto along = static_cast<int>(axis);
+  profile_.axis = axis;
+  profile_.width = simulation.model().box[along] / observer_.cells()[along];
   simulation.add_observer(observer_);
   simulation.every(simulation.time() + window, window, [this](double) {
     profile_.residuals.include(observer_.close_window().imbalances);

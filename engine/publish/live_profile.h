@@ -10,18 +10,20 @@
 
 namespace clatter {
 
-/// The fields of a LiveProfile, in their order.
-inline constexpr std::array<Field, 5> kProfiledFields = {
-    Quantity::Density, Quantity::Temperature, Field(Quantity::Stress, 0, 0),
-    Field(Quantity::HeatFlux, 0), Quantity::Dissipation};
+/// The fields of a LiveProfile along an axis, in their order.
+constexpr std::array<Field, 5> profiled_fields(Axis axis) {
+  const int k = static_cast<int>(axis);
+  return {Quantity::Density, Quantity::Temperature, Field(Quantity::Stress, k, k),
+          Field(Quantity::HeatFlux, k), Quantity::Dissipation};
+}
 
-/// Profiles along x of a running simulation, averaged since this observer was made.
+/// Profiles along an axis of a running simulation, averaged since this observer was made.
 template <int D>
 class LiveProfile {
  public:
   /// Averages over windows of length `window` (simulation time); their scatter gives the standard
   /// errors. Columns are about one diameter wide, at most 40 columns.
-  LiveProfile(Simulation<D>& simulation, double window);
+  LiveProfile(Simulation<D>& simulation, double window, Axis axis);
   LiveProfile(const LiveProfile&) = delete;
   LiveProfile& operator=(const LiveProfile&) = delete;
 
@@ -29,14 +31,16 @@ class LiveProfile {
   Profile profile() const;
 
  private:
+  Axis axis_;
   CellIntegrals<D> observer_;
   PartSums sums_;
 };
 
-/// Residuals of the balance equations in columns along x.
+/// Residuals of the balance equations in columns along an axis.
 struct ResidualProfile {
   double width = 0.0;   ///< of a column
   Residuals residuals;  ///< [columns]; empty: no complete window yet
+  Axis axis = Axis::X;
 };
 
 /// Closes the balance equations of a running simulation, in the same columns as LiveProfile, since
@@ -45,7 +49,7 @@ template <int D>
 class LiveResiduals {
  public:
   /// Closes the balances over windows of length `window` (simulation time).
-  LiveResiduals(Simulation<D>& simulation, double window);
+  LiveResiduals(Simulation<D>& simulation, double window, Axis axis);
   LiveResiduals(const LiveResiduals&) = delete;
   LiveResiduals& operator=(const LiveResiduals&) = delete;
 

@@ -28,7 +28,7 @@ class RunOf : public WatchedRun {
   void settle() override { run_.settle(); }
   void change(const std::vector<Override>& laws) override { run_.change(laws); }
   void show(const View& view) override { run_.show(view); }
-  void show_profile(Profiled what) override;
+  void show_profile(Profiled what, Axis axis) override;
   void pick(std::optional<std::uint32_t> particle) override;
   void tell(Frame& frame, bool halted) override;
   const std::optional<std::array<std::uint32_t, 2>>& partners() const override {
@@ -57,6 +57,7 @@ class RunOf : public WatchedRun {
   std::optional<CollisionLookahead<D>> lookahead_;   // of the picked particle, from its first frame
   std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
   Profiled profiled_ = Profiled::Nothing;
+  Axis profile_axis_ = Axis::X;
   std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
   std::optional<LiveResiduals<D>> residuals_;
   Tally tally_;
@@ -92,8 +93,8 @@ void RunOf<D>::observe(Simulation<D>& simulation) {
   profile_.reset();
   residuals_.reset();
   const double window = run_.laws().view.window / kWindowParts;
-  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window);
-  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window);
+  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window, profile_axis_);
+  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window, profile_axis_);
 }
 
 template <int D>
@@ -106,9 +107,11 @@ void RunOf<D>::pick(std::optional<std::uint32_t> particle) {
 }
 
 template <int D>
-void RunOf<D>::show_profile(Profiled what) {
-  if (what == profiled_) return;
+void RunOf<D>::show_profile(Profiled what, Axis axis) {
+  if (static_cast<int>(axis) >= D) axis = Axis::X;
+  if (what == profiled_ && axis == profile_axis_) return;
   profiled_ = what;
+  profile_axis_ = axis;
   run_.renew();
 }
 

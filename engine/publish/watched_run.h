@@ -35,8 +35,8 @@ class WatchedRun {
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;
 
-  /// Selects the profile of frames from now on.
-  virtual void show_profile(Profiled what) = 0;
+  /// Selects the profile of frames from now on. An axis that the box lacks is x.
+  virtual void show_profile(Profiled what, Axis axis) = 0;
   /// Selects the particle whose collisions frames contain from now on. Absent, or a number that is
   /// too large: none.
   virtual void pick(std::optional<std::uint32_t> particle) = 0;

@@ -109,8 +109,8 @@ class Work {
     if (watched_) watched_->show(asked.view);
   }
   void obey(const command::ShowProfile& asked) {
-    profiled_ = asked.what;
-    if (watched_) watched_->show_profile(profiled_);
+    profiled_ = asked;
+    if (watched_) watched_->show_profile(asked.what, asked.axis);
   }
   void obey(const command::Pick& asked) {
     if (watched_) watched_->pick(asked.particle);
@@ -125,7 +125,7 @@ class Work {
     auto opened = watched_run(scene, asked.seed);
     halt();
     watched_ = std::move(opened);
-    watched_->show_profile(profiled_);
+    watched_->show_profile(profiled_.what, profiled_.axis);
     pace_.set_speed(asked.scene.view.speed);
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
@@ -242,7 +242,7 @@ class Work {
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
-  Profiled profiled_ = Profiled::Nothing;
+  command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   bool plays_ = false;
   double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
   std::optional<double> step_to_;

@@ -12,8 +12,6 @@ namespace clatter {
 
 namespace {
 
-constexpr double kFar = 1e9;  // beyond every box
-
 // An image of a sphere.
 struct Seen {
   Vec3 centre;                // view coordinates
@@ -21,28 +19,6 @@ struct Seen {
   std::uint32_t number;
   double distance;  // increases with the distance from the viewer
 };
-
-// Calls `visit` with the position of each image of a sphere that reaches into the box.
-template <class Visit>
-void visit_images(const Snapshot& snapshot, const Vec3& position, Visit visit) {
-  const double radius = 0.5 * snapshot.diameter;
-  const auto shifted = [&](auto&& self, int axis, const Vec3& place) -> void {
-    if (axis == 3) return visit(place);
-    self(self, axis + 1, place);
-    if (snapshot.walls[2 * axis]) return;
-    const double length = snapshot.box[axis];
-    Vec3 image = place;
-    if (place[axis] < radius) {
-      image[axis] += length;
-    } else if (place[axis] > length - radius) {
-      image[axis] -= length;
-    } else {
-      return;
-    }
-    self(self, axis + 1, image);
-  };
-  shifted(shifted, 0, position);
-}
 
 bool in_sight(const std::array<Vec2, 2>& shape, Size drawn) {
   const auto& [low, high] = shape;
@@ -89,27 +65,6 @@ std::array<float, 3> as_floats(const auto& vector) {
 }
 
 }  // namespace
-
-bool DrawnRegion::cuts(const Vec3& centre, double radius) const {
-  return (centre.array() - radius < low.array()).any() ||
-         (centre.array() + radius > high.array()).any();
-}
-
-DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& slab,
-                         bool periodic_faces) {
-  DrawnRegion region{Vec3::Constant(-kFar), Vec3::Constant(kFar)};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!periodic_faces || snapshot.walls[2 * axis]) continue;
-    region.low[axis] = 0.0;
-    region.high[axis] = snapshot.box[axis];
-  }
-  if (slab) {
-    const auto axis = static_cast<int>(slab->axis);
-    region.low[axis] = std::max(region.low[axis], slab->from);
-    region.high[axis] = std::min(region.high[axis], slab->to);
-  }
-  return region;
-}
 
 SphereLayer::SphereLayer(const Gl& gl)
     : gl_(&gl),

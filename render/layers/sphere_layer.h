@@ -5,25 +5,12 @@
 #include <vector>
 
 #include "engine/publish/snapshot.h"
+#include "render/drawn_region.h"
 #include "render/eye.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/disk_colours.h"
 
 namespace clatter {
-
-/// The box of world positions in which spheres are drawn: between the faces of the walls and the
-/// planes of a slab.
-struct DrawnRegion {
-  Vec3 low, high;
-
-  /// Whether a sphere is not completely inside.
-  bool cuts(const Vec3& centre, double radius) const;
-};
-
-/// The region of a snapshot; unbounded at walls, because spheres do not cross them. Without
-/// `periodic_faces` also at periodic borders.
-DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& slab,
-                         bool periodic_faces);
 
 /// Draws spheres with soft light and exact depth, each as the pixels of its rectangle on the
 /// picture. They are drawn from back to front, so that their edges blend with what is behind them.

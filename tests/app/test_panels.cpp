@@ -56,6 +56,23 @@ Scene uneven_scene() {
   return scene;
 }
 
+// The same gas as spheres, with the keys that only spheres have.
+Scene uneven_spheres() {
+  Scene scene = uneven_scene();
+  scene.box = Vec<3>(19.0, 23.0, 21.0);
+  scene.walls[kBack] = Wall{.kind = WallKind::Thermal, .temperature = 1.75};
+  scene.walls[kFront] = Wall{.kind = WallKind::Driven, .restitution = 0.95, .drive_speed = 0.65};
+  scene.gravity = Vec<3>(0.15, -0.47, 0.29);
+  scene.measure.cells = {20, 20, 20};
+  View& view = scene.view;
+  view.colour_by = ColourBy::VelocityZ;
+  view.field = Field(Quantity::Stress, 1, 2);
+  view.view_angle = 35.0;
+  view.slab = Slab{Axis::Y, 2.5, 17.5};
+  view.slices = {{Axis::X, 4.5}, {Axis::Z, 6.5}};
+  return scene;
+}
+
 void all_panels(Session& session, Controls& controls) {
   gas_panel(session, controls);
   box_panel(session, controls);
@@ -95,7 +112,7 @@ struct SliderMeaning {
 
 const std::vector<SliderMeaning> kSliders = {
     {"particles.restitution", "/particles/restitution", 0.0, 1.0, "Restitution α 0.810",
-     "that a collision of two disks keeps"},
+     "that a collision of two particles keeps"},
     {"particles.friction", "/particles/friction", 0.0, 2.0, "Friction μ 0.420", "Coulomb"},
     {"particles.tangential_restitution", "/particles/tangential_restitution", -1.0, 1.0,
      "Tangential β₀ 0.530", "rolling"},
@@ -126,6 +143,25 @@ const std::vector<SliderMeaning> kSliders = {
     {"view.interval", "/view/interval", 0.01, 4.0, "Snapshots every 0.300 t",
      "Time between two snapshots", true},
     {"view.window", "/view/window", 0.1, 100.0, "Averaged over 4.00 t", "Averaging time", true}};
+
+// Those that only spheres have.
+const std::vector<SliderMeaning> kSphereSliders = {
+    {"box.size", "/box/size/2", 4.0, 100.0, "Depth Lz 21.0 a", "Of the box", false, 2},
+    {"walls.back.temperature", "/walls/back/temperature", 0.0, 10.0,
+     "Temperature T_w 1.750 m a²/t²", "it emits"},
+    {"walls.front.drive_speed", "/walls/front/drive_speed", 0.0, 5.0, "Drive speed v_dr 0.650 a/t",
+     "Gain in normal velocity"},
+    {"walls.front.restitution", "/walls/front/restitution", 0.0, 1.1, "Restitution α_w 0.950",
+     "bounce keeps"},
+    {"gravity.acceleration", "/gravity/acceleration/2", -2.0, 2.0, "Gravity along z g_z 0.290 a/t²",
+     "Acceleration", false, 2},
+    {"view.view_angle", "/view/view_angle", 0.0, 90.0, "Angle of view 35 °", "parallel"},
+    {"view.slab.from", "/view/slab/from", 0.0, 17.4, "From 2.5 a", "along its axis"},
+    {"view.slab.to", "/view/slab/to", 2.6, 23.0, "To 17.5 a", "along its axis"},
+    {"view.slices.x.position", "/view/slices/0/position", 0.0, 19.0, "Position 4.5 a",
+     "along its axis"},
+    {"view.slices.z.position", "/view/slices/1/position", 0.0, 21.0, "Position 6.5 a",
+     "along its axis"}};
 
 std::string text_of(PanelDriver& driver) {
   std::string text;
@@ -180,6 +216,8 @@ TEST_CASE("Panels: every name is beside the value of its own key, in its unit") 
                                "Tangential β₀ 0.530",
                                "{ 0.530 }",
                                "### Box and walls ###",
+                               "Dimension",
+                               "{ 2: disks }",
                                "Width Lx 19.0 a",
                                "{ 19.0 }",
                                "Height Ly 23.0 a",
@@ -250,10 +288,10 @@ TEST_CASE("Panels: every name is beside the value of its own key, in its unit") 
                                "{ 4 }"});
 }
 
-TEST_CASE("Panels: every slider sets the value of its own key, within its range, and back") {
-  for (const SliderMeaning& slider : kSliders) {
+static void check_sliders(const Scene& scene, const std::vector<SliderMeaning>& sliders) {
+  for (const SliderMeaning& slider : sliders) {
     CAPTURE(slider.place);
-    PanelDriver driver(uneven_scene(), all_panels);
+    PanelDriver driver(scene, all_panels);
     const json before = settings(driver);
     auto [x, y, width, height] = driver.place(slider.key, slider.number);
     const float middle = y + 0.5f * height;
@@ -278,6 +316,84 @@ TEST_CASE("Panels: every slider sets the value of its own key, within its range,
     driver.click(x + width - 7.0f, y - 10.0f);
     CHECK(changes(before, settings(driver)).empty());
   }
+}
+
+TEST_CASE("Panels: every slider sets the value of its own key, within its range, and back") {
+  check_sliders(uneven_scene(), kSliders);
+}
+
+TEST_CASE("Panels: every slider of spheres does, and disks have none of them") {
+  check_sliders(uneven_spheres(), kSliders);
+  check_sliders(uneven_spheres(), kSphereSliders);
+  PanelDriver disks(uneven_scene(), all_panels);
+  const std::string text = text_of(disks);
+  for (const char* word : {"Depth", "Back", "Front", "along z", "View from", "Angle of view",
+                           "Slab", "Slice", "pheres colo", "olume"}) {
+    CAPTURE(word);
+    CHECK_FALSE(says(text, word));
+  }
+}
+
+TEST_CASE("Panels: spheres have the names of spheres, and no grid") {
+  PanelDriver driver(uneven_spheres(), all_panels);
+  const std::string text = text_of(driver);
+  for (const char* line :
+       {"Spheres N 14", "Volume fraction 0.001", "Rough spheres", "Dimension { 3: spheres }",
+        "Back { thermal }", "Front { driven }", "View from [ x ] [ y ] [ z ] [ iso ]",
+        "Slab across { y }", "Spheres coloured by { velocity z }", "Range of the spheres",
+        "Heatmap { stress yz }", "[x] Slice across x", "[ ] Slice across y",
+        "[x] Slice across z"}) {
+    CAPTURE(line);
+    CHECK(says(text, line));
+  }
+  CHECK_FALSE(says(text, "isks"));
+  CHECK_FALSE(says(text, "Grid"));
+}
+
+TEST_CASE("Panels: buttons turn the view of spheres, and boxes choose its slices") {
+  PanelDriver driver(uneven_spheres(), all_panels);
+  struct Direction {
+    const char* button;
+    double azimuth, elevation;
+  };
+  // From a corner all axes make the same angle with the line of sight, of cosine 1/sqrt(3).
+  for (const auto& [button, azimuth, elevation] :
+       {Direction{"view.from.x", 90.0, 0.0}, Direction{"view.from.y", 0.0, 90.0},
+        Direction{"view.from.z", 0.0, 0.0},
+        Direction{"view.from.iso", 45.0, std::asin(1.0 / std::sqrt(3.0)) * 180.0 / M_PI}}) {
+    tick(driver, button);
+    CHECK(settings(driver).at("/view/azimuth") == doctest::Approx(azimuth));
+    CHECK(settings(driver).at("/view/elevation") == doctest::Approx(elevation));
+  }
+  tick(driver, "view.slices.y");
+  CHECK(settings(driver).at("/view/slices/2/position") == 11.5);
+  tick(driver, "view.slices.x");
+  CHECK(settings(driver).at("/view/slices/0/axis") == "z");
+  CHECK_FALSE(settings(driver).contains("/view/slices/2/axis"));
+  choose(driver, "view.slab.axis", "none");
+  CHECK_FALSE(settings(driver).contains("/view/slab/axis"));
+  choose(driver, "view.slab.axis", "x");
+  CHECK(settings(driver).at("/view/slab/to") == 9.5);
+  choose(driver, "walls.back", "periodic");
+  CHECK_FALSE(settings(driver).contains("/walls/front/kind"));
+  CHECK(settings(driver).at("/walls/bottom/kind") == "thermal");
+  choose(driver, "view.colour_by", "depth");
+  CHECK(settings(driver).at("/view/colour_by") == "depth");
+}
+
+TEST_CASE("Panels: the dimension is chosen in a list") {
+  PanelDriver driver(uneven_spheres(), all_panels);
+  driver.wait_for([](const Frame& frame) { return frame.run == 1; });
+  choose(driver, "dimension", "2: disks");
+  driver.wait_for([](const Frame& frame) { return frame.run == 2; });
+  CHECK(driver.session().frame().snapshot.positions.rows() == 2);
+  CHECK(says(driver.session().message(), "removed: walls.back, walls.front"));
+  const json disks = settings(driver);
+  CHECK(disks.at("/particles/count") == 14);
+  CHECK_FALSE(disks.contains("/box/size/2"));
+  choose(driver, "dimension", "3: spheres");
+  driver.wait_for([](const Frame& frame) { return frame.run == 3; });
+  CHECK(settings(driver).at("/box/size/2") == settings(driver).at("/box/size/1"));
 }
 
 TEST_CASE("Panels: every word of a list sets its own key to itself") {
@@ -427,13 +543,29 @@ TEST_CASE("Panels: a picked disk shows its state, its last and its next collisio
   frame.next_collision = ParticleCollision{.time = 12.25, .partner = 2};
   bool follows = false;
   PanelDriver driver(Scene{}, [&](Session&, Controls&) {
-    disk_label(frame, 1, follows, {100.0f, 100.0f}, {{0.0f, 0.0f}, {400.0f, 400.0f}});
+    particle_label(frame, 1, follows, {100.0f, 100.0f}, {{0.0f, 0.0f}, {400.0f, 400.0f}});
   });
   check_lines(driver.lines(), {"Disk 1", "place 2.50, 5.25", "velocity -3.000, 4.000",
                                "speed 5.000", "spin -0.625", "last hit t = 11.5000, top wall",
                                "next hit t = 12.2500, disk 2", "double-click to follow"});
   follows = true;
   CHECK(driver.lines().back() == "followed; Esc lets go");
+}
+
+TEST_CASE("Panels: a picked sphere shows three components") {
+  Frame frame;
+  frame.snapshot.positions = Vec<3>(2.5, 5.25, 7.125);
+  frame.snapshot.velocities = Vec<3>(-3.0, 4.0, 12.0);
+  frame.snapshot.spins = Vec<3>(-0.625, 0.5, 0.25);
+  frame.last_collision = ParticleCollision{.time = 11.5, .partner = {}, .side = kFront};
+  frame.next_collision = ParticleCollision{.time = 12.25, .partner = 2};
+  PanelDriver driver(Scene{}, [&](Session&, Controls&) {
+    particle_label(frame, 0, false, {100.0f, 100.0f}, {{0.0f, 0.0f}, {400.0f, 400.0f}});
+  });
+  check_lines(driver.lines(),
+              {"Sphere 0", "place 2.50, 5.25, 7.12", "velocity -3.000, 4.000, 12.000",
+               "speed 13.000", "spin -0.625, 0.500, 0.250", "last hit t = 11.5000, front wall",
+               "next hit t = 12.2500, sphere 2", "double-click to follow"});
 }
 
 TEST_CASE("Panels: a curve of theory has its meaning beside the mouse") {

@@ -262,7 +262,7 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
   TwoFrames frames;
   Profile profile;
   profile.edges = {0.0, 2.0, 6.0};
-  for (const Field field : kProfiledFields) {
+  for (const Field field : profiled_fields(Axis::X)) {
     const double number = static_cast<double>(profile.fields.size());
     profile.fields.push_back(field);
     profile.values.push_back({{10.0 + number, 0.1 + number}, {20.0 + number, 0.2 + number}});
@@ -277,7 +277,7 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
   for (std::size_t k = 0; k < told.size(); ++k) {
     CAPTURE(told[k][0]);
     const double number = static_cast<double>(k);
-    CHECK(profile_names()[k] == told[k][0]);
+    CHECK(profile_names(Axis::X)[k] == told[k][0]);
     CHECK(profiled_by(k) == Profiled::Fields);
     const LivePlot plot = frames.plot("Profile", k);
     check_axes(plot, "x in a", told[k][2], false, false);
@@ -286,7 +286,7 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
     CHECK(plot.curves[0].points == std::vector<Vec2>{{1.0, 10.0 + number}, {4.0, 20.0 + number}});
     CHECK(plot.curves[0].errors == std::vector<double>{0.1 + number, 0.2 + number});
   }
-  CHECK(profile_names()[told.size()] == "balance residuals");
+  CHECK(profile_names(Axis::X)[told.size()] == "balance residuals");
   CHECK(profiled_by(told.size()) == Profiled::Balances);
 }
 
@@ -451,6 +451,68 @@ TEST_CASE("Plots: logarithmic axes have powers of ten where these are") {
   CHECK(drawn.mark().y() == doctest::Approx(drawn.text("1e-02").middle_y()).epsilon(0.01));
 }
 
+// Gravity along z: the spheres fall to the back wall.
+TEST_CASE("Plots: spheres have curves along z, and profiles along each axis") {
+  const auto run = watched_run(parse_scene(R"(
+[box]
+size = [6.0, 5.0, 8.0]
+[particles]
+count = 60
+[walls]
+back = { kind = "static" }
+front = { kind = "static" }
+[gravity]
+acceleration = [0.0, 0.0, -1.0]
+[view]
+window = 2.0
+)",
+                                           "falling.toml"),
+                               1);
+  History history;
+  Frame frame;
+  frame.run = 1;
+  const auto plots_after = [&](Profiled profiled, Axis axis, std::size_t name, double duration) {
+    run->show_profile(profiled, axis);
+    run->run_until(run->time() + duration, kNoLimit, kNoLimit);
+    run->tell(frame, false);
+    history.add(frame);
+    return plots_of(history, frame, name, kDarkTheme);
+  };
+  const auto names_of = [](const LivePlot& plot) {
+    std::vector<std::string> names;
+    for (const Curve& curve : plot.curves) names.push_back(curve.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(profile_names(Axis::Z)[2] == "stress zz");
+  CHECK(profile_names(Axis::Z)[3] == "heat flux z");
+
+  const auto plots = plots_after(Profiled::Fields, Axis::Z, 0, 40.0);
+  CHECK(plots[0].x_label == "z in a");
+  CHECK(plots[0].y_label == "1/a³");
+  const std::vector<Vec2>& density = plots[0].curves[0].points;
+  REQUIRE(density.size() == 8);
+  double spheres = 0.0;
+  for (const Vec2& point : density) spheres += point.y() * 6.0 * 5.0;
+  CHECK(spheres == doctest::Approx(60.0));
+  CHECK(density[1].y() > 2.0 * density[6].y());
+  CHECK(names_of(plots[1]) == Names{"T_x", "T_y", "T_z", "T"});
+  const auto last = [&](int curve) { return plots[1].curves[curve].points.back().y(); };
+  CHECK(last(3) == doctest::Approx((last(0) + last(1) + last(2)) / 3.0));
+  CHECK(names_of(plots[3]) == Names{"v_x", "v_y", "v_z", "Gaussian"});
+
+  const auto across = plots_after(Profiled::Fields, Axis::Y, 0, 20.0);
+  CHECK(across[0].x_label == "y in a");
+  CHECK(across[0].curves[0].points.size() == 5);
+  const auto closed = plots_after(Profiled::Balances, Axis::Z, 5, 20.0);
+  CHECK(closed[0].x_label == "z in a");
+  CHECK(names_of(closed[0]) == Names{"mass", "momentum x", "momentum y", "momentum z", "energy"});
+  for (const Curve& curve : closed[0].curves) {
+    REQUIRE(curve.points.size() == 8);
+    for (const Vec2& point : curve.points) CHECK(point.y() < 1e-9);
+  }
+}
+
 TEST_CASE("Plots: all axes are finite for a gas without motion, or one that comes to rest") {
   using Settings = std::vector<Override>;
   const Override cold{"particles.start.temperature", "0.0"};
@@ -463,7 +525,7 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
     CAPTURE(settings.front().key);
     for (const Profiled profiled : {Profiled::Fields, Profiled::Balances}) {
       const auto run = watched_run(load_scene("vibrated", settings), 1);
-      run->show_profile(profiled);
+      run->show_profile(profiled, Axis::X);
       History history;
       Frame frame;
       frame.run = 1;
@@ -471,7 +533,7 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
         go_on(*run, time);
         run->tell(frame, false);
         history.add(frame);
-        for (std::size_t name = 0; name < profile_names().size(); ++name) {
+        for (std::size_t name = 0; name < profile_names(Axis::X).size(); ++name) {
           for (const LivePlot& plot : plots_of(history, frame, name, kDarkTheme)) {
             check_finite(plot);
           }

@@ -1,0 +1,103 @@
+#include "engine/scene/change_dimension.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/physics/theory.h"
+#include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+namespace {
+
+VecX changed_box(const Scene& scene, int dimension) {
+  constexpr double kShortest = 2.0;  // of all sides
+  VecX box(dimension);
+  for (int axis = 0; axis < dimension; ++axis) box[axis] = scene.box[std::min(axis, 1)];
+  const double filled = std::min(scene.packing_fraction(), kMostFilled);
+  if (filled > 0.0) {
+    const double now = packing_fraction(dimension, scene.particles.count / box.prod());
+    box *= std::pow(now / filled, 1.0 / dimension);
+  }
+  box *= std::max(1.0, kShortest / box.minCoeff());
+  return (10.0 * box.array()).round() / 10.0;
+}
+
+bool has_axis(const Override& setting, int dimension) {
+  if (setting.key.starts_with("gravity")) return false;
+  for (int side = 2 * dimension; side < 6; ++side) {
+    if (setting.key.starts_with(std::string("walls.") + kSideNames[side])) return false;
+  }
+  return true;
+}
+
+// Removes settings without meaning from the scheduled changes. Returns whether there were any.
+bool remove_settings(std::vector<Change>& changes, int dimension) {
+  std::size_t removed = 0;
+  for (Change& change : changes) {
+    removed += std::erase_if(
+        change.set, [&](const Override& setting) { return !has_axis(setting, dimension); });
+  }
+  std::erase_if(changes, [](const Change& change) { return change.set.empty(); });
+  return removed > 0;
+}
+
+bool is_among(Field field, const std::vector<NamedField>& names) {
+  return std::ranges::find(names, field, &NamedField::second) != names.end();
+}
+
+}  // namespace
+
+ChangedDimension change_dimension(const Scene& scene, int dimension) {
+  ChangedDimension changed{scene, {}};
+  Scene& made = changed.scene;
+  const auto remove_if = [&](bool meaningless, const char* key, const auto& remove) {
+    if (!meaningless) return;
+    remove();
+    changed.removed.emplace_back(key);
+  };
+  made.box = changed_box(scene, dimension);
+  const bool flat = dimension == 2;
+
+  Start& start = made.particles.start;
+  remove_if(start.layout == Layout::File, "particles.start.file",
+            [&] { start = Start{.file = "", .temperature = start.temperature}; });
+  const double usual_inertia = default_scene(scene.dimension()).particles.inertia;
+  if (made.particles.inertia == usual_inertia) {
+    made.particles.inertia = default_scene(dimension).particles.inertia;
+  }
+  for (const Side side : {kBack, kFront}) {
+    const std::string key = std::string("walls.") + kSideNames[side];
+    remove_if(flat && made.walls[side], key.c_str(), [&] { made.walls[side].reset(); });
+  }
+  if (made.gravity) {
+    VecX along = VecX::Zero(dimension);
+    along.head<2>() = scene.gravity->head<2>();
+    remove_if(flat && scene.gravity->z() != 0.0, "gravity.acceleration along z", [] {});
+    made.gravity = along;
+  }
+
+  Measure& measure = made.measure;
+  measure.cells.resize(static_cast<std::size_t>(dimension), measure.cells[1]);
+  remove_if(flat && measure.profile_axis == Axis::Z, "measure.profile_axis",
+            [&] { measure.profile_axis = Axis::X; });
+  const auto measured = measured_names(dimension);
+  const auto unknown = [&](Field field) { return !is_among(field, measured); };
+  remove_if(std::ranges::any_of(measure.fields, unknown), "measure.fields",
+            [&] { std::erase_if(measure.fields, unknown); });
+
+  View& view = made.view;
+  remove_if(flat && (view.colour_by == ColourBy::VelocityZ || view.colour_by == ColourBy::Depth),
+            "view.colour_by", [&] { view.colour_by = ColourBy::Speed; });
+  remove_if(view.field && !is_among(*view.field, field_names(dimension)), "view.field",
+            [&] { view.field.reset(); });
+  remove_if(flat && view.slab, "view.slab", [&] { view.slab.reset(); });
+  remove_if(flat && !view.slices.empty(), "view.slices", [&] { view.slices.clear(); });
+  remove_if(!view.camera.empty(), "view.camera", [&] { view.camera.clear(); });
+  remove_if(remove_settings(made.changes, dimension), "change", [] {});
+  made = with_settings(made, {});
+  return changed;
+}
+
+}  // namespace clatter

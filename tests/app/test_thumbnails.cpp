@@ -1,0 +1,59 @@
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "app/view/thumbnails.h"
+#include "render/context/context.h"
+#include "render/gl/canvas.h"
+
+namespace clatter {
+
+namespace {
+
+// The colours of the thumbnail of a scene, red + 256 green + 65536 blue.
+std::set<unsigned> colours_of(const Gl& gl, Thumbnails& thumbnails, const EmbeddedFile& scene) {
+  GLuint texture = 0;
+  for (int look = 0; look < 2000 && texture == 0; ++look) {
+    texture = thumbnails.of(scene);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  REQUIRE(texture != 0);
+  const auto [width, height] = Thumbnails::kSize;
+  const Framebuffer framebuffer = generate<Framebuffer>(gl, gl.GenFramebuffers);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  std::vector<unsigned char> pixels(static_cast<std::size_t>(4 * width * height));
+  gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  std::set<unsigned> colours;
+  for (std::size_t i = 0; i < pixels.size(); i += 4) {
+    colours.insert(pixels[i] + 256u * pixels[i + 1] + 65536u * pixels[i + 2]);
+  }
+  return colours;
+}
+
+}  // namespace
+
+// Shaded spheres have far more colours than flat disks of one colour.
+TEST_CASE("Thumbnails: disks are flat, and spheres have light and shade") {
+  const auto context = open_context(Backend::Auto);
+  Thumbnails thumbnails(context->gl(), [] {});
+  const EmbeddedFile spheres{"spheres.toml", R"(
+box.size = [8.0, 8.0, 8.0]
+particles.count = 50
+view.colour_by = "none"
+)"};
+  const EmbeddedFile disks{"disks.toml", R"(
+box.size = [8.0, 8.0]
+particles.count = 20
+view.colour_by = "none"
+)"};
+  const auto flat = colours_of(context->gl(), thumbnails, disks);
+  const auto shaded = colours_of(context->gl(), thumbnails, spheres);
+  CHECK(flat.size() > 2);
+  CHECK(shaded.size() > 2 * flat.size());
+}
+
+}  // namespace clatter

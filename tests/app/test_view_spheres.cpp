@@ -1,0 +1,306 @@
+// Spheres in the window, controlled by mouse and keys on a virtual display.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/scene/scene_file.h"
+#include "tests/app/gui_driver.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+namespace {
+
+// The files of two scenes: a moving gas, and spheres at rest in rows through the middle of the box,
+// two along each axis and two along the diagonal. Without texts the middle of the box is in the
+// middle of the viewport.
+class Scenes {
+ public:
+  Scenes() {
+    folder_.write("rows.toml", R"(
+title = "Rows"
+[box]
+size = [10.0, 10.0, 10.0]
+[particles.start]
+layout = "file"
+file = "rows.csv"
+[walls]
+left = { kind = "static" }
+right = { kind = "static" }
+bottom = { kind = "static" }
+top = { kind = "static" }
+back = { kind = "static" }
+front = { kind = "static" }
+[view]
+azimuth = 0.0
+elevation = 0.0
+overlay = false
+)");
+    folder_.write("rows.csv",
+                  "x,y,z,vx,vy,vz\n"
+                  "5,5,8,0,0,0\n"
+                  "5,5,2,0,0,0\n"
+                  "8,5,5,0,0,0\n"
+                  "2,5,5,0,0,0\n"
+                  "5,8,5,0,0,0\n"
+                  "5,2,5,0,0,0\n"
+                  "7,7,7,0,0,0\n"
+                  "3,3,3,0,0,0\n");
+    folder_.write("gas.toml", R"(
+title = "Gas"
+[box]
+size = [9.0, 8.0, 7.0]
+[particles]
+count = 100
+restitution = 0.9
+[walls]
+left = { kind = "driven", drive_speed = 1.0 }
+right = { kind = "static" }
+bottom = { kind = "static" }
+top = { kind = "static" }
+back = { kind = "static" }
+front = { kind = "static" }
+)");
+  }
+  std::string rows() const { return folder_.path("rows.toml").string(); }
+  std::string gas() const { return folder_.path("gas.toml").string(); }
+
+ private:
+  Shell folder_;
+};
+
+Scene saved_scene(const GuiDriver& driver) {
+  const std::size_t told = driver.told();
+  driver.key("ctrl+s");
+  return load_scene(driver.shell().path(driver.wait_for("saved", told)["file"]).string());
+}
+
+// The sphere that a click in the middle of the viewport picks.
+json picked_in_the_middle(const GuiDriver& driver) {
+  const std::size_t told = driver.told();
+  driver.click("viewport");
+  return driver.wait_for("pick", told)["particle"];
+}
+
+// Waits for a picture from another direction or place after the first `told` events: the handles of
+// the walls are then elsewhere. Clicks refer to the picture on the screen.
+void wait_for_picture(const GuiDriver& driver, std::size_t told) {
+  driver.wait_for("widget", told, [](const json& event) {
+    return event["name"].get<std::string>().starts_with("wall.");
+  });
+}
+
+void look_from(const GuiDriver& driver, const std::string& key) {
+  const std::size_t told = driver.told();
+  driver.key(key);
+  wait_for_picture(driver, told);
+}
+
+bool turned(const json& event, double azimuth, double elevation) {
+  return std::fabs(event["azimuth"].get<double>() - azimuth) < 1e-9 &&
+         std::fabs(event["elevation"].get<double>() - elevation) < 1e-9;
+}
+
+// The pixels of a PNG file in shades of grey.
+std::string grey(const Shell& shell, const std::string& file) {
+  const Outcome outcome =
+      shell.run("ffmpeg -v error -i " + file + " -pix_fmt gray -f rawvideo - </dev/null");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return outcome.out;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("window");
+
+TEST_CASE("Window: spheres play, halt, and step to a collision that marks its pair") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.gas());
+  const json status = driver.wait_for("status");
+  CHECK(status["box"] == json({9.0, 8.0, 7.0}));
+  CHECK(status["particles"] == 100);
+  std::size_t told = driver.told();
+  driver.click("collision");
+  const json hit =
+      driver.wait_for("status", told, [](const json& now) { return now.contains("partners"); });
+  CHECK(hit["partners"][0] != hit["partners"][1]);
+  CHECK(hit["partners"][0] < 100);
+}
+
+// By hand: along each direction the nearer sphere of the row is in front of the other. From behind
+// it is the other one.
+TEST_CASE("Window: a click picks the sphere in front, from each direction") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.rows());
+  CHECK(picked_in_the_middle(driver) == 0);
+  look_from(driver, "x");
+  CHECK(picked_in_the_middle(driver) == 2);
+  look_from(driver, "y");
+  CHECK(picked_in_the_middle(driver) == 4);
+  look_from(driver, "i");
+  CHECK(picked_in_the_middle(driver) == 6);
+  look_from(driver, "z");
+  std::size_t told = driver.told();
+  driver.pull("viewport", 450, 0);
+  driver.wait_for("turn", told);
+  wait_for_picture(driver, told);
+  CHECK(picked_in_the_middle(driver) == 1);
+  // Away from all spheres it picks none, and a drag picks nothing.
+  driver.key("Escape");
+  told = driver.told();
+  driver.pull("viewport", 0, 60);
+  driver.wait_for("turn", told);
+  CHECK(driver.events("pick").back()["particle"].is_null());
+}
+
+TEST_CASE("Window: a drag turns the view, undo turns it back, and the saved scene has it") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.rows());
+  std::size_t told = driver.told();
+  // 0.4 degrees a pixel; the front follows the mouse.
+  driver.pull("viewport", 100, 60);
+  driver.wait_for("turn", told, [](const json& turn) { return turned(turn, -40.0, 24.0); });
+  told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("turn", told, [](const json& turn) { return turned(turn, 0.0, 0.0); });
+  driver.key("ctrl+y");
+  const Scene scene = saved_scene(driver);
+  CHECK(scene.view.azimuth == doctest::Approx(-40.0));
+  CHECK(scene.view.elevation == doctest::Approx(24.0));
+
+  // A film of the saved scene has the picture of the window.
+  driver.key("space");
+  told = driver.told();
+  driver.key("F2");
+  const std::string shot = driver.wait_for("screenshot", told)["file"];
+  const json place = driver.wait_for(
+      "widget", 0, [](const json& event) { return event["name"] == "viewport"; })["place"];
+  const std::string size =
+      std::to_string(place[2].get<int>()) + 'x' + std::to_string(place[3].get<int>());
+  const auto difference = [&](const std::string& settings) {
+    const Outcome outcome =
+        driver.shell().run("clatter render clatter-1.toml --to 1 --overwrite --quiet --size " +
+                           size + " --out film.png " + settings);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const std::string a = grey(driver.shell(), shot), b = grey(driver.shell(), "film.png");
+    REQUIRE(a.size() == b.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      sum += std::abs(static_cast<unsigned char>(a[i]) - static_cast<unsigned char>(b[i]));
+    }
+    return sum / static_cast<double>(a.size());
+  };
+  const double same = difference(""), other = difference("--set view.azimuth=-30");
+  MESSAGE("mean difference " << same << ", with another angle " << other);
+  CHECK(same < 0.1);
+  CHECK(other > 10.0 * same);
+}
+
+TEST_CASE("Window: the buttons of the view turn it, and Shift and drag moves it") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.rows(), "1280x1300");
+  std::size_t told = driver.told();
+  driver.click("view.from.y");
+  driver.wait_for("turn", told, [](const json& turn) { return turned(turn, 0.0, 90.0); });
+  told = driver.told();
+  driver.click("view.from.iso");
+  driver.wait_for("turn", told);
+  wait_for_picture(driver, told);
+  told = driver.told();
+  driver.click("view.from.z");
+  wait_for_picture(driver, told);
+  CHECK(picked_in_the_middle(driver) == 0);
+  // The view moves with the mouse: another sphere, or none, is then in the middle.
+  told = driver.told();
+  driver.tool("keydown shift");
+  driver.pull("viewport", 60, 0);
+  driver.tool("keyup shift");
+  wait_for_picture(driver, told);
+  CHECK(picked_in_the_middle(driver).is_null());
+  look_from(driver, "f");
+  CHECK(picked_in_the_middle(driver) == 0);
+}
+
+TEST_CASE("Window: spheres become disks, and undo starts the former scene") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.gas() + " --set 'view.slab={axis=\"y\",from=1.0,to=5.0}'",
+                         "1280x1500");
+  const json before = driver.wait_for("status");
+  std::size_t told = driver.told();
+  driver.click("dimension");
+  driver.click("dimension.2: disks");
+  const json message = driver.wait_for("message", told);
+  CHECK(says(message["text"], "removed: walls.back, walls.front, view.slab"));
+  const json disks =
+      driver.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
+  CHECK(disks["box"].size() == 2);
+  CHECK(disks["particles"] == 100);
+  const Scene flat = saved_scene(driver);
+  CHECK(flat.dimension() == 2);
+  // A law changes, and is undone before the dimension.
+  driver.drag("particles.restitution", 0.88, 0.5);
+  driver.key("ctrl+z");
+  told = driver.told();
+  driver.key("ctrl+z");
+  const json again =
+      driver.wait_for("status", told, [](const json& status) { return status["run"] == 3; });
+  CHECK(again["box"] == before["box"]);
+  CHECK(again["restitution"] == before["restitution"]);
+  const Scene deep = saved_scene(driver);
+  CHECK(deep.walls[kBack]);
+  REQUIRE(deep.view.slab);
+  CHECK(deep.view.slab->to == 5.0);
+  told = driver.told();
+  driver.key("ctrl+y");
+  driver.wait_for("status", told,
+                  [&](const json& status) { return status["box"] == disks["box"]; });
+}
+
+TEST_CASE("Window: a wall of a box of spheres moves with the mouse, and undo moves it back") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.gas() + " --set view.azimuth=0 --set view.elevation=0");
+  const json before = driver.wait_for("status");
+  const auto opened_after = [](const json& last) {
+    return [run = last["run"]](const json& status) { return status["run"] > run; };
+  };
+  // From the front the outline is the front side. The right handle is as long as the box is high.
+  const json right = driver.wait_for(
+      "widget", 0, [](const json& event) { return event["name"] == "wall.right"; })["place"];
+  const double pixels = right[3].get<double>() / 8.0;  // per diameter
+  std::size_t told = driver.told();
+  driver.pull("wall.right", 50, 0);
+  json now = driver.wait_for("status", told, opened_after(before));
+  CHECK(std::fabs(now["box"][0].get<double>() - 9.0 - 50.0 / pixels) <= 0.06);
+  CHECK(now["box"][1] == 8.0);
+  CHECK(now["box"][2] == 7.0);
+  CHECK(now["particles"] == 100);
+  told = driver.told();
+  driver.key("ctrl+z");
+  now = driver.wait_for("status", told, opened_after(now));
+  CHECK(now["box"] == before["box"]);
+  // From the right the front wall is at the left.
+  driver.key("x");
+  told = driver.told();
+  driver.pull("wall.front", -50, 0);
+  now = driver.wait_for("status", told, opened_after(now));
+  CHECK(now["box"][0] == 9.0);
+  CHECK(now["box"][2] > 7.5);
+  // In a turned view the top wall moves upwards.
+  told = driver.told();
+  driver.key("ctrl+z");
+  now = driver.wait_for("status", told, opened_after(now));
+  driver.pull("viewport", 60, 60);
+  told = driver.told();
+  driver.pull("wall.top", 0, -40);
+  now = driver.wait_for("status", told, opened_after(now));
+  CHECK(now["box"][1] > 8.5);
+  CHECK(now["box"][0] == 9.0);
+}
+
+TEST_SUITE_END();
+
+}  // namespace clatter
