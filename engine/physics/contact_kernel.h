@@ -106,8 +106,12 @@ template <int D, bool kFalling, bool kShifted>
   }
   const Doubles time = broadcast(own[2 * D]);
   groups.frames = reinterpret_cast<Bits>(load(own + kImage + D - kCount));
-  for (int i = 0; i < Candidates<D>::kMargin; ++i)
-    candidates.particles[candidates.size + i] = particle;
+  for (int i = candidates.size; i < candidates.size + Candidates<D>::kMargin; ++i) {
+    candidates.particles[i] = particle;
+    if constexpr (kShifted) {
+      for (auto& wraps : candidates.wraps) wraps[i] = 0.0;
+    }
+  }
   for (int i = 0; i == 0 || i < candidates.size; i += kCount) {
     const double* row[kCount];
     for (int lane = 0; lane < kCount; ++lane) {
