@@ -312,10 +312,10 @@ TEST_CASE("Resume: a checkpoint that does not fit is refused") {
   CHECK(shell.run(line + "--set measure.duration=2").code == 0);
 
   shell.write("c", shell.read("c").substr(0, 5000));
-  check_refused(shell, line, {"c: ", "cut short"});
-  check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "cut short"});
+  check_refused(shell, line, {"c: ", "truncated"});
+  check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "truncated"});
   shell.write("c", "no checkpoint");
-  check_refused(shell, line, {"c: ", "this is no checkpoint"});
+  check_refused(shell, line, {"c: ", "this is not a checkpoint"});
   check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c exists"});
   check_refused(shell, "clatter measure vibrated --checkpoint no/c", {"--checkpoint", "folder no"});
   check_refused(shell, "clatter measure vibrated --checkpoint-every 5", {"--checkpoint"});
