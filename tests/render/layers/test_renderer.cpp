@@ -283,6 +283,22 @@ TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of 
   }
 }
 
+// Its samples are averaged in several groups of rows.
+TEST_CASE("Renderer: a large picture is whole, and a stop request ends it") {
+  const auto context = open_context(Backend::Osmesa);
+  View view;
+  view.overlay = false;
+  const auto drawn = [&](const StopRequest& stop) {
+    Renderer renderer(context->gl(), 2, false, stop);
+    return draw(renderer, context->gl(), driven_box(), {{10.0, 12.5}, 40.0}, {3000, 1500}, view);
+  };
+  const Image image = drawn({});
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
+  CHECK_THROWS_AS(drawn([] { return true; }), Interrupted);
+  int asked = 0;
+  CHECK_THROWS_AS(drawn([&] { return ++asked == 4; }), Interrupted);
+}
+
 TEST_CASE("Renderer: blur, trails and marks look the same with several samples a pixel") {
   const auto context = open_context(Backend::Osmesa);
   const Size size{1280, 720};
