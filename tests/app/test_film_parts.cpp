@@ -35,13 +35,14 @@ std::string hashes(const Shell& shell, const std::string& input) {
       .out;
 }
 
-// Films until the second piece has begun, then applies `act` to the run $pid.
+// Films until the encoder of the second piece has begun, then applies `act` to the run $pid.
 Outcome film_into_second_piece(const Shell& shell, const std::string& act,
                                const std::string& flags = "") {
   return shell.run(
       kFilm + flags +
       "--out film.mp4 & pid=$!\n"
-      "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n" +
+      "until [ -e film.mp4.part/000060.mp4 -a -n \"$(cat /proc/$pid/task/$pid/children)\" ] || "
+      "! kill -0 $pid; do sleep 0.02; done\n" +
       act);
 }
 
