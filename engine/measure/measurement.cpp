@@ -218,7 +218,8 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<D>>& windows, int
   auto fourth = series_of(windows, [&](const auto& w) { return w.fourth_moment[axis]; });
   const double m2 = mean_estimate(second).mean;
   const double m4 = mean_estimate(fourth).mean;
-  if (!(m2 > 0.0)) return {};
+  // A product of very slow velocities is 0, and has no ratio.
+  if (!std::isnormal(m2 * m2 * m2)) return {};
   // Linearised about the means: d(m4/m2^2) = dm4/m2^2 - 2 m4 dm2/m2^3.
   for (std::size_t k = 0; k < fourth.size(); ++k) {
     fourth[k] = (fourth[k] / (m2 * m2) - 2.0 * m4 * second[k] / (m2 * m2 * m2)) / 3.0;

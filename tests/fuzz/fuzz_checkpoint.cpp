@@ -26,7 +26,7 @@ using namespace clatter;
 
 namespace {
 
-constexpr double kSaved = 3.0, kSoon = 3.2, kEnd = 8.0;
+constexpr double kSaved = 3.0, kSoon = 3.05, kEnd = 8.0;
 
 const Scene& fuzzed_scene() {
   static const Scene scene = parse_scene(
