@@ -392,6 +392,17 @@ TEST_CASE("Measurement: a gas at rest") {
   CHECK(result.temperature.mean == 0.0);
 }
 
+// A density needs one number per cell or column.
+TEST_CASE("Measurement: the memory of a profile is a row of columns per window") {
+  Measure measure = measure_for(0.0, 512.0);
+  measure.series_interval = 1.0;
+  measure.cells = {7, 5};
+  measure.fields = {Quantity::Density};
+  const double least = cells_memory<2>(measure, false);
+  measure.duration = 8192.0;
+  CHECK(cells_memory<2>(measure, false) - least == (8192 - 512) * 7 * 8);
+}
+
 TEST_CASE("Measurement: a gas so cold that products of its velocities are 0") {
   for (const double temperature : {1e-80, 1e-120, 1e-160, 1e-300}) {
     CAPTURE(temperature);
