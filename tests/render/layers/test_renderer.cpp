@@ -159,6 +159,12 @@ TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
   view.field_range = {ColourRange::Given, {0.0, 0.5}};
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == top);
+  // Each range has its own end. Without an end it is 1.
+  view.field_range = {};
+  renderer.fix({.disks = 8.0, .field = 2.0, .arrows = 8.0});
+  CHECK(field_colour(renderer, context->gl(), view, 1.0, true) == middle);
+  renderer.fix({});
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
 }
 
 TEST_CASE("Renderer: another field locks a range of its own") {
