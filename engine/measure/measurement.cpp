@@ -69,9 +69,22 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
       totals_(simulation) {
   visit(saved);
   saved.finish();
+  saved.require(window_ > 0.0 && !is_overdue());
   // A change of laws may have added or removed spins: adds zeros, or removes the series.
   series_spin_temperature_.resize(simulation.spins().empty() ? 0 : series_time_.size());
   observe();
+}
+
+// Whether a sample or the end of a window should have been long ago. A run would catch up with all
+// that are missing.
+template <int D>
+bool Measurement<D>::is_overdue() const {
+  constexpr double kLate = 1e-6;  // of the time
+  const double windows = started_ ? static_cast<double>(windows_.size() + 1) : 0.0;
+  const double samples = static_cast<double>(series_time_.size());
+  const double next = std::min(averages_start_ + windows * window_,
+                               series_start_ + samples * measure_.series_interval);
+  return !(next >= simulation_.time() * (1.0 - kLate));
 }
 
 template <int D>
