@@ -12,6 +12,11 @@ namespace clatter {
 namespace {
 
 void print_help(const CLI::App& program, const std::vector<std::string>& names) {
+  // Only keys of scenes contain a dot.
+  if (names.size() == 1 && names[0].find('.') != std::string::npos) {
+    print(key_help(names[0]));
+    return;
+  }
   const CLI::App* command = &program;
   std::string path;  // precedes the command's name
   for (const std::string& name : names) {
@@ -55,7 +60,10 @@ void add_help_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* help =
       program.add_subcommand("help", "Print the help of a command, or the keys of a scene.");
-  help->add_option("command", options->names, "A command, for example render or bench engine.")
+  help->add_option(
+          "command", options->names,
+          "A command, for example render or bench engine. Or a key of a scene, for example "
+          "particles.restitution.")
       ->type_name("COMMAND");
   add_keys_topic(*help, exit_code);
   help->add_flag("--man", options->man, "Print the manual page of the program, for man.");

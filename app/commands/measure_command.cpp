@@ -204,6 +204,29 @@ void require_bounded_samples(const Measure& spec, double end) {
   }
 }
 
+// Replicas have no checkpoint. A result that cannot be written goes to stdout; if stdout fails, it
+// goes to the new file `spare`.
+void write_or_rescue(const std::string& out, const std::string& spare,
+                     const nlohmann::ordered_json& result) {
+  std::string failure;
+  try {
+    return write_json(out, result);
+  } catch (const RunError& error) {
+    failure = error.what();
+  }
+  std::error_code ignored;
+  const std::string other = out.empty() ? spare : "";
+  if (std::filesystem::exists(other, ignored)) {
+    throw RunError(failure + "; the result is lost, because " + other + " exists");
+  }
+  try {
+    write_json(other, result);
+  } catch (const RunError& error) {
+    throw RunError(failure + "; the result is lost: " + error.what());
+  }
+  throw RunError(failure + "; the result is " + (other.empty() ? "on stdout" : "in " + other));
+}
+
 // Replicas differ in the seed only, so that the outputs of a single run are not available.
 int measure_replicas(const MeasureOptions& options, const Scene& scene, double end) {
   if (!scene.changes.empty()) {
@@ -222,7 +245,9 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
   const Ensemble ensemble{options.replicas, seed, end, options.threads};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
   const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
-  write_json(options.out, result);
+  const std::filesystem::path scene_file = options.common.scene;
+  write_or_rescue(options.out,
+                  scene_file.stem().string() + "-seed" + std::to_string(seed) + ".json", result);
   const bool all = result.at("results").size() == static_cast<std::size_t>(options.replicas);
   return all ? kOk : kInterrupted;
 }

@@ -214,6 +214,18 @@ FilmState film_asked_for(const RenderOptions& options, const View& view,
   return continued_film(options, *film);
 }
 
+// The same film at its beginning.
+FilmState restarted(FilmState film) {
+  film.next = 0;
+  film.begin.reset();
+  film.ranges.reset();
+  film.camera.reset();
+  film.shown.clear();
+  film.checksums.clear();
+  film.notes.clear();
+  return film;
+}
+
 FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film) {
   if (!options.frames) return {0, film.times.count};
   FrameRange frames = parse_frames(*options.frames);
@@ -241,6 +253,7 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;
   if (options.frames) sink.end = frames.end;
+  sink.stop = interrupted;
   sink.next = std::max(film.next, frames.begin);
   sink.goes_on = film.begin == frames.begin && film.next >= frames.begin;
   if (sink.goes_on) {
@@ -303,6 +316,19 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
   return code;
 }
 
+// Films a run again from time 0. A checkpoint precedes only the pieces that follow it, so it cannot
+// replace a damaged piece.
+template <int D>
+int film_again(RenderOptions options, const View& view, std::uint64_t seed,
+               const std::filesystem::path& checkpoint, const FilmState& film,
+               const FrameRange& frames) {
+  options.checkpoints.resume.clear();
+  options.common.seed = seed;
+  options.overwrite = true;
+  return film_run<D>(options, load(options.common), view, std::nullopt, checkpoint, restarted(film),
+                     frames);
+}
+
 int render(const RenderOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
@@ -323,8 +349,18 @@ int render(const RenderOptions& options) {
   require_checkpoint_place(checkpoint, options.checkpoints);
   require_format(options, film);
   catch_interrupts();
+  const bool same_laws = resumed && changed_laws(*resumed).empty();
+  const std::uint64_t seed = resumed ? resumed->checkpoint.seed : 0;
   return with_dimension(scene.dimension(), [&](auto dimension) {
-    return film_run<dimension>(options, scene, view, std::move(resumed), checkpoint, film, frames);
+    try {
+      return film_run<dimension>(options, scene, view, std::move(resumed), checkpoint, film,
+                                 frames);
+    } catch (const DamagedPiece& damage) {
+      if (!same_laws) throw;
+      std::fprintf(stderr, "clatter: %s; the film restarts from its beginning\n",
+                   damage.problem().c_str());
+    }
+    return film_again<dimension>(options, view, seed, checkpoint, film, frames);
   });
 }
 

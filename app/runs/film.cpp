@@ -55,7 +55,7 @@ Film<D>::Film(Run<D>& run, const Scene& scene, const View& view, FilmState state
       text_{scene.title, scene.caption},
       state_(std::move(state)),
       canvas_(gl, state_.size),
-      renderer_(gl, state_.samples, state_.transparent) {
+      renderer_(gl, state_.samples, state_.transparent, interrupted) {
   run_.scheduled().show(view_, state_.shown, state_.exposure());
   run_.film_state = [this] { return state_now(); };
   if (state_.ranges) renderer_.fix(*state_.ranges);
@@ -91,7 +91,12 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
     }
     const Camera camera = camera_at(view_.camera, snapshot, *state_.camera);
     canvas_.bind();
-    renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
+    try {
+      renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
+    } catch (const Interrupted&) {
+      run_.until(state_.times.of(frame), progress);  // notes the early end
+      return frame;
+    }
     const Image picture = canvas_.read();
     state_.notes = notes();
     sink.add(state_.transparent ? with_own_colours(picture) : picture, state_.notes);

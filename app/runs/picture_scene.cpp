@@ -1,13 +1,27 @@
 #include "app/runs/picture_scene.h"
 
+#include <filesystem>
+#include <system_error>
+
 #include "engine/error.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
 
+// A file that is named as a picture would otherwise be read as TOML, with a confusing error.
+static void require_not_named_png(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (path.extension() != ".png" || !std::filesystem::is_regular_file(path, ignored)) return;
+  throw UserError({path.string()}, "this is not a PNG picture",
+                  "give a picture made by clatter, or a scene file NAME.toml");
+}
+
 Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
                      StartFile start_file) {
-  if (!is_png(path_or_name)) return load_scene(path_or_name, overrides, start_file);
+  if (!is_png(path_or_name)) {
+    require_not_named_png(path_or_name);
+    return load_scene(path_or_name, overrides, start_file);
+  }
   const auto inside = png_text(path_or_name, "Scene");
   if (!inside) {
     throw UserError({path_or_name}, "this picture contains no scene",

@@ -66,9 +66,9 @@ void read(T& value, std::string_view bytes, const std::filesystem::path& file) {
 std::string read_whole(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) refuse(file, "there is no such file");
-  if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is no file");
+  if (!std::filesystem::is_regular_file(file, ignored)) refuse(file, "this is not a file");
   if (!std::ifstream(file)) refuse(file, "the file cannot be read");
-  if (!is_checkpoint(file)) refuse(file, "this is no checkpoint");
+  if (!is_checkpoint(file)) refuse(file, "this is not a checkpoint");
   return read_file(file.string(), kLargest, "a checkpoint has about 100 bytes per particle");
 }
 
@@ -102,7 +102,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string whole = read_whole(file);
   std::string_view bytes = whole;
   const auto take = [&](std::size_t count) {
-    if (bytes.size() < count) refuse(file, "the checkpoint is cut short");
+    if (bytes.size() < count) refuse(file, "the checkpoint is truncated");
     const std::string_view taken = bytes.substr(0, count);
     bytes.remove_prefix(count);
     return taken;

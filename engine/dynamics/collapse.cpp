@@ -95,9 +95,8 @@ PhysicalStop divergence(const Model<D>& model, double time, double temperature) 
                              "need a restitution below 1"));
 }
 
-// Whether a partner is a thermal wall. A collapse there means temperature 0, which no t_c changes.
 template <int D>
-static bool is_cold_wall(const Model<D>& model, std::uint32_t partner) {
+static bool is_thermal_wall(const Model<D>& model, std::uint32_t partner) {
   return partner >= kWall && model.walls[partner - kWall]->kind == WallKind::Thermal;
 }
 
@@ -106,20 +105,22 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
                         double temperature) {
   if (diverges<D>(model, watchdog, temperature)) return divergence<D>(model, time, temperature);
   const auto [particle, partner] = watchdog.busiest_pair();
-  const std::string what = "time stands still at t = " + rounded(time) + ": particle " +
+  const std::string what = "time does not advance beyond t = " + rounded(time) + ": particle " +
                            std::to_string(particle) + " and " + partner_name(partner) +
                            " collide without end";
-  if (is_cold_wall<D>(model, partner)) {
-    return PhysicalStop(what +
-                        "; a wall of temperature 0 emits no particle: raise its temperature");
+  // A thermal wall ignores t_c.
+  if (is_thermal_wall<D>(model, partner)) {
+    return PhysicalStop(what + ", because the wall emits at temperature " +
+                        rounded(model.walls[partner - kWall]->temperature) +
+                        "; raise this temperature");
   }
   const double helpful = helpful_contact_time<D>(model, watchdog);
   if (helpful == 0.0) {
-    return PhysicalStop(what + " since the start; a collapse.contact_time would carry on");
+    return PhysicalStop(what + " since the start; set collapse.contact_time");
   }
   const std::string contact_time = rounded(helpful);
-  return PhysicalStop(what + " (inelastic collapse, or rest); collapse.contact_time = " +
-                          contact_time + " or more would carry on",
+  return PhysicalStop(what + " (inelastic collapse, or rest); set collapse.contact_time to " +
+                          contact_time + " or more",
                       "collapse.contact_time=" + contact_time);
 }
 

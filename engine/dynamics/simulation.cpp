@@ -180,13 +180,14 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
 }
 
 // A sinusoidal wall moves out of the box by less than the box side. Positions farther out are
-// errors, and have no cells.
+// errors, and have no cells. The number of a periodic image is an int.
 template <int D>
 static bool is_inside(const Model<D>& model, const Vec<D>& r) {
+  constexpr double kMostImages = 1 << 30;
   for (int axis = 0; axis < D; ++axis) {
     const double side = model.box[axis];
-    const bool inside = -side < r[axis] && r[axis] < 2.0 * side;
-    if (!model.periodic(axis) && !inside) return false;
+    const double beyond = model.periodic(axis) ? kMostImages : 1.0;
+    if (!(-beyond * side < r[axis] && r[axis] < (1.0 + beyond) * side)) return false;
   }
   return r.allFinite();
 }
@@ -197,7 +198,7 @@ void Simulation<D>::place_all(const StopRequest& stop) {
     stop.check();
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     if (!is_inside<D>(model_, r)) {
-      throw PhysicalStop("particle " + std::to_string(i) + " is outside of the walls at the start");
+      throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
     }
     particles_[i].image = model_.image_index(r);
     plans_[i].cell = near_.place(i, r - particles_[i].image.cwiseProduct(model_.box));

@@ -28,7 +28,7 @@ template <int D>
 class Simulation {
  public:
   /// Starts at simulation time `start_time`. Throws PhysicalStop if particles of the state overlap
-  /// each other or a wall, or are outside of the walls. Throws Interrupted.
+  /// each other or a wall, or are outside of the box. Throws Interrupted.
   Simulation(const Model<D>& model, State<D> state, double start_time = 0.0,
              const StopRequest& stop = {});
   /// Continues a saved run under the laws of `model`. Under the same laws the result has the same

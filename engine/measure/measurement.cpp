@@ -69,9 +69,22 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
       totals_(simulation) {
   visit(saved);
   saved.finish();
+  saved.require(window_ > 0.0 && !is_overdue());
   // A change of laws may have added or removed spins: adds zeros, or removes the series.
   series_spin_temperature_.resize(simulation.spins().empty() ? 0 : series_time_.size());
   observe();
+}
+
+// Whether a sample or the end of a window should have been long ago. A run would catch up with all
+// that are missing.
+template <int D>
+bool Measurement<D>::is_overdue() const {
+  constexpr double kLate = 1e-6;  // of the time
+  const double windows = started_ ? static_cast<double>(windows_.size() + 1) : 0.0;
+  const double samples = static_cast<double>(series_time_.size());
+  const double next = std::min(averages_start_ + windows * window_,
+                               series_start_ + samples * measure_.series_interval);
+  return !(next >= simulation_.time() * (1.0 - kLate));
 }
 
 template <int D>
@@ -218,7 +231,8 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<D>>& windows, int
   auto fourth = series_of(windows, [&](const auto& w) { return w.fourth_moment[axis]; });
   const double m2 = mean_estimate(second).mean;
   const double m4 = mean_estimate(fourth).mean;
-  if (!(m2 > 0.0)) return {};
+  // A product of very slow velocities is 0, and has no ratio.
+  if (!std::isnormal(m2 * m2 * m2)) return {};
   // Linearised about the means: d(m4/m2^2) = dm4/m2^2 - 2 m4 dm2/m2^3.
   for (std::size_t k = 0; k < fourth.size(); ++k) {
     fourth[k] = (fourth[k] / (m2 * m2) - 2.0 * m4 * second[k] / (m2 * m2 * m2)) / 3.0;

@@ -83,6 +83,7 @@ class Measurement {
   std::string save();
 
  private:
+  bool is_overdue() const;
   void observe();
   void sample(double time);
   template <class Archive>

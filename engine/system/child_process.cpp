@@ -1,13 +1,16 @@
 #include "engine/system/child_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include "engine/error.h"
 #include "engine/system/platform.h"
@@ -37,14 +40,16 @@ struct SpawnSetup {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Interrupts interrupts)
-    : errors_(nameless_file()) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Interrupts interrupts,
+                           StopRequest stop)
+    : errors_(nameless_file()), stop_(std::move(stop)) {
   std::optional<Pipe> pipe;
   if (errors_) pipe = make_pipe();
   if (!pipe) {
     throw RunError("cannot make a pipe to " + arguments[0] + ": " + std::strerror(errno));
   }
   input_ = std::move(pipe->input);
+  fcntl(input_.get(), F_SETFL, O_NONBLOCK);
 
   SpawnSetup setup;
   posix_spawn_file_actions_adddup2(&setup.files, pipe->output.get(), STDIN_FILENO);
@@ -83,7 +88,52 @@ bool ChildProcess::take_end(int options) {
   return true;
 }
 
+// Whether it must be given up: it has read nothing since `last_read`. The time counts from the stop
+// request.
+bool ChildProcess::hangs(Clock::time_point& last_read) {
+  constexpr std::chrono::seconds kPatience{1};
+  const Clock::time_point now = Clock::now();
+  if (!stop_.made()) last_read = now;
+  hung_ = now - last_read > kPatience;
+  return hung_;
+}
+
+// Number of bytes in the pipe to its input.
+int ChildProcess::unread() const {
+  int bytes = 0;
+  return ioctl(input_.get(), FIONREAD, &bytes) == 0 ? bytes : 0;
+}
+
+bool ChildProcess::write(std::span<const unsigned char> bytes) {
+  constexpr int kMilliseconds = 100;
+  Clock::time_point last_read = Clock::now();
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(input_.get(), bytes.data(), bytes.size());
+    if (written > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+      last_read = Clock::now();
+      continue;
+    }
+    if (errno != EAGAIN && errno != EINTR) return false;
+    if (hangs(last_read)) return false;
+    pollfd room{input_.get(), POLLOUT, 0};
+    ::poll(&room, 1, kMilliseconds);
+  }
+  return true;
+}
+
 bool ChildProcess::wait() {
+  constexpr int kMilliseconds = 2;
+  Clock::time_point last_read = Clock::now();
+  for (int before = 0, now; pid_ >= 0 && (now = unread()) > 0 && !take_end(WNOHANG); before = now) {
+    if (now != before) last_read = Clock::now();
+    if (hangs(last_read)) {
+      kill();
+      break;
+    }
+    pollfd closed{input_.get(), 0, 0};
+    if (::poll(&closed, 1, kMilliseconds) > 0) break;
+  }
   input_.close();
   if (pid_ >= 0) take_end(0);
   return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
@@ -130,6 +180,7 @@ std::string ChildProcess::last_words() const {
   const off_t length = std::min(size, kLongest);
   std::string text = read_at(errors_, size - length, length);
   while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.empty() && hung_) return "it does not read its input";
   if (text.empty() && WIFSIGNALED(status_)) return strsignal(WTERMSIG(status_));
   return text;
 }

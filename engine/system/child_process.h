@@ -2,11 +2,13 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/stop_request.h"
 #include "engine/system/file_descriptor.h"
 
 namespace clatter {
@@ -22,19 +24,19 @@ enum class Interrupts {
 class ChildProcess {
  public:
   /// Starts `arguments[0]`, found on the PATH, without a shell. A shielded process can finish its
-  /// work after an interrupt of this program. Throws RunError.
+  /// work after an interrupt of this program. A process that reads none of its input for a second
+  /// after `stop` was made hangs: write() and wait() give it up. Throws RunError.
   explicit ChildProcess(const std::vector<std::string>& arguments,
-                        Interrupts interrupts = Interrupts::Shielded);
+                        Interrupts interrupts = Interrupts::Shielded, StopRequest stop = {});
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   /// Kills the process unless wait() or poll() has seen its end.
   ~ChildProcess();
 
-  /// Writes to its standard input; false after it has closed the input. SIGPIPE must be blocked.
-  bool write(std::span<const unsigned char> bytes) {
-    return input_.write_all(std::as_bytes(bytes));
-  }
-  /// Closes its input and waits for its end; true if it succeeded.
+  /// Writes to its standard input; false after it has closed the input, or if it hangs. SIGPIPE
+  /// must be blocked.
+  bool write(std::span<const unsigned char> bytes);
+  /// Closes its input and waits for its end; true if it succeeded. Kills it if it hangs.
   bool wait();
   /// Its exit code after its end, 128 after a signal; absent while it runs.
   std::optional<int> poll();
@@ -44,17 +46,24 @@ class ChildProcess {
   void kill();
   /// Its output on standard error since the last call.
   std::string new_words();
-  /// The end of its output on standard error; without output, the name of the signal that ended it.
+  /// The end of its output on standard error. Without output, the reason of its end: it hung, or
+  /// the name of a signal.
   std::string last_words() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   bool take_end(int options);
+  bool hangs(Clock::time_point& last_read);
+  int unread() const;
 
   pid_t pid_ = -1;         ///< -1: has ended
   int status_ = 0;         ///< status of its end, from waitpid()
   FileDescriptor input_;   ///< our end of the pipe
   FileDescriptor errors_;  ///< its standard error: a file, so that it never blocks
   off_t read_ = 0;         ///< bytes of it that new_words() has returned
+  StopRequest stop_;
+  bool hung_ = false;  ///< whether it was given up
 };
 
 }  // namespace clatter

@@ -9,6 +9,14 @@ namespace clatter {
 
 namespace {
 
+std::unique_ptr<GlContext> open_hidden_window() {
+  try {
+    return std::make_unique<GlfwContext>();
+  } catch (const RunError& error) {
+    throw RunError(error.what() + std::string("; use egl or osmesa, which need no display"));
+  }
+}
+
 // EGL first: it uses a GPU if there is one, and is no slower than OSMesa otherwise.
 std::unique_ptr<GlContext> open_first_that_works() {
   std::string reasons;
@@ -38,7 +46,7 @@ std::unique_ptr<GlContext> open_context(Backend backend) {
     case Backend::Osmesa:
       return std::make_unique<OsmesaContext>();
     case Backend::Glfw:
-      return std::make_unique<GlfwContext>();
+      return open_hidden_window();
   }
   return nullptr;
 }

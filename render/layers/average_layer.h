@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/stop_request.h"
 #include "render/gl/canvas.h"
 #include "render/gl/shader_program.h"
 
@@ -11,8 +12,10 @@ class AverageLayer {
   explicit AverageLayer(const Gl& gl);
 
   /// Replaces the bound picture by `fine`, which has `samples` pixels per final pixel along each
-  /// axis. The colours of a `transparent` picture are premultiplied by alpha.
-  void draw(const Canvas& fine, int samples, bool transparent = false) const;
+  /// axis. The colours of a `transparent` picture are premultiplied by alpha. Throws Interrupted if
+  /// a stop request is made during the drawing of a large picture.
+  void draw(const Canvas& fine, int samples, bool transparent = false,
+            const StopRequest& stop = {}) const;
 
  private:
   const Gl* gl_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/camera_path.h"
 #include "render/label.h"
@@ -83,10 +84,11 @@ RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
   return ends;
 }
 
-Renderer::Renderer(const Gl& gl, int samples, bool transparent)
+Renderer::Renderer(const Gl& gl, int samples, bool transparent, StopRequest stop)
     : gl_(&gl),
       samples_(samples),
       transparent_(transparent),
+      stop_(std::move(stop)),
       average_(gl),
       field_(gl),
       grid_(gl),
@@ -189,16 +191,28 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
     field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
                 thin(theme.static_wall, kHatchOpacity));
   }
+  pause(projection);
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, theme);
   const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
                             theme.disk, transparent_ ? Blending::Encoded : Blending::Light};
   if (view.trails) trails_.draw(snapshot, projection, colours, *view.trails);
+  pause(projection);
   disks_.draw(snapshot, projection, colours);
+  pause(projection);
   if (legends.arrows) {
     arrows_.draw(*snapshot.arrows, projection, projection.samples * legends.arrows->pixels,
                  theme.text, theme.background);
   }
+}
+
+// Draws the layers of a large picture one after the other, so that a stop request is obeyed soon.
+void Renderer::pause(const Projection& projection) const {
+  constexpr double kLarge = 1 << 24;  // pixels
+  const Size drawn = projection.drawn();
+  if (1.0 * drawn.width * drawn.height <= kLarge) return;
+  gl_->Finish();
+  stop_.check();
 }
 
 void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
@@ -224,7 +238,9 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
     space_->slices.draw(snapshot, view.slices, projection, eye, legends.field->scale,
                         thin(theme.static_wall, kHatchOpacity));
   }
+  pause(projection);
   space_->spheres.draw(snapshot, projection, eye, colours, view.slab);
+  pause(projection);
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
   space_->box.draw_edges(snapshot, projection, eye, theme);
   gl_->Disable(GL_DEPTH_TEST);
@@ -265,7 +281,7 @@ void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& project
     draw_spheres(snapshot, finer, view, legends, theme);
   }
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
-  average_.draw(*fine_, samples_, transparent_);
+  average_.draw(*fine_, samples_, transparent_, stop_);
 }
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/publish/snapshot.h"
+#include "engine/stop_request.h"
 #include "render/camera.h"
 #include "render/colour_range.h"
 #include "render/layers/arrow_layer.h"
@@ -44,8 +45,8 @@ class Renderer {
   /// Compiles the shaders. Throws RunError if that fails. `gl` must outlive the renderer. All
   /// layers except the overlay are drawn with `samples` pixels per final pixel along each axis, and
   /// averaged in linear light. With `transparent` the background is transparent, and colours are
-  /// premultiplied by alpha.
-  explicit Renderer(const Gl& gl, int samples = 1, bool transparent = false);
+  /// premultiplied by alpha. A `stop` request ends the drawing of a large picture.
+  explicit Renderer(const Gl& gl, int samples = 1, bool transparent = false, StopRequest stop = {});
 
   /// Fixes the ends of the automatic colour ranges.
   void fix(const RangeEnds& ends);
@@ -53,7 +54,8 @@ class Renderer {
   /// The camera that shows the whole box, inside the margins of the overlay.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text);
 
-  /// Draws a picture of `size`. Throws RunError if OpenGL does not support the size times samples.
+  /// Draws a picture of `size`. Throws RunError if OpenGL does not support the size times samples,
+  /// and Interrupted after a stop request.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text);
 
@@ -86,6 +88,7 @@ class Renderer {
   void draw_spheres(const Snapshot& snapshot, const Projection& projection, const View& view,
                     const Legends& legends, const ThemeColours& theme);
   void clear(const Projection& projection, const ThemeColours& theme);
+  void pause(const Projection& projection) const;
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
@@ -95,6 +98,7 @@ class Renderer {
   const Gl* gl_;
   int samples_;
   bool transparent_;
+  StopRequest stop_;
   std::optional<Canvas> fine_;  ///< supersampled picture; absent: not drawn yet
   AverageLayer average_;
   FieldLayer field_;

@@ -15,7 +15,7 @@ std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path,
   if (extension.empty() || std::filesystem::is_directory(path, ignored)) {
     return std::make_unique<PngSequence>(path, options);
   }
-  throw UserError({path.string()}, "no such kind of output: " + extension,
+  throw UserError({path.string()}, "the format " + extension + " is not supported",
                   "use .mp4, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
 }
 

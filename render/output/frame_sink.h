@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/error.h"
+#include "engine/stop_request.h"
 #include "render/output/image.h"
 
 namespace clatter {
@@ -52,11 +54,17 @@ struct SinkOptions {
   bool goes_on = false;  ///< restart: existing pictures from `next` on may be replaced
   std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`; empty: unknown
   std::vector<PngText> notes = {};            ///< texts of the picture before `next`
+  StopRequest stop = {};                      ///< once made, an encoder that hangs is an error
+};
+
+/// A complete piece of a restarted film differs from its checksum.
+class DamagedPiece : public UserError {
+  using UserError::UserError;
 };
 
 /// Opens the sink for a path: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or a folder for
 /// a sequence of pictures. Throws UserError for another extension, if earlier pictures are missing,
-/// or if existing pictures would be replaced.
+/// or if existing pictures would be replaced. Throws DamagedPiece for a film.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 
 }  // namespace clatter

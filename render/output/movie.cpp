@@ -128,8 +128,8 @@ void Movie::require_earlier_pieces() {
   try {
     require_unchanged(earlier);
   } catch (const RunError& error) {
-    throw UserError({path_.string()}, error.what(),
-                    "draw the film again with --overwrite, without --resume");
+    throw DamagedPiece({path_.string()}, error.what(),
+                       "draw the film again with --overwrite, without --resume");
   }
 }
 
@@ -168,7 +168,8 @@ void Movie::start_piece() {
   const std::string name = name_while_open(file_, piece.string());
   try {
     encoder_ = std::make_unique<ChildProcess>(
-        encoding_command(program_, *format_, options_, name_in_folder(kTexts), name));
+        encoding_command(program_, *format_, options_, name_in_folder(kTexts), name),
+        Interrupts::Shielded, options_.stop);
   } catch (const RunError& error) {
     unlink(piece.c_str());
     fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
@@ -281,6 +282,8 @@ void Movie::tidy() {
 
 // Number of pictures that a player finds; -1: the encoder cannot start.
 long Movie::pictures_in(const std::filesystem::path& film) const {
+  std::error_code missing;
+  if (std::filesystem::file_size(film, missing) == 0 || missing) return 0;
   std::istringstream list;
   try {
     ChildProcess reader(listing_command(program_, film));

@@ -19,8 +19,9 @@ std::filesystem::path pieces_folder(const std::filesystem::path& path);
 class Movie final : public FrameSink {
  public:
   /// Opens a film; the extension of `path` determines its format. `encoder` is a name on the PATH.
-  /// Throws UserError if pieces of a restarted film are missing or changed, or if the folder has
-  /// other pieces. Throws RunError if files cannot be written or the encoder cannot start.
+  /// Throws UserError if pieces of a restarted film are missing, or if the folder has other pieces.
+  /// Throws DamagedPiece if pieces have changed, and RunError if files cannot be written or the
+  /// encoder cannot start.
   Movie(std::filesystem::path path, const SinkOptions& options,
         const std::string& encoder = "ffmpeg");
   ~Movie() override;

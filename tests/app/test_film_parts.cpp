@@ -35,13 +35,14 @@ std::string hashes(const Shell& shell, const std::string& input) {
       .out;
 }
 
-// Films until the second piece has begun, then applies `act` to the run $pid.
+// Films until the encoder of the second piece has begun, then applies `act` to the run $pid.
 Outcome film_into_second_piece(const Shell& shell, const std::string& act,
                                const std::string& flags = "") {
   return shell.run(
       kFilm + flags +
       "--out film.mp4 & pid=$!\n"
-      "while [ ! -e film.mp4.part/000060.mp4 ] && kill -0 $pid; do sleep 0.02; done\n" +
+      "until [ -e film.mp4.part/000060.mp4 -a -n \"$(cat /proc/$pid/task/$pid/children)\" ] || "
+      "! kill -0 $pid; do sleep 0.02; done\n" +
       act);
 }
 
@@ -164,10 +165,49 @@ TEST_CASE("Film parts: a film that could not be joined is resumed to the same by
   SUBCASE("as it was") {
     check_goes_on_to_whole(shell);
   }
-  SUBCASE("but not with another piece") {
-    shell.run("cp film.mp4.part/000000.mp4 film.mp4.part/000060.mp4");
-    check_refused(shell, kFilm + "--out film.mp4 --resume film.checkpoint",
-                  {"film.mp4.part/000060.mp4 is not the piece that was drawn"});
+  // The film restarts from its beginning, and its pieces are drawn again.
+  for (const std::string damage :
+       {"cp film.mp4.part/000000.mp4 film.mp4.part/000060.mp4",
+        "truncate -s 1000 film.mp4.part/000000.mp4", ": >film.mp4.part/000000.mp4"}) {
+    SUBCASE(damage.c_str()) {
+      CAPTURE(damage);
+      const Outcome outcome =
+          shell.run(damage + " && " + kFilm +
+                    "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole");
+      CAPTURE(outcome.err);
+      CHECK(outcome.code == 0);
+      CHECK(says(outcome.err,
+                 ".mp4 is not the piece that was drawn; the film restarts from its beginning\n"));
+      CHECK(shell.files() == std::vector<std::string>{"film.checkpoint", "film.mp4", "no-join",
+                                                      "scene.toml", "whole"});
+    }
+  }
+  // Other laws from the beginning would be another film.
+  SUBCASE("but not under other laws") {
+    shell.run("truncate -s 1000 film.mp4.part/000000.mp4");
+    check_refused(
+        shell, kFilm + "--out film.mp4 --resume film.checkpoint --set particles.restitution=0.8",
+        {"film.mp4.part/000000.mp4 is not the piece that was drawn; draw the film again"});
+  }
+}
+
+// The pictures of the first film fit into the pipe to the encoder, those of the second do not.
+TEST_CASE("Film parts: an interrupt ends a film whose encoder does not read its input") {
+  const Shell shell;
+  write_scene(shell);
+  shell.run("mkdir deaf");
+  shell.write("deaf/ffmpeg", "#!/bin/sh\nexec sleep 1000\n");
+  shell.run("chmod +x deaf/ffmpeg");
+  for (const std::string size : {"16x16", "640x480"}) {
+    CAPTURE(size);
+    const Outcome outcome = shell.run(
+        "PATH=$PWD/deaf:$PATH timeout --preserve-status -k 20 -s INT 1 clatter render scene.toml "
+        "--size " +
+        size + " --fps 10 --speed 1 --to 1000 --quiet --out film.mp4");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 1);
+    CHECK(says(outcome.err, "it does not read its input; continue with --resume film.checkpoint"));
+    CHECK(shell.run("rm film.checkpoint* && ls").out == "deaf\nscene.toml\n");
   }
 }
 

@@ -57,6 +57,10 @@ TEST_CASE("Help: a misspelt key or command is refused with a suggestion") {
   const Shell shell;
   check_refused(shell, "clatter help keys particles.restitutoin",
                 {"there is no key", "did you mean 'particles.restitution'?"});
+  check_refused(shell, "clatter help particles.cuont",
+                {"there is no key 'particles.cuont'; did you mean 'particles.count'?"});
+  CHECK(shell.run("clatter help particles.count").out ==
+        shell.run("clatter help keys particles.count").out);
   check_refused(shell, "clatter help rendr", {"no command 'rendr'", "did you mean 'render'?"});
   check_refused(shell, "clatter help bench engin", {"no table 'engin'", "'engine'?"});
 }

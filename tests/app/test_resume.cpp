@@ -89,6 +89,20 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
   leaves("clatter render vibrated --size 64x64 --to 1e5 --out frames/", "frames.checkpoint");
 }
 
+// The picture has 16384 samples along a side, which takes seconds of CPU time.
+TEST_CASE("Resume: an interrupt ends a large picture while it is drawn") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "timeout --preserve-status -s INT 1 clatter render vibrated --to 0.1 --out a.png "
+      "--size 4096x4096 --supersample 4");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(says(outcome.err,
+             "clatter: writing the checkpoint\nclatter: interrupted at t = 0.1; "
+             "continue with --resume a.checkpoint\n"));
+  CHECK(shell.files() == std::vector<std::string>{"a.checkpoint"});
+}
+
 TEST_CASE("Resume: an interrupt before the run began leaves nothing, and is said") {
   const Shell shell;
   // A fluid of a million disks, which starts from a lattice that melts slowly.
@@ -312,10 +326,10 @@ TEST_CASE("Resume: a checkpoint that does not fit is refused") {
   CHECK(shell.run(line + "--set measure.duration=2").code == 0);
 
   shell.write("c", shell.read("c").substr(0, 5000));
-  check_refused(shell, line, {"c: ", "cut short"});
-  check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "cut short"});
+  check_refused(shell, line, {"c: ", "truncated"});
+  check_refused(shell, "clatter render vibrated --out x.png --resume c", {"c: ", "truncated"});
   shell.write("c", "no checkpoint");
-  check_refused(shell, line, {"c: ", "this is no checkpoint"});
+  check_refused(shell, line, {"c: ", "this is not a checkpoint"});
   check_refused(shell, "clatter measure vibrated --checkpoint c", {"--checkpoint", "c exists"});
   check_refused(shell, "clatter measure vibrated --checkpoint no/c", {"--checkpoint", "folder no"});
   check_refused(shell, "clatter measure vibrated --checkpoint-every 5", {"--checkpoint"});

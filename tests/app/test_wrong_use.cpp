@@ -160,6 +160,28 @@ TEST_CASE("Outputs: one that fails costs no other, and a checkpoint has the resu
   CHECK(again == whole);
 }
 
+TEST_CASE("Outputs: replicas whose result cannot be written go to stdout, or to a new file") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure vibrated --set measure.burn_in=1 --until 5 --quiet --replicas 2 --seed 7 ";
+  REQUIRE(shell.run(line + "--out whole.json").code == 0);
+  const Outcome full = shell.run(line + "--out /dev/full");
+  CHECK(full.code == 1);
+  CHECK(full.out == shell.read("whole.json"));
+  CHECK(
+      says(full.err, "cannot write /dev/full: No space left on device; the result is on stdout\n"));
+  const Outcome closed = shell.run(line + ">/dev/full");
+  CHECK(closed.code == 1);
+  CHECK(says(closed.err, "cannot write stdout: "));
+  CHECK(says(closed.err, "; the result is in vibrated-seed7.json\n"));
+  CHECK(shell.read("vibrated-seed7.json") == shell.read("whole.json"));
+  // The second result does not replace the first.
+  const Outcome again = shell.run(line + "--set measure.burn_in=2 >/dev/full");
+  CHECK(again.code == 1);
+  CHECK(says(again.err, "the result is lost, because vibrated-seed7.json exists"));
+  CHECK(shell.read("vibrated-seed7.json") == shell.read("whole.json"));
+}
+
 TEST_CASE("Wrong use: outputs that would replace inputs are refused") {
   const Shell shell;
   shell.run("clatter check vibrated > s.toml");
@@ -329,6 +351,10 @@ TEST_CASE("Wrong use: a picture without a scene is refused as a picture") {
   check_refused(shell, "clatter check red.png",
                 {"red.png: this picture contains no scene", "a picture made by clatter"});
   check_refused(shell, "clatter check vibrated --set particles.count=1e3", {"cannot be 1000.0"});
+  shell.write("text.png", "These words are no scene.\n");
+  check_refused(
+      shell, "clatter check text.png",
+      {"text.png: this is not a PNG picture; give a picture made by clatter, or a scene"});
 }
 
 TEST_CASE("Wrong use: outputs that would replace each other are refused") {
@@ -410,6 +436,13 @@ TEST_CASE("Wrong use: impossible pictures and films are refused") {
   check_refused(shell, "clatter render vibrated --out f --size 16384x16384 --supersample 4",
                 {"--size", "65536 samples along a side", "--supersample"});
   check_refused(shell, "clatter render vibrated", {"--out"});
+  check_refused(shell, "clatter render vibrated --out x.avi",
+                {"x.avi: the format .avi is not supported; use .mp4"});
+  const Outcome outcome =
+      shell.run("DISPLAY= clatter render vibrated --backend glfw --out x.png --to 0.1");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "glfw: no display"));
+  CHECK(says(outcome.err, "; use egl or osmesa, which need no display\n"));
 }
 
 TEST_CASE("Wrong use: unknown commands are refused") {

@@ -19,6 +19,23 @@ TEST_CASE("Label: it has a symbol and a unit") {
   CHECK(label_of(Quantity::HeatFlux, 2) == Label{"heat flux q", "", Sign::Either, "m a/t³"});
 }
 
+TEST_CASE("Label: colours of particles have a symbol, an axis, a sign and a unit") {
+  struct Row {
+    ColourBy colour_by;
+    int dimension;
+    Label label;
+  };
+  for (const Row& row : {Row{ColourBy::Speed, 2, {"speed |v|", "", Sign::Positive, "a/t"}},
+                         Row{ColourBy::VelocityX, 2, {"velocity v", "x", Sign::Either, "a/t"}},
+                         Row{ColourBy::VelocityY, 2, {"velocity v", "y", Sign::Either, "a/t"}},
+                         Row{ColourBy::VelocityZ, 3, {"velocity v", "z", Sign::Either, "a/t"}},
+                         Row{ColourBy::Spin, 2, {"spin ω", "", Sign::Either, "1/t"}},
+                         Row{ColourBy::Spin, 3, {"spin |ω|", "", Sign::Positive, "1/t"}},
+                         Row{ColourBy::Depth, 3, {"depth", "", Sign::Either, "a"}}}) {
+    CHECK(label_of(row.colour_by, row.dimension) == row.label);
+  }
+}
+
 TEST_CASE("Label: every field has its title, the axes of its component and its unit") {
   struct Row {
     const char* field;

@@ -228,9 +228,9 @@ TEST_CASE("Checkpoint: a file with any byte changed, cut off or added is refused
 TEST_CASE("Checkpoint: an error names the problem and the previous checkpoint") {
   const TemporaryFolder folder;
   CHECK(says(refusal(folder / "a"), "there is no such file"));
-  CHECK(says(refusal(folder / ""), "this is no file"));
+  CHECK(says(refusal(folder / ""), "this is not a file"));
   write_bytes(folder / "a", "schema = 1\n");
-  CHECK(says(refusal(folder / "a"), "this is no checkpoint"));
+  CHECK(says(refusal(folder / "a"), "this is not a checkpoint"));
   CHECK_FALSE(says(refusal(folder / "a"), "a.previous"));
 
   Checkpoint checkpoint = example();
@@ -245,7 +245,7 @@ TEST_CASE("Checkpoint: an error names the problem and the previous checkpoint") 
   };
   const std::size_t version = sound.find('\n', sound.find('\n') + 1) + 1;
   CHECK(says(refusal_of(version, 2), "checksum"));
-  CHECK(says(refusal_of(version + 5, 0xff), "cut short"));
+  CHECK(says(refusal_of(version + 5, 0xff), "truncated"));
   CHECK(says(refusal_of(version + 30, 1), "checksum"));
   CHECK(says(refusal_of(version + 30, 1), "the previous checkpoint is "));
   std::filesystem::remove(folder / "a");

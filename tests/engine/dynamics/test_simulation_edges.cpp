@@ -96,12 +96,23 @@ TEST_CASE("Simulation: a start with overlap is refused, one that touches is not"
   CHECK_THROWS_AS(Simulation<2>(model, start({2.0, 3.0}, {8.6, 3.0})), PhysicalStop);
   for (const double far : {-1e300, -9.5, 18.5, 1e14}) {
     CHECK_THROWS_WITH_AS(Simulation<2>(model, start({2.0, 3.0}, {far, 3.0})),
-                         "particle 1 is outside of the walls at the start", PhysicalStop);
+                         "particle 1 is outside of the box at the start", PhysicalStop);
   }
 }
 
 // An elastic particle, dropped from rest at a cell border, turns there repeatedly, above or below
 // it by rounding errors. At this late time it may cross twice at one time.
+// A damaged checkpoint may have this position. Numbers of periodic images are less than 2^30.
+TEST_CASE("Simulation: a position too many periodic images away is refused") {
+  const Model<2> model = periodic_box(9.0, 8.0);
+  for (const double x : {-5e14, -1e10, 1e10, 5e14}) {
+    CAPTURE(x);
+    CHECK_THROWS_WITH_AS(Simulation<2>(model, {{{2.0, 2.0}, {x, 5.0}}, {{0.0, 0.0}, {1.0, 0.0}}}),
+                         "particle 1 is outside of the box at the start", PhysicalStop);
+  }
+  CHECK_NOTHROW(Simulation<2>(model, {{{2.0, 2.0}, {9e9, 5.0}}, {{0.0, 0.0}, {1.0, 0.0}}}));
+}
+
 TEST_CASE("Simulation: a particle may turn round on a border of its cell") {
   for (const double height : {1.5, 2.0, 3.0, 4.0, 5.25}) {
     Model<2> model = with_walls(periodic_box(8.0, 8.0), 1, Wall{});

@@ -392,6 +392,29 @@ TEST_CASE("Measurement: a gas at rest") {
   CHECK(result.temperature.mean == 0.0);
 }
 
+// A density needs one number per cell or column.
+TEST_CASE("Measurement: the memory of a profile is a row of columns per window") {
+  Measure measure = measure_for(0.0, 512.0);
+  measure.series_interval = 1.0;
+  measure.cells = {7, 5};
+  measure.fields = {Quantity::Density};
+  const double least = cells_memory<2>(measure, false);
+  measure.duration = 8192.0;
+  CHECK(cells_memory<2>(measure, false) - least == (8192 - 512) * 7 * 8);
+}
+
+TEST_CASE("Measurement: a gas so cold that products of its velocities are 0") {
+  for (const double temperature : {1e-80, 1e-120, 1e-160, 1e-300}) {
+    CAPTURE(temperature);
+    Scene scene = gas(10.0, 10.0, 5, 0.9);
+    scene.particles.start.temperature = temperature;
+    const auto simulation = simulation_of<2>(scene, 44);
+    const Measured result = measured(*simulation, measure_for(1.0, 7.0));
+    CHECK(finite(result));
+    CHECK(result.kurtosis_excess[0].mean >= -1.0);
+  }
+}
+
 TEST_CASE("Measurement: a request stops the results at any field, and changes nothing") {
   const auto simulation = simulation_of<2>(rough_mixture(20), 53);
   Measure measure = measure_for(2.0, 8.0);

@@ -188,8 +188,18 @@ TEST_CASE("Measurement: bytes of no measurement are refused") {
   run.simulation->run_until(10.0);
   const std::string saved = run.measurement->save();
   const Simulation<2>& simulation = *run.simulation;
+  // A run would need hours for all windows of 1e-9 since the burn-in.
+  const auto with_window = [&](double window) {
+    const double before = run.measurement->window();
+    const std::string old(reinterpret_cast<const char*>(&before), sizeof before);
+    std::string bytes = saved;
+    return bytes.replace(bytes.find(old), old.size(),
+                         std::string(reinterpret_cast<const char*>(&window), sizeof window));
+  };
+  REQUIRE(with_window(run.measurement->window()) == saved);
   for (const std::string& bytes :
-       {std::string(), saved + '\0', saved.substr(0, saved.size() - 1), saved.substr(8)}) {
+       {std::string(), saved + '\0', saved.substr(0, saved.size() - 1), saved.substr(8),
+        with_window(1e-9), with_window(0.0), with_window(-1.0), with_window(std::nan(""))}) {
     Simulation<2> other(simulation.model(), simulation.save());
     CHECK_THROWS_AS(Measurement<2>(other, measure, ArchiveReader(bytes, "saved")), UserError);
   }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/system/child_process.h"
@@ -60,6 +61,23 @@ TEST_CASE("ChildProcess: an interrupt ends it where it shares them, and not wher
   shielded.interrupt();
   CHECK(shielded.wait());
   CHECK(shielded.last_words() == "up\nwell");
+}
+
+// The pipe holds 64 kB.
+TEST_CASE(
+    "ChildProcess: after a stop request, a process that does not read its input is given up") {
+  const auto stop = [] { return true; };
+  for (const std::size_t bytes : {std::size_t{100}, std::size_t{1} << 20}) {
+    CAPTURE(bytes);
+    ChildProcess deaf({"sleep", "1000"}, Interrupts::Shielded, stop);
+    CHECK(deaf.write(std::vector<unsigned char>(bytes)) == (bytes == 100));
+    CHECK_FALSE(deaf.wait());
+    CHECK(deaf.last_words() == "it does not read its input");
+  }
+  ChildProcess slow({"sh", "-c", "head -c 10 >/dev/null; sleep 0.3; cat >/dev/null; sleep 1.5"},
+                    Interrupts::Shielded, stop);
+  CHECK(slow.write(std::vector<unsigned char>(1 << 20)));
+  CHECK(slow.wait());
 }
 
 }  // namespace clatter::testing

@@ -159,6 +159,12 @@ TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
   view.field_range = {ColourRange::Given, {0.0, 0.5}};
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == top);
+  // Each range has its own end. Without an end it is 1.
+  view.field_range = {};
+  renderer.fix({.disks = 8.0, .field = 2.0, .arrows = 8.0});
+  CHECK(field_colour(renderer, context->gl(), view, 1.0, true) == middle);
+  renderer.fix({});
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
 }
 
 TEST_CASE("Renderer: another field locks a range of its own") {
@@ -281,6 +287,22 @@ TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of 
       for (std::size_t i = 3; i < many.rgba.size(); i += 4) REQUIRE(many.rgba[i] == 255);
     }
   }
+}
+
+// Its samples are averaged in several groups of rows.
+TEST_CASE("Renderer: a large picture is whole, and a stop request ends it") {
+  const auto context = open_context(Backend::Osmesa);
+  View view;
+  view.overlay = false;
+  const auto drawn = [&](const StopRequest& stop) {
+    Renderer renderer(context->gl(), 2, false, stop);
+    return draw(renderer, context->gl(), driven_box(), {{10.0, 12.5}, 40.0}, {3000, 1500}, view);
+  };
+  const Image image = drawn({});
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
+  CHECK_THROWS_AS(drawn([] { return true; }), Interrupted);
+  int asked = 0;
+  CHECK_THROWS_AS(drawn([&] { return ++asked == 4; }), Interrupted);
 }
 
 TEST_CASE("Renderer: blur, trails and marks look the same with several samples a pixel") {

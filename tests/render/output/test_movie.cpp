@@ -355,7 +355,7 @@ TEST_CASE("Movie: a film does not continue from a changed piece") {
   const std::string named =
       piece.string() + " is not the piece that was drawn; draw the film again";
   CHECK_THROWS_WITH_AS(Movie(folder / "film.mp4", resumed), doctest::Contains(named.c_str()),
-                       UserError);
+                       DamagedPiece);
 }
 
 TEST_CASE("Movie: two films of one name at once are refused") {
