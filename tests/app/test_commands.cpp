@@ -14,7 +14,7 @@ TEST_CASE("Commands: scenes lists the gallery, one valid scene a line") {
   const Outcome outcome = shell.run("clatter scenes");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
-  CHECK(std::ranges::count(outcome.out, '\n') == 12);
+  CHECK(std::ranges::count(outcome.out, '\n') == 17);
   for (const std::string name : {"conduction", "cooling", "dense", "equilibrium", "vibrated"}) {
     CAPTURE(name);
     CHECK(says(("\n" + outcome.out), "\n" + name + " "));

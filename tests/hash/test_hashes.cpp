@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/dimension.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/embedded_file.h"
 #include "engine/initial/start_state.h"
@@ -32,12 +33,23 @@ struct GalleryHash {
 
 // Every scene of the gallery.
 constexpr GalleryHash kGallery[] = {
-    {"barometer.toml", 0x6a2395a17e31fee7},     {"collapse.toml", 0x4bf763996dd1b7ee},
-    {"conduction.toml", 0x4742c3cdb52cce7c},    {"cooling.toml", 0xc2d485f5299d3cbe},
-    {"cradle.toml", 0x0d76ddcebd38d99e},        {"dense.toml", 0xa8462d63d5bf47fa},
-    {"equilibrium.toml", 0x2f6ceb84347bc73e},   {"heating_walls.toml", 0x940f2efa3bae110f},
-    {"rough_cooling.toml", 0x668b837c3859e598}, {"rough_driven.toml", 0x7dbb87cc82f27096},
-    {"shaker.toml", 0x96b5507643a1d9a1},        {"vibrated.toml", 0x893fff2f2673d6a9},
+    {"barometer.toml", 0x6a2395a17e31fee7},
+    {"collapse.toml", 0x4bf763996dd1b7ee},
+    {"conduction.toml", 0x4742c3cdb52cce7c},
+    {"cooling.toml", 0xc2d485f5299d3cbe},
+    {"cradle.toml", 0x0d76ddcebd38d99e},
+    {"dense.toml", 0xa8462d63d5bf47fa},
+    {"equilibrium.toml", 0x2f6ceb84347bc73e},
+    {"heating_walls.toml", 0x940f2efa3bae110f},
+    {"rough_cooling.toml", 0x668b837c3859e598},
+    {"rough_driven.toml", 0x7dbb87cc82f27096},
+    {"shaker.toml", 0x96b5507643a1d9a1},
+    {"spheres_cooling.toml", 0x3e35fb3c9046a324},
+    {"spheres_leidenfrost.toml", 0xba612e6e5b23ab1d},
+    {"spheres_rain.toml", 0x87bf0d1cd5f1f8a2},
+    {"spheres_rough.toml", 0x92b72a237f96012e},
+    {"spheres_vibrated.toml", 0xe4f2e6da35a99311},
+    {"vibrated.toml", 0x893fff2f2673d6a9},
 };
 
 struct SceneHash {
@@ -107,12 +119,31 @@ constexpr SceneHash kScenes[] = {
         particles = { area_fraction = 0.5, start.layout = "lattice" }
         walls.left.kind = "static"
         walls.right.kind = "static")"},
+    {"dense spheres, melted", 0x50005469e6da72ca, R"(
+        box.size = [8, 9, 10]
+        particles = { volume_fraction = 0.56, restitution = 0.95, friction = 0.3 })"},
+    {"dense spheres that fall on walls", 0x81312239b5876c49, R"(
+        box.size = [7, 12, 8]
+        particles = { volume_fraction = 0.4, restitution = 0.9 }
+        gravity.acceleration = [0.1, -0.5, 0.2]
+        collapse.contact_time = 1e-4
+        walls.bottom = { kind = "sinusoidal", stroke = 0.5, frequency = 2.0 }
+        walls.top = { kind = "static" }
+        walls.back = { kind = "thermal", temperature = 2.0 }
+        walls.front = { kind = "driven", drive_speed = 1.0 })"},
+    {"rough spheres, kicked", 0xe06dcf7e4de3301f, R"(
+        box.size = [12, 9, 10]
+        particles = { count = 150, tangential_restitution = 0.5, friction = 0.2 }
+        bulk_drive = { interval = 0.05, kick_speed = 0.1, kick_spin = 0.2 })"},
 };
 
 std::uint64_t hash_of(const Scene& scene) {
-  Simulation<2> simulation(model_of<2>(scene, kSeed), start_state<2>(scene, kSeed));
-  simulation.run_until(kNever, kCollisions);
-  return simulation.state_hash();
+  return with_dimension(scene.dimension(), [&](auto dimension) {
+    constexpr int D = dimension;
+    Simulation<D> simulation(model_of<D>(scene, kSeed), start_state<D>(scene, kSeed));
+    simulation.run_until(kNever, kCollisions);
+    return simulation.state_hash();
+  });
 }
 
 std::string digits(std::uint64_t hash) {
