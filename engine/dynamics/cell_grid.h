@@ -58,6 +58,7 @@ class CellGrid {
     return borders_[axis][static_cast<std::size_t>(2 * cell + upper)];
   }
 
+  static_assert(kMaxParticles<D> < (std::uint64_t{1} << kParticleBits<D>));  // the last is kNobody
   /// A list fills one cache line in 2D and two in 3D.
   static constexpr int kCapacity = D == 2 ? 14 : 30;
   struct alignas(64) List : NearList<kCapacity> {};

@@ -29,17 +29,15 @@ struct NearList {
 struct NearListView {
   static constexpr std::uint32_t kNone = NearList<2>::kNone;
 
-  const void* list;  ///< the NearList
-  int capacity;      ///< of the NearList
-  const Neighbour* neighbours;
+  int capacity;                 ///< of the NearList
+  const Neighbour* neighbours;  ///< the start of the NearList
   int count;
   bool wraps;          ///< as NearList::wraps
   std::uint32_t next;  ///< as NearList::next
 
   template <int kCapacity>
   explicit NearListView(const NearList<kCapacity>& of)
-      : list(&of),
-        capacity(kCapacity),
+      : capacity(kCapacity),
         neighbours(of.neighbours.data()),
         count(of.count),
         wraps(of.wraps),

@@ -48,18 +48,14 @@ NeighbourLists<D>::NeighbourLists(const Model<D>& model, double particles)
           std::max(kMinRadius * model.diameter, even_radius<D>(model, particles, contact_))),
       regions_(static_cast<std::size_t>(particles)) {
   // Two particles may touch through neighbouring periodic images only, so regions are narrower than
-  // the box. In a box without room for them, regions are unlimited along this axis, and each
-  // particle is listed with all its images.
+  // the box.
   for (int axis = 0; axis < D; ++axis) {
-    flat_[axis] = model.periodic(axis) && box_[axis] < 1.5 * contact_;
-    any_flat_ = any_flat_ || flat_[axis];
-    if (!model.periodic(axis) || flat_[axis]) continue;
-    max_radius_ = std::min(max_radius_, 0.5 * (box_[axis] - contact_));
+    if (model.periodic(axis)) max_radius_ = std::min(max_radius_, 0.5 * (box_[axis] - contact_));
   }
   std::uint32_t stride = 1;
   for (int axis = 0; axis < D; ++axis) {
     const double cells = std::floor(box_[axis] / (contact_ + 2.0 * max_radius_));
-    counts_[axis] = flat_[axis] ? 1 : static_cast<int>(std::max(1.0, cells));
+    counts_[axis] = static_cast<int>(std::max(1.0, cells));
     widths_[axis] = box_[axis] / counts_[axis];
     const auto count = static_cast<std::uint32_t>(counts_[axis]);
     auto& steps = steps_[axis];
@@ -123,7 +119,7 @@ void NeighbourLists<D>::put_in_cell(std::uint32_t particle) {
   Block& block = blocks_[at];
   for (int axis = 0; axis < D; ++axis) {
     const double from_corner = region.centre[axis] - cell[axis] * widths_[axis];
-    block.centres[axis][place] = flat_[axis] ? 0.0f : static_cast<float>(from_corner);
+    block.centres[axis][place] = static_cast<float>(from_corner);
   }
   block.radii[place] = static_cast<float>(region.radius);
   block.particles[place] = particle;
@@ -194,7 +190,7 @@ void NeighbourLists<D>::find_neighbours(std::uint32_t particle) {
     steps[axis] = &steps_[axis][static_cast<std::size_t>(cell[axis])];
     for (int step = 0; step < 3; ++step) {
       const double from_corner = region.centre[axis] - (cell[axis] + step - 1) * widths_[axis];
-      centre[axis][step] = Floats{} + (flat_[axis] ? 0.0f : static_cast<float>(from_corner));
+      centre[axis][step] = Floats{} + static_cast<float>(from_corner);
     }
   }
   const Floats reach = Floats{} + static_cast<float>(contact_ + region.radius);
@@ -224,29 +220,6 @@ void NeighbourLists<D>::fill(List& list) {
   for (std::size_t k = 0; k < count_; ++k) continuations_.put_on(list, found_[k]);
 }
 
-template <int D>
-void NeighbourLists<D>::place(std::uint32_t particle, const Vec<D>& position) {
-  regions_[particle].centre = position;
-  regions_[particle].radius = max_radius_;
-  put_in_cell(particle);
-}
-
-template <int D>
-void NeighbourLists<D>::list_all() {
-  for (std::uint32_t i = 0; i < regions_.size(); ++i) {
-    find_neighbours(i);
-    fill(regions_[i].list);
-  }
-}
-
-template <int D>
-double NeighbourLists<D>::distance_from_end(std::uint32_t particle, int axis, bool upper) const {
-  const Region& region = regions_[particle];
-  if (flat_[axis]) return 0.0;
-  const double centre = upper ? box_[axis] - region.centre[axis] : region.centre[axis];
-  return centre - region.radius;
-}
-
 static bool contains(const Neighbour* first, std::size_t count, Neighbour wanted) {
   Neighbour found = 0;
   for (std::size_t k = 0; k < count; ++k) found |= first[k] == wanted;
@@ -274,6 +247,17 @@ void NeighbourLists<D>::mend_lists(std::uint32_t particle) {
   fill(regions_[particle].list);
 }
 
+// Each pair is compared once, from the later particle. So its two entries agree at any rounding.
+template <int D>
+void NeighbourLists<D>::place(std::uint32_t particle, const Vec<D>& position) {
+  regions_[particle].centre = position;
+  regions_[particle].radius = max_radius_;
+  put_in_cell(particle);
+  find_neighbours(particle);
+  known_.clear();
+  mend_lists(particle);
+}
+
 template <int D>
 Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Particle<D>& particle,
                                 std::uint32_t number, double now) {
@@ -287,7 +271,6 @@ Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Particle<D>& partic
     region.radius = std::min(kGrow * region.radius, max_radius_);
   }
   Vec<D> ahead = particle.flight.velocity_at(now, model.gravity);
-  for (int axis = 0; axis < D; ++axis) ahead[axis] = flat_[axis] ? 0.0 : ahead[axis];
   const double speed = ahead.norm();
   if (speed > 0.0) ahead *= kLead * region.radius / speed;
   const Vec<D> centre =

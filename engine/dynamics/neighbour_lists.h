@@ -12,7 +12,7 @@
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/near_list.h"
 #include "engine/dynamics/particle.h"
-#include "engine/physics/fall_time.h"
+#include "engine/physics/pair_contact.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -29,16 +29,21 @@ class NeighbourLists {
   static constexpr int kCapacity = 22;
   using List = NearList<kCapacity>;
 
-  /// Lists for a number of particles.
+  /// Empty lists for a number of particles. Periodic sides must not be below kMinSide.
   NeighbourLists(const Model<D>& model, double particles);
 
-  /// Puts a particle at a position inside the box. Call list_all() after the last particle.
+  /// Narrowest periodic side of a box, in diameters.
+  static constexpr double kMinSide = 1.5;
+
+  /// Puts a particle at a position inside the box, and enters it in the lists.
   void place(std::uint32_t particle, const Vec<D>& position);
-  /// Lists the neighbours of all particles.
-  void list_all();
 
   /// Least distance of a particle in its region from the lower or upper end of the box.
-  double distance_from_end(std::uint32_t particle, int axis, bool upper) const;
+  double distance_from_end(std::uint32_t particle, int axis, bool upper) const {
+    const Region& region = regions_[particle];
+    const double centre = region.centre[axis];
+    return (upper ? box_[axis] - centre : centre) - region.radius;
+  }
   /// A time by which a particle needs a new region. Under gravity it may precede the exit.
   template <bool kFalling>
   Exit exit(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
@@ -88,8 +93,6 @@ class NeighbourLists {
   void mend_lists(std::uint32_t particle);
 
   Vec<D> box_;
-  std::array<bool, D> flat_;  // axes along which regions are unlimited, see the constructor
-  bool any_flat_ = false;
   double contact_;     // distance of centres at contact, with a margin
   double max_radius_;  // of regions
   IntVec<D> counts_;
@@ -125,24 +128,18 @@ template <bool kFalling>
   } else {
     r += v * since;
   }
-  Vec<D> d = r - region.centre;
-  if (any_flat_) [[unlikely]] {
-    for (int axis = 0; axis < D; ++axis) {
-      if (!flat_[axis]) continue;
-      const double overhang = 0.5 * std::max(0.0, box_[axis] - contact_);
-      const double a = kFalling ? model.gravity[axis] : 0.0;
-      latest = std::min(latest, fall_time(r[axis] + overhang, v[axis], a));
-      latest = std::min(latest, fall_time(box_[axis] + overhang - r[axis], -v[axis], -a));
-      d[axis] = v[axis] = 0.0;
-    }
-  }
+  const Vec<D> d = r - region.centre;
   // The later root of |d + v t| = radius, in the form without cancellation. A particle at rest
   // leaves never: the time is infinite or NaN.
   const double depth = radius * radius - d.squaredNorm();
   const double square = v.squaredNorm(), rate = d.dot(v);
   const double sum = std::sqrt(rate * rate + square * depth) + std::fabs(rate);
-  const double time = (rate < 0.0 ? sum : depth) / (rate < 0.0 ? square : sum);
-  return {now + (depth > 0.0 ? std::min(latest, time) : 0.0), kCellBorder};
+  const double stay = (rate < 0.0 ? sum : depth) / (rate < 0.0 ? square : sum);
+  // A particle inside of its region gets a new one later, at least by the smallest time step.
+  double time = depth > 0.0 ? now + std::min(latest, stay) : now;
+  if (depth > 0.0 && time == now) [[unlikely]]
+    time = std::nextafter(now, kNever);
+  return {time, kCellBorder};
 }
 
 extern template class NeighbourLists<2>;

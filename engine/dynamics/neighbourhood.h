@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/neighbour_lists.h"
@@ -18,28 +19,24 @@ class Neighbourhood {
  public:
   /// A neighbourhood for a number of particles.
   Neighbourhood(const Model<D>& model, double particles)
-      : is_dense_(is_dense(model, particles)),
-        grid_(model, is_dense_ ? 0.0 : particles),
-        lists_(model, is_dense_ ? particles : 0.0) {}
+      : grid_(model, is_dense(model, particles) ? 1.0 : particles) {
+    if (is_dense(model, particles)) lists_.emplace(model, particles);
+  }
 
-  /// The largest and the least capacity of a list.
+  /// The largest and the least capacity of a list. Lists of particles exist in 3D only.
   static constexpr int kCapacity = CellGrid<D>::kCapacity;
-  static constexpr int kLeastCapacity = std::min(kCapacity, NeighbourLists<D>::kCapacity);
+  static constexpr int kLeastCapacity = D == 2 ? kCapacity : NeighbourLists<D>::kCapacity;
+  static_assert(kLeastCapacity <= kCapacity);
 
-  /// Puts a particle at a position inside the box. Returns its cell. Call list_all() after the last
-  /// particle.
+  /// Puts a particle at a position inside the box. Returns its cell.
   IntVec<D> place(std::uint32_t particle, const Vec<D>& position) {
     const IntVec<D> cell = grid_.cell_at(position);
     if (by_particle()) {
-      lists_.place(particle, position);
+      lists_->place(particle, position);
     } else {
       grid_.insert(particle, cell);
     }
     return cell;
-  }
-  /// Completes the lists of all particles.
-  void list_all() {
-    if (by_particle()) lists_.list_all();
   }
   /// Adapts the structure to the cells in the plans of all particles. If it is empty afterwards,
   /// the result is true.
@@ -55,18 +52,18 @@ class Neighbourhood {
 
   /// The first list of the particles near a particle in a cell.
   NearListView near(std::uint32_t particle, const IntVec<D>& cell) const {
-    return by_particle() ? NearListView(lists_.near(particle)) : NearListView(grid_.near(cell));
+    return by_particle() ? NearListView(lists_->near(particle)) : NearListView(grid_.near(cell));
   }
   /// The list that continues a list, which must not be the last.
   NearListView next(const NearListView& list) const {
-    return by_particle() ? lists_.continuations().next(list) : grid_.continuations().next(list);
+    return by_particle() ? lists_->continuations().next(list) : grid_.continuations().next(list);
   }
   /// Calls visit(particle, wrap) for each particle near a particle in a cell. `wrap` is its
   /// periodic image in box lengths.
   template <typename Visit>
   void visit(std::uint32_t particle, const IntVec<D>& cell, const Visit& visit) const {
     if (by_particle()) {
-      lists_.continuations().visit(lists_.near(particle), visit);
+      lists_->continuations().visit(lists_->near(particle), visit);
     } else {
       grid_.visit(cell, visit);
     }
@@ -75,7 +72,7 @@ class Neighbourhood {
   /// Least distance of a particle in a cell from the lower or upper end of the box.
   double distance_from_end(std::uint32_t particle, const IntVec<D>& cell, int axis,
                            bool upper) const {
-    return by_particle() ? lists_.distance_from_end(particle, axis, upper)
+    return by_particle() ? lists_->distance_from_end(particle, axis, upper)
                          : grid_.distance_from_end(cell, axis, upper);
   }
   /// The exits of a particle from its cell or region.
@@ -87,21 +84,21 @@ class Neighbourhood {
     if (!by_particle()) return grid_.template exits<kFalling>(model, particle, cell, now);
     std::array<Exit, D> exits;
     exits.fill({kNever, kCellBorder});
-    exits[0] = lists_.template exit<kFalling>(model, particle, number, now);
+    exits[0] = lists_->template exit<kFalling>(model, particle, number, now);
     return exits;
   }
   /// Moves a particle to its next cell or region. Returns its shift to another periodic image, in
   /// box lengths.
   Vec<D> leave(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
                IntVec<D>& cell, std::uint32_t border, double now) {
-    return by_particle() ? lists_.leave(model, particle, number, now)
+    return by_particle() ? lists_->leave(model, particle, number, now)
                          : grid_.leave(number, cell, border);
   }
 
   /// Prefetches the first list near a particle in a cell.
   void prefetch_near(std::uint32_t particle, const IntVec<D>& cell) const {
     if (by_particle()) {
-      prefetch(lists_.near(particle));
+      prefetch(lists_->near(particle));
     } else {
       prefetch(grid_.near(cell));
     }
@@ -123,13 +120,16 @@ class Neighbourhood {
   // Measured: from this volume fraction lists of particles are faster.
   static constexpr double kDense = 0.35;
   static bool is_dense(const Model<D>& model, double particles) {
+    for (int axis = 0; axis < D; ++axis) {
+      const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
+      if (model.periodic(axis) && model.box[axis] < narrowest) return false;
+    }
     return D == 3 && particles * packing_fraction(D, model.diameter) > kDense * model.box.prod();
   }
-  bool by_particle() const { return D == 3 && is_dense_; }
+  bool by_particle() const { return D == 3 && lists_.has_value(); }
 
-  bool is_dense_;
-  CellGrid<D> grid_;
-  NeighbourLists<D> lists_;
+  CellGrid<D> grid_;  // of one cell beside lists of particles
+  std::optional<NeighbourLists<D>> lists_;
 };
 
 }  // namespace clatter

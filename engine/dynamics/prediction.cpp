@@ -23,6 +23,7 @@ constexpr bool are_rows() {
          Candidates<D>::kCapacity >= Neighbourhood<D>::kCapacity;
 }
 static_assert(are_rows<2>() && are_rows<3>());
+
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
                           const LargeArray<Particle<D>>& particles, const Neighbourhood<D>& near)
@@ -93,16 +94,17 @@ void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near
   for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
 }
 
-// Copies a whole list, because its length is unpredictable; its capacity is the same in a run.
+// Copies a whole list, because its length is unpredictable. All lists of a run have the same
+// capacity.
 template <int D>
 [[gnu::always_inline]] static inline void take(const NearListView& list, Candidates<D>& near) {
   using Longest = typename CellGrid<D>::List;
   using Shortest = NearList<Neighbourhood<D>::kLeastCapacity>;
   static_assert(sizeof near.neighbours >= sizeof(Longest));
   if (sizeof(Longest) > sizeof(Shortest) && list.capacity > Neighbourhood<D>::kLeastCapacity) {
-    std::memcpy(near.neighbours, list.list, sizeof(Longest));
+    std::memcpy(near.neighbours, list.neighbours, sizeof(Longest));
   } else {
-    std::memcpy(near.neighbours, list.list, sizeof(Shortest));
+    std::memcpy(near.neighbours, list.neighbours, sizeof(Shortest));
   }
   near.size = list.count;
 }

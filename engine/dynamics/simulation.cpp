@@ -203,7 +203,6 @@ void Simulation<D>::place_all(const StopRequest& stop) {
     particles_[i].image = model_.image_index(r);
     plans_[i].cell = near_.place(i, r - particles_[i].image.cwiseProduct(model_.box));
   }
-  near_.list_all();
 }
 
 template <int D>

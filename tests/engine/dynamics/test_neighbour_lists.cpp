@@ -5,8 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "engine/dynamics/neighbour_lists.h"
+#include "engine/dynamics/neighbourhood.h"
 #include "engine/physics/random.h"
+#include "engine/publish/scheduled_run.h"
 
 using namespace clatter;
 
@@ -27,7 +28,6 @@ struct Ghosts {
         lists(model, static_cast<double>(particles.size())),
         exits(particles.size()) {
     for (std::uint32_t i = 0; i < particles.size(); ++i) lists.place(i, particles[i].flight.r);
-    lists.list_all();
     for (std::uint32_t i = 0; i < particles.size(); ++i) plan(i);
   }
 
@@ -92,11 +92,11 @@ struct Ghosts {
   }
 };
 
-// A box of random size, down to about one diameter, with walled or periodic pairs of sides. The
+// A box of random size, down to the narrowest, with walled or periodic pairs of sides. The
 // ghosts do not move towards walls.
 template <int D>
 Ghosts<D> random_ghosts(Random& random, bool falls) {
-  constexpr double kEdges[] = {1.001, 1.2, 1.6, 2.05, 3.1, 4.0, 5.0, 7.3};
+  constexpr double kEdges[] = {1.5, 1.6, 2.05, 2.5, 3.1, 4.0, 5.0, 7.3};
   Model<D> model;
   for (int axis = 0; axis < D; ++axis) {
     model.box[axis] = kEdges[random.below(std::size(kEdges))];
@@ -141,6 +141,26 @@ std::vector<Particle<3>> lattice(int side, double spacing) {
   return particles;
 }
 
+// Radius of the regions of an even gas: the distance of a particle at the middle of the box from
+// its end, less that of its region.
+double radius_of(const Model<3>& model, double particles) {
+  NeighbourLists<3> lists(model, particles);
+  lists.place(0, 0.5 * model.box);
+  return 0.5 * model.box.x() - lists.distance_from_end(0, 0, false);
+}
+
+Vec<3> wrapped(const Model<3>& model, const Vec<3>& r) {
+  return r - model.image_index(r).cwiseProduct(model.box);
+}
+
+bool lists_it(const NeighbourLists<3>& lists, std::uint32_t particle, std::uint32_t neighbour) {
+  bool listed = false;
+  lists.continuations().visit(lists.near(particle), [&](std::uint32_t other, const Vec<3>&) {
+    listed = listed || other == neighbour;
+  });
+  return listed;
+}
+
 double mean_neighbours(const Ghosts<3>& ghosts) {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < ghosts.particles.size(); ++i) {
@@ -154,6 +174,34 @@ double mean_neighbours(const Ghosts<3>& ghosts) {
 TEST_CASE("NeighbourLists: every image within one diameter is found exactly once") {
   find_every_neighbour<2>(70);
   find_every_neighbour<3>(71);
+}
+
+TEST_CASE("NeighbourLists: of two neighbours each is listed by the other, at any rounding") {
+  // Regions that just meet or just do not, at random places relative to the cells.
+  Random random(72, Stream::Placement, 0, 0);
+  Model<3> model;
+  model.box.setConstant(30.0);
+  int met = 0, unequal = 0;
+  constexpr int kPairs = 400000;
+  for (int i = 0; i < kPairs; i += 1000) {
+    NeighbourLists<3> lists(model, 10000.0);
+    for (std::uint32_t k = 0; k < 1000; k += 2) {
+      // Positions along x of one pair for each row of the box.
+      const double reach = 1.01 + 2.0 * radius_of(model, 10000.0);
+      const Vec<3> r(5.0 + 10.0 * random.uniform(), 30.0 * random.uniform(),
+                     30.0 * random.uniform());
+      Vec<3> way(random.normal(), random.normal(), random.normal());
+      way *= reach * (1.0 + 3e-7 * (random.uniform() - 0.5)) / way.norm();
+      lists.place(k, wrapped(model, r));
+      lists.place(k + 1, wrapped(model, r + way));
+      const bool first = lists_it(lists, k, k + 1), second = lists_it(lists, k + 1, k);
+      unequal += first != second;
+      met += first;
+    }
+  }
+  CHECK(unequal == 0);
+  CHECK(met > kPairs / 20);
+  CHECK(met < kPairs / 2 - kPairs / 20);
 }
 
 TEST_CASE("NeighbourLists: lists are short, also in a cluster") {
@@ -174,4 +222,19 @@ TEST_CASE("NeighbourLists: lists are short, also in a cluster") {
   CHECK(mean_neighbours(cluster) > 400.0);
   for (int step = 0; step < 60000; ++step) cluster.step();
   CHECK(mean_neighbours(cluster) < 40.0);
+}
+
+TEST_CASE("Neighbourhood: a dilute gas in a wide, flat box needs no cells of a dense one") {
+  Model<3> model;
+  model.box = {3.0, 1e6, 1e6};
+  Neighbourhood<3> near(model, 100.0);
+  CHECK(near.place(7, {1.0, 2.0, 3.0}).minCoeff() >= 0);
+}
+
+TEST_CASE("Neighbourhood: dense spheres pass through a narrow periodic box") {
+  Scene scene = default_scene(3);
+  scene.box = Vec<3>{1.005, 1.2, 1.2};
+  scene.particles.count = 1;
+  const auto simulation = simulation_of<3>(scene, 1);
+  CHECK(simulation->run_until(1000.0, kNoLimit, 100000));
 }

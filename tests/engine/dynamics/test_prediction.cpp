@@ -53,7 +53,6 @@ struct Planned {
       particles[i].image = model.image_index(r);
       plans[i].cell = near->place(i, r - particles[i].image.cwiseProduct(model.box));
     }
-    near->list_all();
     boundary.emplace(model, *clock);
     prediction.emplace(model, *boundary, particles, *near);
     for (std::uint32_t i = 0; i < particles.size(); ++i) prediction->plan({i, &plans[i]}, now);
