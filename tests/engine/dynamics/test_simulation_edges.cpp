@@ -129,7 +129,7 @@ TEST_CASE("Simulation: a particle may turn round on a border of its cell") {
 }
 
 // As above, with cells too narrow for an overhang, as around a crystal in a wide box
-// (Simulation::fit_cells). All particles are on borders, rise, and return within the smallest time
+// (CellGrid::fit). All particles are on borders, rise, and return within the smallest time
 // step.
 TEST_CASE("Simulation: particles may turn round just beyond a border of narrow cells") {
   Model<2> model = periodic_box(20.2, 20.2);
