@@ -34,7 +34,7 @@ State<2> row(int count, double spacing) {
 
 // The t_c that a message recommends.
 double advised_contact_time(const std::string& message) {
-  const std::string key = "collapse.contact_time = ";
+  const std::string key = "collapse.contact_time to ";
   const std::size_t at = message.find(key);
   REQUIRE_MESSAGE(at != std::string::npos, message);
   return std::stod(message.substr(at + key.size()));

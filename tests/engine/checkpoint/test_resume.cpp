@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/checkpoint/checkpoint.h"
+#include "engine/dimension.h"
 #include "engine/embedded_file.h"
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
@@ -18,12 +19,13 @@ using namespace clatter::testing;
 
 namespace {
 
-RunState<2> through_file(const Simulation<2>& simulation) {
+template <int D>
+RunState<D> through_file(const Simulation<D>& simulation) {
   const TemporaryFolder folder;
   Checkpoint checkpoint;
   checkpoint.saved = simulation.save();
   write_checkpoint(folder / "a", checkpoint);
-  return std::get<RunState<2>>(read_checkpoint(folder / "a").saved);
+  return std::get<RunState<D>>(read_checkpoint(folder / "a").saved);
 }
 
 // Laws with a name, and their model.
@@ -118,21 +120,26 @@ TEST_CASE("Resume: a halt right after any collision changes no bit") {
   }
 }
 
+template <int D>
+static void resume_halfway(const Scene& scene) {
+  const Model<D> model = model_of<D>(scene, 1);
+  Simulation<D> first(model, start_state<D>(scene, 1));
+  first.run_until(kNever, 20 * static_cast<std::uint64_t>(scene.particles.count));
+  const double halfway = first.time();
+  first.run_until(halfway);
+  Simulation<D> second(model, through_file(first));
+  second.run_until(2.0 * halfway);
+  Simulation<D> straight(model, start_state<D>(scene, 1));
+  straight.run_until(2.0 * halfway);
+  CHECK(second.state_hash() == straight.state_hash());
+  CHECK(second.counts().pair_collisions > first.counts().pair_collisions);
+}
+
 TEST_CASE("Resume: every scene of the gallery continues from halfway to the same bits") {
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_gallery_scene(file);
-    const Model<2> model = model_of<2>(scene, 1);
-    Simulation<2> first(model, start_state<2>(scene, 1));
-    first.run_until(kNever, 20 * static_cast<std::uint64_t>(scene.particles.count));
-    const double halfway = first.time();
-    first.run_until(halfway);
-    Simulation<2> second(model, through_file(first));
-    second.run_until(2.0 * halfway);
-    Simulation<2> straight(model, start_state<2>(scene, 1));
-    straight.run_until(2.0 * halfway);
-    CHECK(second.state_hash() == straight.state_hash());
-    CHECK(second.counts().pair_collisions > first.counts().pair_collisions);
+    with_dimension(scene.dimension(), [&](auto dimension) { resume_halfway<dimension>(scene); });
   }
 }
 
