@@ -43,7 +43,7 @@ class PhysicalStop : public std::runtime_error {
   explicit PhysicalStop(const std::string& what, const std::string& remedy = "")
       : std::runtime_error(what), remedy_(remedy) {}
 
-  /// A setting, key=value, that lets the run continue. Empty: none is known.
+  /// The setting (key=value) with which the run can continue; empty if it is unknown.
   const std::string& remedy() const { return remedy_; }
 
  private:

@@ -72,12 +72,7 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells)
 
 template <int D>
 IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
-  IntVec<D> cell;
-  for (int axis = 0; axis < D; ++axis) {
-    const int at = static_cast<int>(std::floor(position[axis] / widths_[axis]));
-    cell[axis] = std::clamp(at, 0, counts_[axis] - 1);
-  }
-  return cell;
+  return cell_of<D>(position, widths_, counts_);
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/cell_of.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"

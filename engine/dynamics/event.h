@@ -5,8 +5,9 @@
 
 namespace clatter {
 
-/// Values of Event::partner that are no particle: a wall (kWall + side) or a border of the
-/// particle's cell (kCellBorder + side). Particle numbers are smaller.
+/// Values of Event::partner that are no particle: a wall (kWall + side), a border of the
+/// particle's cell (kCellBorder + side) or the border of its region (kCellBorder). Particle numbers
+/// are smaller.
 inline constexpr std::uint32_t kWall = 0xffffffe0u;
 inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
 

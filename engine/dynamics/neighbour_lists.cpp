@@ -5,7 +5,6 @@
 #include "engine/dynamics/neighbour_lists.h"
 
 #include <cstring>
-#include <limits>
 #include <numbers>
 
 namespace clatter {
@@ -69,16 +68,12 @@ NeighbourLists<D>::NeighbourLists(const Model<D>& model, double particles)
     stride *= count;
   }
   blocks_.resize(stride);
+  found_.resize(64);
 }
 
 template <int D>
 IntVec<D> NeighbourLists<D>::cell_at(const Vec<D>& position) const {
-  IntVec<D> cell;
-  for (int axis = 0; axis < D; ++axis) {
-    const int at = static_cast<int>(std::floor(position[axis] / widths_[axis]));
-    cell[axis] = std::clamp(at, 0, counts_[axis] - 1);
-  }
-  return cell;
+  return cell_of<D>(position, widths_, counts_);
 }
 
 template <int D>
@@ -195,7 +190,6 @@ void NeighbourLists<D>::find_neighbours(std::uint32_t particle) {
   }
   const Floats reach = Floats{} + static_cast<float>(contact_ + region.radius);
   count_ = 0;
-  found_.resize(std::max<std::size_t>(found_.size(), 64));
   constexpr int kCells = D == 2 ? 9 : 27;
   for (int k = 0; k < kCells; ++k) {
     std::array<Floats, D> from;
@@ -270,13 +264,12 @@ Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Particle<D>& partic
   } else if (known_.size() < kShort) {
     region.radius = std::min(kGrow * region.radius, max_radius_);
   }
-  Vec<D> ahead = particle.flight.velocity_at(now, model.gravity);
-  const double speed = ahead.norm();
-  if (speed > 0.0) ahead *= kLead * region.radius / speed;
-  const Vec<D> centre =
-      particle.flight.at(now, model.gravity) - particle.image.cwiseProduct(model.box) + ahead;
+  Vec<D> centre = particle.flight.at(now, model.gravity) - particle.image.cwiseProduct(box_);
+  const Vec<D> velocity = particle.flight.velocity_at(now, model.gravity);
+  const double speed = velocity.norm();
+  if (speed > 0.0) centre += velocity * (kLead * region.radius / speed);
   const Vec<D> boxes = model.image_index(centre);
-  region.centre = centre - boxes.cwiseProduct(model.box);
+  region.centre = centre - boxes.cwiseProduct(box_);
   put_in_cell(number);
   find_neighbours(number);
   mend_lists(number);

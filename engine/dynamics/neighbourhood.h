@@ -19,8 +19,8 @@ class Neighbourhood {
  public:
   /// A neighbourhood for a number of particles.
   Neighbourhood(const Model<D>& model, double particles)
-      : grid_(model, is_dense(model, particles) ? 1.0 : particles) {
-    if (is_dense(model, particles)) lists_.emplace(model, particles);
+      : grid_(model, has_lists(model, particles) ? 1.0 : particles) {
+    if (has_lists(model, particles)) lists_.emplace(model, particles);
   }
 
   /// The largest and the least capacity of a list. Lists of particles exist in 3D only.
@@ -38,8 +38,8 @@ class Neighbourhood {
     }
     return cell;
   }
-  /// Adapts the structure to the cells in the plans of all particles. If it is empty afterwards,
-  /// the result is true.
+  /// Adapts the number of cells to the crowding, from the plans of all particles. Returns whether
+  /// the grid is now empty.
   template <typename Plans>
   bool fit(const Model<D>& model, const Plans& plans) {
     if (by_particle()) return false;
@@ -119,7 +119,8 @@ class Neighbourhood {
  private:
   // Measured: from this volume fraction lists of particles are faster.
   static constexpr double kDense = 0.35;
-  static bool is_dense(const Model<D>& model, double particles) {
+  // Whether the particles have lists of their own.
+  static bool has_lists(const Model<D>& model, double particles) {
     for (int axis = 0; axis < D; ++axis) {
       const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;

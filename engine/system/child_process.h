@@ -24,8 +24,8 @@ enum class Interrupts {
 class ChildProcess {
  public:
   /// Starts `arguments[0]`, found on the PATH, without a shell. A shielded process can finish its
-  /// work after an interrupt of this program. A process that reads none of its input for a second
-  /// after `stop` was made hangs: write() and wait() give it up. Throws RunError.
+  /// work after an interrupt of this program. After the stop request, write() and
+  /// wait() end a process that does not read its input for one second. Throws RunError.
   explicit ChildProcess(const std::vector<std::string>& arguments,
                         Interrupts interrupts = Interrupts::Shielded, StopRequest stop = {});
   ChildProcess(const ChildProcess&) = delete;

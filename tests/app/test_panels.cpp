@@ -322,7 +322,7 @@ TEST_CASE("Panels: every slider sets the value of its own key, within its range,
   check_sliders(uneven_scene(), kSliders);
 }
 
-TEST_CASE("Panels: every slider of spheres does, and disks have none of them") {
+TEST_CASE("Panels: each slider of spheres changes its key, and disks lack these sliders") {
   check_sliders(uneven_spheres(), kSliders);
   check_sliders(uneven_spheres(), kSphereSliders);
   PanelDriver disks(uneven_scene(), all_panels);

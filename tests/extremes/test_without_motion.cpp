@@ -55,7 +55,7 @@ void check_dead_walls(const Vec<D>& box) {
 }  // namespace
 
 TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
-          doctest::description("nothing moves, to the bit, and time goes on")) {
+          doctest::description("no particle moves, to the bit, while the time advances")) {
   check_at_rest<2>({9.0, 8.0});
   check_at_rest<3>({5.0, 4.0, 4.5});
 }

@@ -56,9 +56,8 @@ TEST_CASE("Eye: nearer things are larger by the ratio of the distances") {
 }
 
 TEST_CASE("Eye: the rectangle around a sphere touches its outline") {
-  // The pixels of many points of a sphere: none is outside of the rectangle, and some are at each
-  // of its sides. At 45 degrees off the axis the outline is an ellipse, wider than the radius
-  // by 1.4.
+  // All points of a sphere are inside of the rectangle, and some are at each of its sides. At 45
+  // degrees off the axis the outline is an ellipse, wider than the radius by 1.4.
   for (const double view_angle : {0.0, 25.0, 100.0}) {
     CAPTURE(view_angle);
     const Eye eye(projection({.view_angle = view_angle}));
