@@ -12,8 +12,8 @@
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/near_list.h"
-#include "engine/dynamics/particle.h"
 #include "engine/physics/fall_time.h"
+#include "engine/physics/flight.h"
 #include "engine/physics/neighbour.h"
 #include "engine/vec.h"
 
@@ -69,9 +69,10 @@ class CellGrid {
     const int cells = upper ? counts_[axis] - 1 - cell[axis] : cell[axis];
     return cells * widths_[axis] - overhangs_[axis];
   }
-  /// The exits of a particle from its cell along each axis.
+  /// The exits of a particle from its cell along each axis. `image` is in whole box lengths, from
+  /// the cell's frame to the flight's frame.
   template <bool kFalling>
-  std::array<Exit, D> exits(const Model<D>& model, const Particle<D>& particle,
+  std::array<Exit, D> exits(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
                             const IntVec<D>& cell, double now) const;
   /// Moves a particle across a border of its cell. Returns its shift to another periodic image, in
   /// box lengths.
@@ -115,8 +116,8 @@ class CellGrid {
   void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap,
                    const Visit& visit) const;
   std::uint32_t index(const IntVec<D>& cell) const;
-  Exit exit_falling(const Model<D>& model, const Particle<D>& particle, const IntVec<D>& cell,
-                    int axis, double now) const;
+  Exit exit_falling(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
+                    const IntVec<D>& cell, int axis, double now) const;
 
   double cells_;  // requested
   IntVec<D> counts_;
@@ -179,14 +180,15 @@ void CellGrid<D>::visit_moved(const IntVec<D>& cell, int axis, int step, const V
 // stored state alone.
 template <int D>
 [[gnu::always_inline]] inline Exit CellGrid<D>::exit_falling(const Model<D>& model,
-                                                             const Particle<D>& particle,
+                                                             const Flight<D>& flight,
+                                                             const Vec<D>& image,
                                                              const IntVec<D>& cell, int axis,
                                                              double now) const {
   const double a = model.gravity[axis];
-  const double since = now - particle.flight.time;
-  const double r = particle.flight.r[axis] + (particle.flight.v[axis] + a * (0.5 * since)) * since -
-                   particle.image[axis] * model.box[axis];
-  const double v = particle.flight.v[axis] + a * since;
+  const double since = now - flight.time;
+  const double r =
+      flight.r[axis] + (flight.v[axis] + a * (0.5 * since)) * since - image[axis] * model.box[axis];
+  const double v = flight.v[axis] + a * since;
   const double lower = border(axis, cell[axis], false);
   const double upper = border(axis, cell[axis], true);
   const WayOut out = exit_time(r - lower, upper - r, v, a);
@@ -201,22 +203,23 @@ template <int D>
 template <int D>
 template <bool kFalling>
 [[gnu::always_inline]] inline std::array<Exit, D> CellGrid<D>::exits(const Model<D>& model,
-                                                                     const Particle<D>& particle,
+                                                                     const Flight<D>& flight,
+                                                                     const Vec<D>& image,
                                                                      const IntVec<D>& cell,
                                                                      double now) const {
   std::array<bool, D> upper;
   Vec<D> place;
   for (int axis = 0; axis < D; ++axis) {
-    upper[axis] = particle.flight.v[axis] >= 0.0;
+    upper[axis] = flight.v[axis] >= 0.0;
     place[axis] = border(axis, cell[axis], upper[axis]);
   }
-  const Vec<D> way = place + particle.image.cwiseProduct(model.box) - particle.flight.r;
+  const Vec<D> way = place + image.cwiseProduct(model.box) - flight.r;
   // v + 0.0 turns -0 into +0: a particle at rest reaches its upper border at time infinity.
-  const Vec<D> time = particle.flight.time + way.array() / (particle.flight.v.array() + 0.0);
+  const Vec<D> time = flight.time + way.array() / (flight.v.array() + 0.0);
   std::array<Exit, D> exits;
   for (int axis = 0; axis < D; ++axis) {
     if (kFalling && model.gravity[axis] != 0.0) {
-      exits[axis] = exit_falling(model, particle, cell, axis, now);
+      exits[axis] = exit_falling(model, flight, image, cell, axis, now);
     } else {
       exits[axis] = {std::max(now, time[axis]), border_of(axis, upper[axis])};
     }

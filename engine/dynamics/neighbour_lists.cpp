@@ -11,8 +11,8 @@ namespace clatter {
 
 // Distance of centres at contact in diameters, with a margin that exceeds any rounding.
 static constexpr double kContact = 1.01;
-// Measured best for N = 4000 and volume fractions from 0.4 to 0.5: the mean number of neighbours, and
-// the distance of a particle behind the centre of its new region, in radii.
+// Measured best for N = 4000 and volume fractions from 0.4 to 0.5: the mean number of neighbours,
+// and the distance of a particle behind the centre of its new region, in radii.
 static constexpr double kWanted = 12.0;
 static constexpr double kLead = 0.4;
 // A region shrinks or grows if its list is longer or shorter.
@@ -253,7 +253,7 @@ void NeighbourLists<D>::place(std::uint32_t particle, const Vec<D>& position) {
 }
 
 template <int D>
-Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Particle<D>& particle,
+Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
                                 std::uint32_t number, double now) {
   take_from_cell(number);
   Region& region = regions_[number];
@@ -264,8 +264,8 @@ Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Particle<D>& partic
   } else if (known_.size() < kShort) {
     region.radius = std::min(kGrow * region.radius, max_radius_);
   }
-  Vec<D> centre = particle.flight.at(now, model.gravity) - particle.image.cwiseProduct(box_);
-  const Vec<D> velocity = particle.flight.velocity_at(now, model.gravity);
+  Vec<D> centre = flight.at(now, model.gravity) - image.cwiseProduct(box_);
+  const Vec<D> velocity = flight.velocity_at(now, model.gravity);
   const double speed = velocity.norm();
   if (speed > 0.0) centre += velocity * (kLead * region.radius / speed);
   const Vec<D> boxes = model.image_index(centre);

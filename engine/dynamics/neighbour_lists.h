@@ -12,7 +12,7 @@
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/near_list.h"
-#include "engine/dynamics/particle.h"
+#include "engine/physics/flight.h"
 #include "engine/physics/pair_contact.h"
 #include "engine/vec.h"
 
@@ -45,13 +45,14 @@ class NeighbourLists {
     const double centre = region.centre[axis];
     return (upper ? box_[axis] - centre : centre) - region.radius;
   }
-  /// A time by which a particle needs a new region. Under gravity it may precede the exit.
+  /// A time by which a particle needs a new region. Under gravity it may precede the exit. `image`
+  /// is in whole box lengths, from the region's frame to the flight's frame.
   template <bool kFalling>
-  Exit exit(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
-            double now) const;
+  Exit exit(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
+            std::uint32_t number, double now) const;
   /// Gives a particle a new region. Returns its shift to another periodic image, in box lengths.
-  Vec<D> leave(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
-               double now);
+  Vec<D> leave(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
+               std::uint32_t number, double now);
 
   /// The list of a particle.
   const List& near(std::uint32_t particle) const { return regions_[particle].list; }
@@ -111,13 +112,13 @@ class NeighbourLists {
 template <int D>
 template <bool kFalling>
 [[gnu::always_inline]] inline Exit NeighbourLists<D>::exit(const Model<D>& model,
-                                                           const Particle<D>& particle,
+                                                           const Flight<D>& flight,
+                                                           const Vec<D>& image,
                                                            std::uint32_t number, double now) const {
   const Region& region = regions_[number];
-  const Flight<D>& flight = particle.flight;
   const double since = now - flight.time;
   Vec<D> v = flight.v;
-  Vec<D> r = flight.r - particle.image.cwiseProduct(box_);
+  Vec<D> r = flight.r - image.cwiseProduct(box_);
   double radius = region.radius;
   double latest = kNever;
   if constexpr (kFalling) {

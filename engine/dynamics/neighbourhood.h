@@ -6,6 +6,7 @@
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/neighbour_lists.h"
+#include "engine/dynamics/particle.h"
 #include "engine/dynamics/prefetch.h"
 #include "engine/physics/theory.h"
 
@@ -78,21 +79,23 @@ class Neighbourhood {
   /// The exits of a particle from its cell or region.
   template <bool kFalling>
   [[gnu::always_inline]] std::array<Exit, D> exits(const Model<D>& model,
-                                                   const Particle<D>& particle,
+                                                   const ParticleArray<D>& particles,
                                                    std::uint32_t number, const IntVec<D>& cell,
                                                    double now) const {
-    if (!by_particle()) return grid_.template exits<kFalling>(model, particle, cell, now);
+    const Flight<D>& flight = particles[number].flight;
+    const Vec<D> image = particles.image(number);
+    if (!by_particle()) return grid_.template exits<kFalling>(model, flight, image, cell, now);
     std::array<Exit, D> exits;
     exits.fill({kNever, kCellBorder});
-    exits[0] = lists_->template exit<kFalling>(model, particle, number, now);
+    exits[0] = lists_->template exit<kFalling>(model, flight, image, number, now);
     return exits;
   }
   /// Moves a particle to its next cell or region. Returns its shift to another periodic image, in
   /// box lengths.
-  Vec<D> leave(const Model<D>& model, const Particle<D>& particle, std::uint32_t number,
+  Vec<D> leave(const Model<D>& model, const ParticleArray<D>& particles, std::uint32_t number,
                IntVec<D>& cell, std::uint32_t border, double now) {
-    return by_particle() ? lists_->leave(model, particle, number, now)
-                         : grid_.leave(number, cell, border);
+    if (!by_particle()) return grid_.leave(number, cell, border);
+    return lists_->leave(model, particles[number].flight, particles.image(number), number, now);
   }
 
   /// Prefetches the first list near a particle in a cell.

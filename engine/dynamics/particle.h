@@ -1,6 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+
+#include "engine/dynamics/large_array.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/packed_image.h"
 
 namespace clatter {
 
@@ -8,12 +14,52 @@ namespace clatter {
 /// are coarser than 2e-12, and short flights of grains near rest would be lost in rounding.
 inline constexpr double kLongBox = 16384.0;
 
-/// A particle's stored state. It changes only in the particle's own physical events. In 2D it fills
-/// one cache line. Contact kernels read it as a row of doubles, see Candidates.
+/// A particle's stored state, in one cache line. It changes only in the particle's own physical
+/// events. Contact kernels read it as a row of doubles, see Candidates.
 template <int D>
 struct alignas(64) Particle {
-  Flight<D> flight;               ///< since its last physical event
-  Vec<D> image = Vec<D>::Zero();  ///< whole box lengths from its cell's frame to the flight's frame
+  [[no_unique_address]] Flight<D> flight;  ///< since its last physical event
+  PackedImage image = 0;                   ///< of ParticleArray::image; fills the end of the flight
+};
+
+/// The stored states of all particles, and the periodic images of their flights.
+template <int D>
+class ParticleArray {
+ public:
+  /// Particles at rest at the origin.
+  explicit ParticleArray(std::size_t count = 0) : particles_(count) {}
+
+  std::size_t size() const { return particles_.size(); }
+  bool empty() const { return particles_.empty(); }
+  auto begin() const { return particles_.begin(); }
+  auto end() const { return particles_.end(); }
+  const Particle<D>* data() const { return particles_.data(); }
+  const Particle<D>& operator[](std::size_t number) const { return particles_[number]; }
+  /// The flight of a particle, to be changed.
+  Flight<D>& flight(std::size_t number) { return particles_[number].flight; }
+
+  /// Whole box lengths from the frame of a particle's cell to the frame of its flight.
+  Vec<D> image(std::uint32_t number) const {
+    const PackedImage packed = particles_[number].image;
+    if (packed == kFarImage) [[unlikely]]
+      return far_images_.at(number);
+    Vec<D> image;
+    for (int axis = 0; axis < D; ++axis) image[axis] = image_component<D>(packed, axis);
+    return image;
+  }
+  void set_image(std::uint32_t number, const Vec<D>& image) {
+    particles_[number].image = packed_image<D>(image);
+    if (particles_[number].image == kFarImage) [[unlikely]]
+      far_images_[number] = image;
+  }
+  /// Adds whole box lengths to an image.
+  void move_image(std::uint32_t number, const Vec<D>& boxes) {
+    if ((boxes.array() != 0.0).any()) set_image(number, image(number) + boxes);
+  }
+
+ private:
+  LargeArray<Particle<D>> particles_;
+  std::unordered_map<std::uint32_t, Vec<D>> far_images_;  // of the particles with kFarImage
 };
 
 }  // namespace clatter

@@ -16,17 +16,17 @@ namespace clatter {
 // Whether the layout of Particle matches the rows of doubles that contact kernels read.
 template <int D>
 constexpr bool are_rows() {
-  return sizeof(Particle<D>) == kRowLength<D> * sizeof(double) &&
-         offsetof(Particle<D>, flight) == 0 && offsetof(Flight<D>, v) == D * sizeof(double) &&
+  return sizeof(Particle<D>) == kRowLength * sizeof(double) && offsetof(Particle<D>, flight) == 0 &&
+         offsetof(Flight<D>, v) == D * sizeof(double) &&
          offsetof(Flight<D>, time) == 2 * D * sizeof(double) &&
-         offsetof(Particle<D>, image) == (2 * D + 2) * sizeof(double) &&
+         offsetof(Particle<D>, image) == (2 * D + 1) * sizeof(double) + sizeof(std::uint32_t) &&
          Candidates<D>::kCapacity >= Neighbourhood<D>::kCapacity;
 }
 static_assert(are_rows<2>() && are_rows<3>());
 
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
-                          const LargeArray<Particle<D>>& particles, const Neighbourhood<D>& near)
+                          const ParticleArray<D>& particles, const Neighbourhood<D>& near)
     : model_(model),
       boundary_(boundary),
       particles_(particles),
@@ -68,7 +68,7 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
 template <int D>
 Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i) const {
   const Neighbour neighbour = near.neighbours[i];
-  Vec<D> image = particles_[particle_of<D>(neighbour)].image - particles_[particle].image;
+  Vec<D> image = particles_.image(particle_of<D>(neighbour)) - particles_.image(particle);
   for (int k = 0; k < D; ++k) image[k] -= wrap_of<D>(neighbour, k);
   return image;
 }
@@ -218,7 +218,7 @@ void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now)
   }
   for (const auto& [particle, plan] : requests) {
     for (const Exit& exit :
-         near_.template exits<kFalling>(model_, particles_[particle], particle, plan->cell, now)) {
+         near_.template exits<kFalling>(model_, particles_, particle, plan->cell, now)) {
       offer_exit(exit, *plan);
     }
   }

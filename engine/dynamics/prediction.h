@@ -5,7 +5,6 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event.h"
-#include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/particle.h"
@@ -41,8 +40,8 @@ class Prediction {
 
   /// Keeps references to the model, walls, particles and near particles of a simulation, which must
   /// outlive this object.
-  Prediction(const Model<D>& model, const Boundary<D>& boundary,
-             const LargeArray<Particle<D>>& particles, const Neighbourhood<D>& near);
+  Prediction(const Model<D>& model, const Boundary<D>& boundary, const ParticleArray<D>& particles,
+             const Neighbourhood<D>& near);
 
   /// Plans the first contact with a particle or wall near the particle's cell, or the exit from the
   /// cell.
@@ -111,7 +110,7 @@ class Prediction {
 
   const Model<D>& model_;
   const Boundary<D>& boundary_;
-  const LargeArray<Particle<D>>& particles_;
+  const ParticleArray<D>& particles_;
   const Neighbourhood<D>& near_;
   bool walled_;  // whether there are walls
   Planners planners_;

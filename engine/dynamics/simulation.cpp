@@ -162,12 +162,13 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
   const bool restart_flights =
       saved.gravity != model_.gravity || saved.wall_motions != wall_motions<D>(model_);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    Flight<D>& flight = particles_[i].flight = saved.flights[i];
+    Flight<D>& flight = particles_.flight(i) = saved.flights[i];
     if (restart_flights) {
       flight = {flight.at(now_, saved.gravity), flight.velocity_at(now_, saved.gravity), now_,
                 flight.number};
     }
   }
+  saved.flights = {};  // frees memory before lists and calendar take theirs
   saved.flights = {};
   place_all(stop);
   if (near_.fit(model_, plans_)) place_all(stop);
@@ -200,8 +201,9 @@ void Simulation<D>::place_all(const StopRequest& stop) {
     if (!is_inside<D>(model_, r)) {
       throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
     }
-    particles_[i].image = model_.image_index(r);
-    plans_[i].cell = near_.place(i, r - particles_[i].image.cwiseProduct(model_.box));
+    const Vec<D> image = model_.image_index(r);
+    particles_.set_image(i, image);
+    plans_[i].cell = near_.place(i, r - image.cwiseProduct(model_.box));
   }
 }
 
@@ -223,7 +225,7 @@ void Simulation<D>::plan_all(const StopRequest& stop) {
 template <int D>
 void Simulation<D>::move_base() {
   const double shift = now_;
-  for (Particle<D>& particle : particles_) particle.flight.time -= shift;
+  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.flight(i).time -= shift;
   for (double& time : last_collisions_) time -= shift;
   clock_.advance(shift);
   boundary_.move_base(clock_);
@@ -439,7 +441,7 @@ double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
     const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
     near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
       if (j <= i) return;
-      const Vec<D> image = particles_[j].image - particles_[i].image - wrap;
+      const Vec<D> image = particles_.image(j) - particles_.image(i) - wrap;
       const Vec<D> x =
           r - particles_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
       deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);

@@ -81,7 +81,7 @@ class Simulation {
   /// The laws of the run.
   const Model<D>& model() const { return model_; }
   /// [N] stored states, in original order; each since the particle's last physical event.
-  const LargeArray<Particle<D>>& particles() const { return particles_; }
+  const ParticleArray<D>& particles() const { return particles_; }
   /// [N] angular velocities, in original order; empty without spins.
   const LargeArray<Spin<D>>& spins() const { return spins_; }
   /// Events since the start.
@@ -120,7 +120,7 @@ class Simulation {
   void enter_next_cell(std::uint32_t number);
   [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
   void carry_remainder(std::uint32_t number, Vec<D>& position);
-  [[gnu::always_inline]] inline void renew_flight(Particle<D>& particle, const Vec<D>& position,
+  [[gnu::always_inline]] inline void renew_flight(std::uint32_t number, const Vec<D>& position,
                                                   const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
   void place_all(const StopRequest& stop = {});
@@ -139,7 +139,7 @@ class Simulation {
   Clock clock_;
   Boundary<D> boundary_;
   double now_ = 0.0;  // on the clock's base
-  LargeArray<Particle<D>> particles_;
+  ParticleArray<D> particles_;
   LargeArray<Spin<D>> spins_;           // [N], or empty
   LargeArray<double> last_collisions_;  // [N] times on the base; empty without a t_c
   LargeArray<Vec<D>> remainders_;  // [N] rounding errors of positions in long boxes; else empty

@@ -14,8 +14,8 @@ namespace clatter {
 template <int D>
 void Simulation<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
-  particles_[number].image +=
-      near_.leave(model_, particles_[number], number, plan.cell, plan.partner, now_);
+  particles_.move_image(number,
+                        near_.leave(model_, particles_, number, plan.cell, plan.partner, now_));
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
@@ -51,14 +51,14 @@ void Simulation<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
 // cold gas at a driven wall. It then would move noticeably within the rounding of times. In this
 // case the base moves at once.
 template <int D>
-void Simulation<D>::renew_flight(Particle<D>& particle, const Vec<D>& position,
+void Simulation<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
                                  const Vec<D>& velocity) {
   constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
   if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
   const Vec<D> boxes = model_.image_index(position);
-  particle.flight = {position - boxes.cwiseProduct(model_.box), velocity, now_,
-                     particle.flight.number + 1};
-  particle.image -= boxes;
+  Flight<D>& flight = particles_.flight(number);
+  flight = {position - boxes.cwiseProduct(model_.box), velocity, now_, flight.number + 1};
+  particles_.move_image(number, -boxes);
 }
 
 template <int D>
@@ -96,8 +96,6 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   for (const std::uint32_t particle : {first, second}) {
     near_.prefetch_near(particle, plans_[particle].cell);
   }
-  Particle<D>& a = particles_[first];
-  Particle<D>& b = particles_[second];
   const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
   const auto [r_a, v_a] = motion_now(first);
   const auto [r_b, v_b] = motion_now(second);
@@ -130,8 +128,8 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;
-  renew_flight(a, r_a, v_a + gain.momentum);
-  renew_flight(b, r_b, v_b - gain.momentum);
+  renew_flight(first, r_a, v_a + gain.momentum);
+  renew_flight(second, r_b, v_b - gain.momentum);
   add_spin(first, gain.spin);
   add_spin(second, gain.spin);
   ++counts_.pair_collisions;
@@ -144,7 +142,6 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
 
 template <int D>
 void Simulation<D>::hit_wall(std::uint32_t number, int side) {
-  Particle<D>& particle = particles_[number];
   const int axis = side / 2;
   auto [r, v] = motion_now(number);
   const double place = boundary_.touching_place(side, now_);
@@ -159,7 +156,7 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
-                      {v, spin(number), number, particle.flight.number}, elastic);
+                      {v, spin(number), number, particles_[number].flight.number}, elastic);
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
     const WallCollision<D> collision{now_, side,
@@ -167,7 +164,7 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
-  renew_flight(particle, r, departure.velocity);
+  renew_flight(number, r, departure.velocity);
   if (!spins_.empty()) spins_[number] = departure.spin;
   ++counts_.wall_collisions;
   counts_.elasticised_wall += elastic;
@@ -195,7 +192,7 @@ void Simulation<D>::kick() {
     const auto [r, v] = motion_now(i);
     const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
-    renew_flight(particles_[i], r, v + gains[i].momentum);
+    renew_flight(i, r, v + gains[i].momentum);
     add_spin(i, gains[i].spin);
   }
   ++counts_.kicks;

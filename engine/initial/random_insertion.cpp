@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 
 #include "engine/dynamics/cell_grid.h"
 
@@ -33,7 +34,6 @@ class Insertion {
       cells *= static_cast<std::size_t>(counts_[axis]);
     }
     centres_.resize(cells, kEmpty);
-    open_.reserve(cells);
     collect(
         Voxel::Zero(), counts_ - Voxel::Ones(), [](const Voxel&) { return false; }, open_);
   }
@@ -84,7 +84,7 @@ class Insertion {
   // Appends to `open` the voxels from `first` to `last` for which covers(voxel) is false.
   template <typename Predicate>
   static void collect(const Voxel& first, const Voxel& last, const Predicate& covers,
-                      std::vector<Voxel>& open) {
+                      std::deque<Voxel>& open) {
     any_of(first, last, [&](const Voxel& voxel) {
       if (!covers(voxel)) open.push_back(voxel);
       return false;
@@ -110,7 +110,7 @@ class Insertion {
   void split_voxels(const StopRequest& stop) {
     ++level_;
     widths_ *= 0.5;
-    std::vector<Voxel> split;
+    std::deque<Voxel> split;
     const auto is_covered = [&](const Voxel& voxel) {
       const Vec<D> half = 0.5 * widths_;
       Vec<D> middle;
@@ -120,9 +120,10 @@ class Insertion {
         return (centre - middle).cwiseAbs() + half;
       });
     };
-    for (const Voxel& parent : open_) {
+    for (; !open_.empty(); open_.pop_front()) {
       stop.check();
-      collect(2 * parent, 2 * parent + Voxel::Ones(), is_covered, split);
+      const Voxel parent = 2 * open_.front();
+      collect(parent, parent + Voxel::Ones(), is_covered, split);
     }
     open_ = std::move(split);
   }
@@ -178,7 +179,7 @@ class Insertion {
   int level_ = 0;    // voxels are 2^-level_ of a cell
   std::vector<Vec<D>> placed_;
   std::vector<std::uint32_t> centres_;  // particle in each cell, or kEmpty
-  std::vector<Voxel> open_;
+  std::deque<Voxel> open_;              // releases its memory from the front as voxels are split
 };
 
 // Random insertion for few particles in a large room, where almost every try succeeds. Memory grows

@@ -7,17 +7,17 @@
 #include <cstring>
 
 #include "engine/physics/neighbour.h"
+#include "engine/physics/packed_image.h"
 #include "engine/physics/pair_contact.h"
 
 namespace clatter {
 
-/// Doubles per particle in the array that contact kernels read: whole cache lines.
-template <int D>
-inline constexpr int kRowLength = (3 * D + 2 + 7) / 8 * 8;
+/// Doubles per particle in the array that contact kernels read: a cache line.
+inline constexpr int kRowLength = 8;
 
 /// Possible partners of one particle. A particle is a row of kRowLength doubles: D of position, D
-/// of velocity, the time of both, one that is not read, and D of the periodic image of the row's
-/// frame, in box lengths.
+/// of velocity, the time of both, and two words. The first word is not read, the second is the
+/// PackedImage of the row's frame.
 template <int D>
 struct Candidates {
   static constexpr int kCapacity = D == 2 ? 16 : 32;
@@ -43,6 +43,7 @@ namespace lanes {
 inline constexpr int kCount = 4;
 using Doubles = double __attribute__((vector_size(8 * kCount)));
 using Bits = std::int64_t __attribute__((vector_size(8 * kCount)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kCount)));
 
 [[gnu::always_inline]] inline Doubles load(const double* from) {
   Doubles numbers;
@@ -81,11 +82,17 @@ using Bits = std::int64_t __attribute__((vector_size(8 * kCount)));
 
 // The wraps of four neighbours along an axis.
 template <int D>
-[[gnu::always_inline]] inline Doubles wraps_of(const Neighbour* neighbours, int axis) {
-  using Ints = std::int32_t __attribute__((vector_size(4 * kCount)));
+[[gnu::always_inline]] inline Ints wraps_of(const Neighbour* neighbours, int axis) {
   Ints bits;
   std::memcpy(&bits, neighbours, sizeof bits);
-  return __builtin_convertvector((bits << bits_above<D>(axis)) >> 30, Doubles);
+  return (bits << bits_above<D>(axis)) >> 30;
+}
+
+// The second words of four doubles.
+[[gnu::always_inline]] inline Ints second_words(const Doubles& numbers) {
+  using Words = std::int32_t __attribute__((vector_size(8 * kCount)));
+  const Words words = reinterpret_cast<const Words&>(numbers);
+  return __builtin_shufflevector(words, words, 1, 3, 5, 7);
 }
 
 // A particle and its candidates, in groups of four.
@@ -95,7 +102,7 @@ struct Groups {
   int count = 0;
   PairApproach<Doubles> approaches[kMax];
   Doubles times[kMax];
-  Bits frames;  // all bits of rows' box lengths in the last D lanes
+  Ints images{};  // the bits of all rows' images
 };
 
 // Calculates the approaches of all candidates to a particle, see first_contacts.
@@ -104,35 +111,36 @@ template <int D, bool kFalling, bool kShifted>
                                             Candidates<D>& candidates, const double* box,
                                             double diameter, const double* gravity,
                                             Groups<D>& groups) {
-  constexpr int kColumns = (3 * D + 2 + 3) / 4 * 4;
-  constexpr int kImage = 2 * D + 2;
-  const double* const own = rows + static_cast<std::size_t>(particle) * kRowLength<D>;
+  constexpr int kImage = 2 * D + 1;
+  const double* const own = rows + static_cast<std::size_t>(particle) * kRowLength;
   Doubles r[D], v[D];
   for (int k = 0; k < D; ++k) {
     r[k] = broadcast(own[k]);
     v[k] = broadcast(own[D + k]);
   }
   const Doubles time = broadcast(own[2 * D]);
-  groups.frames = reinterpret_cast<Bits>(load(own + kImage + D - kCount));
+  PackedImage word;
+  std::memcpy(&word, reinterpret_cast<const char*>(own + kImage) + sizeof word, sizeof word);
+  const Ints own_image{word, word, word, word};
+  groups.images = own_image;
   for (int i = 0; i < Candidates<D>::kMargin; ++i)
     candidates.neighbours[candidates.size + i] = particle;
   for (int i = 0; i == 0 || i < candidates.size; i += kCount) {
     const double* row[kCount];
     for (int lane = 0; lane < kCount; ++lane) {
       row[lane] = rows + static_cast<std::size_t>(particle_of<D>(candidates.neighbours[i + lane])) *
-                             kRowLength<D>;
+                             kRowLength;
     }
-    Doubles columns[kColumns];
-    for (int k = 0; k < kColumns; k += 4) transpose(row, k, columns + k);
+    Doubles columns[kRowLength];
+    for (int k = 0; k < kRowLength; k += 4) transpose(row, k, columns + k);
+    const Ints image = second_words(columns[kImage]);
+    groups.images |= image;
     Doubles shift[D];
     if constexpr (kShifted) {
       for (int k = 0; k < D; ++k) {
-        const Doubles wraps = wraps_of<D>(candidates.neighbours + i, k);
-        shift[k] = (columns[kImage + k] - broadcast(own[kImage + k]) - wraps) * box[k];
-      }
-    } else {
-      for (const double* other : row) {
-        groups.frames |= reinterpret_cast<Bits>(load(other + kImage + D - kCount));
+        const Ints boxes = image_component<D>(image, k) - image_component<D>(own_image, k) -
+                           wraps_of<D>(candidates.neighbours + i, k);
+        shift[k] = __builtin_convertvector(boxes, Doubles) * box[k];
       }
     }
     groups.approaches[groups.count++] =
@@ -154,11 +162,10 @@ template <int D, bool kShifted>
   const double time = earliest[0];
   const bool never = time == kNever, alone = (sharing & (sharing - 1)) == 0;
   bool unique = (alone | never) & (time != kTouching);
-  if constexpr (!kShifted) {
-    std::int64_t off = 0;
-    for (int k = kCount - D; k < kCount; ++k) off |= groups.frames[k];
-    unique &= off == 0;
-  }
+  const Ints pairs =
+      groups.images | __builtin_shufflevector(groups.images, groups.images, 2, 3, 0, 1);
+  const std::int32_t images = pairs[0] | pairs[1];
+  unique &= kShifted ? images >= 0 : images == 0;
   return {time, never ? 0 : std::countr_zero(sharing), unique};
 }
 
@@ -168,8 +175,9 @@ template <int D, bool kShifted>
 /// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `gravity` is
 /// read only with kFalling. The result has the same bits with any instruction set.
 ///
-/// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box. If
-/// a row is in another frame, `unique` is false and the other results are invalid.
+/// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.
+/// With kShifted, no row may have a kFarImage. If a row does not fit, `unique` is false and the
+/// other results are invalid.
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
     const double* rows, const std::array<std::uint32_t, kParticles>& particles,

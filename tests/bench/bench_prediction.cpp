@@ -15,13 +15,13 @@
 using namespace clatter;
 
 // Particles on a square lattice in a periodic box, with Gaussian velocities.
-static LargeArray<Particle<2>> lattice(int side, double edge) {
-  LargeArray<Particle<2>> particles(static_cast<std::size_t>(side * side));
+static ParticleArray<2> lattice(int side, double edge) {
+  ParticleArray<2> particles(static_cast<std::size_t>(side * side));
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Random random(1, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
     const int n = static_cast<int>(i);
-    particles[i].flight.r = Vec2(n % side + 0.5, n / side + 0.5) * (edge / side);
-    particles[i].flight.v = {random.normal(), random.normal()};
+    particles.flight(i).r = Vec2(n % side + 0.5, n / side + 0.5) * (edge / side);
+    particles.flight(i).v = {random.normal(), random.normal()};
   }
   return particles;
 }
@@ -35,7 +35,7 @@ static Taken time_plans(int side, double area_fraction) {
   Model<2> model;
   const double edge = side * std::sqrt(std::numbers::pi / (4.0 * area_fraction));
   model.box = {edge, edge};
-  const LargeArray<Particle<2>> particles = lattice(side, edge);
+  const ParticleArray<2> particles = lattice(side, edge);
   Neighbourhood<2> near(model, static_cast<double>(particles.size()));
   std::vector<Plan<2>> plans(particles.size());
   for (std::uint32_t i = 0; i < particles.size(); ++i) {

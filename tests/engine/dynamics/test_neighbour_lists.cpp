@@ -17,24 +17,26 @@ namespace {
 template <int D>
 struct Ghosts {
   Model<D> model;
-  std::vector<Particle<D>> particles;
+  std::vector<Flight<D>> flights;
+  std::vector<Vec<D>> images;  // box lengths from the frames of the regions to those of the flights
   NeighbourLists<D> lists;
   std::vector<double> exits;  // [N] times
   double now = 0.0;
 
-  Ghosts(const Model<D>& laws, std::vector<Particle<D>> ghosts)
+  Ghosts(const Model<D>& laws, std::vector<Flight<D>> ghosts)
       : model(laws),
-        particles(std::move(ghosts)),
-        lists(model, static_cast<double>(particles.size())),
-        exits(particles.size()) {
-    for (std::uint32_t i = 0; i < particles.size(); ++i) lists.place(i, particles[i].flight.r);
-    for (std::uint32_t i = 0; i < particles.size(); ++i) plan(i);
+        flights(std::move(ghosts)),
+        images(flights.size(), Vec<D>::Zero()),
+        lists(model, static_cast<double>(flights.size())),
+        exits(flights.size()) {
+    for (std::uint32_t i = 0; i < flights.size(); ++i) lists.place(i, flights[i].r);
+    for (std::uint32_t i = 0; i < flights.size(); ++i) plan(i);
   }
 
   void plan(std::uint32_t i) {
-    const Particle<D>& particle = particles[i];
-    exits[i] = model.has_gravity() ? lists.template exit<true>(model, particle, i, now).time
-                                   : lists.template exit<false>(model, particle, i, now).time;
+    exits[i] = model.has_gravity()
+                   ? lists.template exit<true>(model, flights[i], images[i], i, now).time
+                   : lists.template exit<false>(model, flights[i], images[i], i, now).time;
   }
 
   // Gives the next particle a new region. Returns false if no particle leaves its region.
@@ -44,19 +46,19 @@ struct Ghosts {
     REQUIRE(*next >= now);
     now = *next;
     const auto i = static_cast<std::uint32_t>(next - exits.begin());
-    particles[i].image += lists.leave(model, particles[i], i, now);
+    images[i] += lists.leave(model, flights[i], images[i], i, now);
     plan(i);
     return true;
   }
 
   Vec<D> position(std::uint32_t i) const {
-    return particles[i].flight.at(now, model.gravity) - particles[i].image.cwiseProduct(model.box);
+    return flights[i].at(now, model.gravity) - images[i].cwiseProduct(model.box);
   }
 
   // Each periodic image within a diameter of a particle occurs exactly once in its list.
   int check() const {
     int touching = 0;
-    for (std::uint32_t i = 0; i < particles.size(); ++i) {
+    for (std::uint32_t i = 0; i < flights.size(); ++i) {
       std::map<std::vector<double>, int> listed;
       lists.continuations().visit(lists.near(i), [&](std::uint32_t j, const Vec<D>& wrap) {
         std::vector<double> key(wrap.begin(), wrap.end());
@@ -70,7 +72,7 @@ struct Ghosts {
         REQUIRE(r >= lists.distance_from_end(i, axis, false) - 1e-9);
         REQUIRE(model.box[axis] - r >= lists.distance_from_end(i, axis, true) - 1e-9);
       }
-      for (std::uint32_t j = 0; j < particles.size(); ++j) {
+      for (std::uint32_t j = 0; j < flights.size(); ++j) {
         if (i == j) continue;
         for (int k = 0; k < (D == 2 ? 49 : 343); ++k) {
           Vec<D> wrap;
@@ -103,16 +105,16 @@ Ghosts<D> random_ghosts(Random& random, bool falls) {
     if (random.below(3) == 0) model.walls[2 * axis] = model.walls[2 * axis + 1] = Wall{};
     if (falls && model.periodic(axis)) model.gravity[axis] = random.normal();
   }
-  std::vector<Particle<D>> particles(2 + random.below(30));
-  for (Particle<D>& particle : particles) {
+  std::vector<Flight<D>> flights(2 + random.below(30));
+  for (Flight<D>& flight : flights) {
     const double speed = std::pow(10.0, 4.0 * random.uniform() - 2.0);
     for (int axis = 0; axis < D; ++axis) {
-      particle.flight.r[axis] = model.box[axis] * random.uniform();
-      if (model.periodic(axis)) particle.flight.v[axis] = speed * random.normal();
+      flight.r[axis] = model.box[axis] * random.uniform();
+      if (model.periodic(axis)) flight.v[axis] = speed * random.normal();
     }
-    if (random.below(8) == 0) particle.flight.v.setZero();
+    if (random.below(8) == 0) flight.v.setZero();
   }
-  return {model, particles};
+  return {model, flights};
 }
 
 template <int D>
@@ -130,15 +132,15 @@ void find_every_neighbour(std::uint32_t seed) {
 }
 
 // Spheres on a cubic lattice of some spacing in a cubic box, with thermal velocities.
-std::vector<Particle<3>> lattice(int side, double spacing) {
-  std::vector<Particle<3>> particles(static_cast<std::size_t>(side * side * side));
-  for (std::uint32_t i = 0; i < particles.size(); ++i) {
+std::vector<Flight<3>> lattice(int side, double spacing) {
+  std::vector<Flight<3>> flights(static_cast<std::size_t>(side * side * side));
+  for (std::uint32_t i = 0; i < flights.size(); ++i) {
     Random random(7, Stream::Placement, i, 0);
     const int k = static_cast<int>(i);
-    particles[i].flight.r = Vec<3>(k % side, k / side % side, k / side / side) * spacing;
-    for (double& v : particles[i].flight.v) v = random.normal();
+    flights[i].r = Vec<3>(k % side, k / side % side, k / side / side) * spacing;
+    for (double& v : flights[i].v) v = random.normal();
   }
-  return particles;
+  return flights;
 }
 
 // Radius of the regions of an even gas: the distance of a particle at the middle of the box from
@@ -163,10 +165,10 @@ bool lists_it(const NeighbourLists<3>& lists, std::uint32_t particle, std::uint3
 
 double mean_neighbours(const Ghosts<3>& ghosts) {
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < ghosts.particles.size(); ++i) {
+  for (std::uint32_t i = 0; i < ghosts.flights.size(); ++i) {
     count += ghosts.lists.continuations().count(ghosts.lists.near(i));
   }
-  return static_cast<double>(count) / static_cast<double>(ghosts.particles.size());
+  return static_cast<double>(count) / static_cast<double>(ghosts.flights.size());
 }
 
 }  // namespace
@@ -216,8 +218,8 @@ TEST_CASE("NeighbourLists: lists are short, also in a cluster") {
   // The same spheres in a corner of a box with 1000 times the volume. Regions for the mean density
   // would list nearly all spheres.
   model.box.setConstant(100.0 * 1.05);
-  std::vector<Particle<3>> crowd = lattice(10, 1.05);
-  for (Particle<3>& particle : crowd) particle.flight.v *= 1e-3;
+  std::vector<Flight<3>> crowd = lattice(10, 1.05);
+  for (Flight<3>& flight : crowd) flight.v *= 1e-3;
   Ghosts<3> cluster(model, crowd);
   CHECK(mean_neighbours(cluster) > 400.0);
   for (int step = 0; step < 60000; ++step) cluster.step();

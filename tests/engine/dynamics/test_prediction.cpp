@@ -50,8 +50,9 @@ struct Planned {
     near.emplace(model, static_cast<double>(particles.size()));
     for (std::uint32_t i = 0; i < particles.size(); ++i) {
       const Vec2 r = particles[i].flight.at(now, model.gravity);
-      particles[i].image = model.image_index(r);
-      plans[i].cell = near->place(i, r - particles[i].image.cwiseProduct(model.box));
+      const Vec2 image = model.image_index(r);
+      particles.set_image(i, image);
+      plans[i].cell = near->place(i, r - image.cwiseProduct(model.box));
     }
     boundary.emplace(model, *clock);
     prediction.emplace(model, *boundary, particles, *near);
@@ -61,7 +62,7 @@ struct Planned {
   Model<2> model;
   double now;
   std::optional<Clock> clock;
-  LargeArray<Particle<2>> particles;
+  ParticleArray<2> particles;
   std::vector<Plan<2>> plans;
   std::optional<Neighbourhood<2>> near;
   std::optional<Boundary<2>> boundary;
@@ -83,7 +84,7 @@ TEST_CASE("Prediction: no two particles touch before the plan of one of them, by
           const bool there = (wrap.x() == 0.0 || gas.model.periodic(0)) &&
                              (wrap.y() == 0.0 || gas.model.periodic(1));
           if (!there) continue;
-          const Vec2 boxes = gas.particles[j].image - gas.particles[i].image - wrap;
+          const Vec2 boxes = gas.particles.image(j) - gas.particles.image(i) - wrap;
           const double time =
               contact_time<2>(gas.particles[i].flight, gas.particles[j].flight,
                               boxes.cwiseProduct(gas.model.box), 1.0, gas.model.gravity);

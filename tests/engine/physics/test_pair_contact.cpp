@@ -191,10 +191,12 @@ struct Crowd {
   Crowd(std::uint32_t number, int size, const Vec2& gravity) {
     Random random(13, Stream::Placement, number, 0);
     const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
+    std::vector<Vec2> images;
     for (int i = 0; i <= size; ++i) {
       Particle<2> particle;
       particle.flight = random_pair(1000 * number + static_cast<std::uint32_t>(i)).a;
-      particle.image = {image(), image()};
+      images.push_back({image(), image()});
+      particle.image = packed_image<2>(images.back());
       particles.push_back(particle);
     }
     candidates.size = size;
@@ -202,7 +204,7 @@ struct Crowd {
     for (int i = 0; i < size; ++i) {
       const Particle<2>& particle = particles[static_cast<std::size_t>(i)];
       candidates.neighbours[i] = static_cast<Neighbour>(i);
-      Vec2 shift = particle.image - particles.back().image;
+      Vec2 shift = images[static_cast<std::size_t>(i)] - images.back();
       for (int k = 0; wraps && k < 2; ++k) {
         const double wrap = image();
         candidates.neighbours[i] |= (static_cast<Neighbour>(static_cast<int>(wrap)) & 3u)
@@ -308,15 +310,21 @@ TEST_CASE("Contact kernel: if no particle has left the box, the shorter form giv
     for (int i = 0; i < size; ++i) {
       crowd.candidates.neighbours[i] = particle_of<2>(crowd.candidates.neighbours[i]);
     }
-    for (Particle<2>& particle : crowd.particles) particle.image.setZero();
+    for (Particle<2>& particle : crowd.particles) particle.image = 0;
     const FirstContact first = first_within_box(crowd, gravity)[0];
     REQUIRE(same(first, first_of(crowd, gravity)[0]));
     met += std::isfinite(first.time);
 
     // One particle, a candidate or the predicted one, has its frame outside the box.
     Particle<2>& off = crowd.particles[number % crowd.particles.size()];
-    off.image[number / 2 % 2] = number % 3 == 0 ? 1.0 : -1.0;
+    Vec2 image = Vec2::Zero();
+    image[number / 2 % 2] = number % 3 == 0 ? 1.0 : -1.0;
+    off.image = packed_image<2>(image);
     REQUIRE(!first_within_box(crowd, gravity)[0].unique);
+    const FirstContact shifted = first_of(crowd, gravity)[0];
+    REQUIRE(shifted.unique == (shifted.time != kTouching));
+    off.image = kFarImage;
+    REQUIRE(!first_of(crowd, gravity)[0].unique);
   }
   CHECK(met > 500);
 }
