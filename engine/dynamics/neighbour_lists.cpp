@@ -7,6 +7,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "engine/dynamics/prefetch.h"
+
 namespace clatter {
 
 // Distance of centres at contact in diameters, with a margin that exceeds any rounding.
@@ -176,6 +178,21 @@ template <int D>
 }
 
 template <int D>
+void NeighbourLists<D>::prefetch_search(std::uint32_t particle) const {
+  const IntVec<D> cell = cell_at(regions_[particle].centre);
+  for (int k = 0; k < kCells; ++k) {
+    std::uint32_t block = 0;
+    bool exists = true;
+    for (int axis = 0, digits = k; axis < D; ++axis, digits /= 3) {
+      const Step& step = steps_[axis][static_cast<std::size_t>(cell[axis] + digits % 3)];
+      block += step.index;
+      exists = exists && step.index != kNone;
+    }
+    if (exists) prefetch(blocks_[block]);
+  }
+}
+
+template <int D>
 void NeighbourLists<D>::find_neighbours(std::uint32_t particle) {
   const Region& region = regions_[particle];
   const IntVec<D> cell = cell_at(region.centre);
@@ -190,7 +207,6 @@ void NeighbourLists<D>::find_neighbours(std::uint32_t particle) {
   }
   const Floats reach = Floats{} + static_cast<float>(contact_ + region.radius);
   count_ = 0;
-  constexpr int kCells = D == 2 ? 9 : 27;
   for (int k = 0; k < kCells; ++k) {
     std::array<Floats, D> from;
     std::uint32_t block = 0;

@@ -54,6 +54,9 @@ class NeighbourLists {
   Vec<D> leave(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
                std::uint32_t number, double now);
 
+  /// Prefetches the cells that leave() searches for a particle.
+  void prefetch_search(std::uint32_t particle) const;
+
   /// The list of a particle.
   const List& near(std::uint32_t particle) const { return regions_[particle].list; }
   /// The lists that continue the lists of particles.
@@ -61,6 +64,7 @@ class NeighbourLists {
 
  private:
   static constexpr int kFour = 4;
+  static constexpr int kCells = D == 2 ? 9 : 27;  // a cell and its neighbours
   using Floats = float __attribute__((vector_size(4 * kFour)));
   using Ints = std::int32_t __attribute__((vector_size(4 * kFour)));
   static constexpr std::uint32_t kNone = List::kNone;

@@ -112,6 +112,10 @@ class Neighbourhood {
     const auto [axis, step] = crossing_of(border);
     grid_.visit_moved(cell, axis, step, [](const auto& list) { prefetch(list); });
   }
+  /// Prefetches the data that a new region of a particle needs.
+  void prefetch_search(std::uint32_t particle) const {
+    if (by_particle()) lists_->prefetch_search(particle);
+  }
   /// The cell of a particle after a crossing.
   IntVec<D> cell_after(const IntVec<D>& cell, std::uint32_t border) const {
     if (by_particle()) return cell;

@@ -487,6 +487,7 @@ void Simulation<D>::prefetch_ahead() {
   if (!neighbours) return;
   queue_.look_ahead(1, [&](const Event& event) {
     if (!is_current(event)) return;
+    if (event.partner >= kCellBorder) near_.prefetch_search(event.particle);
     visit_searches(event, [this](std::uint32_t particle, const IntVec<D>& cell) {
       const NearListView list = near_.near(particle, cell);
       for (int k = 0; k < list.capacity; ++k) {
