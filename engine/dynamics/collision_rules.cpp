@@ -20,7 +20,7 @@ PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>
                             const Spin<D>& spin, bool elastic) {
   const ContactLaw law = contact_law(model.restitution, model.roughness);
   if (!elastic) return {rough_impulse<D>(x, v, spin, law, model.inertia, model.diameter)};
-  return {{collision_impulse<D>(x, v, 1.0)},
+  return {{collision_impulse<D>(x, v, 1.0, model.diameter)},
           true,
           dissipated_energy<D>(x, v, spin, law, model.inertia, model.diameter)};
 }

@@ -109,7 +109,7 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   // event still counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
   if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
-    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution);
+    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution, model_.diameter);
   } else if (x.dot(g) < 0.0) {
     const bool elastic = within_contact_time(first) || within_contact_time(second);
     outcome = pair_outcome<D>(model_, x, g, spin(first) + spin(second), elastic);

@@ -44,11 +44,11 @@ constexpr GalleryHash kGallery[] = {
     {"rough_cooling.toml", 0x668b837c3859e598},
     {"rough_driven.toml", 0x7dbb87cc82f27096},
     {"shaker.toml", 0x96b5507643a1d9a1},
-    {"spheres_cooling.toml", 0x3e35fb3c9046a324},
-    {"spheres_leidenfrost.toml", 0xba612e6e5b23ab1d},
-    {"spheres_rain.toml", 0x87bf0d1cd5f1f8a2},
-    {"spheres_rough.toml", 0x92b72a237f96012e},
-    {"spheres_vibrated.toml", 0xe4f2e6da35a99311},
+    {"spheres_cooling.toml", 0x5ba90370b9f0013e},
+    {"spheres_leidenfrost.toml", 0x6fef7731f3481d13},
+    {"spheres_rain.toml", 0x5c4e329e272ae706},
+    {"spheres_rough.toml", 0xa77a405468af94f0},
+    {"spheres_vibrated.toml", 0xd726d2453464c7e9},
     {"vibrated.toml", 0x893fff2f2673d6a9},
 };
 
@@ -119,10 +119,10 @@ constexpr SceneHash kScenes[] = {
         particles = { area_fraction = 0.5, start.layout = "lattice" }
         walls.left.kind = "static"
         walls.right.kind = "static")"},
-    {"dense spheres, melted", 0x50005469e6da72ca, R"(
+    {"dense spheres, melted", 0xb071e9ae0ae0ca8b, R"(
         box.size = [8, 9, 10]
         particles = { volume_fraction = 0.56, restitution = 0.95, friction = 0.3 })"},
-    {"dense spheres that fall on walls", 0x81312239b5876c49, R"(
+    {"dense spheres that fall on walls", 0x0f51cd7154bacaa0, R"(
         box.size = [7, 12, 8]
         particles = { volume_fraction = 0.4, restitution = 0.9 }
         gravity.acceleration = [0.1, -0.5, 0.2]
@@ -131,7 +131,7 @@ constexpr SceneHash kScenes[] = {
         walls.top = { kind = "static" }
         walls.back = { kind = "thermal", temperature = 2.0 }
         walls.front = { kind = "driven", drive_speed = 1.0 })"},
-    {"rough spheres, kicked", 0xe06dcf7e4de3301f, R"(
+    {"rough spheres, kicked", 0x3f75e426cba24fbe, R"(
         box.size = [12, 9, 10]
         particles = { count = 150, tangential_restitution = 0.5, friction = 0.2 }
         bulk_drive = { interval = 0.05, kick_speed = 0.1, kick_spin = 0.2 })"},
