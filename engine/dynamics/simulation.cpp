@@ -110,7 +110,7 @@ static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& s
     if (before.frequency == 0.0 || before.phase != after.phase) continue;
     const double phase = now.periods(before.frequency, before.phase + saved.phase_shifts[side]);
     remedy +=
-        fmt::format(", or change walls.{} without a ramp at its resting place, as at t = {:.9g}",
+        fmt::format(", or change walls.{} without a ramp at its rest position, as at t = {:.9g}",
                     kSideNames[side], time + (1.0 + kJustAfter - phase) / before.frequency);
   }
   if (!changed.empty()) {
