@@ -360,7 +360,7 @@ TEST_CASE(
   };
   CHECK(says(refusal_of_stroke(), "the change of walls.left at t = 10.75 moves a wall into a"));
   CHECK(says(refusal_of_stroke(),
-             "change walls.left without a ramp at its resting place, as at t = 11.0001"));
+             "change walls.left without a ramp at its rest position, as at t = 11.0001"));
   run.run_until(11.0001);
   CHECK(refusal_of_stroke() == "");
 }
