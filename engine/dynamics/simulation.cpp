@@ -93,7 +93,7 @@ static std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunSt
 }
 
 // The error of a start with overlaps. If walls have changed their motion, they are the cause. Just
-// after the beginning of a period a wall is at its resting place, whatever its stroke.
+// after the beginning of a period a wall is at its rest position, whatever its stroke.
 template <int D>
 static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved,
                                      double overlap) {

@@ -307,7 +307,7 @@ TEST_CASE("ScheduledRun: a wall whose frequency changes continues from its place
   run.change({{"walls.left.frequency", "2"}});
   run.run_until(20.15);
   CHECK(displacement(run) == doctest::Approx(0.5 * 0.9));
-  // A wall at rest is at its resting place. It begins to move from its phase.
+  // A wall at rest is at its rest position. It begins to move from its phase.
   run.change({{"walls.left", "{ kind = 'static' }"}});
   CHECK(displacement(run) == 0.0);
   run.run_until(23.7);
