@@ -151,7 +151,7 @@ Json print_inhomogeneous(int count) {
 }
 
 void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) {
-  Plot plot{.title = "How fast collisions are",
+  Plot plot{.title = "Collision rate of the engine",
             .caption = "Elastic disks in a periodic box, one core, by area fraction phi",
             .x_name = "number of disks",
             .y_name = "million collisions per CPU second",

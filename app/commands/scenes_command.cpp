@@ -12,12 +12,19 @@ namespace clatter {
 void add_scenes_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("scenes", "List the scenes of the gallery.");
   command->callback([&exit_code] {
+    const auto name_of = [](const EmbeddedFile& file) {
+      return std::string(file.name.substr(0, file.name.rfind('.')));
+    };
+    std::size_t longest = 0;
+    for (const EmbeddedFile& file : embedded_scenes()) {
+      longest = std::max(longest, name_of(file).size());
+    }
     std::string list;
     for (const EmbeddedFile& file : embedded_scenes()) {
-      const std::string name(file.name.substr(0, file.name.rfind('.')));
+      std::string name = name_of(file);
+      name.resize(longest + 2, ' ');
       const Scene scene = load_gallery_scene(file);
-      list += name + std::string(std::max(1, 15 - static_cast<int>(name.size())), ' ') +
-              scene.title + ": " + scene.caption + "\n";
+      list += name + scene.title + ": " + scene.caption + "\n";
     }
     print(list);
     exit_code = kOk;

@@ -46,7 +46,7 @@ void add_view_command(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--until", options->common.until,
-                   "Simulation time at which the gas halts. The space bar continues.")
+                   "Simulation time at which the gas pauses. The space bar continues.")
       ->check(positive_number());
   add_backend_flag(*command, options->backend);
   command

@@ -84,13 +84,13 @@ void particle_label(const Frame& frame, std::size_t particle, bool follows, ImVe
   const bool disks = gas.positions.rows() == 2;
   ImGui::Text("%s %zu", disks ? "Disk" : "Sphere", particle);
   const auto column = static_cast<Eigen::Index>(particle);
-  show_vector("place", gas.positions.col(column), "%.2f");
+  show_vector("position", gas.positions.col(column), "%.2f");
   show_vector("velocity", gas.velocities.col(column), "%.3f");
   ImGui::TextDisabled("speed %.3f", gas.velocities.col(column).norm());
   if (gas.spins.size() > 0) show_vector("spin", gas.spins.col(column), "%.3f");
-  if (frame.last_collision) show_collision("last hit", *frame.last_collision, disks);
-  if (frame.next_collision) show_collision("next hit", *frame.next_collision, disks);
-  ImGui::TextDisabled(follows ? "followed; Esc lets go" : "double-click to follow");
+  if (frame.last_collision) show_collision("last collision", *frame.last_collision, disks);
+  if (frame.next_collision) show_collision("next collision", *frame.next_collision, disks);
+  ImGui::TextDisabled(follows ? "followed; Esc stops following" : "double-click to follow");
   end_note();
 }
 

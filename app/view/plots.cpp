@@ -25,7 +25,7 @@ constexpr std::array<const char*, 3> kAxisNames = {"x", "y", "z"};
 // The theories of chapter 7 of docs/theory.md.
 constexpr const char* kSimple = "Theory that averages over all particles; dense gases differ";
 constexpr const char* kRefined =
-    "Theory that averages over the particles that collide; holds for 0.3 < (1 - α²) ψ < 3";
+    "Theory that averages over the particles that collide; neglects the dense layer at the walls";
 constexpr const char* kCorrected = "The refined theory with the dense layer at the walls";
 
 template <class Value>

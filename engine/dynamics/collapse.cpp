@@ -89,10 +89,10 @@ template <int D>
 PhysicalStop divergence(const Model<D>& model, double time, double temperature) {
   return PhysicalStop("the temperature diverges at t = " + rounded(time) + ", having reached " +
                       rounded(temperature) + ", a speed of " + rounded(std::sqrt(D * temperature)) +
-                      (gains(model)
-                           ? "; walls with restitution > 1 give more than the gas loses"
-                           : "; walls give ever more, and nothing loses energy: particles or walls "
-                             "need a restitution below 1"));
+                      (gains(model) ? ": walls with restitution > 1 add more energy than the gas "
+                                      "loses; lower this restitution"
+                                    : ": walls add energy and nothing loses energy; set a "
+                                      "restitution of particles or walls below 1"));
 }
 
 template <int D>

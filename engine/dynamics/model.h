@@ -43,7 +43,7 @@ struct Model {
     }
     return boxes;
   }
-  /// Coordinate of the centre of a particle that touches a wall at its resting place. `end` is 0
+  /// Coordinate of the centre of a particle that touches a wall at its rest position. `end` is 0
   /// for the near wall of the axis and 1 for the far wall.
   double wall_plane(int axis, int end) const {
     return end ? box[axis] - 0.5 * diameter : 0.5 * diameter;

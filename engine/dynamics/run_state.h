@@ -22,6 +22,7 @@ struct EventCounts {
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
   std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
+  /// Exits of particles from their cells or, with NeighbourLists, from their regions.
   std::uint64_t cell_crossings = 0;
   std::uint64_t stale = 0;  ///< predictions whose partner collided with another particle before
 

@@ -93,7 +93,7 @@ static std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunSt
 }
 
 // The error of a start with overlaps. If walls have changed their motion, they are the cause. Just
-// after the beginning of a period a wall is at its resting place, whatever its stroke.
+// after the beginning of a period a wall is at its rest position, whatever its stroke.
 template <int D>
 static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved,
                                      double overlap) {
@@ -110,7 +110,7 @@ static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& s
     if (before.frequency == 0.0 || before.phase != after.phase) continue;
     const double phase = now.periods(before.frequency, before.phase + saved.phase_shifts[side]);
     remedy +=
-        fmt::format(", or change walls.{} without a ramp at its resting place, as at t = {:.9g}",
+        fmt::format(", or change walls.{} without a ramp at its rest position, as at t = {:.9g}",
                     kSideNames[side], time + (1.0 + kJustAfter - phase) / before.frequency);
   }
   if (!changed.empty()) {

@@ -71,7 +71,7 @@ class Simulation {
   double temperature() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
-  /// Displacement, velocity and acceleration of a wall at time(), from its resting place along its
+  /// Displacement, velocity and acceleration of a wall at time(), from its rest position along its
   /// inward normal.
   WallState wall(int side) const { return boundary_.wall(side, now_); }
   /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the

@@ -33,7 +33,7 @@ double peak_acceleration(const WallMotion& motion) {
 struct Approach {
   WallMotion motion;    // with the phase at t = 0
   double gap;           // between particle and wall at t = 0, >= 0
-  double height;        // of the particle above the wall's resting place at t = 0
+  double height;        // of the particle above the wall's rest position at t = 0
   double speed;         // of the particle at t = 0, inwards
   double acceleration;  // of the particle, inwards
 

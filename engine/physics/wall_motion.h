@@ -5,10 +5,10 @@ namespace clatter {
 /// Motion of a wall along its normal (theory 4.3).
 enum class WallPath {
   Sawtooth,    ///< inwards at constant speed, jumping back at the end of each period
-  Sinusoidal,  ///< harmonically about its resting place
+  Sinusoidal,  ///< harmonically about its rest position
 };
 
-/// The periodic motion of a wall; lengths are displacements from its resting place into the box.
+/// The periodic motion of a wall; lengths are displacements from its rest position into the box.
 struct WallMotion {
   WallPath path = WallPath::Sawtooth;
   double stroke = 0.0;     ///< distance of the wall's extreme positions, >= 0; 0: at rest
@@ -20,7 +20,7 @@ struct WallMotion {
 
 /// Position and motion of a wall at an instant, along its normal into the box.
 struct WallState {
-  double displacement = 0.0;  ///< from the resting place
+  double displacement = 0.0;  ///< from the rest position
   double velocity = 0.0;
   double acceleration = 0.0;  ///< without the saw-tooth's jumps
 };
@@ -34,7 +34,7 @@ WallState wall_state(const WallMotion& motion, double time);
 double innermost_travel(const WallMotion& motion);
 
 /// First time >= `start` at which a particle meets the moving wall, or kNever. The distance of its
-/// contact point from the wall's resting place, inwards, is distance + speed t + acceleration t^2/2
+/// contact point from the wall's rest position, inwards, is distance + speed t + acceleration t^2/2
 /// with t = time - start.
 ///
 /// A particle may touch the wall at `start`, or be behind it by rounding. It then hits the wall at

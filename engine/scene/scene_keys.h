@@ -223,11 +223,11 @@ inline constexpr auto kWallKeys = key_table(
      {"temperature", "m a^2/t^2", "Temperature of the particles that leave the wall."},
      {"stroke", "a", "Whole travel of the motion."},
      {"frequency", "1/t",
-      "Periods of the motion per time unit. A wall whose frequency changes during a run continues "
-      "from its place."},
+      "Periods of the motion per time unit. A change of the frequency during a run keeps the "
+      "position of the wall."},
      {"phase", "1",
-      "Phase of the motion in periods, at time 0. For a wall that begins to move later, at that "
-      "time."}});
+      "Phase of the motion in periods, at time 0. For a wall that begins to move later, the phase "
+      "at that time."}});
 
 /// The keys of one wall. Its kind determines which of them are allowed.
 template <class Visitor>
@@ -255,7 +255,7 @@ inline constexpr auto kStartKeys = key_table(
     {{"layout", "", "Positions at time 0: random, on a lattice, or from a file."},
      {"file", "", "Name of the CSV file with the state at time 0, relative to the scene file."},
      {"temperature", "m a^2/t^2",
-      "Temperature at time 0. Velocities are Gaussian, without a mean, and scaled to this value."},
+      "Temperature at time 0. Velocities are Gaussian with zero mean, and scaled to this value."},
      {"spin_temperature", "m a^2/t^2", "Temperature of the spins at time 0."}});
 
 /// The keys of [particles.start]. The layout determines which of them are allowed.
@@ -323,7 +323,7 @@ inline constexpr auto kMeasureKeys = key_table(
       "Spacing of the series of temperatures. The series starts at time 0."},
      {"fields", "", "Fields that are averaged, and residuals of the balance equations."},
      {"cells", "1", "Number of cells along each axis, for fields."},
-     {"profile_axis", "", "Axis along which profiles go. z is for spheres."},
+     {"profile_axis", "", "Axis of the profiles. z is for spheres only."},
      {"estimator", "", "Estimator of the fields. It integrates every flight, or takes snapshots."},
      {"interval", "t", "Time between snapshots."},
      {"kernel", "",
@@ -377,7 +377,7 @@ void visit_camera(Visitor& io, CameraKey& key, int dimension) {
 }
 
 inline constexpr auto kSlabKeys = key_table(
-    "view render", {{"axis", "", "Axis across which the planes are."},
+    "view render", {{"axis", "", "Axis perpendicular to the planes."},
                     {"from", "a", "Position of the first plane."},
                     {"to", "a", "Position of the second plane. It is larger than `from`."}});
 
@@ -391,7 +391,7 @@ void visit_slab(Visitor& io, Slab& slab) {
 }
 
 inline constexpr auto kSliceKeys =
-    key_table("view render", {{"axis", "", "Axis across which the slice is."},
+    key_table("view render", {{"axis", "", "Axis perpendicular to the slice."},
                               {"position", "a", "Position of the slice on this axis."}});
 
 /// The keys of one item of [[view.slices]].
@@ -423,7 +423,7 @@ inline constexpr auto kViewKeys = key_table(
      {"theme", "",
       "Colours of background, letters, walls and lines. It does not change the size of letters."},
      {"background", "", "Colour of the background. Without a value the theme sets it."},
-     {"grid", "", "Lines over the box, as far apart as the scale bar is long."},
+     {"grid", "", "Grid lines over the box. Their spacing is the length of the scale bar."},
      {"overlay", "", "Title, time, colour bar and scale bar."},
      {"trails", "t", "Duration of the particles' trails. Without a value: none."},
      {"card", "s",
@@ -475,8 +475,9 @@ void visit_view(Visitor& io, View& view, int dimension) {
 inline constexpr auto kChangeKeys = key_table(
     kRunCommands,
     {{"time", "t", "Simulation time of the change."},
-     {"set", "", "Keys and their new values. The keys are among those that can change in a run."},
-     {"ramp", "", "Course of numbers to their new values. Without a value they jump."},
+     {"set", "", "Keys and their new values. Only keys that can change in a run are allowed."},
+     {"ramp", "",
+      "Transition of numbers to their new values. Without a value the change is immediate."},
      {"until", "t", "Simulation time at which the ramp ends. It is later than `time`."}});
 
 /// The keys of one item of [[change]].

@@ -84,7 +84,7 @@ struct View {
   std::optional<Quantity> arrows;        ///< one of kArrows, averaged as the heatmap; absent: none
   Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
   std::optional<Rgb> background;         ///< absent: as the theme
-  bool grid = false;             ///< lines over the box, as far apart as the scale bar is long
+  bool grid = false;             ///< lines over the box, spaced by the length of the scale bar
   bool overlay = true;           ///< time, title, colour bar, scale bar
   std::optional<double> trails;  ///< duration of the particles' trails, > 0; absent: none
   std::optional<double> card;    ///< seconds of the title card at a film's start, > 0; absent: none

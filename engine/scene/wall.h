@@ -25,7 +25,7 @@ enum class WallKind {
   Driven,      ///< adds drive_speed to the normal velocity: the saw-tooth limit (theory 4.1, 4.4)
   Thermal,     ///< forgets the incoming velocity and emits at its temperature
   Sawtooth,    ///< periodic: moves inwards by its stroke at constant speed, jumps back
-  Sinusoidal,  ///< oscillates by half its stroke about its resting place
+  Sinusoidal,  ///< oscillates by half its stroke about its rest position
 };
 
 /// One wall of the box.

@@ -229,7 +229,8 @@ void Movie::join() {
   const std::vector<Piece> pieces = this->pieces();
   std::string list = "ffconcat version 1.0\n";
   for (const Piece& piece : pieces) {
-    list += fmt::format("file {}\nduration {:.9f}\n", piece.path.filename().string(),
+    list += fmt::format("file {}\nduration {:.9f}\n",
+                        list_entry(name_in_folder(piece.path.filename().string())),
                         static_cast<double>(piece.count) / options_.fps);
   }
   write_file(folder_ / kList, list);

@@ -108,12 +108,19 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
   return all;
 }
 
+// Without "file:" ffmpeg resolves the name against the URL of the list, which it cuts at a "?".
+std::string list_entry(const std::filesystem::path& film) {
+  std::string quoted = "'";
+  for (const char c : name_of(film)) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
                                          const std::filesystem::path& metadata,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file) {
   std::vector<std::string> all = quiet(encoder);
-  append(all, {"-f", "concat", "-i", name_of(list)});
+  append(all, {"-f", "concat", "-safe", "0", "-i", name_of(list)});
   append(all, texts_of(metadata));
   // "+bitexact" leaves out version and random identifiers: equal films are equal files.
   append(all, {"-c", "copy", "-fflags", "+bitexact"});

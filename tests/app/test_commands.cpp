@@ -4,6 +4,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "tests/app/shell.h"
 
@@ -26,6 +27,15 @@ TEST_CASE("Commands: scenes are listed by name") {
   const Shell shell;
   const Outcome sorted = shell.run("clatter scenes | cut -d' ' -f1 | LC_ALL=C sort -c");
   CHECK(sorted.err.empty());
+}
+
+TEST_CASE("Commands: the titles of the list of scenes begin in one column") {
+  const Shell shell;
+  std::istringstream lines(shell.run("clatter scenes").out);
+  const std::size_t column = std::string("spheres_leidenfrost  ").size();
+  for (std::string line; std::getline(lines, line);) {
+    CHECK(line.find_first_not_of(' ', line.find(' ')) == column);
+  }
 }
 
 TEST_CASE("Commands: check prints a scene that it prints again unchanged") {

@@ -258,7 +258,7 @@ TEST_CASE("Resume: a run stopped by an impossible change of a wall continues wit
     CAPTURE(stopped.err);
     CHECK(stopped.code == 3);
     CHECK(says(stopped.err, "the change of walls.left at t = 10.75 moves a wall into a particle"));
-    CHECK(says(stopped.err, "at its resting place, as at t = 11.0001"));
+    CHECK(says(stopped.err, "at its rest position, as at t = 11.0001"));
   }
   write_change_at("11.0001");
   CHECK(shell.run(line + "--resume r.checkpoint").code == 0);

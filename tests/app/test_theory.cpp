@@ -46,8 +46,8 @@ void check_numbers(const json& actual, const json& expected) {
 
 // Common terms of the formulas.
 const double kPhi = kCount * pi / (4.0 * kLength * kHeight);
-const double kChi = (1.0 - 7.0 * kPhi / 16.0) / std::pow(1.0 - kPhi, 2.0);    // Eq. (3.6)
-const double kPsi = std::sqrt(2.0) * kChi * kCount / kHeight;                 // Eq. (3.9)
+const double kChi = (1.0 - 7.0 * kPhi / 16.0) / std::pow(1.0 - kPhi, 2.0);    // (theory 6.1)
+const double kPsi = std::sqrt(2.0) * kChi * kCount / kHeight;                 // (theory 7.5)
 const double kKappa = (1.0 + 2.0 * kPhi * kChi) * kLength / (kLength - 1.0);  // of the wall layer
 
 double enskog_rate(double temperature) {
@@ -56,8 +56,7 @@ double enskog_rate(double temperature) {
 
 }  // namespace
 
-TEST_CASE(
-    "Theory: a driven gas has the temperatures of Eqs. (3.12), (3.14) and of its wall layer") {
+TEST_CASE("Theory: a driven gas has the temperatures of (7.10), (7.11) and (7.14)") {
   const double alpha = 0.85, alpha_w = 0.95, v_dr = 1.7;
   const double epsilon = 1.0 - alpha * alpha, at_walls = 2.0 / pi * (1.0 - alpha_w * alpha_w);
   const double loss = epsilon * kPsi + at_walls,
@@ -76,7 +75,7 @@ TEST_CASE(
                  {"temperature_corrected", std::pow(refined(loss_corrected) * v_dr, 2.0)}});
 }
 
-TEST_CASE("Theory: without a drive a gas between walls cools or diverges by Eq. (3.10)") {
+TEST_CASE("Theory: without a drive a gas between walls cools or diverges by (7.15)") {
   for (const double alpha_w : {0.95, 1.08}) {
     const double alpha = 0.995, epsilon = 1.0 - alpha * alpha;
     const double at_walls = 2.0 / pi * (1.0 - alpha_w * alpha_w);

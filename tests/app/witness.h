@@ -26,7 +26,7 @@ struct WitnessedTouch {
   Vec<D> first, second;           ///< centres at the touching image, or the contact point of a wall
   Vec<D> impulse;                 ///< received by the first particle
   std::array<double, 2> gains{};  ///< energy received by the particles
-  double loss_by_law = 0.0;  ///< energy loss of two particles by Eqs. (2.4)-(2.8) without a t_c
+  double loss_by_law = 0.0;       ///< energy loss of two particles (theory 3.6) without a t_c
   bool within_contact_time = false;
 };
 

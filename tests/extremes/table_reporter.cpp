@@ -23,18 +23,22 @@ Name parted(const std::string& name) {
   return {name.substr(0, colon), name.substr(colon + 2)};
 }
 
-/// Writes the cases as Markdown tables: each case, its invariant (the description), and the reached
-/// numbers (the messages).
+/// Writes the cases as Markdown tables: each case, its condition (the description), and its results
+/// (the messages).
 class TableReporter : public doctest::IReporter {
  public:
   explicit TableReporter(const doctest::ContextOptions& options) : out_(*options.cout) {}
 
   void test_run_start() override {
     out_ << "# Stability at the extremes\n\n"
-            "The cases of the test suite `extremes`, what must hold in each, and the figures that "
-            "it\n"
-            "reached. The suite itself wrote this page:\n\n"
-            "    cmake --build build/release --target extremes_table\n";
+            "This page lists the cases of the test suite `extremes`, their conditions and their "
+            "results.\n"
+            "The suite writes the page:\n\n"
+            "    cmake --build build/release --target extremes_table\n\n"
+            "*Brute force* is a simple engine that checks all pairs of particles for the next "
+            "collision.\n"
+            "*Off by* precedes the deviation from the exact value. An overlap is in particle "
+            "diameters.\n";
   }
   void test_case_start(const doctest::TestCaseData& test) override {
     test_ = &test;
@@ -48,12 +52,11 @@ class TableReporter : public doctest::IReporter {
     const Name name = parted(test_->m_name);
     if (name.subject != subject_) {
       subject_ = name.subject;
-      out_ << "\n## " << subject_ << "\n\n| case | holds when | reached |\n|---|---|---|\n";
+      out_ << "\n## " << subject_ << "\n\n| case | condition | result |\n|---|---|---|\n";
     }
     const char* invariant = test_->m_description ? test_->m_description : "";
     out_ << "| " << escaped(name.event) << " | " << escaped(invariant) << " | "
-         << (result.testCaseSuccess ? "" : "**does not hold**; ") << escaped(figures_) << " |"
-         << std::endl;
+         << (result.testCaseSuccess ? "" : "**fails**; ") << escaped(figures_) << " |" << std::endl;
   }
 
   void report_query(const doctest::QueryData&) override {}

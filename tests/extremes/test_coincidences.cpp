@@ -177,9 +177,8 @@ void check_corners() {
 
 }  // namespace
 
-TEST_CASE("Coincidences: a lattice whose rows and columns all meet at once" *
-          doctest::description("the same bits by brute force; energy and momentum within "
-                               "1e-13")) {
+TEST_CASE("Coincidences: a lattice with simultaneous collisions in all rows and columns" *
+          doctest::description("the same bits as brute force; energy and momentum within 1e-13")) {
   // Neighbours approach along x, or rest: 32 collisions at each of the first times.
   State<2> start;
   for (int i = 0; i < 48; ++i) {
@@ -190,9 +189,8 @@ TEST_CASE("Coincidences: a lattice whose rows and columns all meet at once" *
   check_lattice(periodic_box(16.0, 12.0), start);
 }
 
-TEST_CASE("Coincidences: a cubic lattice whose rows all meet at once" *
-          doctest::description("the same bits by brute force; energy and momentum within "
-                               "1e-13")) {
+TEST_CASE("Coincidences: a cubic lattice with simultaneous collisions in all rows" *
+          doctest::description("the same bits as brute force; energy and momentum within 1e-13")) {
   State<3> start;
   for (int i = 0; i < 48; ++i) {
     const int column = i % 4, row = i / 4 % 4, layer = i / 16;
@@ -203,26 +201,25 @@ TEST_CASE("Coincidences: a cubic lattice whose rows all meet at once" *
   check_lattice(periodic_box(8.0, 8.0, 6.0), start);
 }
 
-TEST_CASE("Coincidences: one particle hits two that touch, at once" *
-          doctest::description("the same bits by brute force; energy and momentum within "
-                               "1e-15, inelastic ones lose energy")) {
+TEST_CASE("Coincidences: one particle hits two touching particles at the same time" *
+          doctest::description("the same bits as brute force; energy and momentum within 1e-15; "
+                               "inelastic particles lose energy")) {
   const double along = 0.5 * std::sqrt(3.0);
   check_simultaneous_hits<2>({{along, -0.5}, {along, 0.5}});
 }
 
-TEST_CASE("Coincidences: one sphere hits three that touch, at once" *
-          doctest::description("the same bits by brute force; energy and momentum within "
-                               "1e-15, inelastic ones lose energy")) {
+TEST_CASE("Coincidences: one sphere hits three touching spheres at the same time" *
+          doctest::description("the same bits as brute force; energy and momentum within 1e-15; "
+                               "inelastic particles lose energy")) {
   // A regular tetrahedron.
   const double along = std::sqrt(2.0 / 3.0), across = 1.0 / std::sqrt(3.0);
   check_simultaneous_hits<3>(
       {{along, across, 0.0}, {along, -0.5 * across, 0.5}, {along, -0.5 * across, -0.5}});
 }
 
-TEST_CASE(
-    "Coincidences: a row of inelastic particles in contact is hit" *
-    doctest::description("it ends or is told to collapse; momentum within 1e-14, overlap below "
-                         "1e-12")) {
+TEST_CASE("Coincidences: a particle hits a row of touching inelastic particles" *
+          doctest::description("the run ends, or stops with an inelastic collapse; momentum within "
+                               "1e-14, overlap below 1e-12")) {
   double momentum_off = 0.0, deepest = 0.0;
   int stops = 0;
   for (const double restitution : {0.999, 0.9, 0.5, 0.1, 0.0}) {
@@ -245,16 +242,14 @@ TEST_CASE(
   CHECK(deepest < 1e-12);
 }
 
-TEST_CASE("Coincidences: a particle flies into a corner" *
-          doctest::description(
-              "it comes back on its way, speed and place exact; so does a particle whose "
-              "way through the corner two walls share with another particle")) {
+TEST_CASE("Coincidences: a particle hits a corner" *
+          doctest::description("it returns on its path with exact speed and position; so do two "
+                               "particles that reach an occupied corner at the same time")) {
   check_corners<2>();
 }
 
-TEST_CASE(
-    "Coincidences: a sphere flies into a corner of three walls" *
-    doctest::description("it comes back on its way, speed and place exact; so does a sphere whose "
-                         "way through the corner three walls share with others")) {
+TEST_CASE("Coincidences: a sphere hits a corner of three walls" *
+          doctest::description("it returns on its path with exact speed and position; so do three "
+                               "spheres that reach an occupied corner at the same time")) {
   check_corners<3>();
 }

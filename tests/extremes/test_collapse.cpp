@@ -42,9 +42,9 @@ double advised_contact_time(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE(
-    "Collapse: a wholly inelastic pile with t_c on every floor" *
-    doctest::description("time goes on, overlap below 1e-9, on floors that rest it lies still")) {
+TEST_CASE("Collapse: a pile with alpha = 0 and a t_c, on every kind of floor" *
+          doctest::description("time advances, overlap below 1e-9; on a static or slowly moving "
+                               "floor vertical speeds stay below 0.3")) {
   for (const Wall& kind : {kStatic, kSawtooth, kSinusoidal, kGentle}) {
     CAPTURE(static_cast<int>(kind.kind));
     Wall floor = kind;
@@ -65,16 +65,17 @@ TEST_CASE(
     double vertical = 0.0;
     for (const Vec2& v : simulation.state().velocities)
       vertical = std::max(vertical, std::fabs(v.y()));
-    MESSAGE(simulation.counts().collisions(), " collisions, fastest up or down ", brief(vertical));
+    MESSAGE(simulation.counts().collisions(), " collisions, largest vertical speed ",
+            brief(vertical));
     if (floor.kind == WallKind::Static || floor.frequency == kGentle.frequency) {
       CHECK(vertical < 0.3);
     }
   }
 }
 
-TEST_CASE("Collapse: the cascade of a bouncing ball" *
-          doctest::description(
-              "a stop within 1e-5 of when it must end, and the t_c advised carries on")) {
+TEST_CASE("Collapse: inelastic collapse of a bouncing ball" *
+          doctest::description("the run stops within 1e-5 of the time of the collapse, and "
+                               "continues with the recommended t_c")) {
   // Dropped from h, the ball lands after t_0 = sqrt(2h/g). The bounces sum to t_0 (1 + alpha)/(1 -
   // alpha).
   for (const double restitution : {0.9, 0.5, 0.0}) {
@@ -87,7 +88,7 @@ TEST_CASE("Collapse: the cascade of a bouncing ball" *
     const double end = 4.0 * (1.0 + restitution) / (1.0 - restitution);
     CAPTURE(message);
     CHECK(says(message, "particle 0 and the bottom wall collide without end"));
-    MESSAGE("alpha = ", restitution, ": off by ", brief(simulation.time() / end - 1.0));
+    MESSAGE("alpha = ", restitution, ": time off by ", brief(simulation.time() / end - 1.0));
     CHECK(std::fabs(simulation.time() / end - 1.0) < 1e-5);
     CHECK(simulation.state().positions[0].y() == doctest::Approx(0.5).epsilon(1e-9));
     // With the recommended t_c the ball continues to hop.
@@ -98,9 +99,9 @@ TEST_CASE("Collapse: the cascade of a bouncing ball" *
   }
 }
 
-TEST_CASE("Collapse: grains on floors" *
-          doctest::description("without t_c they stop cleanly or run on, with the one advised they "
-                               "run on; overlap below 1e-9")) {
+TEST_CASE("Collapse: particles on floors under gravity" *
+          doctest::description("without t_c the run ends, or stops with an error that recommends a "
+                               "t_c; with this t_c it continues; overlap below 1e-9")) {
   for (const Wall& kind : {kStatic, kLossy, kSawtooth, kSinusoidal, kGentle, kRoughDriven}) {
     for (const double restitution : {0.0, 0.5}) {
       CAPTURE(static_cast<int>(kind.kind));
@@ -127,8 +128,8 @@ TEST_CASE("Collapse: grains on floors" *
 }
 
 TEST_CASE("Collapse: rows of particles in one dimension" *
-          doctest::description(
-              "a clean stop that says who, and the t_c advised carries on; overlap below 1e-11")) {
+          doctest::description("the run stops with an error that names the particles, and "
+                               "continues with the recommended t_c; overlap below 1e-11")) {
   // In one dimension three free particles collapse below alpha = 7 - 4 sqrt(3) = .072 (McNamara &
   // Young 1992), longer rows at larger alpha.
   struct Row {
@@ -156,8 +157,8 @@ TEST_CASE("Collapse: rows of particles in one dimension" *
 
 // The resumed run stands still from its first collision. Its own mean time between collisions would
 // be far too short.
-TEST_CASE("Collapse: a run that goes on from where time stood still" *
-          doctest::description("it stops again, advised the same t_c")) {
+TEST_CASE("Collapse: restart of a run that stopped by inelastic collapse" *
+          doctest::description("it stops again and recommends the same t_c")) {
   Model<2> model = with_walls(periodic_box(45.0, 4.0), 0, kStatic);
   model.restitution = 0.3;
   Simulation<2> first(model, row(12, 1.5));
@@ -172,8 +173,9 @@ TEST_CASE("Collapse: a run that goes on from where time stood still" *
 }
 
 TEST_CASE(
-    "Collapse: the t_c that is advised" *
-    doctest::description("1e-3 of the time between collisions before, within a factor of ten")) {
+    "Collapse: the recommended t_c" *
+    doctest::description(
+        "1e-3 of the mean time between collisions before the collapse, within a factor of ten")) {
   // The time of the collapse does not matter. A t_c of a thousandth of it would make resting grains
   // hop a thousand times as often. The ball needs 100 bounces for the last 10^-4 of its time. The
   // row has some ten collisions per particle before it collapses.
@@ -181,7 +183,7 @@ TEST_CASE(
   ball.gravity = {0.0, -0.5};
   Simulation<2> bouncing(ball, State<2>{{{3.0, 4.5}}, {{0.0, 0.0}}});
   const double ball_time = 1e3 * advised_contact_time(stop_of(bouncing, 1e6));
-  MESSAGE("a ball's time before is ", brief(ball_time));
+  MESSAGE("mean time of the ball ", brief(ball_time));
   CHECK(ball_time > 0.4);  // 76 time units, the first flights 7
   CHECK(ball_time < 8.0);
   Model<2> pile = with_walls(periodic_box(6.0, 12.0), 1, {.restitution = 0.5});
@@ -194,13 +196,14 @@ TEST_CASE(
   const double expected =
       first.time() * 12.0 /
       static_cast<double>(2 * first.counts().pair_collisions + first.counts().wall_collisions);
-  MESSAGE("a pile's ", brief(pile_time), ", of its first collisions ", brief(expected));
+  MESSAGE("of the pile ", brief(pile_time), ", in its first collisions ", brief(expected));
   CHECK(pile_time > 0.1 * expected);
   CHECK(pile_time < 10.0 * expected);
 }
 
-TEST_CASE("Collapse: a standstill is looked for" *
-          doctest::description("the run is the same, bit for bit, as by brute force without")) {
+TEST_CASE(
+    "Collapse: detection of an inelastic collapse" *
+    doctest::description("the run has the same bits as a brute-force run without detection")) {
   // The reference does not detect a standstill. Rows with a very small t_c come close to a
   // collapse. A thermal wall does not use its restitution, but the restitution enables the
   // detection.
@@ -230,7 +233,7 @@ TEST_CASE("Collapse: a standstill is looked for" *
 
 TEST_CASE(
     "Collapse: dense, fast and hot gases" *
-    doctest::description("they are no standstill: 2e5 collisions each, overlap below 1e-11")) {
+    doctest::description("no collapse is reported in 2e5 collisions each, overlap below 1e-11")) {
   // 2 10^5 collisions each, three times the limit of a standstill. The gases: 72 inelastic kicked
   // particles at phi = .68; a gas from T = 1 between walls of T_w = 1e16; inelastic particles
   // between walls with gain.

@@ -71,7 +71,7 @@ void check_elastic(const Crystal<D>& crystal) {
   const double overlap = std::max(simulation.checks().deepest_overlap,
                                   brute_force_overlap(crystal.model, simulation.state()));
   const double push = momentum(simulation.state()).norm() / simulation.particles().size();
-  MESSAGE("T off by ", brief(drift), ", least gap ", brief(-overlap), ", 1e6 collisions in ",
+  MESSAGE("T off by ", brief(drift), ", smallest gap ", brief(-overlap), ", 1e6 collisions in ",
           brief(simulation.time()), " time units");
   CHECK(drift <= 1e-12);
   CHECK(overlap <= 1e-10);
@@ -81,17 +81,17 @@ void check_elastic(const Crystal<D>& crystal) {
 
 }  // namespace
 
-TEST_CASE("Dense: phi = .70, where a fluid begins to freeze" *
+TEST_CASE("Dense: phi = .70, the freezing point of the fluid" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(triangular(spacing_of(0.70)));
 }
 
-TEST_CASE("Dense: phi = .716, where a crystal begins to melt" *
+TEST_CASE("Dense: phi = .716, the melting point of the crystal" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(triangular(spacing_of(0.716)));
 }
 
-TEST_CASE("Dense: phi = .88, three per cent below the densest packing" *
+TEST_CASE("Dense: phi = .88, three per cent below close packing" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(triangular(spacing_of(0.88)));
 }
@@ -101,12 +101,12 @@ TEST_CASE("Dense: a hexagonal crystal at spacing 1 + 1e-11" *
   check_elastic(triangular(1.0 + 1e-11));
 }
 
-TEST_CASE("Dense: spheres at phi = .545, where a crystal begins to melt" *
+TEST_CASE("Dense: spheres at phi = .545, the melting point of the crystal" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(face_centred(sphere_spacing_of(0.545)));
 }
 
-TEST_CASE("Dense: spheres at phi = .70, five per cent below the densest packing" *
+TEST_CASE("Dense: spheres at phi = .70, five per cent below close packing" *
           doctest::description("T constant to 1e-12, gap >= -1e-10")) {
   check_elastic(face_centred(sphere_spacing_of(0.70)));
 }
@@ -118,7 +118,7 @@ TEST_CASE("Dense: an fcc crystal at spacing 1 + 1e-11" *
 
 // Kolafa & Rottner 2006: Z(.69) = 10.23. Relaxation is slow near freezing. Finite-size effects of
 // 4000 particles are below .1 %.
-TEST_CASE("Dense: equation of state at phi = .69, by the edge of freezing" *
+TEST_CASE("Dense: equation of state at phi = .69, just below freezing" *
           doctest::test_suite("slow") *
           doctest::description("Z within .5 % of 10.23 (Kolafa & Rottner 2006)")) {
   const Measured result = run(gas_of_fraction(0.69, 4000, 1.0), 100.0, 800.0, 922);

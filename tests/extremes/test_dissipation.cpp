@@ -60,7 +60,7 @@ Vec2 exact_momentum(const State<2>& state) {
 // is more than 5 standard errors from a ratio that is 1 % off.
 TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" *
           doctest::test_suite("slow") *
-          doctest::description("T(4) the same for both within 2 %, by 5 standard errors")) {
+          doctest::description("both give the same T(4) within 2 %, including 5 standard errors")) {
   for (const double restitution : {0.0, 0.1, 0.3}) {
     Sample shorter, longer;
     for (std::uint64_t seed = 1000; seed < 17000; ++seed) {
@@ -78,14 +78,15 @@ TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5, t_c = 1e-5 and 1e-3" *
     const double off = longer.mean() / shorter.mean() - 1.0;
     const double error =
         std::hypot(longer.standard_error(), shorter.standard_error()) / shorter.mean();
-    MESSAGE("alpha = ", restitution, ": T(4) = ", brief(shorter.mean()), ", with 1e-3 ",
-            brief(100.0 * off), " +- ", brief(100.0 * error), " % off");
+    MESSAGE("alpha = ", restitution, ": T(4) = ", brief(shorter.mean()),
+            ", with t_c = 1e-3 off by ", brief(100.0 * off), " +- ", brief(100.0 * error), " %");
     CHECK(std::fabs(off) + 5.0 * error < 0.02);
   }
 }
 
 TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5 without t_c" *
-          doctest::description("a clean stop or completion, never a hang; overlap below 1e-9")) {
+          doctest::description(
+              "the run ends or stops with an error, and never hangs; overlap below 1e-9")) {
   int stops = 0, runs = 0;
   double deepest = 0.0;
   for (const double restitution : {0.0, 0.1, 0.3}) {
@@ -101,7 +102,7 @@ TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5 without t_c" *
       ++runs;
     }
   }
-  MESSAGE(stops, " of ", runs, " stop, deepest overlap ", brief(deepest));
+  MESSAGE(stops, " of ", runs, " runs stop, deepest overlap ", brief(deepest));
   CHECK(deepest < 1e-9);
 }
 
@@ -110,9 +111,9 @@ TEST_CASE("Dissipation: alpha = 0, .1, .3 at phi = .5 without t_c" *
 // mass.
 TEST_CASE(
     "Dissipation: Haff's cooling down to T = 1e-30" *
-    doctest::description("T = T_0/(1 + k t)^2, so T t^2 = T_0/k^2 below T = 1e-10 within 5 "
-                         "standard errors; the momentum is the sum of the roundings of velocities "
-                         "within 1e-10, a random walk's within 5 standard deviations")) {
+    doctest::description("T t^2 = T_0/k^2 below T = 1e-10 within 5 standard errors (theory 6.5); "
+                         "the momentum equals the summed rounding errors of velocities within "
+                         "1e-10, and these are a random walk within 5 standard deviations")) {
   const Scene scene = gas_of_fraction(0.1, 64, 0.9);
   const State<2> start = start_state<2>(scene, 951);
   Simulation<2> simulation(model_of<2>(scene, 951), start);
@@ -130,12 +131,13 @@ TEST_CASE(
   const double k = haff_rate_periodic(0.1, 0.9, 1.0);
   const Vec2 drift = exact_momentum(simulation.state());
   const Vec2 walk = roundings.momentum.cwiseQuotient(roundings.variance.cwiseSqrt());
-  MESSAGE(
-      "T = ", brief(temperature(simulation)), " at t = ", brief(time), " after ",
-      simulation.counts().pair_collisions, " collisions; T t^2 = ", brief(scaled.mean()), " +- ",
-      brief(scaled.standard_error()), ", by the law ", brief(1.0 / (k * k)), "; momentum ",
-      brief(drift.norm()), ", ", brief(drift.squaredNorm() / 128.0 / simulation.kinetic_energy()),
-      " of the energy; off by ", brief(walk.x()), " and ", brief(walk.y()), " standard deviations");
+  MESSAGE("T = ", brief(temperature(simulation)), " at t = ", brief(time), " after ",
+          simulation.counts().pair_collisions, " collisions; T t^2 = ", brief(scaled.mean()),
+          " +- ", brief(scaled.standard_error()), ", theory ", brief(1.0 / (k * k)), "; momentum ",
+          brief(drift.norm()), ", ",
+          brief(drift.squaredNorm() / 128.0 / simulation.kinetic_energy()),
+          " of the energy; random walk off by ", brief(walk.x()), " and ", brief(walk.y()),
+          " standard deviations");
   CHECK(std::fabs(scaled.mean() - 1.0 / (k * k)) < 5.0 * scaled.standard_error());
   CHECK((drift - exact_momentum(start) - roundings.momentum).norm() < 1e-10 * drift.norm());
   CHECK(walk.cwiseAbs().maxCoeff() < 5.0);

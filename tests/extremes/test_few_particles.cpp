@@ -84,7 +84,7 @@ void check_long_flights(const std::vector<Vec<D>>& boxes) {
       CHECK(simulation.checks().clock_steps_back < 1e-13);
     }
   }
-  MESSAGE("least gap ", brief(least), ", at collisions at most ", brief(widest),
+  MESSAGE("smallest gap ", brief(least), ", largest gap at a collision ", brief(widest),
           ", longest flight between collisions ", brief(longest), " boxes");
   CHECK(longest > 100.0);
   CHECK(least >= -1e-9);
@@ -143,36 +143,37 @@ void check_kicks(const Vec<D>& box) {
 
 }  // namespace
 
-TEST_CASE(
-    "Few particles: two and three particles whose flights are longer than the box" *
-    doctest::description("no image missed: gap >= -1e-9 between all collisions, against brute "
-                         "force over all images")) {
+TEST_CASE("Few particles: two and three particles whose flights are longer than the box" *
+          doctest::description("no collision with a periodic image is missed: gap >= -1e-9 at all "
+                               "times, by brute force over all images")) {
   check_long_flights<2>({{23.0, 21.0}, {170.0, 160.0}, {1000.0, 3.0}});
 }
 
-TEST_CASE(
-    "Few particles: two and three spheres whose flights are longer than the box" *
-    doctest::description("no image missed: gap >= -1e-9 between all collisions, against brute "
-                         "force over all images")) {
+TEST_CASE("Few particles: two and three spheres whose flights are longer than the box" *
+          doctest::description("no collision with a periodic image is missed: gap >= -1e-9 at all "
+                               "times, by brute force over all images")) {
   check_long_flights<3>({{9.0, 8.0, 7.0}, {25.0, 24.0, 23.0}, {200.0, 3.0, 2.5}});
 }
 
 TEST_CASE(
-    "Few particles: none to three particles between walls of every kind, under all that acts" *
-    doctest::description("they come to the end or to a rest; all numbers finite, overlap "
-                         "below 1e-9")) {
+    "Few particles: none to three particles between walls of every kind, with every combination of "
+    "forces" *
+    doctest::description("the run ends, or stops when particles come to rest; all numbers finite, "
+                         "overlap below 1e-9")) {
   check_all_walls<2>({7.0, 6.0}, {0.2, -1.0});
 }
 
 TEST_CASE(
-    "Few particles: none to three spheres between six walls of every kind, under all that acts" *
-    doctest::description("they come to the end or to a rest; all numbers finite, overlap "
-                         "below 1e-9")) {
+    "Few particles: none to three spheres between six walls of every kind, with every combination "
+    "of forces" *
+    doctest::description("the run ends, or stops when particles come to rest; all numbers finite, "
+                         "overlap below 1e-9")) {
   check_all_walls<3>({4.0, 5.0, 4.5}, {0.2, -1.0, 0.3});
 }
 
-TEST_CASE("Few particles: kicks of one particle, and of two" *
-          doctest::description("of one nothing, of two opposite: momentum 0 within 1e-13")) {
+TEST_CASE("Few particles: kicks of a gas of one particle, and of two" *
+          doctest::description(
+              "one particle keeps its velocity; two get opposite kicks: momentum 0 within 1e-13")) {
   check_kicks<2>({7.0, 6.0});
   check_kicks<3>({7.0, 6.0, 5.0});
 }
@@ -228,7 +229,7 @@ void check_images(const Vec<D>& box, int count, std::uint64_t collisions) {
   reference.run_until_collisions(collisions);
   CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
   MESSAGE(images.far, " of ", simulation.counts().pair_collisions,
-          " collisions through such images, contacts off by ", brief(images.longest));
+          " collisions with these images, separation off by ", brief(images.longest));
   CHECK(images.far > 50);
   CHECK(images.longest < 1e-12);
   CHECK(images.worst_loss < 1e-11);
@@ -296,26 +297,31 @@ void check_crystallite(const Vec<D>& box, const Vec<D>& velocity) {
 
 }  // namespace
 
-TEST_CASE("Few particles: rough particles touch through images that are not the nearest" *
-          doctest::description("same bits as brute force; contacts within 1e-12 of a diameter")) {
+TEST_CASE(
+    "Few particles: collisions of rough particles with periodic images that are not the nearest" *
+    doctest::description(
+        "the same bits as brute force; separation at contact within 1e-12 of a diameter")) {
   check_images<2>({12.0, 1.2}, 6, 3000);
   check_images<2>({12.0, 2.05}, 6, 3000);
 }
 
-TEST_CASE("Few particles: rough spheres touch through images that are not the nearest" *
-          doctest::description("same bits as brute force; contacts within 1e-12 of a diameter")) {
+TEST_CASE(
+    "Few particles: collisions of rough spheres with periodic images that are not the nearest" *
+    doctest::description(
+        "the same bits as brute force; separation at contact within 1e-12 of a diameter")) {
   check_images<3>({8.0, 1.2, 1.3}, 5, 1000);
   check_images<3>({8.0, 1.1, 2.05}, 5, 1000);
 }
 
-TEST_CASE("Few particles: no particle, and one particle between walls at all sides" *
-          doctest::description("back at its start after ten periods within 1e-12")) {
+TEST_CASE(
+    "Few particles: no particle, and one particle between walls on all sides" *
+    doctest::description("the particle is back at its start after ten periods within 1e-12")) {
   check_few<2>();
   check_few<3>();
 }
 
 TEST_CASE("Few particles: a free flight through many boxes" *
-          doctest::description("place within two roundings of the way")) {
+          doctest::description("position within two rounding errors of the path")) {
   double worst = 0.0;
   for (const Vec2& v : {Vec2(1234.5, -0.375), Vec2(-3.0, 77.25), Vec2(-0.001, 0.0)}) {
     worst = std::max(worst, check_flight<2>({7.5, 5.0}, {2.25, 3.5}, v));
@@ -323,11 +329,11 @@ TEST_CASE("Few particles: a free flight through many boxes" *
   for (const Vec<3>& v : {Vec<3>(1234.5, -0.375, 33.3), Vec<3>(-3.0, 77.25, -1e-3)}) {
     worst = std::max(worst, check_flight<3>({7.5, 5.0, 6.1}, {2.25, 3.5, 1.7}, v));
   }
-  MESSAGE("off by ", brief(worst), " of the way");
+  MESSAGE("off by ", brief(worst), " of the path");
 }
 
-TEST_CASE("Few particles: particles in contact that move alike through thousands of boxes" *
-          doctest::description("they never collide, overlap below 1e-10")) {
+TEST_CASE("Few particles: touching particles with equal velocities, through thousands of boxes" *
+          doctest::description("no collision, overlap below 1e-10")) {
   check_crystallite<2>({4.0, 6.0}, {50.0, -31.0});
   check_crystallite<3>({4.0, 6.0, 5.0}, {50.0, -31.0, 17.0});
 }

@@ -14,8 +14,9 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-TEST_CASE("Heating: 100 particles between walls of restitution 1.05" *
-          doctest::description("a clean stop, time within 5 % of t* (theory 7.16)")) {
+TEST_CASE(
+    "Heating: 100 particles between walls of restitution 1.05" *
+    doctest::description("the run stops with an error, at a time within 5 % of t* (theory 7.16)")) {
   // alpha = 1, alpha_w = 1.05, no drive, N = 100, 20 x 25: T = T_0/(1 + k t)^2 with k < 0,
   // corrected for the layer at the walls (theory 7.15), so t* = 1/|k|. 6 seeds, mean t* to 1 %,
   // within 5 %.
@@ -36,13 +37,15 @@ TEST_CASE("Heating: 100 particles between walls of restitution 1.05" *
     CHECK(simulation.deepest_overlap() < 1e-9);
   }
   MESSAGE("t* = ", times.mean(), " +- ", times.standard_error(), ", theory ", expected,
-          ", without the layer ", divergence_time(theory.haff_rate_refined(1.0)));
+          ", theory without the layer at the walls ",
+          divergence_time(theory.haff_rate_refined(1.0)));
   CHECK(times.standard_error() < 0.01 * expected);
   CHECK(std::fabs(times.mean() / expected - 1.0) < 0.05);
 }
 
 TEST_CASE("Heating: one particle between walls of restitution 1.05" *
-          doctest::description("a clean stop, time within 1e-5 of the sum of its crossings")) {
+          doctest::description("the run stops with an error, at a time within 1e-5 of the summed "
+                               "times of its crossings")) {
   // v grows by 1.05 with each crossing of 9: the times sum to 9/v (1 + 1/1.05 + ...) = 21 * 9/v.
   const Wall gaining{.restitution = 1.05};
   Model<2> model = with_walls(periodic_box(10.0, 9.0), 0, gaining);
@@ -56,16 +59,16 @@ TEST_CASE("Heating: one particle between walls of restitution 1.05" *
   CHECK(simulation.state().velocities[0].y() == 0.25);
 }
 
-TEST_CASE("Heating: one elastic particle between elastic walls that drive, or move as a saw-tooth" *
-          doctest::description("its growth without bound ends in a clean stop that says time and "
-                               "speed, after at most 3e6 hits, also from a resumed run")) {
+TEST_CASE("Heating: one elastic particle between elastic walls, driven or saw-tooth" *
+          doctest::description("the run stops with an error that has time and speed, after at most "
+                               "3e6 hits; so does a restart")) {
   const Wall pushes{.kind = WallKind::Driven, .drive_speed = 1.0};
   const Wall saws{.kind = WallKind::Sawtooth, .stroke = 0.1, .frequency = 5.0};
   for (const Wall& wall : {pushes, saws}) {
     const Model<2> model = with_walls(periodic_box(10.0, 9.0), 0, wall);
     Simulation<2> simulation(model, State<2>{{{5.0, 3.0}}, {{1.0, 0.25}}});
     const std::string message = stop_of(simulation, 1e9);
-    MESSAGE(simulation.counts().wall_collisions, " hits: ", message);
+    MESSAGE(simulation.counts().wall_collisions, " wall hits: ", message);
     CHECK(says(message, "the temperature diverges at t = "));
     CHECK(says(message, ", a speed of 1.0"));
     CHECK(simulation.counts().wall_collisions < 3'000'000);
@@ -81,8 +84,9 @@ TEST_CASE("Heating: one elastic particle between elastic walls that drive, or mo
 
 // No divergence: a drive that is negligible for the particles, and a gas with dissipative particles
 // or walls.
-TEST_CASE("Heating: gases that do not heat without bound" *
-          doctest::description("hot ones of a weak drive, swung ones and lossy ones run on")) {
+TEST_CASE("Heating: gases without unbounded heating" *
+          doctest::description(
+              "runs continue with a weak drive, with sinusoidal walls, and with losses")) {
   Wall weak{.kind = WallKind::Driven, .drive_speed = 1e-9};
   Wall swings{.kind = WallKind::Sinusoidal, .stroke = 0.1, .frequency = 1.0};
   Wall strong{.kind = WallKind::Driven, .drive_speed = 1.0};

@@ -76,24 +76,26 @@ void check_everything() {
 
 }  // namespace
 
-TEST_CASE("Late times: an elastic gas from t = 1e6, 1e9 and 1e12" *
-          doctest::description("the same bits as from 0, so gaps as at 0; overlap below 1e-12")) {
+TEST_CASE(
+    "Late times: an elastic gas from t = 1e6, 1e9 and 1e12" *
+    doctest::description("the same bits as from t = 0, so the same gaps; overlap below 1e-12")) {
   check_elastic<2>(periodic_box(14.0, 13.0), 100);
 }
 
-TEST_CASE("Late times: elastic spheres from t = 1e6, 1e9 and 1e12" *
-          doctest::description("the same bits as from 0, so gaps as at 0; overlap below 1e-12")) {
+TEST_CASE(
+    "Late times: elastic spheres from t = 1e6, 1e9 and 1e12" *
+    doctest::description("the same bits as from t = 0, so the same gaps; overlap below 1e-12")) {
   check_elastic<3>(periodic_box(6.0, 6.5, 5.5), 100);
 }
 
 TEST_CASE("Late times: moving walls at t = 1e9" *
-          doctest::description("they are where they are at 0; overlap below 1e-12")) {
+          doctest::description("the same wall positions as at t = 0; overlap below 1e-12")) {
   check_moving_walls<2>(periodic_box(10.0, 9.0), {0.0, -0.5});
   check_moving_walls<3>(periodic_box(5.0, 4.5, 5.5), {0.0, -0.5, 0.2});
 }
 
-TEST_CASE("Late times: everything at once from t = 1e12" *
-          doctest::description("the same bits and kicks as from 0")) {
+TEST_CASE("Late times: all features together from t = 1e12" *
+          doctest::description("the same bits and kicks as from t = 0")) {
   check_everything<2>();
   check_everything<3>();
 }

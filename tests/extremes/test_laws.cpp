@@ -26,10 +26,9 @@ State<2> without_spins(State<2> state) {
 
 }  // namespace
 
-TEST_CASE(
-    "Laws: beta = -1, and mu = 0, with spins that turn" *
-    doctest::description("places and velocities identical to smooth particles bit for bit, spins "
-                         "as at the start")) {
+TEST_CASE("Laws: beta = -1, and mu = 0, with spins" *
+          doctest::description("positions and velocities have the same bits as with smooth "
+                               "particles, spins do not change")) {
   const Model<2> smooth = inelastic(four(kDriven, kLossy), 0.9);
   std::uint64_t collisions = 0;
   for (const Roughness& roughness : {Roughness{kInfinity, -1.0}, Roughness{0.3, -1.0},
@@ -50,7 +49,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Laws: beta = +1 with alpha = 1" *
-          doctest::description("energy of motion and spin conserved to 1e-12")) {
+          doctest::description("energy of translation and rotation conserved to 1e-12")) {
   double worst = 0.0;
   for (const bool walled : {false, true}) {
     Model<2> model = rough(periodic_box(14.0, 13.0), kInfinity, 1.0);
@@ -67,7 +66,7 @@ TEST_CASE("Laws: beta = +1 with alpha = 1" *
 }
 
 TEST_CASE("Laws: beta = 0, and mu = inf, with alpha = 1" *
-          doctest::description("energy falls only; mu = 1e300 is mu = inf bit for bit")) {
+          doctest::description("energy never rises; mu = 1e300 gives the same bits as mu = inf")) {
   const auto gas_of = [](double friction) { return rough(four(kStatic, kStatic), friction, 0.0); };
   const State<2> start = clear_gas(gas_of(kInfinity), 30, 954);
   Simulation<2> unlimited(gas_of(kInfinity), start), huge(gas_of(1e300), start);
@@ -83,10 +82,9 @@ TEST_CASE("Laws: beta = 0, and mu = inf, with alpha = 1" *
   check_sound(unlimited);
 }
 
-TEST_CASE(
-    "Laws: alpha_w = 0" *
-    doctest::description("particles leave such walls with v_dr, or slide along; overlap below "
-                         "1e-12")) {
+TEST_CASE("Laws: alpha_w = 0" *
+          doctest::description(
+              "particles leave these walls with v_dr, or slide along them; overlap below 1e-12")) {
   double deepest = 0.0;
   for (const double drive : {0.0, 1.0}) {
     const Wall wall{.kind = WallKind::Driven, .restitution = 0.0, .drive_speed = drive};

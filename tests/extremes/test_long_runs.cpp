@@ -49,7 +49,7 @@ void conserve(const Model<D>& box, std::uint64_t events) {
   const double ledger_off = std::fabs(gained.x() - walls.given.x()) / walls.size;
   MESSAGE(brief(static_cast<double>(events)), " events, t = ", brief(simulation.time()),
           ": energy off by ", brief(energy_off), ", momentum by ", brief(momentum_off),
-          ", wall ledger by ", brief(ledger_off), ", overlap ",
+          ", wall impulses by ", brief(ledger_off), ", overlap ",
           brief(simulation.checks().deepest_overlap));
   CHECK(energy_off <= kMaxDrift<D>);
   CHECK(momentum_off <= 1e-10);
@@ -84,8 +84,8 @@ void balance(const Model<D>& box, std::uint64_t events) {
   const double off =
       std::fabs(left - (ledger.walls + ledger.kicks + ledger.particles)) / -ledger.particles;
   MESSAGE(brief(static_cast<double>(events)), " events, t = ", brief(simulation.time()),
-          ": walls gave ", brief(ledger.walls), ", kicks ", brief(ledger.kicks),
-          ", collisions took ", brief(-ledger.particles), "; the rest is off by ", brief(off));
+          ": energy from walls ", brief(ledger.walls), ", from kicks ", brief(ledger.kicks),
+          ", lost in collisions ", brief(-ledger.particles), "; balance off by ", brief(off));
   CHECK(ledger.kicks > 0.01 * -ledger.particles);
   CHECK(off <= 1e-10);
   check_sound(simulation);
@@ -99,36 +99,43 @@ const Model<3> kSpheres = periodic_box(6.0, 5.5, 5.5), kWideSpheres = periodic_b
 }  // namespace
 
 TEST_CASE("Long runs: elastic, 10^7 events" * doctest::test_suite("slow") *
-          doctest::description("energy 1e-10, momentum 1e-10, wall momentum ledger 1e-10")) {
+          doctest::description("energy and momentum along periodic axes conserved to 1e-10; "
+                               "momentum along x equals the wall impulses to 1e-10")) {
   conserve<2>(kDisks, 10'000'000);
 }
 
 TEST_CASE("Long runs: elastic, 10^9 events" * doctest::skip() *
-          doctest::description("energy 1e-10, momentum 1e-10, wall momentum ledger 1e-10")) {
+          doctest::description("energy and momentum along periodic axes conserved to 1e-10; "
+                               "momentum along x equals the wall impulses to 1e-10")) {
   conserve<2>(kDisks, 1'000'000'000);
 }
 
 TEST_CASE("Long runs: elastic spheres, 10^7 events" * doctest::test_suite("slow") *
-          doctest::description("energy 1e-12, momentum 1e-10, wall momentum ledger 1e-10")) {
+          doctest::description("energy conserved to 1e-12, momentum along periodic axes to 1e-10; "
+                               "momentum along x equals the wall impulses to 1e-10")) {
   conserve<3>(kSpheres, 10'000'000);
 }
 
 TEST_CASE("Long runs: elastic spheres, 10^9 events" * doctest::skip() *
-          doctest::description("energy 1e-12, momentum 1e-10, wall momentum ledger 1e-10")) {
+          doctest::description("energy conserved to 1e-12, momentum along periodic axes to 1e-10; "
+                               "momentum along x equals the wall impulses to 1e-10")) {
   conserve<3>(kSpheres, 1'000'000'000);
 }
 
 TEST_CASE("Long runs: driven, 10^7 events" * doctest::test_suite("slow") *
-          doctest::description("ledger per type of event closes to 1e-10 of the dissipated")) {
+          doctest::description("energy gains and losses of all events add up to the change of "
+                               "energy within 1e-10 of the loss")) {
   balance<2>(kWideDisks, 10'000'000);
 }
 
 TEST_CASE("Long runs: driven, 10^8 events" * doctest::skip() *
-          doctest::description("ledger per type of event closes to 1e-10 of the dissipated")) {
+          doctest::description("energy gains and losses of all events add up to the change of "
+                               "energy within 1e-10 of the loss")) {
   balance<2>(kWideDisks, 100'000'000);
 }
 
 TEST_CASE("Long runs: driven spheres, 10^7 events" * doctest::test_suite("slow") *
-          doctest::description("ledger per type of event closes to 1e-10 of the dissipated")) {
+          doctest::description("energy gains and losses of all events add up to the change of "
+                               "energy within 1e-10 of the loss")) {
   balance<3>(kWideSpheres, 10'000'000);
 }

@@ -118,7 +118,7 @@ void check_far_meetings() {
                         brute_force_overlap(model, simulation.state())});
     }
   }
-  MESSAGE(met, " of 2400 met, deepest overlap ", brief(worst));
+  MESSAGE(met, " of 2400 hit, deepest overlap ", brief(worst));
   CHECK(worst <= 1e-10);
 }
 
@@ -167,30 +167,30 @@ void check_scalings() {
 
 }  // namespace
 
-TEST_CASE(
-    "Scales: a graze at b = 1 - 1e-12" *
-    doctest::description("deflected as theory 3.2 says within 1e-4, which is the rounding of b")) {
+TEST_CASE("Scales: a grazing collision with impact parameter b = 1 - 1e-12" *
+          doctest::description(
+              "deflection as in theory 3.2 within 1e-4, the effect of the rounding of b")) {
   check_graze<2>({0.0, 1.0});
   check_graze<3>({0.0, 0.6, 0.8});
 }
 
-TEST_CASE("Scales: particles that meet, or miss, after 1000 diameters" *
-          doctest::description("contact within 1e-10 of a diameter, none missed or invented beyond "
-                               "rounding of b")) {
+TEST_CASE("Scales: particles that hit or miss each other after 1000 diameters" *
+          doctest::description("separation at contact within 1e-10 of a diameter; no false hit or "
+                               "miss beyond the rounding of b")) {
   check_far_meetings<2>();
   check_far_meetings<3>();
 }
 
-TEST_CASE("Scales: lengths scaled by 2^+-40 and speeds by 2^+-30, everything at once" *
-          doctest::description("bit-identical runs")) {
+TEST_CASE("Scales: lengths scaled by 2^+-40 and speeds by 2^+-30, all features together" *
+          doctest::description("the same bits in all runs")) {
   check_scalings<2>();
   check_scalings<3>();
 }
 
 // The first particles reach the walls late and leave them fast. Without a move of the time base,
 // rounding errors of the times correspond to paths of 1e-10 diameters.
-TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls that drive at 1" *
-          doctest::description("same bits as brute force, overlap below 1e-12")) {
+TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls with v_dr = 1" *
+          doctest::description("the same bits as brute force, overlap below 1e-12")) {
   double deepest = 0.0;
   for (const double speed : {1e-4, 1e-8, 1e-12}) {
     CAPTURE(speed);
@@ -249,7 +249,8 @@ void check_fast_particle(const Vec<D>& box) {
 }  // namespace
 
 TEST_CASE("Scales: speeds that differ by 1e12" *
-          doctest::description("same bits as brute force; energy 1e-12, overlap below 1e-10")) {
+          doctest::description(
+              "the same bits as brute force; energy within 1e-12, overlap below 1e-10")) {
   check_fast_particle<2>({9.0, 8.0});
   check_fast_particle<3>({4.0, 4.5, 3.5});
 }

@@ -43,7 +43,7 @@ void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
 }
 
 void report(const Figures& figures) {
-  MESSAGE(figures.hits, " hits of walls, deepest overlap ", brief(figures.deepest));
+  MESSAGE(figures.hits, " wall hits, deepest overlap ", brief(figures.deepest));
   CHECK(figures.hits > 500);
   CHECK(figures.deepest < 1e-10);
 }
@@ -75,20 +75,20 @@ void shake_at(std::initializer_list<double> speeds) {
 }  // namespace
 
 TEST_CASE("Shaken: walls 10^3, 10^6 times as fast as the particles" *
-          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
-                               "1e-10")) {
+          doctest::description(
+              "the same bits as brute force, no particle beyond a wall, overlap below 1e-10")) {
   shake_at({1e3, 1e6});
 }
 
 TEST_CASE("Shaken: walls 10^-3, 10^-6 times as fast as the particles" *
-          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
-                               "1e-10")) {
+          doctest::description(
+              "the same bits as brute force, no particle beyond a wall, overlap below 1e-10")) {
   shake_at({1e-3, 1e-6});
 }
 
 TEST_CASE("Shaken: a frequency of 10^6 at strokes of 1e-6 to .1" *
-          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
-                               "1e-10")) {
+          doctest::description(
+              "the same bits as brute force, no particle beyond a wall, overlap below 1e-10")) {
   Figures figures;
   for (const WallKind kind : kMoving) {
     for (const double stroke : {1e-6, 1e-4, 0.1}) shake(between(kind, stroke, 1e6), 500, figures);
@@ -96,9 +96,9 @@ TEST_CASE("Shaken: a frequency of 10^6 at strokes of 1e-6 to .1" *
   report(figures);
 }
 
-TEST_CASE("Shaken: strokes as long as the box leaves" *
-          doctest::description("same bits as brute force, no particle beyond a wall, overlap below "
-                               "1e-10")) {
+TEST_CASE("Shaken: the longest strokes that fit into the box" *
+          doctest::description(
+              "the same bits as brute force, no particle beyond a wall, overlap below 1e-10")) {
   Figures figures;
   for (const WallKind kind : kMoving) {
     for (const double frequency : {0.01, 1.0, 100.0}) {

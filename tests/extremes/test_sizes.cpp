@@ -48,8 +48,8 @@ TEST_CASE("Sizes: 10^7 particles" * doctest::test_suite("slow") *
 }
 
 TEST_CASE("Sizes: 2 * 10^9 particles" *
-          doctest::description("refused with the memory that they take, before it is allocated, or "
-                               "as too many for the box")) {
+          doctest::description("an error with the memory required, before it is allocated, or an "
+                               "error that the box is too small")) {
   const Shell shell;
   const std::string measure =
       "clatter measure equilibrium --quiet --set particles.count=2000000000 ";
@@ -61,10 +61,9 @@ TEST_CASE("Sizes: 2 * 10^9 particles" *
   MESSAGE("refused");
 }
 
-TEST_CASE(
-    "Sizes: boxes of 10^6 x 2 and 2 x 10^6" *
-    doctest::description("they run and are drawn; overlap below 1e-9, of which the rounding of "
-                         "places is 1e-10")) {
+TEST_CASE("Sizes: boxes of 10^6 x 2 and 2 x 10^6" *
+          doctest::description("runs and pictures succeed; overlap below 1e-9, including 1e-10 "
+                               "from the rounding of positions")) {
   const Shell shell;
   for (const std::string size : {"[1e6,2]", "[2,1e6]"}) {
     CAPTURE(size);
@@ -85,7 +84,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Sizes: pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" *
-          doctest::description("drawn, or refused with the sizes that there are")) {
+          doctest::description("drawn, or an error with the valid range of sizes")) {
   const Shell shell;
   for (const std::string size : {"1x1", "0x0", "-5x7", "16385x64", "99999999999x64"}) {
     check_refused(shell, "clatter render vibrated --to 1 --out a.png --size=" + size,
@@ -102,7 +101,7 @@ TEST_CASE("Sizes: pictures of 1 x 1, 16 x 16, 16384 x 64 and 64 x 16384 pixels" 
 }
 
 TEST_CASE("Sizes: windows of 1 x 1 and 16384 x 64 pixels" *
-          doctest::description("refused with what a size is, before a window opens")) {
+          doctest::description("an error with the valid range of sizes, before a window opens")) {
   const Shell shell;
   check_refused(shell, "clatter view vibrated --size 1x1",
                 {"is not a valid size", "from 320x240 to 16384x16384"});

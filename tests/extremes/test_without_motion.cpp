@@ -55,14 +55,14 @@ void check_dead_walls(const Vec<D>& box) {
 }  // namespace
 
 TEST_CASE("Without motion: a gas at T = 0 between driven walls" *
-          doctest::description("no particle moves, to the bit, while the time advances")) {
+          doctest::description("the state keeps its bits while time advances")) {
   check_at_rest<2>({9.0, 8.0});
   check_at_rest<3>({5.0, 4.0, 4.5});
 }
 
-TEST_CASE(
-    "Without motion: walls that give nothing back: v_dr = 0, T_w = 0, alpha_w = 0" *
-    doctest::description("energy constant to 1e-12 or lost, all finite, overlap below 1e-12")) {
+TEST_CASE("Without motion: walls that add no energy: v_dr = 0, T_w = 0, alpha_w = 0" *
+          doctest::description("energy constant to 1e-12 for elastic walls, else below a tenth; "
+                               "all numbers finite, overlap below 1e-12")) {
   check_dead_walls<2>({9.0, 8.0});
   check_dead_walls<3>({5.0, 4.0, 4.5});
 }
@@ -118,10 +118,9 @@ void write_spheres(const Shell& shell) {
 
 }  // namespace
 
-TEST_CASE(
-    "Without motion: results at T_w = 0, T = 0, v_dr = 0, and of few particles" *
-    doctest::description("every number of the result is finite; tables have nan only where no "
-                         "particle ever was, with density 0")) {
+TEST_CASE("Without motion: results at T_w = 0, T = 0, v_dr = 0, and with few particles" *
+          doctest::description("every number of the result is finite; tables have nan only in "
+                               "cells that no particle visited, with density 0")) {
   const Shell shell;
   write_spheres(shell);
   int numbers = 0, lines = 0;
@@ -151,7 +150,7 @@ TEST_CASE(
   MESSAGE(numbers, " numbers and ", lines, " lines of tables of ", std::size(kStill), " scenes");
 }
 
-TEST_CASE("Without motion: pictures at T_w = 0, T = 0, v_dr = 0, and of few particles" *
+TEST_CASE("Without motion: pictures at T_w = 0, T = 0, v_dr = 0, and with few particles" *
           doctest::description("every field, colour and arrow is drawn")) {
   const Shell shell;
   write_spheres(shell);

@@ -307,7 +307,7 @@ TEST_CASE("ScheduledRun: a wall whose frequency changes continues from its place
   run.change({{"walls.left.frequency", "2"}});
   run.run_until(20.15);
   CHECK(displacement(run) == doctest::Approx(0.5 * 0.9));
-  // A wall at rest is at its resting place. It begins to move from its phase.
+  // A wall at rest is at its rest position. It begins to move from its phase.
   run.change({{"walls.left", "{ kind = 'static' }"}});
   CHECK(displacement(run) == 0.0);
   run.run_until(23.7);
@@ -360,7 +360,7 @@ TEST_CASE(
   };
   CHECK(says(refusal_of_stroke(), "the change of walls.left at t = 10.75 moves a wall into a"));
   CHECK(says(refusal_of_stroke(),
-             "change walls.left without a ramp at its resting place, as at t = 11.0001"));
+             "change walls.left without a ramp at its rest position, as at t = 11.0001"));
   run.run_until(11.0001);
   CHECK(refusal_of_stroke() == "");
 }

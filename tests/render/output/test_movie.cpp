@@ -4,6 +4,7 @@
 
 #include "engine/error.h"
 #include "render/output/movie.h"
+#include "render/output/movie_format.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -368,6 +369,10 @@ TEST_CASE("Movie: two films of one name at once are refused") {
   write_film(first, 3);
   CHECK(frames_of(folder / "film.mp4") == 3);
   CHECK_NOTHROW(Movie(folder / "film.mp4", again));
+}
+
+TEST_CASE("Movie: the list of pieces has quoted URLs") {
+  CHECK(list_entry("/a?b/it's.mp4") == R"('file:/a?b/it'\''s.mp4')");
 }
 
 TEST_CASE("Movie: names may have any character, and texts any length") {

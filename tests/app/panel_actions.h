@@ -1,0 +1,38 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "tests/app/panel_driver.h"
+
+// Scenes and actions of the tests of panels.
+
+namespace clatter {
+
+/// Positions of values in a scene file, as in settings().
+using Places = std::vector<std::string>;
+
+/// A scene of disks in which all sliders have different values.
+Scene uneven_disks();
+/// The same gas as spheres, with the keys that only spheres have.
+Scene uneven_spheres();
+
+/// Shows all panels of the window, one below the other.
+void all_panels(Session& session, Controls& controls);
+/// The scene as changed by the panels: values by their positions in a scene file.
+nlohmann::json settings(const PanelDriver& driver);
+/// Positions of the values that differ.
+Places changes(const nlohmann::json& before, const nlohmann::json& after);
+
+/// All lines of the panel.
+std::string text_of(PanelDriver& driver);
+/// Opens a list and selects an item.
+void choose(PanelDriver& driver, const std::string& key, const std::string& word);
+/// Clicks a box to tick, or a button.
+void tick(PanelDriver& driver, const std::string& key);
+/// Checks that the lines are equal.
+void check_lines(const std::vector<std::string>& lines, const std::vector<std::string>& expected);
+
+}  // namespace clatter

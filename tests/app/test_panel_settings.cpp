@@ -1,0 +1,187 @@
+// The lists, boxes and buttons of the window's panels: each sets its own key.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/panel_actions.h"
+#include "tests/support/messages.h"
+
+namespace clatter {
+
+using nlohmann::json;
+using testing::says;
+
+TEST_CASE("Panels: buttons turn the view of spheres, and boxes choose its slices") {
+  PanelDriver driver(uneven_spheres(), all_panels);
+  struct Direction {
+    const char* button;
+    double azimuth, elevation;
+  };
+  // From a corner all axes make the same angle with the line of sight, of cosine 1/sqrt(3).
+  for (const auto& [button, azimuth, elevation] :
+       {Direction{"view.from.x", 90.0, 0.0}, Direction{"view.from.y", 0.0, 90.0},
+        Direction{"view.from.z", 0.0, 0.0},
+        Direction{"view.from.iso", 45.0, std::asin(1.0 / std::sqrt(3.0)) * 180.0 / M_PI}}) {
+    tick(driver, button);
+    CHECK(settings(driver).at("/view/azimuth") == doctest::Approx(azimuth));
+    CHECK(settings(driver).at("/view/elevation") == doctest::Approx(elevation));
+  }
+  tick(driver, "view.slices.y");
+  CHECK(settings(driver).at("/view/slices/2/position") == 11.5);
+  tick(driver, "view.slices.x");
+  CHECK(settings(driver).at("/view/slices/0/axis") == "z");
+  CHECK_FALSE(settings(driver).contains("/view/slices/2/axis"));
+  choose(driver, "view.slab.axis", "none");
+  CHECK_FALSE(settings(driver).contains("/view/slab/axis"));
+  choose(driver, "view.slab.axis", "x");
+  CHECK(settings(driver).at("/view/slab/to") == 9.5);
+  choose(driver, "walls.back", "periodic");
+  CHECK_FALSE(settings(driver).contains("/walls/front/kind"));
+  CHECK(settings(driver).at("/walls/bottom/kind") == "thermal");
+  choose(driver, "view.colour_by", "depth");
+  CHECK(settings(driver).at("/view/colour_by") == "depth");
+}
+
+TEST_CASE("Panels: the dimension is chosen in a list") {
+  PanelDriver driver(uneven_spheres(), all_panels);
+  driver.wait_for([](const Frame& frame) { return frame.run == 1; });
+  choose(driver, "dimension", "2: disks");
+  driver.wait_for([](const Frame& frame) { return frame.run == 2; });
+  CHECK(driver.session().frame().snapshot.positions.rows() == 2);
+  CHECK(says(driver.session().message(), "removed: walls.back, walls.front"));
+  const json disks = settings(driver);
+  CHECK(disks.at("/particles/count") == 14);
+  CHECK_FALSE(disks.contains("/box/size/2"));
+  choose(driver, "dimension", "3: spheres");
+  driver.wait_for([](const Frame& frame) { return frame.run == 3; });
+  CHECK(settings(driver).at("/box/size/2") == settings(driver).at("/box/size/1"));
+}
+
+TEST_CASE("Panels: every word of a list sets its own key to itself") {
+  struct List {
+    const char* key;
+    std::vector<const char*> words;
+  };
+  for (const auto& [key, words] :
+       {List{"view.colour_by", {"none", "speed", "velocity x", "spin"}},
+        List{"view.palette", {"viridis", "inferno"}},
+        List{"view.field", {"density", "velocity y", "temperature x"}},
+        List{"view.field_palette", {"viridis", "cividis"}}, List{"view.arrows", {"velocity"}},
+        List{"view.theme", {"dark", "projector"}},
+        List{"walls.left", {"static", "thermal", "sawtooth", "sinusoidal"}},
+        List{"walls.right", {"driven", "thermal"}}, List{"walls.bottom", {"sawtooth"}},
+        List{"walls.top", {"static"}}}) {
+    for (const std::string word : words) {
+      CAPTURE(key);
+      CAPTURE(word);
+      PanelDriver driver(uneven_disks(), all_panels);
+      const json before = settings(driver);
+      choose(driver, key, word);
+      const json after = settings(driver);
+      std::string place = '/' + std::string(key), value = word;
+      std::ranges::replace(place, '.', '/');
+      std::ranges::replace(value, ' ', '_');
+      const bool wall = place.starts_with("/walls");
+      CHECK(after.at(wall ? place + "/kind" : place) == value);
+      for (const std::string& changed : changes(before, after)) {
+        CHECK(changed.starts_with(place));
+      }
+    }
+  }
+}
+
+TEST_CASE("Panels: the first item of a list removes the feature") {
+  PanelDriver driver(uneven_disks(), all_panels);
+  const json before = settings(driver);
+  choose(driver, "view.arrows", "none");
+  CHECK(changes(before, settings(driver)) == Places{"/view/arrows"});
+  choose(driver, "view.field_palette", "as the disks");
+  CHECK_FALSE(settings(driver).contains("/view/field_palette"));
+  choose(driver, "view.field", "none");
+  CHECK_FALSE(settings(driver).contains("/view/field"));
+  // The opposite side becomes periodic too.
+  choose(driver, "walls.bottom", "periodic");
+  CHECK_FALSE(settings(driver).contains("/walls/bottom/kind"));
+  CHECK_FALSE(settings(driver).contains("/walls/top/kind"));
+  CHECK(settings(driver).at("/walls/left/kind") == "driven");
+  CHECK(settings(driver).at("/walls/right/kind") == "static");
+}
+
+TEST_CASE("Panels: ranges are automatic, locked or given from the one number to the other") {
+  struct Range {
+    const char* key;
+    const char* place;
+  };
+  for (const auto& [key, place] :
+       {Range{"view.range", "/view/range"}, Range{"view.field_range", "/view/field_range"}}) {
+    CAPTURE(key);
+    PanelDriver driver(uneven_disks(), all_panels);
+    const json before = settings(driver);
+    choose(driver, key, "locked");
+    CHECK(settings(driver).at(place) == "locked");
+    choose(driver, key, "auto");
+    for (const std::string& changed : changes(before, settings(driver))) {
+      CHECK(changed.starts_with(place));
+    }
+    choose(driver, key, "given");
+    CHECK(changes(before, settings(driver)).empty());
+  }
+}
+
+TEST_CASE("Panels: every box to tick switches its own key") {
+  const auto changed_by = [](const char* key) {
+    PanelDriver driver(uneven_disks(), all_panels);
+    const json before = settings(driver);
+    tick(driver, key);
+    return changes(before, settings(driver));
+  };
+  CHECK(changed_by("view.grid") == Places{"/view/grid"});
+  CHECK(changed_by("view.overlay") == Places{"/view/overlay"});
+  CHECK(changed_by("contact_time") == Places{"/collapse/contact_time"});
+}
+
+TEST_CASE("Panels: spins go with their keys, and come back with the numbers that they had") {
+  Scene scene = uneven_disks();
+  scene.particles.inertia = 0.45;
+  scene.particles.start.spin_temperature = 0.7;
+  scene.bulk_drive->kick_spin = 0.9;
+  PanelDriver driver(scene, all_panels);
+  const json before = settings(driver);
+  tick(driver, "rough");
+  CHECK(driver.session().message().empty());
+  CHECK(changes(before, settings(driver)) ==
+        Places{"/particles/friction", "/particles/tangential_restitution", "/bulk_drive/kick_spin",
+               "/particles/inertia", "/particles/start/spin_temperature"});
+  tick(driver, "rough");
+  CHECK(changes(before, settings(driver)) ==
+        Places{"/particles/friction", "/particles/tangential_restitution"});
+}
+
+TEST_CASE("Panels: a feature starts with its usual numbers when switched on") {
+  Scene scene = uneven_disks();
+  scene.particles.roughness = {};
+  scene.contact_time.reset();
+  scene.bulk_drive.reset();
+  PanelDriver driver(scene, all_panels);
+  CHECK(says(text_of(driver), "[ Kick all disks ]"));
+  tick(driver, "rough");
+  tick(driver, "contact_time");
+  tick(driver, "bulk_drive");
+  const json after = settings(driver);
+  CHECK(after.at("/particles/friction") == 0.5);
+  CHECK(after.at("/particles/tangential_restitution") == 0.5);
+  CHECK(after.at("/collapse/contact_time") == 1e-5);
+  CHECK(after.at("/bulk_drive/interval") == 0.05);
+  CHECK(after.at("/bulk_drive/kick_speed") == 0.1);
+  choose(driver, "walls.bottom", "sawtooth");
+  CHECK(settings(driver).at("/walls/bottom/stroke") == 0.2);
+  CHECK(settings(driver).at("/walls/bottom/frequency") == 2.0);
+  choose(driver, "walls.right", "driven");
+  CHECK(settings(driver).at("/walls/right/drive_speed") == 1.0);
+  CHECK(settings(driver).at("/walls/right/restitution") == 0.73);
+}
+
+}  // namespace clatter

@@ -1,0 +1,153 @@
+// The sliders of the window's panels: each sets the value of its own key.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/panel_actions.h"
+#include "tests/support/messages.h"
+
+namespace clatter {
+
+using nlohmann::json;
+using testing::says;
+
+namespace {
+
+struct SliderMeaning {
+  const char* key;
+  const char* place;  // position in the scene
+  double low, high;
+  const char* line;  // with its value when the scene is opened
+  const char* help;  // a part of the help text
+  bool logarithmic = false;
+  std::size_t number = 0;  // among widgets with the same key
+};
+
+const std::vector<SliderMeaning> kSliders = {
+    {"particles.restitution", "/particles/restitution", 0.0, 1.0, "Restitution α 0.810",
+     "that a collision of two particles keeps"},
+    {"particles.friction", "/particles/friction", 0.0, 2.0, "Friction μ 0.420", "Coulomb"},
+    {"particles.tangential_restitution", "/particles/tangential_restitution", -1.0, 1.0,
+     "Tangential β₀ 0.530", "rolling"},
+    {"box.size", "/box/size/0", 4.0, 100.0, "Width Lx 19.0 a", "Of the box"},
+    {"box.size", "/box/size/1", 4.0, 100.0, "Height Ly 23.0 a", "Of the box", false, 1},
+    {"walls.left.drive_speed", "/walls/left/drive_speed", 0.0, 5.0, "Drive speed v_dr 1.500 a/t",
+     "Gain in normal velocity"},
+    {"walls.left.restitution", "/walls/left/restitution", 0.0, 1.1, "Restitution α_w 0.940",
+     "bounce keeps"},
+    {"walls.right.restitution", "/walls/right/restitution", 0.0, 1.1, "Restitution α_w 0.730",
+     "bounce keeps"},
+    {"walls.bottom.temperature", "/walls/bottom/temperature", 0.0, 10.0,
+     "Temperature T_w 2.500 m a²/t²", "it emits"},
+    {"walls.top.stroke", "/walls/top/stroke", 0.0, 4.0, "Stroke 0.310 a", "whole travel"},
+    {"walls.top.frequency", "/walls/top/frequency", 0.0, 10.0, "Frequency f 1.120 1/t",
+     "Periods per time"},
+    {"walls.top.restitution", "/walls/top/restitution", 0.0, 1.1, "Restitution α_w 0.860",
+     "bounce keeps"},
+    {"gravity.acceleration", "/gravity/acceleration/0", -2.0, 2.0, "Gravity along x g_x 0.150 a/t²",
+     "Acceleration"},
+    {"gravity.acceleration", "/gravity/acceleration/1", -2.0, 2.0,
+     "Gravity along y g_y -0.470 a/t²", "Acceleration", false, 1},
+    {"bulk_drive.kick_speed", "/bulk_drive/kick_speed", 0.0, 1.0, "Kicks s 0.220 a/t",
+     "Homogeneous"},
+    {"view.trails", "/view/trails", 0.0, 5.0, "Trails 0.25 t", "paths are drawn"},
+    {"collapse.contact_time", "/collapse/contact_time", 1e-9, 0.1, "Duration t_c 2.0e-04 t",
+     "TC model", true},
+    {"view.interval", "/view/interval", 0.01, 4.0, "Snapshots every 0.300 t",
+     "Time between two snapshots", true},
+    {"view.window", "/view/window", 0.1, 100.0, "Averaged over 4.00 t", "Averaging time", true}};
+
+// Those that only spheres have.
+const std::vector<SliderMeaning> kSphereSliders = {
+    {"box.size", "/box/size/2", 4.0, 100.0, "Depth Lz 21.0 a", "Of the box", false, 2},
+    {"walls.back.temperature", "/walls/back/temperature", 0.0, 10.0,
+     "Temperature T_w 1.750 m a²/t²", "it emits"},
+    {"walls.front.drive_speed", "/walls/front/drive_speed", 0.0, 5.0, "Drive speed v_dr 0.650 a/t",
+     "Gain in normal velocity"},
+    {"walls.front.restitution", "/walls/front/restitution", 0.0, 1.1, "Restitution α_w 0.950",
+     "bounce keeps"},
+    {"gravity.acceleration", "/gravity/acceleration/2", -2.0, 2.0, "Gravity along z g_z 0.290 a/t²",
+     "Acceleration", false, 2},
+    {"view.view_angle", "/view/view_angle", 0.0, 90.0, "Angle of view 35 °", "parallel"},
+    {"view.slab.from", "/view/slab/from", 0.0, 17.4, "From 2.5 a", "along its axis"},
+    {"view.slab.to", "/view/slab/to", 2.6, 23.0, "To 17.5 a", "along its axis"},
+    {"view.slices.x.position", "/view/slices/0/position", 0.0, 19.0, "Position 4.5 a",
+     "along its axis"},
+    {"view.slices.z.position", "/view/slices/1/position", 0.0, 21.0, "Position 6.5 a",
+     "along its axis"}};
+
+// The number in a line, as a word.
+std::string number_in(const std::string& line) {
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    if (!*end) return word;
+  }
+  return "none";
+}
+
+void check_sliders(const Scene& scene, const std::vector<SliderMeaning>& sliders) {
+  for (const SliderMeaning& slider : sliders) {
+    CAPTURE(slider.place);
+    PanelDriver driver(scene, all_panels);
+    const json before = settings(driver);
+    auto [x, y, width, height] = driver.place(slider.key, slider.number);
+    const float middle = y + 0.5f * height;
+    driver.drag(x + 0.5f * width, middle, x + 0.75f * width);
+    const json after = settings(driver);
+    CHECK(changes(before, after) == Places{slider.place});
+    const double value = after.at(slider.place);
+    if (slider.logarithmic) {
+      const double decades = std::log10(slider.high / slider.low);
+      CHECK(std::log10(value / slider.low) == doctest::Approx(0.75 * decades).epsilon(0.05));
+    } else {
+      CHECK(std::fabs(value - slider.low - 0.75 * (slider.high - slider.low)) <
+            0.02 * (slider.high - slider.low));
+    }
+    // While the mouse is over it: its help, and the value from the opening of the scene.
+    const std::string told = text_of(driver);
+    CHECK(says(told, slider.help));
+    CHECK(says(told, "Here: " + number_in(slider.line)));
+    CHECK_FALSE(says(told, slider.line));
+
+    // The round reset arrow above its right end.
+    driver.click(x + width - 7.0f, y - 10.0f);
+    CHECK(changes(before, settings(driver)).empty());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Panels: every slider sets the value of its own key, within its range, and back") {
+  check_sliders(uneven_disks(), kSliders);
+}
+
+TEST_CASE("Panels: each slider of spheres changes its key, and disks lack these sliders") {
+  check_sliders(uneven_spheres(), kSliders);
+  check_sliders(uneven_spheres(), kSphereSliders);
+  PanelDriver disks(uneven_disks(), all_panels);
+  const std::string text = text_of(disks);
+  for (const char* word : {"Depth", "Back", "Front", "along z", "View from", "Angle of view",
+                           "Slab", "Slice", "pheres colo", "olume"}) {
+    CAPTURE(word);
+    CHECK_FALSE(says(text, word));
+  }
+}
+
+TEST_CASE("Panels: a number of disks is set once its slider is let go") {
+  PanelDriver driver(uneven_disks(), all_panels);
+  const json before = settings(driver);
+  const auto [x, y, width, height] = driver.place("particles.count");
+  driver.drag(x + 0.5f * width, y + 0.5f * height, x + 0.75f * width);
+  CHECK(changes(before, settings(driver)) == Places{"/particles/count"});
+  // Logarithmic, up to the largest number that fits.
+  CHECK(settings(driver).at("/particles/count") > 80);
+  CHECK(settings(driver).at("/particles/count") < 110);
+}
+
+}  // namespace clatter
