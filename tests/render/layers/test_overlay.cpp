@@ -46,6 +46,34 @@ TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at 
   }
 }
 
+TEST_CASE("Overlay: a heading above the box is as wide as the picture, one beside it is a column") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{1280, 720};
+  // Right end of the heading, which is alone in the upper half beside the box.
+  const auto end_of_heading = [&](Vec2 box) {
+    Snapshot snapshot = driven_box();
+    snapshot.box = box;
+    View view;
+    view.colour_by = ColourBy::None;
+    const Camera camera = renderer.fit(snapshot, size, view, kText);
+    const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+    view.overlay = false;
+    const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+    int end = 0;
+    for (int y = 0; y < size.height / 2; ++y) {
+      for (int x = end; x < size.width; ++x) {
+        if (!(pixel(with, x, y) == pixel(without, x, y))) end = x;
+      }
+    }
+    return end;
+  };
+  constexpr int kUnit = 18;  // height of a line of text
+  CHECK(end_of_heading({60.0, 12.0}) > 20 * kUnit);
+  CHECK(end_of_heading({20.0, 25.0}) < 18 * kUnit);
+  CHECK(end_of_heading({20.0, 25.0}) > 12 * kUnit);
+}
+
 TEST_CASE(
     "Overlay: colour bars for which a small picture has no room stay out of the row of figures") {
   const auto context = open_context(Backend::Osmesa);
