@@ -403,6 +403,17 @@ TEST_CASE("Measure: theory has no temperature for a gas that its walls heat with
   CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
 }
 
+TEST_CASE("Measure: replicas run on as many threads as asked for") {
+  const Shell shell;
+  // Waits for seven threads of replicas and the first one. Without them the command ends with 0.
+  const Outcome outcome = shell.run(
+      "clatter measure vibrated --until 5000 --quiet --replicas 9 --threads 7 --out all.json & "
+      "pid=$!\n"
+      "until [ \"$(ls /proc/$pid/task | wc -l)\" -eq 8 ] || ! kill -0 $pid; do sleep 0.02; done\n"
+      "kill -INT $pid; wait $pid");
+  CHECK(outcome.code == 130);
+}
+
 // Seed 6 finishes, seed 7 collapses. All later seeds together would take hours.
 TEST_CASE("Measure: where replicas stop, the complete ones are written, and no more are run") {
   const Shell shell;
