@@ -178,4 +178,28 @@ TEST_CASE("Overlay: over the enlarged box texts are on a plate, and colour bars 
   CHECK(difference(pixel(dark, 640, 715), pixel(bright, 640, 715)) == contrast);
 }
 
+TEST_CASE("Overlay: over a box of spheres texts are on a plate, and beside it they are not") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl(), 1, true);
+  const Size size{1280, 720};
+  Snapshot snapshot;
+  snapshot.box = Vec3(10.0, 10.0, 10.0);
+  snapshot.positions = snapshot.velocities = Vectors::Zero(3, 0);
+  // Number of pixels with the opacity of a plate, 0.8, at the right where the legend is.
+  const auto plate = [&](const Camera& camera) {
+    const Image image = draw(renderer, context->gl(), snapshot, camera, size, View{});
+    int count = 0;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = size.height; x < size.width; ++x) {
+        count += std::abs(pixel(image, x, y).alpha - 204) <= 1;
+      }
+    }
+    return count;
+  };
+  constexpr int kUnit = 18;  // height of a line of text
+  CHECK(plate(renderer.fit(snapshot, size, View{}, kText)) < 100);
+  // The viewer is in the box, and some corners are behind.
+  CHECK(plate({{5.0, 5.0}, 4.0, {.z = 5.0, .view_angle = 90.0}}) > 6 * kUnit * kUnit);
+}
+
 }  // namespace clatter
