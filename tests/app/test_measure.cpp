@@ -338,7 +338,7 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   CHECK(end == doctest::Approx(500.0 + 300.0 * std::pow(known / 0.01, 2.0)).epsilon(0.05));
 
   check_refused(shell, line + "--accuracy 1% --accuracy-of pressure.top",
-                {"no mean 'pressure.top'", "pressure.left"});
+                {"no mean 'pressure.top'", "choose one of temperature, temperature_x, "});
   check_refused(shell, line + "--accuracy 100%", {"a share such as 1% or 0.01"});
 }
 

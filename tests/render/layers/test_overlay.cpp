@@ -202,4 +202,26 @@ TEST_CASE("Overlay: over a box of spheres texts are on a plate, and beside it th
   CHECK(plate({{5.0, 5.0}, 4.0, {.z = 5.0, .view_angle = 90.0}}) > 6 * kUnit * kUnit);
 }
 
+TEST_CASE("Overlay: two colour bars beside a box of spheres fill the height of the picture") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{1280, 720};
+  Snapshot snapshot;
+  snapshot.box = Vec3(10.0, 10.0, 10.0);
+  snapshot.positions = snapshot.velocities = Vectors::Zero(3, 0);
+  snapshot.field = FieldMap{Quantity::Density, {1, 1, 1}, {0.5}};
+  View view = view_with_field();
+  const Camera camera = renderer.fit(snapshot, size, view, kText);
+  const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+  view.overlay = false;
+  const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+  int written = 0;
+  for (int y = size.height * 7 / 10; y < size.height * 9 / 10; ++y) {
+    for (int x = size.width * 3 / 4; x < size.width; ++x) {
+      written += !(pixel(with, x, y) == pixel(without, x, y));
+    }
+  }
+  CHECK(written > 1000);
+}
+
 }  // namespace clatter
