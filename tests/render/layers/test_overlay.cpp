@@ -126,6 +126,27 @@ TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
   CHECK(card_opacity(3.0, 9.0) == 0.0);
 }
 
+TEST_CASE("Overlay: the lines of a card are in the middle of the picture") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{1280, 720};
+  const Canvas canvas(context->gl(), size);
+  canvas.bind();
+  OverlayText text = kText;
+  text.card = 1.0;
+  renderer.draw(driven_box(), {{10.0, 12.5}, 40.0}, size, View{}, text);
+  const Image image = canvas.read();
+  int first = size.height, last = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      if (difference(pixel(image, x, y), kDarkTheme.background) < 60) continue;
+      first = std::min(first, y);
+      last = std::max(last, y);
+    }
+  }
+  CHECK(std::abs(first + last - size.height) < 12);
+}
+
 TEST_CASE("Overlay: nothing shows through a card") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
