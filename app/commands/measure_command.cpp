@@ -244,12 +244,16 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
   catch_interrupts();
   const Ensemble ensemble{options.replicas, seed, end, options.threads};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
-  const nlohmann::ordered_json result = measure_ensemble(scene, ensemble, progress);
-  const std::filesystem::path scene_file = options.common.scene;
-  write_or_rescue(options.out,
-                  scene_file.stem().string() + "-seed" + std::to_string(seed) + ".json", result);
-  const bool all = result.at("results").size() == static_cast<std::size_t>(options.replicas);
-  return all ? kOk : kInterrupted;
+  const EnsembleResult result = measure_ensemble(scene, ensemble, progress);
+  const std::size_t complete = result.json.at("results").size();
+  if (complete > 0 || !result.failure) {
+    const std::filesystem::path scene_file = options.common.scene;
+    write_or_rescue(options.out,
+                    scene_file.stem().string() + "-seed" + std::to_string(seed) + ".json",
+                    result.json);
+  }
+  if (result.failure) std::rethrow_exception(result.failure);
+  return complete == static_cast<std::size_t>(options.replicas) ? kOk : kInterrupted;
 }
 
 // Whether a resumed run can continue to `end`. After a kill between the last checkpoint and the

@@ -45,10 +45,24 @@ class Replicas {
       threads.emplace_back([this] { work(); });
     }
     threads.clear();  // joins them
-    if (failure_) rethrow();
   }
 
   const std::vector<std::optional<Replica>>& done() const { return done_; }
+
+  // Replicas are started in order, and all before the first failure are complete. The reported seed
+  // thus does not depend on the threads.
+  std::exception_ptr failure() const {
+    const std::string seed = "seed " + std::to_string(ensemble_.first_seed + failed_) + ": ";
+    try {
+      if (failure_) std::rethrow_exception(failure_);
+    } catch (const PhysicalStop& stop) {
+      return std::make_exception_ptr(PhysicalStop(seed + stop.what(), stop.remedy()));
+    } catch (const RunError& error) {
+      return std::make_exception_ptr(RunError(seed + error.what()));
+    } catch (...) {
+    }
+    return failure_;
+  }
 
  private:
   void work() {
@@ -71,19 +85,6 @@ class Replicas {
     const std::scoped_lock lock(mutex_);
     if (next_ == done_.size() || failure_ || interrupted()) return {};
     return next_++;
-  }
-
-  // Replicas are started in order, and all before the first failure are complete. The reported seed
-  // thus does not depend on the threads.
-  [[noreturn]] void rethrow() const {
-    const std::string seed = "seed " + std::to_string(ensemble_.first_seed + failed_) + ": ";
-    try {
-      std::rethrow_exception(failure_);
-    } catch (const PhysicalStop& stop) {
-      throw PhysicalStop(seed + stop.what(), stop.remedy());
-    } catch (const RunError& error) {
-      throw RunError(seed + error.what());
-    }
   }
 
   void measure(std::size_t index) {
@@ -128,7 +129,8 @@ class Replicas {
 }  // namespace
 
 template <int D>
-static Json measure_replicas(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
+static EnsembleResult measure_replicas(const Scene& scene, const Ensemble& ensemble,
+                                       Progress& progress) {
   Replicas<D> replicas(scene, ensemble, progress);
   replicas.run();
   Json json{{"schema", 1}, {"seeds", Json::array()}, {"results", Json::array()}};
@@ -146,10 +148,10 @@ static Json measure_replicas(const Scene& scene, const Ensemble& ensemble, Progr
     json[estimate_pointer(done.front()->estimates[k].first)] = {
         {"mean", over_replicas.mean}, {"standard_error", over_replicas.standard_error}};
   }
-  return json;
+  return {std::move(json), replicas.failure()};
 }
 
-Json measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
+EnsembleResult measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress) {
   return with_dimension(scene.dimension(), [&](auto dimension) {
     return measure_replicas<dimension>(scene, ensemble, progress);
   });

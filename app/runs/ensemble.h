@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
+#include <exception>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/system/progress.h"
@@ -17,12 +18,17 @@ struct Ensemble {
   std::optional<int> threads;    ///< number of threads; absent: the number of processors
 };
 
-/// Measures the replicas. The result has the means over the replicas, with standard errors from
-/// their scatter, under the usual names. The array "results" has the result of `clatter measure
-/// --seed` for each replica, without performance. After an interrupt the result has the finished
-/// replicas. If a replica stops or fails a check, throws PhysicalStop or RunError, which names the
-/// first failed seed.
-nlohmann::ordered_json measure_ensemble(const Scene& scene, const Ensemble& ensemble,
-                                        Progress& progress);
+/// The result of the complete replicas, and the error of a failed one.
+struct EnsembleResult {
+  /// The means over the replicas, with standard errors from their scatter, under the usual names.
+  /// The array "results" has the result of `clatter measure --seed` for each complete replica,
+  /// without performance.
+  nlohmann::ordered_json json;
+  /// PhysicalStop or RunError with the first failed seed; null if no replica has stopped or failed.
+  std::exception_ptr failure;
+};
+
+/// Measures the replicas, until an interrupt or a failure.
+EnsembleResult measure_ensemble(const Scene& scene, const Ensemble& ensemble, Progress& progress);
 
 }  // namespace clatter

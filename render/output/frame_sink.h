@@ -57,14 +57,15 @@ struct SinkOptions {
   StopRequest stop = {};                      ///< once made, an encoder that hangs is an error
 };
 
-/// A complete piece of a restarted film differs from its checksum.
+/// A complete piece of a restarted film, or an earlier picture of a folder, differs from its
+/// checksum.
 class DamagedPiece : public UserError {
   using UserError::UserError;
 };
 
 /// Opens the sink for a path: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or a folder for
 /// a sequence of pictures. Throws UserError for another extension, if earlier pictures are missing,
-/// or if existing pictures would be replaced. Throws DamagedPiece for a film.
+/// or if existing pictures would be replaced. Throws DamagedPiece for a film or a folder.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 
 }  // namespace clatter

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "engine/error.h"
@@ -91,6 +92,12 @@ void write_png(const std::filesystem::path& path, const Image& image,
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+static std::uint32_t big_endian_at(const unsigned char* bytes) {
+  std::uint32_t number = 0;
+  for (int k = 0; k < 4; ++k) number = number << 8 | bytes[k];
+  return number;
+}
+
 // The texts of a picture before its pixels. Throws UserError if they are damaged.
 static std::vector<PngText> texts_of(std::FILE* file, const std::filesystem::path& path) {
   constexpr std::size_t kLargest = 16'000'000;  // limit for a chunk and for all chunks, bytes
@@ -121,6 +128,25 @@ bool is_png(const std::filesystem::path& path) {
   std::array<char, kSignature.size()> start{};
   file.read(start.data(), start.size());
   return file && std::string_view(start.data(), start.size()) == kSignature;
+}
+
+// PNG specification, 5.3: a chunk has its length, its type, its data and the CRC of type and data.
+bool is_whole_png(const std::filesystem::path& path) {
+  constexpr std::size_t kSignature = 8, kAround = 12;  // bytes, kAround: beside the data of a chunk
+  if (!is_png(path)) return false;
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), {}};
+  for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
+    const std::size_t length = big_endian_at(&bytes[at]);
+    if (length > bytes.size() - at - kAround) return false;
+    const unsigned char* type = &bytes[at + 4];
+    if (libdeflate_crc32(0, type, 4 + length) != big_endian_at(type + 4 + length)) return false;
+    at += kAround + length;
+    if (std::string_view(reinterpret_cast<const char*>(type), 4) == "IEND") {
+      return at == bytes.size();
+    }
+  }
+  return false;
 }
 
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {

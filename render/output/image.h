@@ -32,6 +32,10 @@ std::vector<unsigned char> encode_png(const Image& image, std::span<const PngTex
 /// True if the path is a regular file with the signature of a PNG file.
 bool is_png(const std::filesystem::path& path);
 
+/// True if the path is a PNG file from its signature to its end, and each chunk has its CRC-32. The
+/// pixels are not decoded.
+bool is_whole_png(const std::filesystem::path& path);
+
 /// The text of a keyword before the pixels of a PNG file; absent: no such text, or no PNG file.
 /// Throws UserError if the texts are damaged.
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword);

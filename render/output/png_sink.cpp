@@ -32,10 +32,15 @@ long frame_number(const std::filesystem::directory_entry& entry) {
 void require_earlier_frames(const std::filesystem::path& folder, const SinkOptions& options) {
   for (long number = options.begin; number < options.next; ++number) {
     const std::filesystem::path frame = folder / frame_name(number);
-    if (std::filesystem::exists(frame)) continue;
-    throw UserError({folder.string()}, "the frame " + frame.string() + " of the film is missing",
-                    "name the folder of the film, or start one with --frames " +
-                        std::to_string(options.next) + ":");
+    if (!std::filesystem::exists(frame)) {
+      throw UserError({folder.string()}, "the frame " + frame.string() + " of the film is missing",
+                      "name the folder of the film, or start one with --frames " +
+                          std::to_string(options.next) + ":");
+    }
+    if (!is_whole_png(frame)) {
+      throw DamagedPiece({folder.string()}, "the frame " + frame.string() + " is damaged",
+                         "draw the film again with --overwrite, without --resume");
+    }
   }
 }
 

@@ -27,7 +27,8 @@ class PngFile final : public FrameSink {
 class PngSequence final : public FrameSink {
  public:
   /// Creates the folder. Throws UserError if earlier frames are missing, or if frames of these
-  /// numbers exist and may not be replaced. Throws RunError if the folder cannot be created.
+  /// numbers exist and may not be replaced. Throws DamagedPiece if an earlier frame is no whole
+  /// PNG file, and RunError if the folder cannot be created.
   PngSequence(std::filesystem::path folder, const SinkOptions& options);
 
   void add(Image image, std::vector<PngText> notes) override;

@@ -236,6 +236,24 @@ TEST_CASE("Film parts: a film whose encoder is ended with it plays, and can be r
   check_goes_on_to_whole(shell);
 }
 
+TEST_CASE("Film parts: a resumed folder with an empty or truncated picture is drawn again") {
+  const Shell shell;
+  write_scene(shell);
+  const std::string line = "clatter render scene.toml --size 64x48 --fps 10 --quiet --out frames ";
+  REQUIRE(shell.run(line + "--to 8 && mv frames kept").code == 0);
+  for (const std::string size : {"0", "100"}) {
+    CAPTURE(size);
+    REQUIRE(shell.run("rm -rf frames; " + line + "--to 7 --checkpoint c").code == 0);
+    CHECK(shell.run("truncate -s " + size + " frames/frame_000003.png").code == 0);
+    const Outcome outcome = shell.run(line + "--to 8 --resume c");
+    CHECK(outcome.code == 0);
+    CHECK(says(outcome.err,
+               "the frame frames/frame_000003.png is damaged; the film restarts from its "
+               "beginning"));
+    CHECK(shell.run("diff -r frames kept").code == 0);
+  }
+}
+
 TEST_SUITE_BEGIN("slow");
 
 // Random times within the usual duration of the film, seed 6. Some precede the first frame.

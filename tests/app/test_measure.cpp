@@ -338,7 +338,7 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   CHECK(end == doctest::Approx(500.0 + 300.0 * std::pow(known / 0.01, 2.0)).epsilon(0.05));
 
   check_refused(shell, line + "--accuracy 1% --accuracy-of pressure.top",
-                {"no mean 'pressure.top'", "pressure.left"});
+                {"no mean 'pressure.top'", "choose one of temperature, temperature_x, "});
   check_refused(shell, line + "--accuracy 100%", {"a share such as 1% or 0.01"});
 }
 
@@ -403,18 +403,40 @@ TEST_CASE("Measure: theory has no temperature for a gas that its walls heat with
   CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
 }
 
-// Seed 7 finishes, seed 8 collapses. All later seeds together would take hours.
-TEST_CASE("Measure: where replicas stop, the first seed is named, and no more are run") {
+TEST_CASE("Measure: replicas run on as many threads as asked for") {
   const Shell shell;
+  // Waits for seven threads of replicas and the first one. Without them the command ends with 0.
+  const Outcome outcome = shell.run(
+      "clatter measure vibrated --until 5000 --quiet --replicas 9 --threads 7 --out all.json & "
+      "pid=$!\n"
+      "until [ \"$(ls /proc/$pid/task | wc -l)\" -eq 8 ] || ! kill -0 $pid; do sleep 0.02; done\n"
+      "kill -INT $pid; wait $pid");
+  CHECK(outcome.code == 130);
+}
+
+// Seed 6 finishes, seed 7 collapses. All later seeds together would take hours.
+TEST_CASE("Measure: where replicas stop, the complete ones are written, and no more are run") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure collapse --quiet --set collapse={} --set particles.count=100 "
+      "--set box.size=[15,15] --set measure.burn_in=0 ";
+  json complete = json::parse(shell.run(line + "--seed 6").out);
+  complete.erase("performance");
   for (const std::string replicas : {"2", "100000"}) {
-    const Outcome outcome = shell.run(
-        "clatter measure collapse --quiet --set collapse={} --set particles.count=100 "
-        "--set box.size=[15,15] --set measure.burn_in=0 --seed 6 --out all.json --replicas " +
-        replicas);
+    CAPTURE(replicas);
+    const Outcome outcome = shell.run(line + "--seed 6 --out all.json --replicas " + replicas);
     CHECK(outcome.code == 3);
     CHECK(says(outcome.err, "seed 7: time does not advance beyond t = "));
-    CHECK(shell.read("all.json").empty());
+    const json all = json::parse(shell.read("all.json"));
+    CHECK(all.at("results").at(0) == complete);
+    CHECK(all.at("seeds").at(0) == 6);
+    CHECK(all.at("seeds").size() == all.at("results").size());
+    CHECK(shell.run("rm all.json").code == 0);
   }
+  // Without a complete replica there is no result.
+  const Outcome none = shell.run(line + "--seed 7 --out none.json --replicas 2 --threads 1");
+  CHECK(none.code == 3);
+  CHECK(shell.read("none.json").empty());
 }
 
 TEST_CASE("Measure: where the result goes to a file, a note has the temperature") {

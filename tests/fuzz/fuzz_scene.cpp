@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/results/result_json.h"
+#include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/publish/scheduled_run.h"
@@ -45,11 +46,15 @@ constexpr double kSamples = 100.0;
 constexpr std::string_view kSetting = "#set ";
 
 std::vector<std::string> keys_of_scenes() {
-  KeyLister lister;
-  SceneInput any;
-  any.scene = default_scene(2);
-  visit_scene(lister, any);
-  return lister.keys();
+  std::vector<std::string> keys;
+  for (const int dimension : {2, 3}) {
+    KeyLister lister;
+    SceneInput any;
+    any.scene = default_scene(dimension);
+    visit_scene(lister, any);
+    keys.insert(keys.end(), lister.keys().begin(), lister.keys().end());
+  }
+  return keys;
 }
 
 std::string extreme_value(std::minstd_rand& random) {
@@ -71,6 +76,16 @@ std::string extreme_value(std::minstd_rand& random) {
     default:
       return extreme_number(random);
   }
+}
+
+// Sides from one diameter on, of two or three dimensions.
+std::string narrow_box(std::minstd_rand& random) {
+  constexpr std::array kSides = {"1", "1.2", "1.5", "1.5000001", "2", "2.1", "3", "4.5", "7"};
+  std::string sides = kSides[random() % kSides.size()];
+  for (auto more = 1 + random() % 2; more > 0; --more) {
+    sides += std::string(", ") + kSides[random() % kSides.size()];
+  }
+  return "[" + sides + "]";
 }
 
 // The settings of a text, in order.
@@ -110,24 +125,24 @@ void require_finite(const nlohmann::ordered_json& json, const std::string& name)
 }
 
 // Measures a scene without changes up to a time, and reads the result's text again.
+template <int D>
 void measure(Scene scene, double end) {
   if (!scene.changes.empty() || !(end > 0.0)) return;
   for (int& cells : scene.measure.cells) cells = std::min(cells, kMaxCells);
   scene.measure.burn_in = 0.0;
   scene.measure.series_interval = std::max(scene.measure.series_interval, end / kSamples);
   scene.measure.interval = std::max(scene.measure.interval, end / kSamples);
-  const auto simulation = simulation_of<2>(scene, 1);
+  const auto simulation = simulation_of<D>(scene, 1);
   Measurement measurement(*simulation, scene.measure, end);
   simulation->run_until(end, kCollisions, kSteps);
   const auto result = result_json(scene, 1, *simulation, measurement.result(), {});
   require_finite(nlohmann::ordered_json::parse(result.dump()), "result");
 }
 
-void run(const std::string& text) {
-  const Scene scene = parse_scene(text, "fuzz.toml", settings_in(text));
-  if (scene.particles.count > kMaxParticles) return;
-  ScheduledRun<2> run(scene, 1);
-  if (!is_one_in(8, text)) {
+template <int D>
+void run(const Scene& scene, bool deep) {
+  ScheduledRun<D> run(scene, 1);
+  if (!deep) {
     run.run_until(scene.measure.duration, kFewCollisions, kFewSteps);
     return;
   }
@@ -135,7 +150,14 @@ void run(const std::string& text) {
   const double end = scene.measure.burn_in + scene.measure.duration;
   run.run_until(std::min(end, kWindows * scene.view.window), kCollisions, kSteps);
   draw(run.scene(), run.snapshot());
-  measure(scene, run.simulation().time());
+  measure<D>(scene, run.simulation().time());
+}
+
+void run(const std::string& text) {
+  const Scene scene = parse_scene(text, "fuzz.toml", settings_in(text));
+  if (scene.particles.count > kMaxParticles) return;
+  with_dimension(scene.dimension(),
+                 [&](auto dimension) { run<dimension>(scene, is_one_in(8, text)); });
 }
 
 }  // namespace
@@ -148,8 +170,12 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   std::minstd_rand random(seed);
   random.discard(2);
   if (random() % 4 == 0) return LLVMFuzzerMutate(data, size, most);
-  const std::string line =
-      "\n" + std::string(kSetting) + keys[random() % keys.size()] + "=" + extreme_value(random);
+  std::string line = "\n" + std::string(kSetting);
+  if (random() % 8) {
+    line += keys[random() % keys.size()] + "=" + extreme_value(random);
+  } else {
+    line += "box.size=" + narrow_box(random);
+  }
   if (size + line.size() > most) return LLVMFuzzerMutate(data, size, most);
   std::memcpy(data + size, line.data(), line.size());
   return size + line.size();

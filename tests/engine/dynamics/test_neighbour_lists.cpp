@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/dynamics/neighbourhood.h"
+#include "engine/initial/start_state.h"
 #include "engine/physics/random.h"
 #include "engine/publish/scheduled_run.h"
 
@@ -233,10 +234,15 @@ TEST_CASE("Neighbourhood: a dilute gas in a wide, flat box needs no cells of a d
   CHECK(near.place(7, {1.0, 2.0, 3.0}).minCoeff() >= 0);
 }
 
-TEST_CASE("Neighbourhood: dense spheres pass through a narrow periodic box") {
+TEST_CASE("Neighbourhood: dense spheres in a box of hardly a diameter do not miss each other") {
   Scene scene = default_scene(3);
-  scene.box = Vec<3>{1.005, 1.2, 1.2};
-  scene.particles.count = 1;
-  const auto simulation = simulation_of<3>(scene, 1);
-  CHECK(simulation->run_until(1000.0, kNoLimit, 100000));
+  scene.box = Vec<3>{1.0001, 1.1, 2.2};
+  scene.particles.count = 2;
+  REQUIRE(scene.packing_fraction() > 0.4);
+  State<3> state = start_state<3>(scene, 1);
+  state.velocities = {Vec<3>(1.0, 0.3, 0.2), Vec<3>(-0.8, 0.4, -0.3)};
+  Simulation<3> simulation(model_of<3>(scene, 1), state);
+  CHECK(simulation.run_until(1000.0, kNoLimit, 1000000));
+  CHECK(simulation.counts().pair_collisions > 1000);
+  CHECK(simulation.checks().deepest_overlap < 1e-9);
 }

@@ -403,6 +403,16 @@ TEST_CASE("Measurement: the memory of a profile is a row of columns per window")
   CHECK(cells_memory<2>(measure, false) - least == (8192 - 512) * 7 * 8);
 }
 
+// A balance has D + 2 numbers: mass, momenta, energy. Per cell and window it has the sum and the
+// magnitude of all bookings at D faces and inside, and the content; of all windows, four more.
+TEST_CASE("Measurement: the memory of balances is two windows of bookings, and the residuals") {
+  Measure measure = measure_for(0.0, 512.0);
+  measure.cells = {7, 5, 3};
+  measure.fields = {Quantity::BalanceEnergy};
+  CHECK(cells_memory<2>(measure, false) == 7 * 5 * 4 * 8 * (2 * (3 * 2 + 1) + 4));
+  CHECK(cells_memory<3>(measure, false) == 7 * 5 * 3 * 5 * 8 * (2 * (4 * 2 + 1) + 4));
+}
+
 TEST_CASE("Measurement: a gas so cold that products of its velocities are 0") {
   for (const double temperature : {1e-80, 1e-120, 1e-160, 1e-300}) {
     CAPTURE(temperature);

@@ -46,6 +46,34 @@ TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at 
   }
 }
 
+TEST_CASE("Overlay: a heading above the box is as wide as the picture, one beside it is a column") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{1280, 720};
+  // Right end of the heading, which is alone in the upper half beside the box.
+  const auto end_of_heading = [&](Vec2 box) {
+    Snapshot snapshot = driven_box();
+    snapshot.box = box;
+    View view;
+    view.colour_by = ColourBy::None;
+    const Camera camera = renderer.fit(snapshot, size, view, kText);
+    const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+    view.overlay = false;
+    const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+    int end = 0;
+    for (int y = 0; y < size.height / 2; ++y) {
+      for (int x = end; x < size.width; ++x) {
+        if (!(pixel(with, x, y) == pixel(without, x, y))) end = x;
+      }
+    }
+    return end;
+  };
+  constexpr int kUnit = 18;  // height of a line of text
+  CHECK(end_of_heading({60.0, 12.0}) > 20 * kUnit);
+  CHECK(end_of_heading({20.0, 25.0}) < 18 * kUnit);
+  CHECK(end_of_heading({20.0, 25.0}) > 12 * kUnit);
+}
+
 TEST_CASE(
     "Overlay: colour bars for which a small picture has no room stay out of the row of figures") {
   const auto context = open_context(Backend::Osmesa);
@@ -98,6 +126,27 @@ TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
   CHECK(card_opacity(3.0, 9.0) == 0.0);
 }
 
+TEST_CASE("Overlay: the lines of a card are in the middle of the picture") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{1280, 720};
+  const Canvas canvas(context->gl(), size);
+  canvas.bind();
+  OverlayText text = kText;
+  text.card = 1.0;
+  renderer.draw(driven_box(), {{10.0, 12.5}, 40.0}, size, View{}, text);
+  const Image image = canvas.read();
+  int first = size.height, last = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      if (difference(pixel(image, x, y), kDarkTheme.background) < 60) continue;
+      first = std::min(first, y);
+      last = std::max(last, y);
+    }
+  }
+  CHECK(std::abs(first + last - size.height) < 12);
+}
+
 TEST_CASE("Overlay: nothing shows through a card") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
@@ -148,6 +197,52 @@ TEST_CASE("Overlay: over the enlarged box texts are on a plate, and colour bars 
   // Two lines of heading, and two legends that are higher than wide.
   CHECK(on_plate > same + 2 * 20 * kUnit * kUnit);
   CHECK(difference(pixel(dark, 640, 715), pixel(bright, 640, 715)) == contrast);
+}
+
+TEST_CASE("Overlay: over a box of spheres texts are on a plate, and beside it they are not") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl(), 1, true);
+  const Size size{1280, 720};
+  Snapshot snapshot;
+  snapshot.box = Vec3(10.0, 10.0, 10.0);
+  snapshot.positions = snapshot.velocities = Vectors::Zero(3, 0);
+  // Number of pixels with the opacity of a plate, 0.8, at the right where the legend is.
+  const auto plate = [&](const Camera& camera) {
+    const Image image = draw(renderer, context->gl(), snapshot, camera, size, View{});
+    int count = 0;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = size.height; x < size.width; ++x) {
+        count += std::abs(pixel(image, x, y).alpha - 204) <= 1;
+      }
+    }
+    return count;
+  };
+  constexpr int kUnit = 18;  // height of a line of text
+  CHECK(plate(renderer.fit(snapshot, size, View{}, kText)) < 100);
+  // The viewer is in the box, and some corners are behind.
+  CHECK(plate({{5.0, 5.0}, 4.0, {.z = 5.0, .view_angle = 90.0}}) > 6 * kUnit * kUnit);
+}
+
+TEST_CASE("Overlay: two colour bars beside a box of spheres fill the height of the picture") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const Size size{1280, 720};
+  Snapshot snapshot;
+  snapshot.box = Vec3(10.0, 10.0, 10.0);
+  snapshot.positions = snapshot.velocities = Vectors::Zero(3, 0);
+  snapshot.field = FieldMap{Quantity::Density, {1, 1, 1}, {0.5}};
+  View view = view_with_field();
+  const Camera camera = renderer.fit(snapshot, size, view, kText);
+  const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+  view.overlay = false;
+  const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
+  int written = 0;
+  for (int y = size.height * 7 / 10; y < size.height * 9 / 10; ++y) {
+    for (int x = size.width * 3 / 4; x < size.width; ++x) {
+      written += !(pixel(with, x, y) == pixel(without, x, y));
+    }
+  }
+  CHECK(written > 1000);
 }
 
 }  // namespace clatter

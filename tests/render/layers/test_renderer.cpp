@@ -328,6 +328,98 @@ TEST_CASE("Renderer: blur, trails and marks look the same with several samples a
   }
 }
 
+namespace {
+
+constexpr Size kSpaceSize{800, 800};  // 80 pixels per world unit, and lines of 2 pixels
+
+// Spheres seen along z, in a box whose edges are beyond the picture.
+Snapshot spheres(const std::vector<Vec3>& centres) {
+  Snapshot snapshot;
+  snapshot.box = Vec3(30.0, 30.0, 30.0);
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = as_columns(centres);
+  snapshot.velocities = Vectors::Zero(3, snapshot.positions.cols());
+  return snapshot;
+}
+
+Image draw_space(const Gl& gl, const Snapshot& snapshot, const View& view, int samples) {
+  Renderer renderer(gl, samples);
+  const Camera camera{{15.0, 15.0}, 10.0, {.z = 15.0}};
+  return draw(renderer, gl, snapshot, camera, kSpaceSize, view);
+}
+
+View view_of_spheres() {
+  View view;
+  view.overlay = false;
+  view.colour_by = ColourBy::VelocityX;
+  view.range = {ColourRange::Given, {-1.0, 1.0}};
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("Renderer: arrows of spheres have the length of their legend, and no sphere hides them") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_of_spheres();
+  Snapshot snapshot = spheres({{15.0, 15.0, 20.0}});
+  snapshot.velocities.col(0) = Vec3(1.0, 0.0, 0.0);
+  snapshot.arrows = ArrowMap{
+      Quantity::Velocity, Vec3(4.0, 5.0, 6.0), {{Vec3(15.0, 15.0, 10.0), Vec3(1.5, 0.0, 0.0)}}};
+  for (const int samples : {1, 2}) {
+    CAPTURE(samples);
+    view.arrows.reset();
+    const auto is_text = [](Colour colour) { return difference(colour, kDarkTheme.text) < 60; };
+    const auto extent = [&] {
+      const Image image = draw_space(context->gl(), snapshot, view, samples);
+      int width = 0, height = 0;
+      for (int k = 0; k < 800; ++k) {
+        width += is_text(pixel(image, k, 400));
+        height += is_text(pixel(image, 350, k));
+      }
+      return std::pair(width, height);
+    };
+    CHECK(extent() == std::pair(0, 0));  // not requested
+    view.arrows = Quantity::Velocity;
+    // The largest value fills the shortest side of a cell, 320 pixels.
+    CHECK(std::abs(extent().first - 320) <= 4);
+    CHECK(extent().second == 2);
+  }
+}
+
+TEST_CASE("Renderer: trails of spheres are as long as asked for, fade out, and may be hidden") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_of_spheres();
+  // The first sphere flew along x for two time units. The second is in front of its trail.
+  Snapshot snapshot = spheres({{18.0, 15.0, 10.0}, {16.0, 15.0, 20.0}});
+  const Vec3 velocity(3.0, 0.0, 0.0);
+  snapshot.velocities.col(0) = velocity;
+  snapshot.flights = {{0, -2.0, 0.0, Vec3(12.0, 15.0, 10.0), velocity, Vec3(0.0, 0.0, 0.0)}};
+  for (const int samples : {1, 2}) {
+    CAPTURE(samples);
+    view.trails.reset();
+    const Image without = draw_space(context->gl(), snapshot, view, samples);
+    view.trails = 1.0;
+    const Image with = draw_space(context->gl(), snapshot, view, samples);
+    // The trail is seen at world coordinate x.
+    const auto seen = [&](double x) {
+      const int column = static_cast<int>(std::lround((x - 10.0) * 80.0));
+      return difference(pixel(with, column, 400), pixel(without, column, 400));
+    };
+    CHECK(seen(14.9) == 0);
+    CHECK(seen(15.2) > 5);
+    CHECK(seen(16.0) == 0);
+    CHECK(seen(16.8) > seen(15.2) + 30);
+    CHECK(seen(17.4) > seen(16.8));
+    // It has the colour of its sphere, and the width of a line.
+    const Colour colour = pixel(with, 592, 400);
+    CHECK(colour.red > colour.blue + 20);
+    int width = 0;
+    for (int y = 0; y < 800; ++y)
+      width += difference(pixel(with, 592, y), kDarkTheme.background) > 20;
+    CHECK(width == 2);
+  }
+}
+
 TEST_CASE("Renderer: an empty box is drawn too") {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());

@@ -90,6 +90,29 @@ TEST_CASE("Image: a PNG file is there whole, or an error and nothing") {
   CHECK(folder.empty());
 }
 
+TEST_CASE("Image: a PNG file is whole only if no byte is absent, changed or too many") {
+  const TemporaryFolder folder;
+  const std::vector<unsigned char> png =
+      encode_png(gradient({5, 4}), std::vector<PngText>{{"Title", "t"}});
+  const std::string sound(png.begin(), png.end());
+  const auto is_whole = [&](const std::string& bytes) {
+    write_bytes(folder / "a.png", bytes);
+    return is_whole_png(folder / "a.png");
+  };
+  CHECK(is_whole(sound));
+  CHECK_FALSE(is_whole(sound + '\0'));
+  CHECK_FALSE(is_whole_png(folder / "none.png"));
+  for (std::size_t at = 0; at < sound.size(); ++at) {
+    CAPTURE(at);
+    CHECK_FALSE(is_whole(sound.substr(0, at)));
+    for (const char flip : {'\1', '\x80'}) {
+      std::string changed = sound;
+      changed[at] = static_cast<char>(changed[at] ^ flip);
+      CHECK_FALSE(is_whole(changed));
+    }
+  }
+}
+
 TEST_CASE("Image: a text in a PNG file is found by its key") {
   const TemporaryFolder folder;
   const Image image{{2, 2}, std::vector<unsigned char>(16, 7)};

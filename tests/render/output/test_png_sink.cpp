@@ -70,6 +70,28 @@ TEST_CASE("PngSequence: a resumed sequence needs its earlier frames and replaces
                        UserError);
 }
 
+TEST_CASE("PngSequence: a sequence does not continue after an empty or truncated frame") {
+  const TemporaryFolder folder;
+  write_frames(folder / "sequence", kOptions, 4);
+  SinkOptions on = kOptions;
+  on.begin = 1;
+  on.next = 3;
+  on.goes_on = true;
+  const auto size_of = [&](const char* frame, std::uintmax_t size) {
+    std::filesystem::resize_file(folder / "sequence" / frame, size);
+  };
+  // Frames of another part, and frames that are drawn again.
+  size_of("frame_000000.png", 0);
+  size_of("frame_000003.png", 0);
+  CHECK_NOTHROW(open_sink(folder / "sequence", on));
+  size_of("frame_000002.png", std::filesystem::file_size(folder / "sequence/frame_000002.png") - 1);
+  CHECK_THROWS_WITH_AS(open_sink(folder / "sequence", on),
+                       doctest::Contains("frame_000002.png is damaged"), DamagedPiece);
+  size_of("frame_000001.png", 0);
+  CHECK_THROWS_WITH_AS(open_sink(folder / "sequence", on),
+                       doctest::Contains("frame_000001.png is damaged"), DamagedPiece);
+}
+
 TEST_CASE("PngSequence: a sequence cannot be where a file is") {
   const TemporaryFolder folder;
   write_frames(folder / "one.png", kOptions, 1);
