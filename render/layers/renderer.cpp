@@ -226,11 +226,11 @@ void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
 
 void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projection,
                             const View& view, const Legends& legends, const ThemeColours& theme) {
-  if (!space_) space_.emplace(*gl_);
+  const Blending blending = transparent_ ? Blending::Encoded : Blending::Light;
+  if (!space_) space_.emplace(*gl_, blending);
   const Eye eye(projection);
   const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
-                            theme.disk, transparent_ ? Blending::Encoded : Blending::Light,
-                            -eye.axes().row(2).transpose()};
+                            theme.disk, blending, -eye.axes().row(2).transpose()};
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
   space_->box.draw_sides(snapshot, projection, eye, theme);
@@ -279,6 +279,10 @@ void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& project
     draw_world(snapshot, finer, view, legends, theme);
   } else {
     draw_spheres(snapshot, finer, view, legends, theme);
+  }
+  if (samples_ == 1) {
+    fine_->copy_to(target);
+    return;
   }
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
   average_.draw(*fine_, samples_, transparent_, stop_);

@@ -76,7 +76,8 @@ class Renderer {
   };
   /// The layers of spheres, which pictures of disks do not need.
   struct SpaceLayers {
-    explicit SpaceLayers(const Gl& gl) : box(gl), slices(gl), spheres(gl), lines(gl) {}
+    SpaceLayers(const Gl& gl, Blending blending)
+        : box(gl), slices(gl), spheres(gl, blending), lines(gl) {}
     BoxLayer box;
     SliceLayer slices;
     SphereLayer spheres;

@@ -16,7 +16,8 @@ namespace clatter {
 /// picture. They are drawn from back to front, so that their edges blend with what is behind them.
 class SphereLayer {
  public:
-  explicit SphereLayer(const Gl& gl);
+  /// Encoded blending is for pictures without a background.
+  explicit SphereLayer(const Gl& gl, Blending blending = Blending::Light);
 
   /// Draws the spheres of a snapshot, and their images at periodic borders.
   void draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
@@ -30,17 +31,26 @@ class SphereLayer {
     std::array<float, 3> squares, products;
   };
 
+  // Consecutive spheres that planes cut, or that none cuts.
+  struct Run {
+    bool cut;
+    std::size_t first;
+    GLsizei count;
+  };
+
+  void read_from(std::size_t first) const;
   void collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                const DiskColours& colours, const std::optional<Slab>& slab);
   void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
-                    const Eye& eye, const DiskColours& colours,
-                    const std::optional<Slab>& slab) const;
+                    const Eye& eye, const std::optional<Slab>& slab) const;
 
   const Gl* gl_;
+  Blending blending_;
   Program plain_, cut_;  ///< without and with planes that cut spheres
   Buffer buffer_;
   VertexArray vertices_;
   std::vector<Sphere> spheres_;  ///< from back to front; reused to avoid allocations
+  std::vector<Run> runs_;        ///< of the spheres, in order
 };
 
 }  // namespace clatter
