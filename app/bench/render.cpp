@@ -154,7 +154,8 @@ struct Layers {
 };
 template <>
 struct Layers<3> {
-  explicit Layers(const Gl& gl) : particles(gl), heatmap(gl) {}
+  explicit Layers(const Gl& gl) : light(gl), particles(gl), heatmap(gl) {}
+  SphereLight light;
   SphereLayer particles;
   SliceLayer heatmap;
 };
@@ -223,10 +224,15 @@ class Filming {
       gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
       gl_.Enable(GL_DEPTH_TEST);
       spend(times_, kHeatmap, gl_, [&] {
-        layers_.heatmap.draw(snapshot, view_.slices, projection, eye, scale, theme.static_wall);
+        layers_.heatmap.draw(snapshot, slices_of(snapshot, view_), projection, eye, scale,
+                             theme.static_wall);
       });
-      spend(times_, kParticles, gl_,
-            [&] { layers_.particles.draw(snapshot, projection, eye, colours, view_.slab); });
+      spend(times_, kParticles, gl_, [&] {
+        if (SphereLight::draws(eye, snapshot)) {
+          layers_.light.draw(snapshot, projection, eye, colours, view_.slab, {});
+        }
+        layers_.particles.draw(snapshot, projection, eye, colours, view_.slab);
+      });
       gl_.Disable(GL_DEPTH_TEST);
     }
     spend(times_, kOverlay, gl_, [&] {

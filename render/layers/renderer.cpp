@@ -234,15 +234,23 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
   space_->box.draw_sides(snapshot, projection, eye, theme);
+  std::vector<Slice> slices;
   if (legends.field && has_values(*snapshot.field)) {
-    space_->slices.draw(snapshot, view.slices, projection, eye, legends.field->scale,
+    slices = slices_of(snapshot, view);
+    space_->slices.draw(snapshot, slices, projection, eye, legends.field->scale,
                         thin(theme.static_wall, kHatchOpacity));
   }
   pause(projection);
+  // Spheres without a shape have no depths, so edges behind them are drawn first.
+  const bool light = SphereLight::draws(eye, snapshot);
+  using Sides = BoxLayer::Sides;
+  if (light) space_->box.draw_edges(snapshot, projection, eye, theme, Sides::Far);
+  // All spheres without a shape are behind a plane across the view, and the others before it.
+  if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
   space_->spheres.draw(snapshot, projection, eye, colours, view.slab);
   pause(projection);
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
-  space_->box.draw_edges(snapshot, projection, eye, theme);
+  space_->box.draw_edges(snapshot, projection, eye, theme, light ? Sides::Near : Sides::All);
   gl_->Disable(GL_DEPTH_TEST);
 }
 

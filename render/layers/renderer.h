@@ -16,6 +16,7 @@
 #include "render/layers/overlay.h"
 #include "render/layers/slice_layer.h"
 #include "render/layers/sphere_layer.h"
+#include "render/layers/sphere_light.h"
 #include "render/layers/trail_layer.h"
 #include "render/layers/wall_layer.h"
 
@@ -77,9 +78,10 @@ class Renderer {
   /// The layers of spheres, which pictures of disks do not need.
   struct SpaceLayers {
     SpaceLayers(const Gl& gl, Blending blending)
-        : box(gl), slices(gl), spheres(gl, blending), lines(gl) {}
+        : box(gl), slices(gl), light(gl), spheres(gl, blending), lines(gl) {}
     BoxLayer box;
     SliceLayer slices;
+    SphereLight light;
     SphereLayer spheres;
     LineLayer lines;
   };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "render/layers/sphere_light.h"
 #include "render/neighbour_shade.h"
 #include "render/occlusion.h"
 
@@ -48,6 +49,7 @@ std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection
       }
       const Vec3 centre = eye.seen(place);
       if (eye.w(centre + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
+      if (SphereLight::draws(eye, centre, radius)) return;
       // The soft edge reaches half a pixel beyond the sphere.
       const auto shape = eye.around(centre, radius + 0.5 * eye.w(centre) / eye.scale());
       if (!in_sight(shape, projection.drawn())) return;
@@ -71,7 +73,7 @@ std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, double radiu
     // On the picture a sphere is an ellipse in its rectangle. The smaller axis is at least that of
     // the circle of its radius around the centre, which the ellipse contains. The squares of the
     // axes have the same sum as those of the rectangle.
-    const double smaller = radius * eye.scale() / eye.w(seen.centre) + 0.5;
+    const double smaller = eye.pixels(seen.centre, radius) + 0.5;
     const auto& [low, high] = seen.shape;
     const double larger =
         std::sqrt(std::max(0.25 * (high - low).squaredNorm() - smaller * smaller, 0.0));

@@ -13,7 +13,7 @@
 namespace clatter {
 
 /// Draws spheres with soft light and exact depth, each as the pixels of its rectangle on the
-/// picture. They are drawn from back to front, so that their edges blend with what is behind them.
+/// picture, without those that SphereLight draws. They are drawn from back to front, so that their edges blend with what is behind them.
 class SphereLayer {
  public:
   /// Encoded blending is for pictures without a background.

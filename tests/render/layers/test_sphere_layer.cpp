@@ -210,4 +210,86 @@ TEST_CASE("Sphere layer: images at a periodic border are faint outside of the bo
   CHECK(pixel(image, 120, 90) == kDarkTheme.background);
 }
 
+namespace {
+
+/// The sum over the pixels of the linear light above a black background.
+double light_of_picture(const Image& image) {
+  double sum = 0.0;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) {
+      const Colour colour = pixel(image, x, y);
+      sum += linear_light(colour.red) + linear_light(colour.green) + linear_light(colour.blue);
+    }
+  }
+  return sum;
+}
+
+View black_view() {
+  View view = plain_view();
+  view.background = Rgb{0, 0, 0};
+  view.range = {ColourRange::Given, {-4.0, 4.0}};  // pale: no channel reaches its end
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("Small spheres: they have the light of spheres with a shape, seen from far away") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = random_spheres(30);
+  snapshot.box *= 2.0;
+  snapshot.positions *= 2.0;  // too far from each other for the shade of neighbours
+  // Radii of 0.9 and 1.4 pixels. With eight samples per pixel the spheres have shapes.
+  for (const double width : {133.0, 86.0}) {
+    const Camera camera{{46.0, 45.0}, width, {.z = 44.0, .azimuth = 30.0, .elevation = 25.0}};
+    const auto picture = [&](int samples) {
+      Renderer renderer(context->gl(), samples);
+      const Canvas canvas(context->gl(), kSize);
+      canvas.bind();
+      Snapshot without = snapshot;
+      without.positions.conservativeResize(3, 0);
+      renderer.draw(without, camera, kSize, black_view(), {});
+      const double box = light_of_picture(canvas.read());
+      renderer.draw(snapshot, camera, kSize, black_view(), {});
+      return light_of_picture(canvas.read()) - box;
+    };
+    CAPTURE(width);
+    CHECK(picture(1) == doctest::Approx(picture(8)).epsilon(0.03));
+  }
+}
+
+TEST_CASE("Small spheres: the first one on a ray hides those behind it") {
+  Snapshot snapshot;
+  snapshot.box = Vec3(100.0, 100.0, 100.0);
+  // Blue in front, or red in front, seen along z at 2.4 pixels a unit, in the middle of a pixel.
+  const double middle = 50.0 + 0.5 / 2.4;
+  for (const double blue : {70.0, 30.0}) {
+    snapshot.positions = as_columns<3>({{middle, middle, blue}, {middle, middle, 50.0}});
+    snapshot.velocities = as_columns<3>({{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+    const Camera camera{{50.0, 50.0}, 100.0, {.z = 50.0}};
+    const Image image = draw(snapshot, camera, plain_view());
+    CHECK((blue > 50.0 ? is_blue : is_red)(pixel(image, 120, 89)));
+  }
+}
+
+TEST_CASE("Small spheres: a slice hides those behind it") {
+  Snapshot snapshot;
+  snapshot.box = Vec3(100.0, 100.0, 100.0);
+  snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}});
+  snapshot.field = FieldMap{Quantity::Density, {1, 1, 1}, {0.5}};
+  View view = plain_view();
+  view.field = Quantity::Density;
+  view.field_range = {ColourRange::Given, {0.0, 1.0}};
+  for (const double view_angle : {0.0, 40.0}) {
+    const Camera camera{{50.0, 50.0}, 120.0, {.z = 50.0, .view_angle = view_angle}};
+    const auto change = [&](double z) {
+      snapshot.positions = as_columns<3>({{50.2, 50.2, z}});
+      Snapshot without = snapshot;
+      without.positions = as_columns<3>({{50.2, 50.2, 20.0}});
+      return difference(draw(snapshot, camera, view), draw(without, camera, view));
+    };
+    CHECK(change(30.0) == 0);
+    CHECK(change(70.0) > 20);
+  }
+}
+
 }  // namespace clatter
