@@ -1,7 +1,7 @@
 #version 330 core
 // A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
 // planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output is
-// sRGB values instead of linear light. These are macros, because drivers without branches would
+// sRGB values instead of linear light. With MARKED spheres have marks that turn with them. These are macros, because drivers without branches would
 // compute unused parts for each pixel.
 
 flat in vec3 v_centre;    // view coordinates, see render/eye.h
@@ -9,6 +9,7 @@ flat in vec4 v_colour;    // linear light
 flat in vec4 v_crowding;  // direction and weight of the neighbours
 flat in vec3 v_squares;   // xx, yy, zz of their second moments
 flat in vec3 v_products;  // xy, xz, yz of these
+flat in vec4 v_turn;      // rotation from the view to the sphere, real part last
 
 uniform vec2 u_origin;             // pixel of the centre of the view
 uniform float u_scale;             // pixels per world unit, at the centre
@@ -26,6 +27,7 @@ uniform vec3 u_ghost_high;
 out vec4 o_colour;
 
 const float kGhost = 0.15;  // opacity of the parts beyond a periodic border
+const float kSpot = 0.955;  // cosine of the angle between the axis and the edge of a mark
 const vec3 kKey = vec3(-0.40, 0.62, 0.675);  // direction to the main light, in the view
 
 // Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
@@ -52,6 +54,17 @@ float light(vec3 n) {
   float sky = mix(0.3, 0.6, 0.5 + 0.5 * dot(n, up));
   return open * sky + 0.8 * max(dot(n, kKey), 0.0) * mix(0.6, 1.0, open);
 }
+
+#ifdef MARKED
+// Light of the marks that turn with a sphere: dark spots at both ends of its three axes. They fade
+// out towards small spheres.
+float mark(vec3 n, float pixels) {
+  vec3 turned = abs(n + 2.0 * cross(v_turn.xyz, cross(v_turn.xyz, n) + v_turn.w * n));
+  float nearest = max(max(turned.x, turned.y), turned.z);
+  float spot = coverage((nearest - kSpot) / sqrt(1.0 - kSpot * kSpot) * pixels);
+  return 1.0 - 0.75 * spot * clamp((pixels / u_samples - 1.5) / 5.5, 0.0, 1.0);
+}
+#endif
 
 #ifdef CUT
 // First and last t of the part of a ray between two corners.
@@ -96,6 +109,9 @@ void main() {
   vec3 point = v_centre + nearest + t * along;
   vec3 normal = (nearest - half_chord * along) / u_radius;
   float shade = light(normal);
+#ifdef MARKED
+  shade *= mark(normal, pixels);
+#endif
 #ifdef CUT
   if (cut) {
     shade = 0.8;  // a flat cut, with a darker rim

@@ -6,6 +6,7 @@ layout(location = 1) in vec4 a_colour;     // linear light
 layout(location = 2) in vec4 a_crowding;   // direction and weight of the neighbours
 layout(location = 3) in vec3 a_squares;    // xx, yy, zz of their second moments
 layout(location = 4) in vec3 a_products;   // xy, xz, yz of these
+layout(location = 5) in vec4 a_turn;       // rotation from the view to the sphere, real part last
 
 uniform vec2 u_size;               // size of the picture, pixels
 uniform vec2 u_origin;             // pixel of the centre of the view
@@ -18,6 +19,7 @@ flat out vec4 v_colour;
 flat out vec4 v_crowding;
 flat out vec3 v_squares;
 flat out vec3 v_products;
+flat out vec4 v_turn;
 
 // Ends of the shadow of a sphere on one axis of the picture, in world units at the centre.
 vec2 extent(float across, float w, float radius) {
@@ -34,6 +36,7 @@ void main() {
   v_crowding = a_crowding;
   v_squares = a_squares;
   v_products = a_products;
+  v_turn = a_turn;
   float w = 1.0 - a_centre.z * u_inverse_distance;
   float reach = u_radius + 0.5 * w / u_scale;  // with the soft edge of half a pixel
   vec2 x = extent(a_centre.x, w, reach), y = extent(a_centre.y, w, reach);

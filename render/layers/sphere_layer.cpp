@@ -119,6 +119,10 @@ void join_runs(std::vector<std::uint32_t>& shown, const std::vector<Seen>& all, 
   shown = std::move(ordered);
 }
 
+std::string defines_of(Blending blending, const std::string& defines) {
+  return blending == Blending::Light ? defines : defines + "ENCODED ";
+}
+
 std::array<float, 3> as_floats(const auto& vector) {
   return {static_cast<float>(vector.x()), static_cast<float>(vector.y()),
           static_cast<float>(vector.z())};
@@ -126,15 +130,18 @@ std::array<float, 3> as_floats(const auto& vector) {
 
 }  // namespace
 
+SphereLayer::Programs::Programs(const Gl& gl, Blending blending, const std::string& defines)
+    : uncut(gl, "sphere.vert", "sphere.frag", defines_of(blending, defines)),
+      cut(gl, "sphere.vert", "sphere.frag", defines_of(blending, defines + "CUT ")) {}
+
 SphereLayer::SphereLayer(const Gl& gl, Blending blending)
     : gl_(&gl),
       blending_(blending),
-      plain_(gl, "sphere.vert", "sphere.frag", blending == Blending::Light ? "" : "ENCODED"),
-      cut_(gl, "sphere.vert", "sphere.frag", blending == Blending::Light ? "CUT" : "CUT ENCODED"),
+      plain_(gl, blending, ""),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
   gl.BindVertexArray(vertices_.id());
-  for (GLuint attribute : {0, 1, 2, 3, 4}) {
+  for (GLuint attribute : {0, 1, 2, 3, 4, 5}) {
     gl.EnableVertexAttribArray(attribute);
     gl.VertexAttribDivisor(attribute, 1);
   }
@@ -150,6 +157,7 @@ void SphereLayer::read_from(std::size_t first) const {
   attribute(2, 4, offsetof(Sphere, crowding));
   attribute(3, 3, offsetof(Sphere, squares));
   attribute(4, 3, offsetof(Sphere, products));
+  attribute(5, 4, offsetof(Sphere, turn));
 }
 
 void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
@@ -160,6 +168,7 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
   std::vector<Vec3> centres;
   for (const Seen& seen : all) centres.push_back(seen.centre);
   const std::vector<NeighbourShade> shades = neighbour_shades(centres, shown, snapshot.diameter);
+  const Eigen::Quaterniond world_of_view(Eigen::Matrix3d(eye.axes().transpose()));
   spheres_.clear();
   runs_.clear();
   for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -168,11 +177,16 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
     if (runs_.empty() || runs_.back().cut != seen.cut) runs_.push_back({seen.cut, k, 0});
     ++runs_.back().count;
     const auto [x, y, z] = as_floats(shade.direction);
+    Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();
+    if (!snapshot.orientations.empty()) {
+      turn = (snapshot.orientations[seen.number].conjugate() * world_of_view).cast<float>();
+    }
     spheres_.push_back({as_floats(seen.centre),
                         light_of(colours.of(snapshot, seen.number)),
                         {x, y, z, shade.weight},
                         as_floats(shade.squares),
-                        as_floats(shade.products)});
+                        as_floats(shade.products),
+                        {turn.x(), turn.y(), turn.z(), turn.w()}});
   }
 }
 
@@ -210,13 +224,16 @@ void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, c
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, spheres_.size() * sizeof(Sphere), spheres_.data(),
                   GL_STREAM_DRAW);
-  for (const Program* program : {&plain_, &cut_}) {
+  const bool marked = !snapshot.orientations.empty();
+  if (marked && !marked_) marked_.emplace(*gl_, blending_, "MARKED ");
+  const Programs& programs = marked ? *marked_ : plain_;
+  for (const Program* program : {&programs.uncut, &programs.cut}) {
     set_uniforms(*program, snapshot, projection, eye, slab);
   }
   if (blending_ == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
   gl_->BindVertexArray(vertices_.id());
   for (const Run& run : runs_) {
-    (run.cut ? cut_ : plain_).use();
+    (run.cut ? programs.cut : programs.uncut).use();
     read_from(run.first);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, run.count);
   }

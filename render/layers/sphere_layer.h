@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/publish/snapshot.h"
@@ -13,7 +14,9 @@
 namespace clatter {
 
 /// Draws spheres with soft light and exact depth, each as the pixels of its rectangle on the
-/// picture, without those that SphereLight draws. They are drawn from back to front, so that their edges blend with what is behind them.
+/// picture, without those that SphereLight draws. Spheres of known orientation have marks that turn
+/// with them. They are drawn from back to front, so that their
+/// edges blend with what is behind them.
 class SphereLayer {
  public:
   /// Encoded blending is for pictures without a background.
@@ -29,6 +32,7 @@ class SphereLayer {
     Light light;
     std::array<float, 4> crowding;  // direction and weight of its NeighbourShade
     std::array<float, 3> squares, products;
+    std::array<float, 4> turn;  // from the view to the sphere, real part last
   };
 
   // Consecutive spheres that planes cut, or that none cuts.
@@ -36,6 +40,12 @@ class SphereLayer {
     bool cut;
     std::size_t first;
     GLsizei count;
+  };
+
+  // Programs without and with planes that cut spheres.
+  struct Programs {
+    Programs(const Gl& gl, Blending blending, const std::string& defines);
+    Program uncut, cut;
   };
 
   void read_from(std::size_t first) const;
@@ -46,7 +56,8 @@ class SphereLayer {
 
   const Gl* gl_;
   Blending blending_;
-  Program plain_, cut_;  ///< without and with planes that cut spheres
+  Programs plain_;                  ///< without marks
+  std::optional<Programs> marked_;  ///< absent: no marks drawn yet
   Buffer buffer_;
   VertexArray vertices_;
   std::vector<Sphere> spheres_;  ///< from back to front; reused to avoid allocations

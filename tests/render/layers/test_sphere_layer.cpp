@@ -292,4 +292,40 @@ TEST_CASE("Small spheres: a slice hides those behind it") {
   }
 }
 
+TEST_CASE("Sphere layer: the marks of a sphere are where its rotation has moved them") {
+  // A spot at the front of the sphere, seen along z, turns about an axis of the picture.
+  Snapshot snapshot;
+  snapshot.box = Vec3(4.0, 4.0, 4.0);
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = as_columns<3>({{2.0, 2.0, 2.0}});
+  snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}});
+  const Camera camera{{2.0, 2.0}, 1.2, {.z = 2.0}};  // a radius of 100 pixels
+  const Image unmarked = draw(snapshot, camera, black_view());
+  for (const Vec3& axis : {Vec3(0.0, 1.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.6, -0.8, 0.0)}) {
+    for (const double angle : {0.0, 0.3, -0.4}) {
+      snapshot.orientations = {Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis))};
+      const Image image = draw(snapshot, camera, black_view());
+      // The centroid of the darkened pixels near the middle of the picture.
+      Vec2 sum(0.0, 0.0);
+      double dark = 0.0;
+      for (int y = 20; y < 160; ++y) {
+        for (int x = 50; x < 190; ++x) {
+          const Vec2 place(x + 0.5 - 120.0, 90.0 - y - 0.5);
+          if (place.norm() > 66.0) continue;
+          const double before = linear_light(pixel(unmarked, x, y).red);
+          const double share = 1.0 - linear_light(pixel(image, x, y).red) / before;
+          if (share < 0.1) continue;
+          sum += share * place;
+          dark += share;
+        }
+      }
+      const Vec3 turned = Eigen::AngleAxisd(angle, axis) * Vec3(0.0, 0.0, 1.0);
+      CAPTURE(angle);
+      REQUIRE(dark > 1000.0);
+      // The centroid of a cap is its axis times (1 + cosine of its edge) / 2.
+      CHECK((sum / dark - 0.978 * 100.0 * turned.head<2>()).norm() < 1.0);
+    }
+  }
+}
+
 }  // namespace clatter
