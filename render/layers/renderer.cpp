@@ -73,6 +73,19 @@ bool has_values(const FieldMap& map) {
   return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
 }
 
+// Moves the particles along their flights to a time relative to the time of the snapshot.
+void move_to(Snapshot& snapshot, double time) {
+  for (const FlightPiece& piece : snapshot.flights) {
+    if (time < piece.from || time >= piece.to) continue;
+    VecX place = piece.at(time);
+    for (Eigen::Index axis = 0; axis < place.size(); ++axis) {
+      const double length = snapshot.box[axis];
+      if (!snapshot.walls[2 * axis]) place[axis] -= std::floor(place[axis] / length) * length;
+    }
+    snapshot.positions.col(static_cast<Eigen::Index>(piece.particle)) = place;
+  }
+}
+
 }  // namespace
 
 RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
@@ -272,6 +285,31 @@ void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection
   }
 }
 
+// The average of exact instants in the middle of equal parts of the exposure.
+void Renderer::draw_exposure(const Snapshot& snapshot, const Projection& projection,
+                             const View& view, const Legends& legends, const ThemeColours& theme,
+                             GLuint target) {
+  constexpr int kInstants = 16;
+  if (!exposed_ || !(exposed_->size() == projection.size)) {
+    exposed_.emplace(*gl_, projection.size, GL_RGBA32F);
+  }
+  exposed_->bind();
+  gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  Snapshot instant = snapshot;
+  instant.exposure = 0.0;
+  instant.orientations.clear();
+  for (int k = 0; k < kInstants; ++k) {
+    move_to(instant, snapshot.exposure * ((k + 0.5) / kInstants - 1.0));
+    fine_->bind();
+    draw_spheres(instant, projection, view, legends, theme);
+    exposed_->bind();
+    average_.add(*fine_, samples_, transparent_, 1.0 / kInstants, stop_);
+  }
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
+  average_.draw_sum(*exposed_, transparent_, stop_);
+}
+
 void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,
                              const View& view, const Legends& legends, const ThemeColours& theme,
                              GLuint target) {
@@ -281,6 +319,10 @@ void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& project
   const Depth depth = disks ? Depth::None : Depth::Buffer;
   if (!fine_ || !(fine_->size() == drawn) || fine_->depth() != depth) {
     fine_.emplace(*gl_, drawn, GL_SRGB8_ALPHA8, depth);
+  }
+  if (snapshot.exposure > 0.0 && !disks) {
+    draw_exposure(snapshot, finer, view, legends, theme, target);
+    return;
   }
   fine_->bind();
   if (disks) {

@@ -95,6 +95,8 @@ class Renderer {
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
+  void draw_exposure(const Snapshot& snapshot, const Projection& projection, const View& view,
+                     const Legends& legends, const ThemeColours& theme, GLuint target);
   void draw_averaged(const Snapshot& snapshot, const Projection& projection, const View& view,
                      const Legends& legends, const ThemeColours& theme, GLuint target);
 
@@ -102,7 +104,8 @@ class Renderer {
   int samples_;
   bool transparent_;
   StopRequest stop_;
-  std::optional<Canvas> fine_;  ///< supersampled picture; absent: not drawn yet
+  std::optional<Canvas> fine_;     ///< supersampled picture; absent: not drawn yet
+  std::optional<Canvas> exposed_;  ///< sum of an exposure of spheres; absent: not drawn yet
   AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;
