@@ -323,7 +323,8 @@ TEST_CASE("Render: a film of spheres in two parts has the pictures of one") {
       trails = 0.3
       window = 0.5
       camera = [{ time = 0.0 }, { time = 2.0, azimuth = 200.0, elevation = -30.0 }])");
-  const std::string film = "clatter render s.toml --quiet --size 64x48 --fps 5 --speed 1 ";
+  const std::string film =
+      "clatter render s.toml --quiet --size 64x48 --fps 5 --speed 1 --no-overlay ";
   REQUIRE(shell.run(film + "--to 2 --out whole").code == 0);
   REQUIRE(shell.run(film + "--to 1 --checkpoint c --out parts").code == 0);
   REQUIRE(shell.run(film + "--to 2 --resume c --out parts").code == 0);
