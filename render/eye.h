@@ -32,10 +32,14 @@ class Eye {
   const Eigen::Matrix3d& axes() const { return axes_; }
   /// World position of the origin of the view.
   const Vec3& centre() const { return centre_; }
+  /// World position of the viewer; only with inverse_distance() > 0.
+  Vec3 viewer() const { return world(Vec3(0.0, 0.0, 1.0 / inverse_distance_)); }
   /// 1/d, 0 in a parallel projection.
   double inverse_distance() const { return inverse_distance_; }
   /// w of a position in view coordinates; 0 or less at or behind the viewer.
   double w(const Vec3& seen) const { return 1.0 - seen.z() * inverse_distance_; }
+  /// Radius on the picture of a sphere around a position, in drawn pixels.
+  double pixels(const Vec3& seen, double radius) const { return radius * scale_ / w(seen); }
   /// Drawn pixel of a position in view coordinates with w > 0.
   Vec2 pixels(const Vec3& seen) const { return origin_ + scale_ / w(seen) * seen.head<2>(); }
   /// Lower left and upper right corner of the smallest rectangle around a sphere on the picture, in

@@ -5,42 +5,54 @@
 
 namespace clatter {
 
-// Blocks of a third of the radius are small against a disk; smaller ones cost more than they hide.
-Occlusion::Occlusion(Size size, double radius)
-    : block_(std::max(2, static_cast<int>(std::min(radius / 3.0, 64.0)))),
-      columns_((size.width + block_ - 1) / block_),
-      rows_((size.height + block_ - 1) / block_),
-      covered_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+Occlusion::Occlusion(Size size)
+    : size_(size),
+      words_(static_cast<std::size_t>((size.width + kBits - 1) / kBits)),
+      covered_(static_cast<std::size_t>(size.height) * words_) {}
 
-bool Occlusion::hides(const Vec2& low, const Vec2& high) const {
-  const auto index = [&](double place, int count) {
-    return static_cast<int>(std::clamp(std::floor(place / block_), 0.0, count - 1.0));
-  };
-  const int right = index(high.x(), columns_), top = index(high.y(), rows_);
-  for (int row = index(low.y(), rows_); row <= top; ++row) {
-    for (int column = index(low.x(), columns_); column <= right; ++column) {
-      if (!covered_[static_cast<std::size_t>(row) * columns_ + column]) return false;
+namespace {
+
+// The numbers of the pixels, among `count`, with centres at most `half` from `middle`.
+struct Span {
+  Span(double middle, double half, int count)
+      : first(static_cast<int>(std::clamp(std::ceil(middle - half - 0.5), 0.0, 1.0 * count))),
+        end(static_cast<int>(std::clamp(std::floor(middle + half + 0.5), 0.0, 1.0 * count))) {}
+  int first, end;
+};
+
+}  // namespace
+
+// Whether `visit` returns true for the index of each word of the disk and its bits of the disk.
+template <class Visit>
+bool Occlusion::all_words(const Vec2& centre, double radius, Visit visit) const {
+  if (!(radius > 0.0)) return true;
+  const Span rows(centre.y(), radius, size_.height);
+  for (int row = rows.first; row < rows.end; ++row) {
+    const double off = row + 0.5 - centre.y();
+    const Span span(centre.x(), std::sqrt(std::max(0.0, radius * radius - off * off)), size_.width);
+    for (int begin = span.first, end = 0; begin < span.end; begin = end) {
+      const int word = begin / kBits;
+      end = std::min(span.end, (word + 1) * kBits);
+      const std::uint64_t bits = (~std::uint64_t{0} >> (kBits - (end - begin))) << (begin % kBits);
+      if (!visit(static_cast<std::size_t>(row) * words_ + static_cast<std::size_t>(word), bits)) {
+        return false;
+      }
     }
   }
   return true;
 }
 
+bool Occlusion::hides(const Vec2& centre, double radius) const {
+  return all_words(centre, radius, [&](std::size_t word, std::uint64_t bits) {
+    return (covered_[word] & bits) == bits;
+  });
+}
+
 void Occlusion::cover(const Vec2& centre, double radius) {
-  const int bottom = std::max(0, static_cast<int>(std::ceil((centre.y() - radius) / block_)));
-  const int top = std::min(rows_, static_cast<int>(std::floor((centre.y() + radius) / block_)));
-  for (int row = bottom; row < top; ++row) {
-    // The half chord at the edge of the row that is farther from the centre.
-    const double off = std::max(centre.y() - row * block_, (row + 1) * block_ - centre.y());
-    const double square = radius * radius - off * off;
-    if (square <= 0.0) continue;
-    const double half = std::sqrt(square);
-    const int left = std::max(0, static_cast<int>(std::ceil((centre.x() - half) / block_)));
-    const int right =
-        std::min(columns_, static_cast<int>(std::floor((centre.x() + half) / block_)));
-    for (int column = left; column < right; ++column) {
-      covered_[static_cast<std::size_t>(row) * columns_ + column] = true;
-    }
-  }
+  all_words(centre, radius, [&](std::size_t word, std::uint64_t bits) {
+    covered_[word] |= bits;
+    return true;
+  });
 }
 
 }  // namespace clatter

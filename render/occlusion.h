@@ -1,29 +1,34 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/camera.h"
 
 namespace clatter {
 
-/// Finds disks on a picture that nearer disks hide completely. The picture is divided into square
-/// blocks, and a block is covered once a single disk contains all of it. So no disk with a visible
-/// pixel is taken for hidden, but some hidden ones are not found.
+/// Finds disks on a picture that nearer disks hide completely, several of them together too. It has
+/// a bit for each pixel: whether a disk covers its centre. All lengths are in pixels.
 class Occlusion {
  public:
-  /// An empty picture of `size`. Disks of this radius in pixels can cover blocks.
-  Occlusion(Size size, double radius);
+  /// An empty picture of `size`.
+  explicit Occlusion(Size size);
 
-  /// Whether covered blocks hide the rectangle between two corners, in pixels. Parts outside of the
-  /// picture count as the blocks at its edge.
-  bool hides(const Vec2& low, const Vec2& high) const;
-  /// Covers the blocks inside a disk, in pixels.
+  /// Whether all pixels with their centre in a disk are covered. Pixels outside of the picture do
+  /// not count.
+  bool hides(const Vec2& centre, double radius) const;
+  /// Covers the pixels with their centre in a disk.
   void cover(const Vec2& centre, double radius);
 
  private:
-  int block_;
-  int columns_, rows_;
-  std::vector<bool> covered_;  // [rows][columns]
+  static constexpr int kBits = 64;  // pixels in a word
+
+  template <class Visit>
+  bool all_words(const Vec2& centre, double radius, Visit visit) const;
+
+  Size size_;
+  std::size_t words_;                   // in a row
+  std::vector<std::uint64_t> covered_;  // [rows][words]
 };
 
 }  // namespace clatter

@@ -1,9 +1,12 @@
 #version 330 core
 // Average of a supersampled picture over the samples of each pixel, in linear light.
 
-uniform sampler2D u_picture;  // sRGB texture: fetches return linear values
+uniform sampler2D u_picture;  // fetches return linear values
 uniform int u_samples;        // samples per pixel along each axis
 uniform bool u_transparent;   // whether the stored sRGB colours are premultiplied by alpha
+uniform bool u_light_in;      // whether the picture is light times opacity, and opacity
+uniform bool u_light_out;     // whether the output is this, times u_weight
+uniform float u_weight;
 
 out vec4 o_colour;
 
@@ -18,7 +21,7 @@ vec3 light_of(vec3 c) {
 // Light times opacity of a sample, and its opacity.
 vec4 sample_at(ivec2 place) {
   vec4 c = texelFetch(u_picture, place, 0);
-  if (u_transparent && c.a > 0.0) c.rgb = c.a * light_of(srgb(c.rgb) / c.a);
+  if (u_transparent && !u_light_in && c.a > 0.0) c.rgb = c.a * light_of(srgb(c.rgb) / c.a);
   return c;
 }
 
@@ -29,6 +32,10 @@ void main() {
     for (int x = 0; x < u_samples; ++x) sum += sample_at(corner + ivec2(x, y));
   }
   vec4 mean = sum / float(u_samples * u_samples);
+  if (u_light_out) {
+    o_colour = u_weight * mean;
+    return;
+  }
   o_colour = vec4(srgb(mean.rgb), mean.a);
   if (u_transparent && mean.a > 0.0) o_colour.rgb = mean.a * srgb(mean.rgb / mean.a);
 }

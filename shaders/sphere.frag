@@ -1,13 +1,15 @@
 #version 330 core
 // A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
-// planes of periodic borders and of a slab cut it, and the cut is flat.
+// planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output is
+// sRGB values instead of linear light. With MARKED spheres have marks that turn with them. These are macros, because drivers without branches would
+// compute unused parts for each pixel.
 
 flat in vec3 v_centre;    // view coordinates, see render/eye.h
 flat in vec4 v_colour;    // linear light
 flat in vec4 v_crowding;  // direction and weight of the neighbours
 flat in vec3 v_squares;   // xx, yy, zz of their second moments
 flat in vec3 v_products;  // xy, xz, yz of these
-flat in float v_uncut;    // 1: no plane cuts the sphere
+flat in vec4 v_turn;      // rotation from the view to the sphere, real part last
 
 uniform vec2 u_origin;             // pixel of the centre of the view
 uniform float u_scale;             // pixels per world unit, at the centre
@@ -21,19 +23,21 @@ uniform vec3 u_low;                // corners of what is drawn, world units
 uniform vec3 u_high;
 uniform vec3 u_ghost_low;          // corners of what is drawn faintly, world units
 uniform vec3 u_ghost_high;
-uniform bool u_encoded;            // output sRGB values instead of linear light
 
 out vec4 o_colour;
 
 const float kGhost = 0.15;  // opacity of the parts beyond a periodic border
+const float kSpot = 0.955;  // cosine of the angle between the axis and the edge of a mark
 const vec3 kKey = vec3(-0.40, 0.62, 0.675);  // direction to the main light, in the view
 
 // Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 
+#ifdef ENCODED
 vec3 srgb(vec3 c) {
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
+#endif
 
 // Share of the sky that neighbours leave open over a normal (see neighbour_shade.h).
 float openness(vec3 n) {
@@ -50,6 +54,17 @@ float light(vec3 n) {
   float sky = mix(0.3, 0.6, 0.5 + 0.5 * dot(n, up));
   return open * sky + 0.8 * max(dot(n, kKey), 0.0) * mix(0.6, 1.0, open);
 }
+
+#ifdef MARKED
+// Light of the marks that turn with a sphere: dark spots at both ends of its three axes. They fade
+// out towards small spheres.
+float mark(vec3 n, float pixels) {
+  vec3 turned = abs(n + 2.0 * cross(v_turn.xyz, cross(v_turn.xyz, n) + v_turn.w * n));
+  float nearest = max(max(turned.x, turned.y), turned.z);
+  float spot = coverage((nearest - kSpot) / sqrt(1.0 - kSpot * kSpot) * pixels);
+  return 1.0 - 0.75 * spot * clamp((pixels / u_samples - 1.5) / 5.5, 0.0, 1.0);
+}
+#endif
 
 #ifdef CUT
 // First and last t of the part of a ray between two corners.
@@ -77,25 +92,26 @@ void main() {
   bool cut = false;
   float t = -half_chord, alpha = whole;
 #ifdef CUT
-  if (v_uncut == 0.0) {
-    vec3 middle = u_axes * (v_centre + nearest) + u_centre;
-    vec3 per_direction = 1.0 / (u_axes * along);
-    vec2 drawn = inside(middle, per_direction, u_low, u_high);
-    cut = drawn.x > -half_chord;
-    t = max(-half_chord, drawn.x);
-    if (t > min(half_chord, drawn.y)) {
-      vec2 ghost = inside(middle, per_direction, u_ghost_low, u_ghost_high);
-      cut = ghost.x > -half_chord;
-      t = max(-half_chord, ghost.x);
-      if (t > min(half_chord, ghost.y)) discard;
-      alpha *= kGhost;
-    }
+  vec3 middle = u_axes * (v_centre + nearest) + u_centre;
+  vec3 per_direction = 1.0 / (u_axes * along);
+  vec2 drawn = inside(middle, per_direction, u_low, u_high);
+  cut = drawn.x > -half_chord;
+  t = max(-half_chord, drawn.x);
+  if (t > min(half_chord, drawn.y)) {
+    vec2 ghost = inside(middle, per_direction, u_ghost_low, u_ghost_high);
+    cut = ghost.x > -half_chord;
+    t = max(-half_chord, ghost.x);
+    if (t > min(half_chord, ghost.y)) discard;
+    alpha *= kGhost;
   }
 #endif
 
   vec3 point = v_centre + nearest + t * along;
   vec3 normal = (nearest - half_chord * along) / u_radius;
   float shade = light(normal);
+#ifdef MARKED
+  shade *= mark(normal, pixels);
+#endif
 #ifdef CUT
   if (cut) {
     shade = 0.8;  // a flat cut, with a darker rim
@@ -104,7 +120,10 @@ void main() {
   }
 #endif
   vec3 colour = shade * v_colour.rgb;
-  o_colour = vec4(u_encoded ? srgb(colour) : colour, v_colour.a * alpha);
+#ifdef ENCODED
+  colour = srgb(colour);
+#endif
+  o_colour = vec4(colour, v_colour.a * alpha);
   float depth = point.z / (1.0 - point.z * u_inverse_distance);
   gl_FragDepth = 0.5 - 0.5 * depth / u_depth_range;
 }

@@ -8,11 +8,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
+#include "engine/dimension.h"
+#include "engine/physics/theory.h"
 #include "engine/publish/live_field.h"
 #include "engine/publish/publish.h"
 #include "engine/system/child_process.h"
@@ -30,12 +31,13 @@ namespace {
 constexpr int kFrames = 10;
 constexpr double kFps = 30.0;
 
-// The stages of a frame. Disks, heatmap and overlay are parts of the drawing, repeated separately.
+// The stages of a frame. Particles, heatmap and overlay are parts of the drawing, repeated
+// separately.
 enum Task {
   kSimulate,
   kSnapshot,
   kDraw,
-  kDisks,
+  kParticles,
   kHeatmap,
   kOverlay,
   kRead,
@@ -44,10 +46,17 @@ enum Task {
   kVeryfast,
   kTasks
 };
-constexpr std::array<const char*, kTasks> kNames = {"simulate", "snapshot", "draw", "disks",
-                                                    "heatmap",  "overlay",  "read", "png",
-                                                    "x264",     "veryfast"};
+constexpr std::array<const char*, kTasks> names_of(int dimension) {
+  return {"simulate", "snapshot", "draw", dimension == 2 ? "disks" : "spheres",
+          "heatmap",  "overlay",  "read", "png",
+          "x264",     "veryfast"};
+}
 using Times = std::array<double, kTasks>;  // CPU milliseconds per frame
+
+// The share of the box that the particles fill.
+constexpr double fraction_of(int dimension) {
+  return dimension == 2 ? 0.5 : 0.1;
+}
 
 // CPU time of the child processes that have ended.
 double children_milliseconds() {
@@ -69,14 +78,18 @@ void spend(Times& times, Task task, const Gl& gl, Work work) {
   times[task] += 1e3 * (cpu_seconds() - began) / kFrames;
 }
 
-// Elastic disks with an area fraction of 0.5 in a periodic box of the shape of a film, coloured
-// over a heatmap.
-Scene scene_of(int count) {
-  Scene scene;
+// Elastic particles in a periodic box, coloured over a heatmap: disks in the shape of a film, or
+// spheres in a cube.
+Scene scene_of(int count, int dimension) {
+  Scene scene = default_scene(dimension);
   scene.title = "Bench";
   scene.particles.count = count;
-  const double area = count * 0.25 * std::numbers::pi / 0.5;
-  scene.box = Vec2(std::sqrt(area * 16.0 / 9.0), std::sqrt(area * 9.0 / 16.0));
+  const double volume = count * packing_fraction(dimension, 1.0) / fraction_of(dimension);
+  if (dimension == 2) {
+    scene.box = Vec2(std::sqrt(volume * 16.0 / 9.0), std::sqrt(volume * 9.0 / 16.0));
+  } else {
+    scene.box.setConstant(std::cbrt(volume));
+  }
   scene.view.field = Quantity::Density;
   return scene;
 }
@@ -132,18 +145,33 @@ double encode(std::vector<Image> images) {
   return children_milliseconds() - before;
 }
 
+// The layers of the particles and of the heatmap.
+template <int D>
+struct Layers {
+  explicit Layers(const Gl& gl) : particles(gl), heatmap(gl) {}
+  DiskLayer particles;
+  FieldLayer heatmap;
+};
+template <>
+struct Layers<3> {
+  explicit Layers(const Gl& gl) : light(gl), particles(gl), heatmap(gl) {}
+  SphereLight light;
+  SphereLayer particles;
+  SliceLayer heatmap;
+};
+
 // A film of the simulation from its present time.
+template <int D>
 class Filming {
  public:
-  Filming(const Gl& gl, Simulation<2>& simulation, LiveField<2>& field, const View& view, Size size)
+  Filming(const Gl& gl, Simulation<D>& simulation, LiveField<D>& field, const View& view, Size size)
       : gl_(gl),
         simulation_(simulation),
         field_(field),
         view_(view),
-        canvas_(gl, size),
+        canvas_(gl, size, GL_SRGB8_ALPHA8, D == 2 ? Depth::None : Depth::Buffer),
         renderer_(gl),
-        disks_(gl),
-        heatmap_(gl),
+        layers_(gl),
         overlay_(gl) {}
 
   // Excludes the first frame, which fills the caches.
@@ -181,66 +209,89 @@ class Filming {
   void draw_parts(const Snapshot& snapshot, const Projection& projection) {
     const ThemeColours theme = theme_of(view_);
     const ColourScale scale{colour_map(view_.palette), 0.0, 3.0};
-    const Legends legends{Legend{label_of(view_.colour_by), scale, "auto"},
-                          Legend{label_of(*view_.field, 2), scale, "auto"},
+    const Legends legends{Legend{label_of(view_.colour_by, D), scale, "auto"},
+                          Legend{label_of(*view_.field, D), scale, "auto"},
                           {}};
-    spend(times_, kHeatmap, gl_, [&] {
-      heatmap_.draw(*snapshot.field, snapshot.box, projection, scale, theme.static_wall);
-    });
-    spend(times_, kDisks, gl_, [&] {
-      disks_.draw(snapshot, projection, {view_.colour_by, scale, theme.disk});
-    });
+    const DiskColours colours{view_.colour_by, scale, theme.disk};
+    if constexpr (D == 2) {
+      spend(times_, kHeatmap, gl_, [&] {
+        layers_.heatmap.draw(*snapshot.field, snapshot.box, projection, scale, theme.static_wall);
+      });
+      spend(times_, kParticles, gl_,
+            [&] { layers_.particles.draw(snapshot, projection, colours); });
+    } else {
+      const Eye eye(projection);
+      gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+      gl_.Enable(GL_DEPTH_TEST);
+      spend(times_, kHeatmap, gl_, [&] {
+        layers_.heatmap.draw(snapshot, slices_of(snapshot, view_), projection, eye, scale,
+                             theme.static_wall);
+      });
+      spend(times_, kParticles, gl_, [&] {
+        if (SphereLight::draws(eye, snapshot)) {
+          layers_.light.draw(snapshot, projection, eye, colours, view_.slab, {});
+        }
+        layers_.particles.draw(snapshot, projection, eye, colours, view_.slab);
+      });
+      gl_.Disable(GL_DEPTH_TEST);
+    }
     spend(times_, kOverlay, gl_, [&] {
       overlay_.draw(snapshot, projection, legends, {"Bench", ""}, theme);
     });
   }
 
   const Gl& gl_;
-  Simulation<2>& simulation_;
-  LiveField<2>& field_;
+  Simulation<D>& simulation_;
+  LiveField<D>& field_;
   const View& view_;
   Canvas canvas_;
   Renderer renderer_;
-  DiskLayer disks_;
-  FieldLayer heatmap_;
+  Layers<D> layers_;
   Overlay overlay_;
   Times times_{};
 };
 
+// A row of the table for each size of the picture.
+template <int D>
+void add_rows(nlohmann::ordered_json& rows, const Gl& gl, int count) {
+  const Scene scene = scene_of(count, D);
+  const auto simulation = simulation_of<D>(scene, 1);
+  LiveField<D> field(*simulation, scene.view);
+  for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
+    const Times times = Filming<D>(gl, *simulation, field, scene.view, size).measure();
+    std::printf("%8d %10s", count, size_text(size).c_str());
+    nlohmann::ordered_json row = {{"count", count}, {"width", size.width}, {"height", size.height}};
+    for (int task = 0; task < kTasks; ++task) {
+      std::printf(" %8.2f", times[task]);
+      row[std::string(names_of(D)[task]) + "_milliseconds"] = times[task];
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+    rows.push_back(row);
+  }
+}
+
 }  // namespace
 
-int bench_render(const std::string& json, int count) {
+int bench_render(const std::string& json, int count, int dimension) {
   const std::vector<int> counts =
       count > 0 ? std::vector{count} : std::vector{1'000, 10'000, 100'000, 1'000'000};
   const auto context = open_context(Backend::Auto);
+  const char* particles = names_of(dimension)[kParticles];
   std::fprintf(
       stderr,
-      "elastic disks at phi = 0.5 over a heatmap, %g frames per time unit, %s\n"
-      "CPU milliseconds per frame, all threads; draw: the whole picture, with its parts disks, "
+      "elastic %s at phi = %g over a heatmap, %g frames per time unit, %s\n"
+      "CPU milliseconds per frame, all threads; draw: the whole picture, with its parts %s, "
       "heatmap and overlay;\nx264: the encoder of films; veryfast: x264 with this preset and "
       "pictures in yuv420p\n",
-      kFps, context->description().c_str());
+      particles, fraction_of(dimension), kFps, context->description().c_str(), particles);
   std::printf("%8s %10s", "N", "size");
-  for (const char* name : kNames) std::printf(" %8s", name);
+  for (const char* name : names_of(dimension)) std::printf(" %8s", name);
   std::printf("\n");
   auto rows = nlohmann::ordered_json::array();
-  for (const int disks : counts) {
-    const Scene scene = scene_of(disks);
-    const auto simulation = simulation_of<2>(scene, 1);
-    LiveField<2> field(*simulation, scene.view);
-    for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
-      const Times times = Filming(context->gl(), *simulation, field, scene.view, size).measure();
-      std::printf("%8d %10s", disks, size_text(size).c_str());
-      nlohmann::ordered_json row = {
-          {"count", disks}, {"width", size.width}, {"height", size.height}};
-      for (int task = 0; task < kTasks; ++task) {
-        std::printf(" %8.2f", times[task]);
-        row[std::string(kNames[task]) + "_milliseconds"] = times[task];
-      }
-      std::printf("\n");
-      std::fflush(stdout);
-      rows.push_back(row);
-    }
+  for (const int number : counts) {
+    with_dimension(dimension,
+                   [&](auto dimension) { add_rows<dimension>(rows, context->gl(), number); });
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   return kOk;

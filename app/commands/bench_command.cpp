@@ -21,6 +21,11 @@ struct TableOptions {
   double duration = 10000.0;  // simulated time of each run
 };
 
+struct RenderTableOptions {
+  TableOptions table;
+  int dimension = 2;  // of the box: disks or spheres
+};
+
 struct EngineOptions {
   std::string json;
   EngineTable table;
@@ -28,6 +33,12 @@ struct EngineOptions {
 
 void add_json_flag(CLI::App& table, std::string& json) {
   table.add_option("--json", json, "File for the table as JSON.")->type_name("FILE");
+}
+
+void add_dimension_flag(CLI::App& table, int& dimension) {
+  table.add_option("--dimension", dimension, "2: disks. 3: spheres.")
+      ->check(whole_number_between(2, 3))
+      ->capture_default_str();
 }
 
 CLI::Option* add_count_flag(CLI::App& table, int& count, const char* help) {
@@ -52,9 +63,7 @@ void add_engine_table(CLI::App& bench, int& exit_code) {
   add_json_flag(*table, options->json);
   CLI::Option* count = add_count_flag(*table, options->table.count,
                                       "Number of particles. The table then has one cell.");
-  table->add_option("--dimension", options->table.dimension, "2: disks. 3: spheres.")
-      ->check(whole_number_between(2, 3))
-      ->capture_default_str();
+  add_dimension_flag(*table, options->table.dimension);
   CLI::Option* area = table
                           ->add_option("--area-fraction", options->table.area_fraction,
                                        "Area fraction of that cell, of disks.")
@@ -103,12 +112,14 @@ void add_fields_table(CLI::App& bench, int& exit_code) {
 }
 
 void add_render_table(CLI::App& bench, int& exit_code) {
-  auto options = std::make_shared<TableOptions>();
+  auto options = std::make_shared<RenderTableOptions>();
   CLI::App* table = bench.add_subcommand("render", "Cost of a frame of film.");
-  add_json_flag(*table, options->json);
-  add_count_flag(*table, options->count, "Number of disks. Default: several numbers.");
-  table->callback(
-      [options, &exit_code] { exit_code = bench_render(options->json, options->count); });
+  add_json_flag(*table, options->table.json);
+  add_count_flag(*table, options->table.count, "Number of particles. Default: several numbers.");
+  add_dimension_flag(*table, options->dimension);
+  table->callback([options, &exit_code] {
+    exit_code = bench_render(options->table.json, options->table.count, options->dimension);
+  });
 }
 
 void add_window_table(CLI::App& bench, int& exit_code) {

@@ -160,11 +160,6 @@ void require_drawable(const FilmState& film, const Gl& gl) {
                   "give a smaller --size or --supersample");
 }
 
-void require_shutter_of_disks(const RenderOptions& options, const Scene& scene) {
-  if (options.shutter.value_or(0.0) == 0.0 || scene.dimension() == 2) return;
-  throw UserError({"--shutter", 0, 0}, "spheres have no motion blur", "omit --shutter");
-}
-
 [[noreturn]] void refuse_change(const char* flag, const std::string& before) {
   throw UserError({flag, 0, 0}, "the film of the checkpoint has " + before,
                   "omit the flag, or begin another film with --from");
@@ -332,7 +327,6 @@ int film_again(RenderOptions options, const View& view, std::uint64_t seed,
 int render(const RenderOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
-  require_shutter_of_disks(options, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);
   View view = scene.view;
@@ -418,7 +412,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->check(whole_number_between(1, 4));
   command
       ->add_option("--shutter", options->shutter,
-                   "Motion blur of the disks. The value is the open share of the time between two "
+                   "Motion blur. The value is the open share of the time between two "
                    "frames. Default: 0.")
       ->check(number_between(0.0, 1.0));
   command

@@ -38,7 +38,7 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
 }
 
 void Viewport::show(int x, int y) const {
-  if (canvas_) canvas_->show(x, y);
+  if (canvas_) canvas_->copy_to(0, x, y);
 }
 
 void Viewport::fit() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -52,7 +53,9 @@ struct Snapshot {
   Vectors velocities;          ///< [D][N]
   Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
   std::vector<double> angles;  ///< [N] rotation angles of disks, -pi..pi; empty: not observed
-  double exposure = 0.0;       ///< exposure time, which ends at `time`; 0: an instant
+  /// [N] rotations of spheres from their start, unit quaternions; empty: not observed
+  std::vector<Eigen::Quaterniond> orientations;
+  double exposure = 0.0;             ///< exposure time, which ends at `time`; 0: an instant
   std::vector<FlightPiece> flights;  ///< of the exposure and of trails; empty: not observed
   std::optional<FieldMap> field;     ///< averaged over the view's window; absent: not requested
   std::optional<ArrowMap> arrows;    ///< averaged over the view's window; absent: not requested

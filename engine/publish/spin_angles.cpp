@@ -51,4 +51,56 @@ void SpinAngles::turn(const ParticleChange<2>& change, double time) {
   turned.time = time;
 }
 
+SpinOrientations::SpinOrientations(Simulation<3>& simulation)
+    : simulation_(simulation), turned_(simulation.particles().size()) {
+  for (Turned& turned : turned_) turned.time = simulation.base_time();
+  simulation.add_observer(*this);
+}
+
+SpinOrientations::SpinOrientations(Simulation<3>& simulation, SpinOrientations&& before)
+    : simulation_(simulation), turned_(std::move(before.turned_)) {
+  simulation.add_observer(*this);
+}
+
+void SpinOrientations::on_collision(const PairCollision<3>& collision) {
+  for (const ParticleChange<3>& particle : collision.particles) turn(particle, collision.time);
+}
+
+void SpinOrientations::on_wall(const WallCollision<3>& collision) {
+  turn(collision.particle, collision.time);
+}
+
+void SpinOrientations::on_kick(const Kick<3>& kick) {
+  turn(kick.particle, kick.time);
+}
+
+void SpinOrientations::on_base_moved(double shift) {
+  for (Turned& turned : turned_) turned.time -= shift;
+}
+
+std::vector<Eigen::Quaterniond> SpinOrientations::orientations() const {
+  std::vector<Eigen::Quaterniond> orientations;
+  orientations.reserve(turned_.size());
+  for (std::size_t i = 0; i < turned_.size(); ++i) {
+    orientations.push_back(turned_[i].after(simulation_.spins()[i], simulation_.base_time()));
+  }
+  return orientations;
+}
+
+// Normalised again, so that roundings do not grow with the number of events.
+Eigen::Quaterniond SpinOrientations::Turned::after(const Vec<3>& spin, double later) const {
+  const Eigen::Quaterniond before(rotation);
+  const double rate = spin.norm();
+  if (!(rate > 0.0)) return before;
+  const Eigen::AngleAxisd turn(std::remainder(rate * (later - time), 4.0 * std::numbers::pi),
+                               spin / rate);
+  return (Eigen::Quaterniond(turn) * before).normalized();
+}
+
+void SpinOrientations::turn(const ParticleChange<3>& change, double time) {
+  Turned& turned = turned_[change.particle];
+  turned.rotation = turned.after(change.spin, time).coeffs();
+  turned.time = time;
+}
+
 }  // namespace clatter

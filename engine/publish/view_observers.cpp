@@ -63,19 +63,21 @@ void ViewObservers<D>::watch_flights(Simulation<D>& simulation, ViewObservers* b
 
 template <int D>
 void ViewObservers<D>::watch_spins(Simulation<D>& simulation, ViewObservers* before) {
-  if constexpr (D == 2) {
-    if (before && before->angles_) {
-      angles_.emplace(simulation, std::move(*before->angles_));
-    } else {
-      angles_.emplace(simulation);
-    }
+  if (before && before->angles_) {
+    angles_.emplace(simulation, std::move(*before->angles_));
+  } else {
+    angles_.emplace(simulation);
   }
 }
 
 template <int D>
 void ViewObservers<D>::publish(Snapshot& snapshot) {
   if (field_) field_->publish(snapshot);
-  if (angles_) snapshot.angles = angles_->angles();
+  if constexpr (D == 2) {
+    if (angles_) snapshot.angles = angles_->angles();
+  } else {
+    if (angles_) snapshot.orientations = angles_->orientations();
+  }
   if (!flights_) return;
   snapshot.exposure = std::min(exposure_, flights_->reach());
   snapshot.flights = flights_->pieces();

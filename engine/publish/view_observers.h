@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/publish/flight_recorder.h"
@@ -40,7 +41,8 @@ class ViewObservers {
   double exposure_;
   std::optional<LiveField<D>> field_;
   std::optional<FlightRecorder<D>> flights_;
-  std::optional<SpinAngles> angles_;  // present if disks spin
+  // The rotations of the particles; present if they spin.
+  std::optional<std::conditional_t<D == 2, SpinAngles, SpinOrientations>> angles_;
 };
 
 }  // namespace clatter

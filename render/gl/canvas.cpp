@@ -61,12 +61,12 @@ Image Canvas::read() const {
   return image;
 }
 
-void Canvas::show(int x, int y) const {
+void Canvas::copy_to(GLuint framebuffer, int x, int y) const {
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   gl_->BlitFramebuffer(0, 0, size_.width, size_.height, x, y, x + size_.width, y + size_.height,
                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  gl_->BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
 }  // namespace clatter

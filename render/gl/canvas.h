@@ -27,9 +27,9 @@ class Canvas {
   void bind() const;
   /// Reads the current picture.
   Image read() const;
-  /// Copies the picture to the window of the context, with its lower left corner at pixel (x, y).
-  /// The window becomes the target of later draw calls.
-  void show(int x, int y) const;
+  /// Copies the picture into another framebuffer, 0 for the window of the context, with its lower
+  /// left corner at pixel (x, y). The framebuffer becomes the target of later draw calls.
+  void copy_to(GLuint framebuffer, int x = 0, int y = 0) const;
   /// OpenGL name of the texture that holds the picture.
   GLuint texture() const { return colour_.id(); }
 

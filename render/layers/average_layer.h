@@ -6,7 +6,8 @@
 
 namespace clatter {
 
-/// Draws a supersampled picture at the final resolution, with a box filter in linear light.
+/// Draws a supersampled picture at the final resolution, with a box filter in linear light. Also
+/// averages several such pictures.
 class AverageLayer {
  public:
   explicit AverageLayer(const Gl& gl);
@@ -16,8 +17,22 @@ class AverageLayer {
   /// a stop request is made during the drawing of a large picture.
   void draw(const Canvas& fine, int samples, bool transparent = false,
             const StopRequest& stop = {}) const;
+  /// Adds the light of `fine` times `weight` to the bound picture of floating-point numbers. They
+  /// are light times opacity, and opacity.
+  void add(const Canvas& fine, int samples, bool transparent, double weight,
+           const StopRequest& stop = {}) const;
+  /// Replaces the bound picture by a sum of add().
+  void draw_sum(const Canvas& sum, bool transparent, const StopRequest& stop = {}) const;
 
  private:
+  struct Pass {
+    int samples;
+    bool transparent;
+    bool light_in, light_out;
+    double weight;
+  };
+  void draw_pass(const Canvas& picture, const Pass& pass, const StopRequest& stop) const;
+
   const Gl* gl_;
   Program program_;
   VertexArray vertices_;  ///< no attributes: the shader computes the corners

@@ -87,7 +87,7 @@ void BoxLayer::draw_sides(const Snapshot& snapshot, const Projection& projection
 }
 
 void BoxLayer::draw_edges(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                          const ThemeColours& theme) {
+                          const ThemeColours& theme, Sides sides) {
   const double width =
       projection.samples *
       std::max(1.0, 0.0016 * std::min(projection.size.width, projection.size.height));
@@ -97,6 +97,8 @@ void BoxLayer::draw_edges(const Snapshot& snapshot, const Projection& projection
     for (int side = 0; side < 6; ++side) {
       const std::optional<Wall>& wall = snapshot.walls[side];
       if (wall.has_value() != walls) continue;
+      const bool far = faces_viewer(snapshot, side, eye);
+      if (sides != Sides::All && far != (sides == Sides::Far)) continue;
       const Rectangle3 rectangle = side_of(snapshot, side);
       const std::array<Vec2, 4> corners = {
           rectangle.low, Vec2(rectangle.high.x(), rectangle.low.y()), rectangle.high,

@@ -11,14 +11,17 @@ namespace clatter {
 /// edges as lines, dashed between periodic borders.
 class BoxLayer {
  public:
+  /// Sides of the box: all, those behind the spheres, or those in front of them.
+  enum class Sides { All, Far, Near };
+
   explicit BoxLayer(const Gl& gl);
 
   /// Draws the sides that face the viewer from behind the spheres.
   void draw_sides(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                   const ThemeColours& theme) const;
-  /// Draws the edges that no sphere hides.
+  /// Draws the edges of sides where no sphere hides them.
   void draw_edges(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                  const ThemeColours& theme);
+                  const ThemeColours& theme, Sides sides = Sides::All);
 
  private:
   const Gl* gl_;

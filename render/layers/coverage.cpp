@@ -55,11 +55,27 @@ void Coverage::add(const Vec2& centre, Colour colour, float share) {
 
 void Coverage::sum() {
   for (const std::vector<Disk>& band : bands_) {
-    for (const Disk& disk : band) add_to_pixels(disk);
+    for (const Disk& disk : band) {
+      add_to_pixels(disk,
+                    [](Eigen::Array4f& pixel, const Eigen::Array4f& light) { pixel += light; });
+    }
   }
 }
 
-void Coverage::add_to_pixels(const Disk& disk) {
+void Coverage::compose(float shade) {
+  const Eigen::Array4f shades(shade, shade, shade, 1.0f);
+  for (const std::vector<Disk>& band : bands_) {
+    for (const Disk& disk : band) {
+      add_to_pixels(disk, [&](Eigen::Array4f& pixel, const Eigen::Array4f& light) {
+        pixel += std::max(0.0f, 1.0f - pixel[3]) * shades * light;
+      });
+    }
+  }
+}
+
+// Calls `lay` with each pixel and the disk's light and area in it.
+template <class Lay>
+void Coverage::add_to_pixels(const Disk& disk, Lay lay) {
   const int x = static_cast<int>(disk.x), y = static_cast<int>(disk.y);
   const int phase_x = static_cast<int>((disk.x - x) * kPhases);
   const int phase_y = static_cast<int>((disk.y - y) * kPhases);
@@ -69,7 +85,7 @@ void Coverage::add_to_pixels(const Disk& disk) {
                                   linear_light(disk.colour.blue), 1.0f);
   Eigen::Array4f* row = &pixels_[static_cast<std::size_t>(y) * extent().width + x];
   for (int j = 0; j < side_; ++j, row += extent().width) {
-    for (int i = 0; i < side_; ++i) row[i] += areas[j * kSide + i] * light;
+    for (int i = 0; i < side_; ++i) lay(row[i], areas[j * kSide + i] * light);
   }
 }
 

@@ -23,8 +23,11 @@ class Coverage {
   /// Adds the fraction `share` of a disk. `centre` is in pixels from the lower left corner of the
   /// picture, at most kMargin - 2 pixels outside.
   void add(const Vec2& centre, Colour colour, float share = 1.0f);
-  /// Computes pixels() from the disks added since restart().
+  /// Computes pixels() from the disks added since restart(), which do not overlap.
   void sum();
+  /// Computes pixels() from disks that may overlap and were added from front to back. The covered
+  /// share of a pixel hides the same share of each disk behind. `shade` multiplies all light.
+  void compose(float shade);
 
   /// Size of the picture with its margins.
   Size extent() const { return {size_.width + 2 * kMargin, size_.height + 2 * kMargin}; }
@@ -44,7 +47,8 @@ class Coverage {
   };
 
   Stencil stencil(double x, double y) const;
-  void add_to_pixels(const Disk& disk);
+  template <class Lay>
+  void add_to_pixels(const Disk& disk, Lay lay);
 
   Size size_;
   double radius_ = 0.0;

@@ -63,12 +63,9 @@ DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
       square_(gl, "disk_quad.vert", "disk.frag"),
       swept_(gl),
       light_(gl),
-      areas_(generate<Texture>(gl, gl.GenTextures)),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
       points_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       squares_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
-  gl.BindTexture(GL_TEXTURE_2D, areas_.id());
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   for (const auto& [array, divisor] : {std::pair(points_.id(), 0), std::pair(squares_.id(), 1)}) {
     gl.BindVertexArray(array);
@@ -106,12 +103,7 @@ void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projec
     });
   }
   coverage_.sum();
-  const Size extent = coverage_.extent();
-  gl_->ActiveTexture(GL_TEXTURE0);
-  gl_->BindTexture(GL_TEXTURE_2D, areas_.id());
-  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, extent.width, extent.height, 0, GL_RGBA, GL_FLOAT,
-                  coverage_.pixels().data());
-  light_.draw(areas_.id(), Coverage::kMargin, projection, faces_of(snapshot), colours.blending);
+  light_.draw(coverage_, projection, faces_of(snapshot), colours.blending);
 }
 
 // Adds disks along their paths in steps, each with its share of the exposure. The coverage resolves

@@ -46,7 +46,6 @@ class DiskLayer {
   Program square_;
   SweptLayer swept_;
   LightLayer light_;
-  Texture areas_;
   Buffer buffer_;
   VertexArray points_;       ///< reads the buffer, one vertex per disk
   VertexArray squares_;      ///< reads the buffer, one instance per disk

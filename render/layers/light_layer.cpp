@@ -5,7 +5,11 @@ namespace clatter {
 LightLayer::LightLayer(const Gl& gl)
     : gl_(&gl),
       program_(gl, "field.vert", "light.frag"),
-      vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {}
+      vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)),
+      areas_(generate<Texture>(gl, gl.GenTextures)) {
+  gl.BindTexture(GL_TEXTURE_2D, areas_.id());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+}
 
 void LightLayer::begin(Size size, GLenum equation) {
   gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target_);
@@ -25,6 +29,16 @@ void LightLayer::end(const Projection& projection, const Faces& faces, Blending 
   gl_->BlendEquation(GL_FUNC_ADD);
   gl_->BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target_));
   draw(collected_->texture(), 0, projection, faces, blending);
+}
+
+void LightLayer::draw(const Coverage& coverage, const Projection& projection, const Faces& faces,
+                      Blending blending) const {
+  const Size extent = coverage.extent();
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindTexture(GL_TEXTURE_2D, areas_.id());
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, extent.width, extent.height, 0, GL_RGBA, GL_FLOAT,
+                  coverage.pixels().data());
+  draw(areas_.id(), Coverage::kMargin, projection, faces, blending);
 }
 
 void LightLayer::draw(GLuint light, int margin, const Projection& projection, const Faces& faces,

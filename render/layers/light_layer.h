@@ -4,6 +4,7 @@
 
 #include "render/gl/canvas.h"
 #include "render/gl/shader_program.h"
+#include "render/layers/coverage.h"
 #include "render/layers/wall_layer.h"
 
 namespace clatter {
@@ -24,15 +25,20 @@ class LightLayer {
   void begin(Size size, GLenum equation = GL_FUNC_ADD);
   /// Blends the buffer over the framebuffer that was bound before begin().
   void end(const Projection& projection, const Faces& faces, Blending blending);
-  /// Blends a texture over the bound framebuffer. The texture has `margin` more pixels on every
-  /// side. Light outside the faces is faint.
-  void draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
+  /// Blends the light of a coverage over the bound framebuffer. Light outside the faces is faint.
+  void draw(const Coverage& coverage, const Projection& projection, const Faces& faces,
             Blending blending) const;
 
  private:
+  // Blends a texture over the bound framebuffer. The texture has `margin` more pixels on every
+  // side.
+  void draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
+            Blending blending) const;
+
   const Gl* gl_;
   Program program_;
   VertexArray vertices_;             ///< no attributes: the shader computes the corners
+  Texture areas_;                    ///< of a coverage
   std::optional<Canvas> collected_;  ///< buffer of begin(); absent: not used yet
   GLint target_ = 0;                 ///< framebuffer bound before begin()
 };

@@ -73,6 +73,19 @@ bool has_values(const FieldMap& map) {
   return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
 }
 
+// Moves the particles along their flights to a time relative to the time of the snapshot.
+void move_to(Snapshot& snapshot, double time) {
+  for (const FlightPiece& piece : snapshot.flights) {
+    if (time < piece.from || time >= piece.to) continue;
+    VecX place = piece.at(time);
+    for (Eigen::Index axis = 0; axis < place.size(); ++axis) {
+      const double length = snapshot.box[axis];
+      if (!snapshot.walls[2 * axis]) place[axis] -= std::floor(place[axis] / length) * length;
+    }
+    snapshot.positions.col(static_cast<Eigen::Index>(piece.particle)) = place;
+  }
+}
+
 }  // namespace
 
 RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
@@ -226,23 +239,31 @@ void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
 
 void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projection,
                             const View& view, const Legends& legends, const ThemeColours& theme) {
-  if (!space_) space_.emplace(*gl_);
+  const Blending blending = transparent_ ? Blending::Encoded : Blending::Light;
+  if (!space_) space_.emplace(*gl_, blending);
   const Eye eye(projection);
   const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
-                            theme.disk, transparent_ ? Blending::Encoded : Blending::Light,
-                            -eye.axes().row(2).transpose()};
+                            theme.disk, blending, -eye.axes().row(2).transpose()};
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
   space_->box.draw_sides(snapshot, projection, eye, theme);
+  std::vector<Slice> slices;
   if (legends.field && has_values(*snapshot.field)) {
-    space_->slices.draw(snapshot, view.slices, projection, eye, legends.field->scale,
+    slices = slices_of(snapshot, view);
+    space_->slices.draw(snapshot, slices, projection, eye, legends.field->scale,
                         thin(theme.static_wall, kHatchOpacity));
   }
   pause(projection);
+  // Spheres without a shape have no depths, so edges behind them are drawn first.
+  const bool light = SphereLight::draws(eye, snapshot);
+  using Sides = BoxLayer::Sides;
+  if (light) space_->box.draw_edges(snapshot, projection, eye, theme, Sides::Far);
+  // All spheres without a shape are behind a plane across the view, and the others before it.
+  if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
   space_->spheres.draw(snapshot, projection, eye, colours, view.slab);
   pause(projection);
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
-  space_->box.draw_edges(snapshot, projection, eye, theme);
+  space_->box.draw_edges(snapshot, projection, eye, theme, light ? Sides::Near : Sides::All);
   gl_->Disable(GL_DEPTH_TEST);
 }
 
@@ -264,6 +285,31 @@ void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection
   }
 }
 
+// The average of exact instants in the middle of equal parts of the exposure.
+void Renderer::draw_exposure(const Snapshot& snapshot, const Projection& projection,
+                             const View& view, const Legends& legends, const ThemeColours& theme,
+                             GLuint target) {
+  constexpr int kInstants = 16;
+  if (!exposed_ || !(exposed_->size() == projection.size)) {
+    exposed_.emplace(*gl_, projection.size, GL_RGBA32F);
+  }
+  exposed_->bind();
+  gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  Snapshot instant = snapshot;
+  instant.exposure = 0.0;
+  instant.orientations.clear();
+  for (int k = 0; k < kInstants; ++k) {
+    move_to(instant, snapshot.exposure * ((k + 0.5) / kInstants - 1.0));
+    fine_->bind();
+    draw_spheres(instant, projection, view, legends, theme);
+    exposed_->bind();
+    average_.add(*fine_, samples_, transparent_, 1.0 / kInstants, stop_);
+  }
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
+  average_.draw_sum(*exposed_, transparent_, stop_);
+}
+
 void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,
                              const View& view, const Legends& legends, const ThemeColours& theme,
                              GLuint target) {
@@ -274,11 +320,19 @@ void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& project
   if (!fine_ || !(fine_->size() == drawn) || fine_->depth() != depth) {
     fine_.emplace(*gl_, drawn, GL_SRGB8_ALPHA8, depth);
   }
+  if (snapshot.exposure > 0.0 && !disks) {
+    draw_exposure(snapshot, finer, view, legends, theme, target);
+    return;
+  }
   fine_->bind();
   if (disks) {
     draw_world(snapshot, finer, view, legends, theme);
   } else {
     draw_spheres(snapshot, finer, view, legends, theme);
+  }
+  if (samples_ == 1) {
+    fine_->copy_to(target);
+    return;
   }
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
   average_.draw(*fine_, samples_, transparent_, stop_);

@@ -16,6 +16,7 @@
 #include "render/layers/overlay.h"
 #include "render/layers/slice_layer.h"
 #include "render/layers/sphere_layer.h"
+#include "render/layers/sphere_light.h"
 #include "render/layers/trail_layer.h"
 #include "render/layers/wall_layer.h"
 
@@ -76,9 +77,11 @@ class Renderer {
   };
   /// The layers of spheres, which pictures of disks do not need.
   struct SpaceLayers {
-    explicit SpaceLayers(const Gl& gl) : box(gl), slices(gl), spheres(gl), lines(gl) {}
+    SpaceLayers(const Gl& gl, Blending blending)
+        : box(gl), slices(gl), light(gl), spheres(gl, blending), lines(gl) {}
     BoxLayer box;
     SliceLayer slices;
+    SphereLight light;
     SphereLayer spheres;
     LineLayer lines;
   };
@@ -92,6 +95,8 @@ class Renderer {
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
+  void draw_exposure(const Snapshot& snapshot, const Projection& projection, const View& view,
+                     const Legends& legends, const ThemeColours& theme, GLuint target);
   void draw_averaged(const Snapshot& snapshot, const Projection& projection, const View& view,
                      const Legends& legends, const ThemeColours& theme, GLuint target);
 
@@ -99,7 +104,8 @@ class Renderer {
   int samples_;
   bool transparent_;
   StopRequest stop_;
-  std::optional<Canvas> fine_;  ///< supersampled picture; absent: not drawn yet
+  std::optional<Canvas> fine_;     ///< supersampled picture; absent: not drawn yet
+  std::optional<Canvas> exposed_;  ///< sum of an exposure of spheres; absent: not drawn yet
   AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;

@@ -6,6 +6,11 @@
 
 namespace clatter {
 
+std::vector<Slice> slices_of(const Snapshot& snapshot, const View& view) {
+  if (!view.slices.empty()) return view.slices;
+  return {{Axis::Z, 0.5 * snapshot.box.z()}};
+}
+
 SliceLayer::SliceLayer(const Gl& gl)
     : gl_(&gl), faces_(gl, "field.frag"), cells_(generate<Texture>(gl, gl.GenTextures)) {
   gl.BindTexture(GL_TEXTURE_2D, cells_.id());
@@ -28,8 +33,7 @@ void SliceLayer::draw(const Snapshot& snapshot, const std::vector<Slice>& slices
       projection.samples * std::max(5.0, std::round(std::min(size.width, size.height) / 90.0)));
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, cells_.id());
-  const std::vector<Slice> middle = {{Axis::Z, 0.5 * snapshot.box.z()}};
-  for (const Slice& slice : slices.empty() ? middle : slices) {
+  for (const Slice& slice : slices) {
     const auto axis = static_cast<int>(slice.axis);
     const auto [first, second] = others_of(axis);
     const double share = slice.position / snapshot.box[axis];

@@ -8,12 +8,15 @@
 
 namespace clatter {
 
+/// The slices of a view, or the middle one across z.
+std::vector<Slice> slices_of(const Snapshot& snapshot, const View& view);
+
 /// Draws slices through a field of spheres.
 class SliceLayer {
  public:
   explicit SliceLayer(const Gl& gl);
 
-  /// Draws the slices of a view, or the middle one across z.
+  /// Draws slices of the field of the snapshot.
   void draw(const Snapshot& snapshot, const std::vector<Slice>& slices,
             const Projection& projection, const Eye& eye, const ColourScale& scale, Colour gap);
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
+#include "render/layers/sphere_light.h"
 #include "render/neighbour_shade.h"
 #include "render/occlusion.h"
 
@@ -18,6 +20,7 @@ struct Seen {
   std::array<Vec2, 2> shape;  // rectangle around it on the picture, drawn pixels
   std::uint32_t number;
   double distance;  // increases with the distance from the viewer
+  bool cut;         // by a plane
 };
 
 bool in_sight(const std::array<Vec2, 2>& shape, Size drawn) {
@@ -35,6 +38,7 @@ std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection
                           const std::optional<Slab>& slab) {
   const double radius = 0.5 * snapshot.diameter;
   const DrawnRegion region = drawn_region(snapshot, slab, false);
+  const DrawnRegion uncut = drawn_region(snapshot, slab, true);
   std::vector<Seen> all;
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
     const Vec3 position = snapshot.positions.col(static_cast<Eigen::Index>(i));
@@ -45,18 +49,78 @@ std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection
       }
       const Vec3 centre = eye.seen(place);
       if (eye.w(centre + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
+      if (SphereLight::draws(eye, centre, radius)) return;
       // The soft edge reaches half a pixel beyond the sphere.
-      auto shape = eye.around(centre, radius);
-      shape[0].array() -= 1.0;
-      shape[1].array() += 1.0;
+      const auto shape = eye.around(centre, radius + 0.5 * eye.w(centre) / eye.scale());
       if (!in_sight(shape, projection.drawn())) return;
-      all.push_back({centre, shape, static_cast<std::uint32_t>(i), distance_from(eye, centre)});
+      all.push_back({centre, shape, static_cast<std::uint32_t>(i), distance_from(eye, centre),
+                     uncut.cuts(place, radius)});
     });
   }
   std::ranges::sort(all, [](const Seen& a, const Seen& b) {
     return a.distance != b.distance ? a.distance > b.distance : a.number < b.number;
   });
   return all;
+}
+
+// The spheres that nearer ones do not hide, from back to front, by their index in `all`.
+std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, double radius,
+                                      const Projection& projection, const Eye& eye) {
+  Occlusion occlusion(projection.drawn());
+  std::vector<std::uint32_t> shown;
+  for (std::size_t k = all.size(); k-- > 0;) {
+    const Seen& seen = all[k];
+    // On the picture a sphere is an ellipse in its rectangle. The smaller axis is at least that of
+    // the circle of its radius around the centre, which the ellipse contains. The squares of the
+    // axes have the same sum as those of the rectangle.
+    const double smaller = eye.pixels(seen.centre, radius) + 0.5;
+    const auto& [low, high] = seen.shape;
+    const double larger =
+        std::sqrt(std::max(0.25 * (high - low).squaredNorm() - smaller * smaller, 0.0));
+    if (occlusion.hides(0.5 * (low + high), larger)) continue;
+    shown.push_back(static_cast<std::uint32_t>(k));
+    if (seen.cut) continue;
+    occlusion.cover(eye.pixels(seen.centre), smaller - 1.0);
+  }
+  std::ranges::reverse(shown);
+  return shown;
+}
+
+// Draws each cut sphere later, just before an uncut one would cover it on the picture: longer runs
+// of one kind need fewer draw calls. The picture is divided into square tiles.
+void join_runs(std::vector<std::uint32_t>& shown, const std::vector<Seen>& all, Size drawn) {
+  constexpr double kTile = 8.0;  // pixels
+  const auto index = [](double place, int pixels) {
+    return static_cast<std::size_t>(std::clamp(place, 0.0, pixels - 1.0) / kTile);
+  };
+  const std::size_t columns = index(drawn.width, drawn.width) + 1;
+  const std::size_t rows = index(drawn.height, drawn.height) + 1;
+  std::vector<std::uint32_t> covered(columns * rows, 0);  // the last run of cut spheres in a tile
+  std::vector<std::uint32_t> ordered, later;
+  std::uint32_t run = 1;
+  for (const std::uint32_t k : shown) {
+    const auto& [low, high] = all[k].shape;
+    bool waits = false;
+    for (std::size_t y = index(low.y(), drawn.height); y <= index(high.y(), drawn.height); ++y) {
+      for (std::size_t x = index(low.x(), drawn.width); x <= index(high.x(), drawn.width); ++x) {
+        std::uint32_t& tile = covered[y * columns + x];
+        if (all[k].cut) tile = run;
+        waits = waits || tile == run;
+      }
+    }
+    if (!all[k].cut && waits) {
+      ordered.insert(ordered.end(), later.begin(), later.end());
+      later.clear();
+      ++run;
+    }
+    (all[k].cut ? later : ordered).push_back(k);
+  }
+  ordered.insert(ordered.end(), later.begin(), later.end());
+  shown = std::move(ordered);
+}
+
+std::string defines_of(Blending blending, const std::string& defines) {
+  return blending == Blending::Light ? defines : defines + "ENCODED ";
 }
 
 std::array<float, 3> as_floats(const auto& vector) {
@@ -66,71 +130,69 @@ std::array<float, 3> as_floats(const auto& vector) {
 
 }  // namespace
 
-SphereLayer::SphereLayer(const Gl& gl)
+SphereLayer::Programs::Programs(const Gl& gl, Blending blending, const std::string& defines)
+    : uncut(gl, "sphere.vert", "sphere.frag", defines_of(blending, defines)),
+      cut(gl, "sphere.vert", "sphere.frag", defines_of(blending, defines + "CUT ")) {}
+
+SphereLayer::SphereLayer(const Gl& gl, Blending blending)
     : gl_(&gl),
-      plain_(gl, "sphere.vert", "sphere.frag"),
-      cut_(gl, "sphere.vert", "sphere.frag", "CUT"),
+      blending_(blending),
+      plain_(gl, blending, ""),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
   gl.BindVertexArray(vertices_.id());
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
+  for (GLuint attribute : {0, 1, 2, 3, 4, 5}) {
+    gl.EnableVertexAttribArray(attribute);
+    gl.VertexAttribDivisor(attribute, 1);
+  }
+}
+
+void SphereLayer::read_from(std::size_t first) const {
   const auto attribute = [&](GLuint index, GLint size, std::size_t offset, GLenum type = GL_FLOAT) {
-    gl.VertexAttribPointer(index, size, type, type != GL_FLOAT, sizeof(Sphere),
-                           reinterpret_cast<const void*>(offset));
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribDivisor(index, 1);
+    gl_->VertexAttribPointer(index, size, type, type != GL_FLOAT, sizeof(Sphere),
+                             reinterpret_cast<const void*>(first * sizeof(Sphere) + offset));
   };
   attribute(0, 3, offsetof(Sphere, centre));
   attribute(1, 4, offsetof(Sphere, light), GL_UNSIGNED_SHORT);
   attribute(2, 4, offsetof(Sphere, crowding));
   attribute(3, 3, offsetof(Sphere, squares));
   attribute(4, 3, offsetof(Sphere, products));
-}
-
-// The spheres that nearer ones do not hide, from back to front, by their index in `all`.
-static std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, const Snapshot& snapshot,
-                                             const Projection& projection, const Eye& eye,
-                                             const DrawnRegion& region) {
-  const double radius = 0.5 * snapshot.diameter;
-  Occlusion occlusion(projection.drawn(), radius * eye.scale());
-  std::vector<std::uint32_t> shown;
-  for (std::size_t k = all.size(); k-- > 0;) {
-    const Seen& seen = all[k];
-    if (occlusion.hides(seen.shape[0], seen.shape[1])) continue;
-    shown.push_back(static_cast<std::uint32_t>(k));
-    if (region.cuts(eye.world(seen.centre), radius)) continue;
-    // On the picture a sphere is an ellipse, which contains the circle of its radius.
-    const double pixels = radius * eye.scale() / eye.w(seen.centre);
-    occlusion.cover(eye.pixels(seen.centre), pixels - 1.0);
-  }
-  std::ranges::reverse(shown);
-  return shown;
+  attribute(5, 4, offsetof(Sphere, turn));
 }
 
 void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                           const DiskColours& colours, const std::optional<Slab>& slab) {
   const std::vector<Seen> all = visible(snapshot, projection, eye, slab);
-  const std::vector<std::uint32_t> shown =
-      not_hidden(all, snapshot, projection, eye, drawn_region(snapshot, slab, true));
+  std::vector<std::uint32_t> shown = not_hidden(all, 0.5 * snapshot.diameter, projection, eye);
+  join_runs(shown, all, projection.drawn());
   std::vector<Vec3> centres;
   for (const Seen& seen : all) centres.push_back(seen.centre);
   const std::vector<NeighbourShade> shades = neighbour_shades(centres, shown, snapshot.diameter);
+  const Eigen::Quaterniond world_of_view(Eigen::Matrix3d(eye.axes().transpose()));
   spheres_.clear();
+  runs_.clear();
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const NeighbourShade& shade = shades[k];
     const Seen& seen = all[shown[k]];
+    if (runs_.empty() || runs_.back().cut != seen.cut) runs_.push_back({seen.cut, k, 0});
+    ++runs_.back().count;
     const auto [x, y, z] = as_floats(shade.direction);
+    Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();
+    if (!snapshot.orientations.empty()) {
+      turn = (snapshot.orientations[seen.number].conjugate() * world_of_view).cast<float>();
+    }
     spheres_.push_back({as_floats(seen.centre),
                         light_of(colours.of(snapshot, seen.number)),
                         {x, y, z, shade.weight},
                         as_floats(shade.squares),
-                        as_floats(shade.products)});
+                        as_floats(shade.products),
+                        {turn.x(), turn.y(), turn.z(), turn.w()}});
   }
 }
 
 void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
                                const Projection& projection, const Eye& eye,
-                               const DiskColours& colours, const std::optional<Slab>& slab) const {
+                               const std::optional<Slab>& slab) const {
   const auto set = [&](const char* name, const Vec3& vector) {
     const auto [x, y, z] = as_floats(vector);
     gl_->Uniform3f(program.uniform(name), x, y, z);
@@ -154,7 +216,6 @@ void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   set("u_high", region.high);
   set("u_ghost_low", ghosts.low);
   set("u_ghost_high", ghosts.high);
-  gl_->Uniform1i(program.uniform("u_encoded"), colours.blending == Blending::Encoded);
 }
 
 void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
@@ -163,13 +224,19 @@ void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, c
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, spheres_.size() * sizeof(Sphere), spheres_.data(),
                   GL_STREAM_DRAW);
-  const bool walled = std::ranges::all_of(std::array{kLeft, kBottom, kBack}, [&](Side side) {
-    return snapshot.walls[side].has_value();
-  });
-  set_uniforms(walled && !slab ? plain_ : cut_, snapshot, projection, eye, colours, slab);
-  if (colours.blending == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  const bool marked = !snapshot.orientations.empty();
+  if (marked && !marked_) marked_.emplace(*gl_, blending_, "MARKED ");
+  const Programs& programs = marked ? *marked_ : plain_;
+  for (const Program* program : {&programs.uncut, &programs.cut}) {
+    set_uniforms(*program, snapshot, projection, eye, slab);
+  }
+  if (blending_ == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
   gl_->BindVertexArray(vertices_.id());
-  gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(spheres_.size()));
+  for (const Run& run : runs_) {
+    (run.cut ? programs.cut : programs.uncut).use();
+    read_from(run.first);
+    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, run.count);
+  }
   gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/publish/snapshot.h"
@@ -13,10 +14,13 @@
 namespace clatter {
 
 /// Draws spheres with soft light and exact depth, each as the pixels of its rectangle on the
-/// picture. They are drawn from back to front, so that their edges blend with what is behind them.
+/// picture, without those that SphereLight draws. Spheres of known orientation have marks that turn
+/// with them. They are drawn from back to front, so that their
+/// edges blend with what is behind them.
 class SphereLayer {
  public:
-  explicit SphereLayer(const Gl& gl);
+  /// Encoded blending is for pictures without a background.
+  explicit SphereLayer(const Gl& gl, Blending blending = Blending::Light);
 
   /// Draws the spheres of a snapshot, and their images at periodic borders.
   void draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
@@ -28,19 +32,36 @@ class SphereLayer {
     Light light;
     std::array<float, 4> crowding;  // direction and weight of its NeighbourShade
     std::array<float, 3> squares, products;
+    std::array<float, 4> turn;  // from the view to the sphere, real part last
   };
 
+  // Consecutive spheres that planes cut, or that none cuts.
+  struct Run {
+    bool cut;
+    std::size_t first;
+    GLsizei count;
+  };
+
+  // Programs without and with planes that cut spheres.
+  struct Programs {
+    Programs(const Gl& gl, Blending blending, const std::string& defines);
+    Program uncut, cut;
+  };
+
+  void read_from(std::size_t first) const;
   void collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                const DiskColours& colours, const std::optional<Slab>& slab);
   void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
-                    const Eye& eye, const DiskColours& colours,
-                    const std::optional<Slab>& slab) const;
+                    const Eye& eye, const std::optional<Slab>& slab) const;
 
   const Gl* gl_;
-  Program plain_, cut_;  ///< without and with planes that cut spheres
+  Blending blending_;
+  Programs plain_;                  ///< without marks
+  std::optional<Programs> marked_;  ///< absent: no marks drawn yet
   Buffer buffer_;
   VertexArray vertices_;
   std::vector<Sphere> spheres_;  ///< from back to front; reused to avoid allocations
+  std::vector<Run> runs_;        ///< of the spheres, in order
 };
 
 }  // namespace clatter

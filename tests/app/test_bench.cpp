@@ -168,22 +168,26 @@ TEST_CASE("Bench: the table of features has a rate for each") {
 
 TEST_CASE("Bench: the table of render has the cost of each stage, for pictures of two sizes") {
   const Shell shell;
-  const Outcome outcome = shell.run("clatter bench render --count 500 --json table.json");
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(std::ranges::count(outcome.out, '\n') == 3);
-  const json rows = json::parse(shell.read("table.json"));
-  REQUIRE(rows.size() == 2);
-  for (const json& row : rows) {
-    CHECK(row["count"] == 500);
-    for (const std::string stage :
-         {"simulate", "snapshot", "draw", "disks", "heatmap", "overlay", "read", "png", "x264"}) {
-      CAPTURE(stage);
-      CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
+  for (const auto& [dimension, particles] : {std::pair("2", "disks"), {"3", "spheres"}}) {
+    const Outcome outcome = shell.run("clatter bench render --count 500 --dimension " +
+                                      std::string(dimension) + " --json table.json");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.starts_with("elastic " + std::string(particles)));
+    CHECK(std::ranges::count(outcome.out, '\n') == 3);
+    const json rows = json::parse(shell.read("table.json"));
+    REQUIRE(rows.size() == 2);
+    for (const json& row : rows) {
+      CHECK(row["count"] == 500);
+      for (const std::string stage : {"simulate", "snapshot", "draw", particles, "heatmap",
+                                      "overlay", "read", "png", "x264"}) {
+        CAPTURE(stage);
+        CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
+      }
     }
+    CHECK(rows[0]["width"] == 1280);
+    CHECK(rows[1]["width"] == 1920);
   }
-  CHECK(rows[0]["width"] == 1280);
-  CHECK(rows[1]["width"] == 1920);
 }
 
 TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {

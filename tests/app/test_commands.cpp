@@ -162,7 +162,7 @@ TEST_CASE("Commands: every command explains its flags, and only those") {
       {"bench growth", {"--json", "--count", "--plot"}},
       {"bench features", {"--json", "--count"}},
       {"bench fields", {"--json", "--duration"}},
-      {"bench render", {"--json", "--count"}},
+      {"bench render", {"--json", "--count", "--dimension"}},
       {"bench window", {"--json", "--count"}},
       {"bench accuracy",
        {"SCENE", "--json", "--duration", "--dial", "--csv", "--plot", "--markdown"}}};

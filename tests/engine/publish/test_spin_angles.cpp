@@ -84,3 +84,79 @@ TEST_CASE("SpinAngles: a resumed run has its angles, also under other laws") {
   resumed.run_until(12.0);
   CHECK(read.angles() == angles.angles());
 }
+
+namespace {
+
+Scene rough_spheres() {
+  Scene scene = default_scene(3);
+  scene.box = Vec<3>(5.0, 5.0, 5.0);
+  scene.particles.count = 25;
+  scene.particles.restitution = 0.9;
+  scene.particles.roughness.friction = 0.5;
+  scene.particles.start.spin_temperature = 1.0;
+  scene.bulk_drive = BulkDrive{.interval = 0.7, .kick_speed = 0.5, .kick_spin = 0.4};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("SpinOrientations: a free sphere turns about its spin by its angle") {
+  Scene scene = rough_spheres();
+  scene.bulk_drive.reset();
+  scene.particles.count = 1;
+  const auto simulation = simulation_of<3>(scene, 3);
+  const Vec<3> spin = simulation->spins()[0];
+  SpinOrientations orientations(*simulation);
+  for (const double time : {0.0, 0.7, 5.0}) {
+    simulation->run_until(time);
+    const Eigen::Quaterniond turned = orientations.orientations()[0];
+    // Rodrigues' formula.
+    const Vec<3> u = spin.normalized(), start(0.3, -0.5, 0.8);
+    const double c = std::cos(time * spin.norm()), s = std::sin(time * spin.norm());
+    const Vec<3> end = c * start + s * u.cross(start) + (1.0 - c) * u.dot(start) * u;
+    CHECK((turned * start - end).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("SpinOrientations: a sphere turns by its spins, one after the other") {
+  const auto simulation = simulation_of<3>(rough_spheres(), 3);
+  SpinOrientations orientations(*simulation);
+  std::vector<Eigen::Matrix3d> turned(25, Eigen::Matrix3d::Identity());
+  constexpr double kStep = 1.0 / 16384.0;
+  for (int k = 1; k <= 16384 * 6; ++k) {
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      const Vec<3> spin = simulation->spins()[i];
+      const double angle = spin.norm() * kStep;
+      if (angle > 0.0) turned[i] = Eigen::AngleAxisd(angle, spin.normalized()) * turned[i];
+    }
+    simulation->run_until(k * kStep);
+  }
+  REQUIRE(simulation->counts().collisions() > 3 * 25);
+  const auto found = orientations.orientations();
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    CHECK((found[i].toRotationMatrix() - turned[i]).norm() < 1e-2);
+  }
+}
+
+TEST_CASE("SpinOrientations: a resumed run has them, also under other laws") {
+  const Scene scene = rough_spheres();
+  const auto simulation = simulation_of<3>(scene, 5);
+  SpinOrientations orientations(*simulation);
+  simulation->run_until(4.0);
+  ArchiveWriter writer;
+  writer(orientations);
+
+  Simulation<3> resumed(model_of<3>(scene, 5), simulation->save());
+  SpinOrientations read(resumed);
+  ArchiveReader reader(writer.written(), "");
+  reader(read);
+  reader.finish();
+  Simulation<3> handed(model_of<3>(scene, 5), simulation->save());
+  SpinOrientations moved(handed, SpinOrientations(read));
+  for (Simulation<3>* run : {simulation.get(), &resumed, &handed}) run->run_until(9.0);
+  const auto expected = orientations.orientations();
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CHECK(read.orientations()[i].coeffs() == expected[i].coeffs());
+    CHECK(moved.orientations()[i].coeffs() == expected[i].coeffs());
+  }
+}

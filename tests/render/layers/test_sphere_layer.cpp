@@ -210,4 +210,171 @@ TEST_CASE("Sphere layer: images at a periodic border are faint outside of the bo
   CHECK(pixel(image, 120, 90) == kDarkTheme.background);
 }
 
+namespace {
+
+/// The sum over the pixels of the linear light above a black background.
+double light_of_picture(const Image& image) {
+  double sum = 0.0;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) {
+      const Colour colour = pixel(image, x, y);
+      sum += linear_light(colour.red) + linear_light(colour.green) + linear_light(colour.blue);
+    }
+  }
+  return sum;
+}
+
+View black_view() {
+  View view = plain_view();
+  view.background = Rgb{0, 0, 0};
+  view.range = {ColourRange::Given, {-4.0, 4.0}};  // pale: no channel reaches its end
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("Small spheres: they have the light of spheres with a shape, seen from far away") {
+  const auto context = open_context(Backend::Osmesa);
+  Snapshot snapshot = random_spheres(30);
+  snapshot.box *= 2.0;
+  snapshot.positions *= 2.0;  // too far from each other for the shade of neighbours
+  // Radii of 0.9 and 1.4 pixels. With eight samples per pixel the spheres have shapes.
+  for (const double width : {133.0, 86.0}) {
+    const Camera camera{{46.0, 45.0}, width, {.z = 44.0, .azimuth = 30.0, .elevation = 25.0}};
+    const auto picture = [&](int samples) {
+      Renderer renderer(context->gl(), samples);
+      const Canvas canvas(context->gl(), kSize);
+      canvas.bind();
+      Snapshot without = snapshot;
+      without.positions.conservativeResize(3, 0);
+      renderer.draw(without, camera, kSize, black_view(), {});
+      const double box = light_of_picture(canvas.read());
+      renderer.draw(snapshot, camera, kSize, black_view(), {});
+      return light_of_picture(canvas.read()) - box;
+    };
+    CAPTURE(width);
+    CHECK(picture(1) == doctest::Approx(picture(8)).epsilon(0.03));
+  }
+}
+
+TEST_CASE("Small spheres: the first one on a ray hides those behind it") {
+  Snapshot snapshot;
+  snapshot.box = Vec3(100.0, 100.0, 100.0);
+  // Blue in front, or red in front, seen along z at 2.4 pixels a unit, in the middle of a pixel.
+  const double middle = 50.0 + 0.5 / 2.4;
+  for (const double blue : {70.0, 30.0}) {
+    snapshot.positions = as_columns<3>({{middle, middle, blue}, {middle, middle, 50.0}});
+    snapshot.velocities = as_columns<3>({{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+    const Camera camera{{50.0, 50.0}, 100.0, {.z = 50.0}};
+    const Image image = draw(snapshot, camera, plain_view());
+    CHECK((blue > 50.0 ? is_blue : is_red)(pixel(image, 120, 89)));
+  }
+}
+
+TEST_CASE("Small spheres: a slice hides those behind it") {
+  Snapshot snapshot;
+  snapshot.box = Vec3(100.0, 100.0, 100.0);
+  snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}});
+  snapshot.field = FieldMap{Quantity::Density, {1, 1, 1}, {0.5}};
+  View view = plain_view();
+  view.field = Quantity::Density;
+  view.field_range = {ColourRange::Given, {0.0, 1.0}};
+  for (const double view_angle : {0.0, 40.0}) {
+    const Camera camera{{50.0, 50.0}, 120.0, {.z = 50.0, .view_angle = view_angle}};
+    const auto change = [&](double z) {
+      snapshot.positions = as_columns<3>({{50.2, 50.2, z}});
+      Snapshot without = snapshot;
+      without.positions = as_columns<3>({{50.2, 50.2, 20.0}});
+      return difference(draw(snapshot, camera, view), draw(without, camera, view));
+    };
+    CHECK(change(30.0) == 0);
+    CHECK(change(70.0) > 20);
+  }
+}
+
+TEST_CASE("Sphere layer: the marks of a sphere are where its rotation has moved them") {
+  // A spot at the front of the sphere, seen along z, turns about an axis of the picture.
+  Snapshot snapshot;
+  snapshot.box = Vec3(4.0, 4.0, 4.0);
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = as_columns<3>({{2.0, 2.0, 2.0}});
+  snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}});
+  const Camera camera{{2.0, 2.0}, 1.2, {.z = 2.0}};  // a radius of 100 pixels
+  const Image unmarked = draw(snapshot, camera, black_view());
+  for (const Vec3& axis : {Vec3(0.0, 1.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.6, -0.8, 0.0)}) {
+    for (const double angle : {0.0, 0.3, -0.4}) {
+      snapshot.orientations = {Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis))};
+      const Image image = draw(snapshot, camera, black_view());
+      // The centroid of the darkened pixels near the middle of the picture.
+      Vec2 sum(0.0, 0.0);
+      double dark = 0.0;
+      for (int y = 20; y < 160; ++y) {
+        for (int x = 50; x < 190; ++x) {
+          const Vec2 place(x + 0.5 - 120.0, 90.0 - y - 0.5);
+          if (place.norm() > 66.0) continue;
+          const double before = linear_light(pixel(unmarked, x, y).red);
+          const double share = 1.0 - linear_light(pixel(image, x, y).red) / before;
+          if (share < 0.1) continue;
+          sum += share * place;
+          dark += share;
+        }
+      }
+      const Vec3 turned = Eigen::AngleAxisd(angle, axis) * Vec3(0.0, 0.0, 1.0);
+      CAPTURE(angle);
+      REQUIRE(dark > 1000.0);
+      // The centroid of the projection of a cap is its axis times the cosine of its edge.
+      CHECK((sum / dark - 0.955 * 100.0 * turned.head<2>()).norm() < 0.6);
+    }
+  }
+}
+
+namespace {
+
+/// The sum of the light, and the mean and the variance of its columns, around a sphere.
+Eigen::Vector3d spread(const Image& image, const Image& empty) {
+  Eigen::Vector3d sums(0.0, 0.0, 0.0);
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) {
+      const double light =
+          linear_light(pixel(image, x, y).green) - linear_light(pixel(empty, x, y).green);
+      sums += light * Eigen::Vector3d(1.0, x + 0.5, (x + 0.5) * (x + 0.5));
+    }
+  }
+  const double mean = sums[1] / sums[0];
+  return {sums[0], mean, sums[2] / sums[0] - mean * mean};
+}
+
+}  // namespace
+
+TEST_CASE("Renderer: motion blur of a sphere has the centroid and the width of its path") {
+  // Moves 1.5 diameters to the right during the exposure, seen at 40 pixels a unit.
+  Snapshot snapshot;
+  snapshot.box = Vec3(8.0, 8.0, 8.0);
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = as_columns<3>({{4.7, 4.1, 4.0}});
+  snapshot.velocities = as_columns<3>({{3.0, 0.0, 0.0}});
+  const Camera camera{{4.0, 4.0}, 6.0, {.z = 4.0}};
+  Snapshot none = snapshot;
+  none.positions.conservativeResize(3, 0);
+  const Image empty = draw(none, camera, black_view());
+  const Eigen::Vector3d sharp = spread(draw(snapshot, camera, black_view()), empty);
+  const auto blurred_by = [&](double way) {
+    snapshot.exposure = 0.5;
+    // A collision in the middle of the exposure does not change the velocity.
+    const Vec3 velocity(way / 0.5, 0.0, 0.0), end = snapshot.positions.col(0);
+    snapshot.flights = {{0, -0.9, -0.25, end - 0.9 * velocity, velocity, Vec3::Zero()},
+                        {0, -0.25, 0.0, end - 0.25 * velocity, velocity, Vec3::Zero()}};
+    return spread(draw(snapshot, camera, black_view()), empty);
+  };
+  const Eigen::Vector3d blurred = blurred_by(1.5);
+  CHECK(blurred[0] == doctest::Approx(sharp[0]).epsilon(0.02));
+  CHECK(std::fabs(blurred[1] - (sharp[1] - 30.0)) < 0.3);
+  CHECK(blurred[2] == doctest::Approx(sharp[2] + 60.0 * 60.0 / 12.0).epsilon(0.02));
+  // A sphere at rest looks as without an exposure.
+  blurred_by(0.0);
+  const Image resting = draw(snapshot, camera, black_view());
+  snapshot.exposure = 0.0;
+  CHECK(difference(draw(snapshot, camera, black_view()), resting) <= 1);
+}
+
 }  // namespace clatter
