@@ -136,7 +136,7 @@ TEST_CASE(
   shell.run("chmod +x late/ffmpeg");
   shell.run("PATH=$PWD/late:$PATH " + kFilm +
             "--out film.mp4 & pid=$!\n"
-            "while [ ! -e begun ] && kill -0 $pid; do sleep 0.02; done; kill -9 $pid");
+            "while [ ! -e begun ] && kill -0 $pid; do sleep 0.02; done; kill -9 $pid; wait $pid");
   const Outcome film =
       film_into_second_piece(shell,
                              "kill -STOP $pid; touch go; until [ -e ended ]; do sleep 0.02; done\n"
