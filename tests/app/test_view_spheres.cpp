@@ -84,6 +84,22 @@ json picked_in_the_middle(const GuiDriver& driver) {
   return driver.wait_for("pick", told)["particle"];
 }
 
+// The sphere that is picked after a click at the mouse.
+json picked_here(const GuiDriver& driver) {
+  driver.tool("click 1 sleep 0.3");
+  return driver.events("pick").back()["particle"];
+}
+
+// The share of the width of the viewport, right of the middle, at which a click picks a sphere.
+double share_of(const GuiDriver& driver, int sphere) {
+  for (double share = 0.5; share < 1.0; share += 0.015) {
+    driver.point_at("viewport", share);
+    if (picked_here(driver) == sphere) return share;
+  }
+  FAIL("sphere " << sphere << " is not on the picture");
+  return 0.0;
+}
+
 // Waits for a picture from another direction or place after the first `told` events: the handles of
 // the walls are then elsewhere. Clicks refer to the picture on the screen.
 void wait_for_picture(const GuiDriver& driver, std::size_t told) {
@@ -223,6 +239,29 @@ TEST_CASE("Window: the buttons of the view turn it, and Shift and drag moves it"
   CHECK(picked_in_the_middle(driver).is_null());
   look_from(driver, "f");
   CHECK(picked_in_the_middle(driver) == 0);
+}
+
+TEST_CASE("Window: the wheel zooms about the mouse, and a followed sphere is in the middle") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.rows());
+  CHECK(picked_in_the_middle(driver) == 0);
+  const double share = share_of(driver, 2);
+  CHECK(share > 0.55);
+  // By a factor of 0.85^4. About the middle of the viewport the sphere would move by 1.6 diameters.
+  driver.tool("click --repeat 4 --delay 100 4 sleep 0.5");
+  driver.key("Escape");
+  CHECK(picked_here(driver) == 2);
+  // A double-click follows the sphere. After Escape the view stays. On a busy machine the two
+  // clicks may be too far apart.
+  bool followed = false;
+  for (int attempt = 0; attempt < 10 && !followed; ++attempt) {
+    driver.point_at("viewport", share);
+    driver.tool("sleep 0.5 click --repeat 2 --delay 60 1 sleep 0.5");
+    driver.key("Escape");
+    driver.point_at("viewport");
+    followed = picked_here(driver) == 2;
+  }
+  CHECK(followed);
 }
 
 TEST_CASE("Window: spheres become disks, and undo starts the former scene") {
