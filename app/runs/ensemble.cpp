@@ -59,7 +59,7 @@ class Replicas {
       return std::make_exception_ptr(PhysicalStop(seed + stop.what(), stop.remedy()));
     } catch (const RunError& error) {
       return std::make_exception_ptr(RunError(seed + error.what()));
-    } catch (...) {
+    } catch (...) {  // another error stays as it is
     }
     return failure_;
   }

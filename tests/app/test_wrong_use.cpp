@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/output/image.h"
 #include "tests/app/shell.h"
 
 namespace clatter {
@@ -350,6 +351,14 @@ TEST_CASE("Wrong use: a picture without a scene is refused as a picture") {
   REQUIRE(shell.run("ffmpeg -v error -f lavfi -i color=red:16x16 -frames:v 1 red.png").code == 0);
   check_refused(shell, "clatter check red.png",
                 {"red.png: this picture contains no scene", "a picture made by clatter"});
+  const auto check_scene_of = [&](std::size_t size, const std::vector<std::string>& parts) {
+    const std::string text = "#" + std::string(size - 1, ' ');
+    const std::vector<PngText> texts = {{"Scene", text}};
+    write_png(shell.path("large.png"), Image{{1, 1}, {0, 0, 0, 255}}, texts);
+    check_refused(shell, "clatter check large.png", parts);
+  };
+  check_scene_of(1'000'001, {"large.png: the scene in this picture is larger than 1 MB"});
+  check_scene_of(1'000'000, {"large.png: the number of particles is missing"});
   check_refused(shell, "clatter check vibrated --set particles.count=1e3", {"cannot be 1000.0"});
   shell.write("text.png", "These words are no scene.\n");
   check_refused(
