@@ -168,7 +168,8 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
                 flight.number};
     }
   }
-  saved.flights = {};  // frees memory before lists and calendar take theirs
+  saved.flights.clear();
+  saved.flights.shrink_to_fit();  // before lists and calendar take their memory
   saved.flights = {};
   place_all(stop);
   if (near_.fit(model_, plans_)) place_all(stop);

@@ -11,6 +11,7 @@
 #include "engine/physics/lattice.h"
 #include "engine/physics/random.h"
 #include "engine/physics/theory.h"
+#include "engine/system/platform.h"
 
 namespace clatter {
 
@@ -208,6 +209,7 @@ State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& 
   State<D> state;
   state.positions = start.layout == Layout::Random ? random_positions(room, count, seed, stop)
                                                    : lattice_positions(room, count, seed);
+  return_unused_memory();  // of random insertion
   number_by_rows<D>(state.positions);
   const Vec<D> corner = scene.clear_corner();
   for (Vec<D>& position : state.positions) position += corner;

@@ -21,6 +21,9 @@ double machine_memory();
 /// Bytes currently allocated by the process. Plain: 0.
 double heap_bytes();
 
+/// Returns unused memory of the heap to the system. Plain: the process keeps it.
+void return_unused_memory();
+
 /// Resets the peak of the resident memory to its current size. Plain: keeps the peak since the
 /// start.
 void restart_peak_memory();

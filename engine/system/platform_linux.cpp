@@ -22,6 +22,10 @@ double heap_bytes() {
   return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
+void return_unused_memory() {
+  malloc_trim(0);
+}
+
 void restart_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }

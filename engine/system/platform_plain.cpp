@@ -20,6 +20,8 @@ double heap_bytes() {
   return 0.0;
 }
 
+void return_unused_memory() {}
+
 void restart_peak_memory() {}
 
 static bool close_in_children(const FileDescriptor& file) {
