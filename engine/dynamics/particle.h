@@ -19,7 +19,7 @@ inline constexpr double kLongBox = 16384.0;
 template <int D>
 struct alignas(64) Particle {
   [[no_unique_address]] Flight<D> flight;  ///< since its last physical event
-  PackedImage image = 0;                   ///< of ParticleArray::image; fills the end of the flight
+  PackedImage image = 0;                   ///< see ParticleArray::image; at the end of the flight
 };
 
 /// The stored states of all particles, and the periodic images of their flights.
@@ -29,11 +29,16 @@ class ParticleArray {
   /// Particles at rest at the origin.
   explicit ParticleArray(std::size_t count = 0) : particles_(count) {}
 
+  /// Number of particles.
   std::size_t size() const { return particles_.size(); }
+  /// Whether there are no particles.
   bool empty() const { return particles_.empty(); }
+  /// The particles in the order of their numbers.
   auto begin() const { return particles_.begin(); }
   auto end() const { return particles_.end(); }
+  /// The first of the particles, which are rows of contact kernels.
   const Particle<D>* data() const { return particles_.data(); }
+  /// The particle of a number.
   const Particle<D>& operator[](std::size_t number) const { return particles_[number]; }
   /// The flight of a particle, to be changed.
   Flight<D>& flight(std::size_t number) { return particles_[number].flight; }
@@ -47,6 +52,7 @@ class ParticleArray {
     for (int axis = 0; axis < D; ++axis) image[axis] = image_component<D>(packed, axis);
     return image;
   }
+  /// Sets the image of a particle, in whole box lengths.
   void set_image(std::uint32_t number, const Vec<D>& image) {
     particles_[number].image = packed_image<D>(image);
     if (particles_[number].image == kFarImage) [[unlikely]]

@@ -170,7 +170,6 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
   }
   saved.flights.clear();
   saved.flights.shrink_to_fit();  // before lists and calendar take their memory
-  saved.flights = {};
   place_all(stop);
   if (near_.fit(model_, plans_)) place_all(stop);
   // Overlaps that the run has already accepted at contacts are accepted at a restart too.

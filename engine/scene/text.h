@@ -15,7 +15,7 @@ std::string in_quotes(std::string_view text);
 /// A name of scenes and files for use in sentences: "heat flux x" for "heat_flux_x".
 std::string in_words(std::string_view name);
 
-/// The candidate that is most similar to a misspelled `word`; empty if none is similar.
+/// The correct spelling of `word`: the most similar candidate. Empty if no candidate is similar.
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace clatter
