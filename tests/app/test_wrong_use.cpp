@@ -352,7 +352,8 @@ TEST_CASE("Wrong use: a picture without a scene is refused as a picture") {
   check_refused(shell, "clatter check red.png",
                 {"red.png: this picture contains no scene", "a picture made by clatter"});
   const auto check_scene_of = [&](std::size_t size, const std::vector<std::string>& parts) {
-    const std::string text = "#" + std::string(size - 1, ' ');
+    std::string text(size, ' ');
+    text.front() = '#';
     const std::vector<PngText> texts = {{"Scene", text}};
     write_png(shell.path("large.png"), Image{{1, 1}, {0, 0, 0, 255}}, texts);
     check_refused(shell, "clatter check large.png", parts);
