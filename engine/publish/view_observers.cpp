@@ -1,7 +1,10 @@
 #include "engine/publish/view_observers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 namespace clatter {
 
@@ -26,7 +29,7 @@ ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, dou
   if (exposure > 0.0 || view.trails) watch_flights(simulation, nullptr);
   if (simulation.model().spins) watch_spins(simulation, nullptr);
   if (flights_) saved(*flights_);
-  if (angles_) saved(*angles_);
+  if (rotations_) saved(*rotations_);
   saved.finish();
 }
 
@@ -38,7 +41,7 @@ std::string ViewObservers<D>::save() {
     writer(averages);
   }
   if (flights_) writer(*flights_);
-  if (angles_) writer(*angles_);
+  if (rotations_) writer(*rotations_);
   return writer.written();
 }
 
@@ -63,21 +66,30 @@ void ViewObservers<D>::watch_flights(Simulation<D>& simulation, ViewObservers* b
 
 template <int D>
 void ViewObservers<D>::watch_spins(Simulation<D>& simulation, ViewObservers* before) {
-  if (before && before->angles_) {
-    angles_.emplace(simulation, std::move(*before->angles_));
+  if (before && before->rotations_) {
+    rotations_.emplace(simulation, std::move(*before->rotations_));
   } else {
-    angles_.emplace(simulation);
+    rotations_.emplace(simulation);
+  }
+}
+
+static void publish_rotations(const std::vector<DiskRotation>& rotations, Snapshot& snapshot) {
+  snapshot.angles.clear();
+  for (const DiskRotation& rotation : rotations) {
+    snapshot.angles.push_back(std::remainder(rotation.angle, 2.0 * std::numbers::pi));
+  }
+}
+static void publish_rotations(const std::vector<SphereRotation>& rotations, Snapshot& snapshot) {
+  snapshot.orientations.clear();
+  for (const SphereRotation& rotation : rotations) {
+    snapshot.orientations.push_back(rotation.quaternion());
   }
 }
 
 template <int D>
 void ViewObservers<D>::publish(Snapshot& snapshot) {
   if (field_) field_->publish(snapshot);
-  if constexpr (D == 2) {
-    if (angles_) snapshot.angles = angles_->angles();
-  } else {
-    if (angles_) snapshot.orientations = angles_->orientations();
-  }
+  if (rotations_) publish_rotations(rotations_->rotations(), snapshot);
   if (!flights_) return;
   snapshot.exposure = std::min(exposure_, flights_->reach());
   snapshot.flights = flights_->pieces();

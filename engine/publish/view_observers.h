@@ -2,12 +2,11 @@
 
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/publish/flight_recorder.h"
 #include "engine/publish/live_field.h"
-#include "engine/publish/spin_angles.h"
+#include "engine/publish/rotations.h"
 
 namespace clatter {
 
@@ -41,8 +40,7 @@ class ViewObservers {
   double exposure_;
   std::optional<LiveField<D>> field_;
   std::optional<FlightRecorder<D>> flights_;
-  // The rotations of the particles; present if they spin.
-  std::optional<std::conditional_t<D == 2, SpinAngles, SpinOrientations>> angles_;
+  std::optional<Rotations<D>> rotations_;  // present if particles spin
 };
 
 }  // namespace clatter
