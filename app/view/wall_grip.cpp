@@ -7,6 +7,7 @@
 
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
+#include "render/picking.h"
 
 namespace clatter {
 
