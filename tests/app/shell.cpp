@@ -13,10 +13,14 @@ Shell::Shell() {
   std::filesystem::create_directory(folder_ / "here");
 }
 
+// A program with sanitizers is several times slower, and so is its time limit.
+constexpr int kSlowness = sizeof(CLATTER_SANITIZE) > 1 ? 5 : 1;
+
 Outcome Shell::run(const std::string& line, int seconds) const {
   folder_.write("line", "cd here\nPATH=" CLATTER_FOLDER ":$PATH\n" + line + '\n');
   const std::string command = "cd '" + (folder_ / "").string() + "' && timeout " +
-                              std::to_string(seconds) + " sh line >out 2>err </dev/null";
+                              std::to_string(kSlowness * seconds) +
+                              " sh line >out 2>err </dev/null";
   const int status = std::system(command.c_str());
   REQUIRE(WIFEXITED(status));
   return {WEXITSTATUS(status), bytes_of(folder_ / "out"), bytes_of(folder_ / "err")};
