@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
+#include "app/runs/accuracy_goal.h"
 #include "engine/error.h"
 #include "engine/whole_number.h"
 
@@ -52,13 +54,9 @@ CLI::Validator number_between(double low, double high) {
 CLI::Validator share() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
-        const bool percent = text.ends_with('%');
-        const double number = number_in(percent ? text.substr(0, text.size() - 1) : text);
-        const double value = percent ? 0.01 * number : number;
-        if (!(value > 0.0 && value < 1.0)) {
-          return "'" + text + "' is wrong; give a share such as 1% or 0.01";
-        }
-        text = fmt::format("{:.17g}", value);
+        const std::optional<double> share = share_in(text);
+        if (!share) return "'" + text + "' is wrong; give a share such as 1% or 0.01";
+        text = fmt::format("{:.17g}", *share);
         return "";
       },
       "a share such as 1% or 0.01");

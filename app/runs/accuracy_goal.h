@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/runs/run.h"
@@ -8,6 +10,10 @@
 #include "engine/measure/measurement.h"
 
 namespace clatter {
+
+/// The share in a text such as 1% or 0.01, between 0 and 1, both excluded. Absent if the text is
+/// anything else.
+std::optional<double> share_in(std::string_view text);
 
 /// The required precision of a mean.
 struct AccuracyGoal {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/runs/accuracy_goal.h"
+#include "app/runs/options.h"
+
+namespace clatter {
+
+/// The options of `clatter measure`.
+struct MeasureOptions {
+  CommonOptions common;
+  CheckpointOptions checkpoints;
+  AccuracyGoal accuracy;
+  int replicas = 1;
+  std::optional<int> threads;  // parallel replicas; absent: the number of processors
+  std::string out;             // result file; empty: stdout
+  std::string csv;             // folder for tables; empty: none
+  std::string vtk;             // folder for maps; empty: none
+  std::string hdf5;            // file for all results; empty: none
+  std::string save_state;      // file for the state at the end; empty: none
+};
+
+/// Measures a scene and writes the results. Returns the exit code. Throws UserError, RunError,
+/// PhysicalStop, and Interrupted before the run begins.
+int measure(const MeasureOptions& options);
+
+}  // namespace clatter
