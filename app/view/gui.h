@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "app/system/program_job.h"
 #include "app/view/controls.h"
-#include "app/view/film_job.h"
 #include "app/view/gallery.h"
 #include "app/view/history.h"
 #include "app/view/messages.h"
@@ -76,7 +76,8 @@ class Gui {
   History history_;
   int profiled_ = 0;  // index into profile_names()
   int profile_axis_ = 0;
-  std::optional<FilmJob> film_;
+  std::optional<ProgramJob> film_;
+  std::string film_file_;  // file of the film that is made
   GuiLayer gui_;
   PanelVisibility panels_;
   std::string title_;                 // title of the window; empty: name of the program

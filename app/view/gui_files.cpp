@@ -112,7 +112,8 @@ void Gui::film() {
     std::vector<std::string> arguments = film_arguments(name);
     const std::string file = arguments.back();
     arguments.insert(arguments.end(), {"--progress", "json"});
-    film_.emplace(arguments, file);
+    film_.emplace(arguments);
+    film_file_ = file;
     session_.tell("Filming into " + file);
   } catch (const std::exception& error) {
     session_.tell(error.what());
@@ -124,8 +125,8 @@ void Gui::watch_film() {
   const auto code = film_->poll();
   if (!code) return;
   const bool made = *code == 0 || *code == kInterrupted;
-  log_.event("film", {{"file", film_->file()}, {"code", *code}});
-  session_.tell(made ? "Film: " + film_->file() : film_->message());
+  log_.event("film", {{"file", film_file_}, {"code", *code}});
+  session_.tell(made ? "Film: " + film_file_ : film_->message());
   film_.reset();
 }
 

@@ -154,6 +154,13 @@ void ChildProcess::kill() {
   take_end(0);
 }
 
+// The pipe to a process reports an error when no process can read from it any more.
+void wait_for_any(std::span<const ChildProcess* const> processes, std::chrono::milliseconds most) {
+  std::vector<pollfd> pipes;
+  for (const ChildProcess* process : processes) pipes.push_back({process->input_.get(), 0, 0});
+  ::poll(pipes.data(), pipes.size(), static_cast<int>(most.count()));
+}
+
 // At most `size` bytes of a file from `begin`.
 static std::string read_at(const FileDescriptor& file, off_t begin, off_t size) {
   std::string text(static_cast<std::size_t>(size), '\0');

@@ -20,6 +20,11 @@ enum class Interrupts {
   Shared     ///< a child receives the same signals
 };
 
+class ChildProcess;
+
+/// Waits until one of these processes ends, for at most this time. A signal ends the wait too.
+void wait_for_any(std::span<const ChildProcess* const> processes, std::chrono::milliseconds most);
+
 /// A program in a child process, with a pipe to its standard input.
 class ChildProcess {
  public:
@@ -51,6 +56,7 @@ class ChildProcess {
   std::string last_words() const;
 
  private:
+  friend void wait_for_any(std::span<const ChildProcess* const>, std::chrono::milliseconds);
   using Clock = std::chrono::steady_clock;
 
   bool take_end(int options);

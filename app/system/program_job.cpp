@@ -1,4 +1,4 @@
-#include "app/view/film_job.h"
+#include "app/system/program_job.h"
 
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -12,15 +12,15 @@ static std::vector<std::string> command_of(std::vector<std::string> arguments) {
   return arguments;
 }
 
-FilmJob::FilmJob(std::vector<std::string> arguments, std::string file)
-    : file_(std::move(file)), process_(command_of(std::move(arguments)), Interrupts::Shared) {}
+ProgramJob::ProgramJob(std::vector<std::string> arguments)
+    : process_(command_of(std::move(arguments)), Interrupts::Shared) {}
 
-FilmJob::~FilmJob() {
+ProgramJob::~ProgramJob() {
   process_.interrupt();
   process_.wait();
 }
 
-void FilmJob::read() {
+void ProgramJob::read() {
   line_ += process_.new_words();
   for (std::size_t end; (end = line_.find('\n')) != std::string::npos;) {
     const std::string line = line_.substr(0, end);
@@ -34,7 +34,7 @@ void FilmJob::read() {
   }
 }
 
-std::optional<int> FilmJob::poll() {
+std::optional<int> ProgramJob::poll() {
   const std::optional<int> code = process_.poll();
   read();
   return code;
