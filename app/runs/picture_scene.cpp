@@ -16,11 +16,10 @@ static void require_not_named_png(const std::filesystem::path& path) {
                   "give a picture made by clatter, or a scene file NAME.toml");
 }
 
-Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
-                     StartFile start_file) {
+SceneText find_any_scene(const std::string& path_or_name) {
   if (!is_png(path_or_name)) {
     require_not_named_png(path_or_name);
-    return load_scene(path_or_name, overrides, start_file);
+    return find_scene(path_or_name);
   }
   const auto inside = png_text(path_or_name, "Scene");
   if (!inside) {
@@ -31,7 +30,12 @@ Scene load_any_scene(const std::string& path_or_name, const std::vector<Override
     throw UserError({path_or_name}, "the scene in this picture is larger than 1 MB",
                     "give a picture made by clatter");
   }
-  return parse_scene(*inside, path_or_name, overrides, start_file);
+  return {*inside, path_or_name};
+}
+
+Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
+                     StartFile start_file) {
+  return parse_scene(find_any_scene(path_or_name), overrides, start_file);
 }
 
 std::vector<PngText> picture_texts(const Scene& scene, std::uint64_t seed) {

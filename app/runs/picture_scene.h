@@ -10,6 +10,10 @@
 
 namespace clatter {
 
+/// The text of a scene as find_scene does. Also accepts a PNG picture of this program. Throws
+/// UserError.
+SceneText find_any_scene(const std::string& path_or_name);
+
 /// Loads a scene as load_scene does. Also accepts a PNG picture of this program, which contains its
 /// scene. Throws UserError.
 Scene load_any_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {},

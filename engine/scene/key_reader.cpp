@@ -10,35 +10,11 @@
 
 namespace clatter {
 
-/// The value as in a scene file; for a date only "a date".
-static std::string value_text(const toml::node& node) {
-  if (const auto* number = node.as_floating_point()) {
-    const std::string text = number_text(number->get());
-    const bool whole = text.find_first_not_of("-0123456789") == text.npos;
-    return whole ? text + ".0" : text;
-  }
-  if (const auto* number = node.as_integer()) return std::to_string(number->get());
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* text = node.as_string()) return in_quotes(text->get());
-  if (const auto* array = node.as_array()) {
-    std::string list;
-    for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + value_text(item);
-    return '[' + list + ']';
-  }
-  const auto* table = node.as_table();
-  if (!table) return "a date";
-  std::string list;
-  for (const auto& [key, item] : *table) {
-    list += (list.empty() ? "" : ", ") + in_quotes(key.str()) + " = " + value_text(item);
-  }
-  return '{' + list + '}';
-}
-
 /// The value for a message; long values are abbreviated.
 static std::string shown(const toml::node& node) {
   if (node.is_table()) return "this table";
   constexpr std::size_t kLongest = 40;
-  const std::string text = value_text(node);
+  const std::string text = toml_text(node);
   if (text.size() <= kLongest) return text;
   return node.is_array() ? "this long array" : "this long text";
 }
@@ -74,7 +50,7 @@ static void flatten(const toml::table& table, const std::string& prefix,
     if (inner && !inner->is_inline()) {
       flatten(*inner, path + '.', settings);
     } else {
-      settings.push_back({path, value_text(node)});
+      settings.push_back({path, toml_text(node)});
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "engine/scene/scene_document.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "engine/scene/text.h"
@@ -100,10 +101,14 @@ static void replace(toml::table& into, toml::table& changes) {
 
 void apply_override(toml::table& root, const Override& change) {
   toml::table changes = parse_override(change);
-  // Either key sets the number of particles, so each replaces the other.
-  if (toml::table* particles = root["particles"].as_table()) {
-    if (changes.at_path("particles.count")) particles->erase("area_fraction");
-    if (changes.at_path("particles.area_fraction")) particles->erase("count");
+  // Each of these keys sets the number of particles, so each replaces the others.
+  constexpr std::array<const char*, 3> kNumbers = {"count", "area_fraction", "volume_fraction"};
+  toml::table* particles = root["particles"].as_table();
+  const toml::table* set = changes["particles"].as_table();
+  const bool sets_number =
+      set && std::ranges::any_of(kNumbers, [&](const char* key) { return set->contains(key); });
+  if (particles && sets_number) {
+    for (const char* key : kNumbers) particles->erase(key);
   }
   replace(root, changes);
 }
@@ -193,6 +198,29 @@ Place place_of(const toml::table& root, std::string_view path, const std::string
     path.remove_prefix(std::min(dot + 1, path.size()));
   }
   return place;
+}
+
+std::string toml_text(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) {
+    const std::string text = number_text(number->get());
+    const bool whole = text.find_first_not_of("-0123456789") == text.npos;
+    return whole ? text + ".0" : text;
+  }
+  if (const auto* number = node.as_integer()) return std::to_string(number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* text = node.as_string()) return in_quotes(text->get());
+  if (const auto* array = node.as_array()) {
+    std::string list;
+    for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + toml_text(item);
+    return '[' + list + ']';
+  }
+  const auto* table = node.as_table();
+  if (!table) return "a date";
+  std::string list;
+  for (const auto& [key, item] : *table) {
+    list += (list.empty() ? "" : ", ") + in_quotes(key.str()) + " = " + toml_text(item);
+  }
+  return '{' + list + '}';
 }
 
 }  // namespace clatter

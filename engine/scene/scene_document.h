@@ -28,6 +28,9 @@ bool from_override(const Place& place);
 /// existing table. An override has no line.
 Place place_of(const toml::table& root, std::string_view path, const std::string& file);
 
+/// A value as in a scene file; for a date only "a date".
+std::string toml_text(const toml::node& node);
+
 /// Place of a value.
 Place place_of(const toml::node& node, const std::string& file);
 

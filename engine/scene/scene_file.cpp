@@ -24,9 +24,6 @@ namespace clatter {
 
 namespace {
 
-/// Location of the files that a scene names.
-enum class Origin { Folder, Gallery };
-
 constexpr std::size_t kLargestState = 4'000'000'000;
 
 const EmbeddedFile* find_embedded(std::span<const EmbeddedFile> files, std::string_view name) {
@@ -142,16 +139,6 @@ void check_changes(const Scene& scene, const toml::table& root, const std::strin
   }
 }
 
-Scene parse(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
-            Origin origin, StartFile start_file) {
-  toml::table root = parse_document(text, file);
-  for (const Override& change : overrides) apply_override(root, change);
-  const auto load_state = [&](Scene& read) { load_start_state(read, root, file, origin); };
-  const Scene scene = read_scene(root, file, start_file, load_state);
-  check_changes(scene, root, file);
-  return scene;
-}
-
 [[noreturn]] void refuse_missing(const std::string& name) {
   std::vector<std::string> gallery;
   for (const EmbeddedFile& scene : embedded_scenes()) {
@@ -166,9 +153,20 @@ Scene parse(std::string_view text, const std::string& file, const std::vector<Ov
 
 }  // namespace
 
+Scene parse_scene(const SceneText& source, const std::vector<Override>& overrides,
+                  StartFile start_file) {
+  const std::string& file = source.file;
+  toml::table root = parse_document(source.text, file);
+  for (const Override& change : overrides) apply_override(root, change);
+  const auto load_state = [&](Scene& read) { load_start_state(read, root, file, source.origin); };
+  const Scene scene = read_scene(root, file, start_file, load_state);
+  check_changes(scene, root, file);
+  return scene;
+}
+
 Scene parse_scene(std::string_view text, const std::string& file,
                   const std::vector<Override>& overrides, StartFile start_file) {
-  return parse(text, file, overrides, Origin::Folder, start_file);
+  return parse_scene({std::string(text), file}, overrides, start_file);
 }
 
 // The text of a scene, with or without the keys of spins.
@@ -209,18 +207,17 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
 }
 
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides) {
-  return parse(scene.bytes, std::string(scene.name), overrides, Origin::Gallery, StartFile::Read);
+  return parse_scene({std::string(scene.bytes), std::string(scene.name), Origin::Gallery},
+                     overrides);
 }
 
-Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
-                 StartFile start_file) {
+SceneText find_scene(const std::string& path_or_name) {
   if (is_file(path_or_name)) {
-    return parse(read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"),
-                 path_or_name, overrides, Origin::Folder, start_file);
+    return {read_file(path_or_name, kLargestScene, "a scene is a text of a few kB"), path_or_name};
   }
   for (const std::string& name : {path_or_name, path_or_name + ".toml"}) {
     const EmbeddedFile* scene = find_embedded(embedded_scenes(), name);
-    if (scene) return parse(scene->bytes, name, overrides, Origin::Gallery, start_file);
+    if (scene) return {std::string(scene->bytes), name, Origin::Gallery};
   }
   std::error_code error;
   if (std::filesystem::is_directory(path_or_name, error)) {
@@ -230,6 +227,11 @@ Scene load_scene(const std::string& path_or_name, const std::vector<Override>& o
     throw UserError({path_or_name}, "the folder cannot be read", "check its permissions");
   }
   refuse_missing(path_or_name);
+}
+
+Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides,
+                 StartFile start_file) {
+  return parse_scene(find_scene(path_or_name), overrides, start_file);
 }
 
 std::string scene_to_toml(const Scene& scene) {

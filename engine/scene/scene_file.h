@@ -14,16 +14,33 @@ namespace clatter {
 /// file the scene has no start state and, unless a key gives their number, no particles.
 enum class StartFile { Read, Skip };
 
+/// Location of the files that a scene names: the folder of the scene, or the gallery.
+enum class Origin { Folder, Gallery };
+
+/// A scene before it is parsed.
+struct SceneText {
+  std::string text;  ///< TOML
+  std::string file;  ///< name for errors; with Origin::Folder its folder has the scene's files
+  Origin origin = Origin::Folder;
+};
+
 /// Reads the scene at a path, or the gallery scene of that name, applies the overrides, and
 /// validates the scene. Throws UserError with file, line, column, problem and fix.
 Scene load_scene(const std::string& path_or_name, const std::vector<Override>& overrides = {},
                  StartFile start_file = StartFile::Read);
+
+/// The text of the scene at a path, or of the gallery scene of that name. Throws UserError.
+SceneText find_scene(const std::string& path_or_name);
 
 /// Maximum size of the text of a scene, in bytes.
 inline constexpr std::size_t kLargestScene = 1'000'000;
 
 /// As load_scene, for a scene of the gallery.
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides = {});
+
+/// As load_scene, from a text.
+Scene parse_scene(const SceneText& source, const std::vector<Override>& overrides = {},
+                  StartFile start_file = StartFile::Read);
 
 /// As load_scene, from text. `file` is the name for errors; files that the scene names are relative
 /// to its folder.

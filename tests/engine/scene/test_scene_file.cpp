@@ -497,6 +497,9 @@ TEST_CASE("Scene file: overrides replace values, and their mistakes name the fla
   CHECK(
       parse_scene(kParticles, "s.toml", {{"particles.area_fraction", "0.0078"}}).particles.count ==
       5);
+  const std::string spheres = "box.size = [10, 10, 10]\n" + kParticles;
+  CHECK(parse_scene(spheres, "s.toml", {{"particles.volume_fraction", "0.0105"}}).particles.count ==
+        20);
 
   CHECK(refusal(text, {{"walls.left", "{ kind = \"static\" }"}}) == "");
 
