@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -24,14 +25,20 @@ static void require_command(const CLI::App& parent, const std::string& word, con
 }
 
 // Adds the default command to the arguments: `view` without a command, `engine` to `bench` without
-// a table.
-static std::vector<const char*> with_commands(int argc, const char* const* argv) {
+// a table, and `start` to `sweep` with a file.
+static std::vector<const char*> with_commands(int argc, const char* const* argv,
+                                              const CLI::App& program) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2) words.push_back("view");
-  if (words[1] != std::string_view("bench")) return words;
-  const std::string_view next = argc < 3 ? "" : words[2];
+  const std::string_view command = words[1], next = argc < 3 ? "" : words[2];
   const bool is_flag = next.starts_with('-') && next != "-h" && next != "--help";
-  if (next.empty() || is_flag) words.insert(words.begin() + 2, "engine");
+  if (command == "bench" && (next.empty() || is_flag)) words.insert(words.begin() + 2, "engine");
+  const bool names_inner =
+      std::ranges::any_of(program.get_subcommand("sweep")->get_subcommands({}),
+                          [next](const CLI::App* inner) { return inner->get_name() == next; });
+  if (command == "sweep" && !next.empty() && next != "-h" && next != "--help" && !names_inner) {
+    words.insert(words.begin() + 2, "start");
+  }
   return words;
 }
 
@@ -61,6 +68,7 @@ int run_program(int argc, const char* const* argv) {
     add_view_command(program, exit_code);
     add_render_command(program, exit_code);
     add_measure_command(program, exit_code);
+    add_sweep_command(program, exit_code);
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);
@@ -69,10 +77,12 @@ int run_program(int argc, const char* const* argv) {
     for (CLI::App* command : program.get_subcommands({})) {
       command->group("Commands");
       for (CLI::App* inner : command->get_subcommands({})) {
-        inner->group(command->get_name() == "bench" ? "Tables" : "Topics");
+        inner->group(command->get_name() == "bench"   ? "Tables"
+                     : command->get_name() == "sweep" ? "Commands"
+                                                      : "Topics");
       }
     }
-    const std::vector<const char*> words = with_commands(argc, argv);
+    const std::vector<const char*> words = with_commands(argc, argv, program);
     require_command(program, words[1], "command");
     if (words[1] == std::string_view("bench")) {
       require_command(*program.get_subcommand("bench"), words[2], "table");

@@ -28,7 +28,7 @@ void Progress::expect(double end, std::string doing) {
   doing_ = std::move(doing);
 }
 
-static std::string spell_seconds(double seconds) {
+std::string spell_seconds(double seconds) {
   constexpr double kLongest = 1e9;  // about thirty years
   if (!(seconds < kLongest)) return "ages";
   const auto whole = std::lround(seconds);

@@ -9,6 +9,9 @@ namespace clatter {
 /// Json prints a JSON line every few seconds. None prints nothing.
 enum class ProgressStyle { Auto, Json, None };
 
+/// A duration as "1:05" or "1:00:05".
+std::string spell_seconds(double seconds);
+
 /// Prints the progress of a run and the remaining time to stderr.
 class Progress {
  public:

@@ -1,0 +1,232 @@
+#include "app/sweep/executor.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <iterator>
+#include <list>
+#include <set>
+
+#include "app/system/exit_code.h"
+#include "app/system/interrupt.h"
+#include "app/system/program_job.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// A process that measures some runs, one after the other.
+struct Job {
+  std::vector<int> ids;
+  Clock::time_point began;
+  ProgramJob program;
+  std::size_t ended = 0;  // number of ids that have a result or a failure
+
+  Job(const SweepFolder& folder, std::vector<int> runs)
+      : ids(std::move(runs)), began(Clock::now()), program(command(folder, ids)) {}
+
+  static std::vector<std::string> command(const SweepFolder& folder, const std::vector<int>& ids) {
+    std::vector<std::string> words = {"clatter",    "sweep", "run", folder.path().string(),
+                                      "--progress", "json"};
+    for (const int id : ids) words.push_back(std::to_string(id));
+    return words;
+  }
+};
+
+class Executor {
+ public:
+  Executor(const SweepFolder& folder, int processes, ProgressStyle style)
+      : folder_(folder),
+        processes_(static_cast<std::size_t>(processes)),
+        style_(style),
+        terminal_(style == ProgressStyle::Auto && isatty(STDERR_FILENO)) {
+    SweepState state(folder);
+    runs_ = std::move(state.runs);
+    done_before_ = state.done.size();
+    open_.assign(state.open.begin(), state.open.end());
+    for (const int id : state.failed) {
+      if (folder.failure(id)->is_final()) {
+        ++done_before_;
+      } else {
+        open_.push_back(id);
+      }
+    }
+    std::ranges::sort(open_);
+    wanted_ = open_.size();
+  }
+
+  void run() {
+    while (true) {
+      if (interrupted() && !stopping_) {
+        stopping_ = true;
+        for (const Job& job : jobs_) job.program.interrupt();
+      }
+      while (!stopping_ && jobs_.size() < processes_ && !open_.empty()) start();
+      if (jobs_.empty()) break;
+      wait();
+      for (auto job = jobs_.begin(); job != jobs_.end();) {
+        const std::optional<int> code = job->program.poll();
+        count_ended(*job);
+        if (code) finish(*job);
+        job = code ? jobs_.erase(job) : std::next(job);
+      }
+      show();
+    }
+    if (terminal_ && shown_) std::fputs("\r\033[K", stderr);
+  }
+
+  // Whether a process has ended without result and without a reason.
+  bool broken() const { return broken_; }
+
+ private:
+  // Short runs share a process, so that starts of processes cost little.
+  void start() {
+    constexpr double kLeastSeconds = 1.0;
+    constexpr double kMostRuns = 50.0;
+    const double share = static_cast<double>(open_.size()) / (2.0 * processes_);
+    const double fitting = run_seconds_ > 0.0 ? kLeastSeconds / run_seconds_ : 1.0;
+    const auto count =
+        static_cast<std::size_t>(std::max(1.0, std::min({share, fitting, kMostRuns})));
+    std::vector<int> ids(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(count));
+    open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(count));
+    jobs_.emplace_back(folder_, std::move(ids));
+  }
+
+  void wait() const {
+    constexpr std::chrono::milliseconds kLongest{200};
+    std::vector<const ChildProcess*> processes;
+    for (const Job& job : jobs_) processes.push_back(&job.program.process());
+    wait_for_any(processes, kLongest);
+  }
+
+  bool has_ended(int id) const {
+    std::error_code ignored;
+    return std::filesystem::exists(folder_.result(id), ignored) || folder_.failure(id);
+  }
+
+  void count_ended(Job& job) {
+    while (job.ended < job.ids.size() && has_ended(job.ids[job.ended])) {
+      ++job.ended;
+      ++ended_;
+    }
+  }
+
+  // The first run without an end has broken the process. The others of the process are open again.
+  void finish(const Job& job) {
+    if (job.ended > 0) run_seconds_ = seconds_since(job.began) / static_cast<double>(job.ended);
+    if (job.ended == job.ids.size() || stopping_) return;
+    broken_ = true;
+    const int id = job.ids[job.ended];
+    std::fprintf(stderr, "%sclatter: %s has ended without a result: %s\n",
+                 terminal_ ? "\r\033[K" : "",
+                 name_of(runs_[static_cast<std::size_t>(id) - 1]).c_str(),
+                 job.program.process().last_words().c_str());
+    open_.insert(open_.begin(), job.ids.begin() + static_cast<std::ptrdiff_t>(job.ended) + 1,
+                 job.ids.end());
+  }
+
+  void show() {
+    if (style_ == ProgressStyle::None || wanted_ == 0 || jobs_.empty()) return;
+    if (seconds_since(last_shown_) < (terminal_ ? 0.2 : 5.0)) return;
+    last_shown_ = Clock::now();
+    double work = static_cast<double>(ended_);
+    const Job* slowest = &jobs_.front();
+    for (const Job& job : jobs_) {
+      if (job.ended < job.ids.size()) work += job.program.done();
+      if (job.began < slowest->began) slowest = &job;
+    }
+    const double share = work / static_cast<double>(wanted_);
+    const double left = share > 0.0 ? seconds_since(began_) * (1.0 - share) / share : 0.0;
+    const std::size_t done = done_before_ + ended_;
+    if (style_ == ProgressStyle::Json) {
+      std::fprintf(stderr, "{\"ended\":%zu,\"runs\":%zu,\"done\":%.6f,\"seconds_left\":%.1f}\n",
+                   done, runs_.size(), share, left);
+      return;
+    }
+    const std::size_t at = std::min(slowest->ended, slowest->ids.size() - 1);
+    const SweepRun& run = runs_[static_cast<std::size_t>(slowest->ids[at]) - 1];
+    std::fprintf(stderr, "%ssweep: %zu of %zu runs, %s left; slowest: %s, %s%s",
+                 terminal_ ? "\r\033[K" : "", done, runs_.size(), spell_seconds(left).c_str(),
+                 name_of(run).c_str(), spell_seconds(seconds_since(slowest->began)).c_str(),
+                 terminal_ ? "" : "\n");
+    shown_ = true;
+  }
+
+  const SweepFolder& folder_;
+  std::size_t processes_;
+  ProgressStyle style_;
+  bool terminal_;
+  std::vector<SweepRun> runs_;
+  std::deque<int> open_;         // runs to start
+  std::list<Job> jobs_;          // current processes
+  std::size_t wanted_ = 0;       // number of runs to measure
+  std::size_t done_before_ = 0;  // number of runs that ended earlier
+  std::size_t ended_ = 0;        // number of runs that ended now
+  double run_seconds_ = 0.0;     // of a recent run; 0: unknown
+  bool stopping_ = false;
+  bool broken_ = false;
+  bool shown_ = false;
+  Clock::time_point began_ = Clock::now();
+  Clock::time_point last_shown_ = began_;
+};
+
+}  // namespace
+
+SweepState::SweepState(const SweepFolder& folder)
+    : runs(folder.runs()), done(folder.done()), failed(folder.failed()) {
+  std::vector<int> ended;
+  std::ranges::set_union(done, failed, std::back_inserter(ended));
+  auto next = ended.begin();
+  for (const SweepRun& run : runs) {
+    if (next != ended.end() && *next == run.id) {
+      ++next;
+    } else {
+      open.push_back(run.id);
+    }
+  }
+}
+
+std::string name_of(const SweepRun& run) {
+  const std::string settings = settings_text(run.settings);
+  return fmt::format("run {} ({}seed {})", run.id, settings.empty() ? "" : settings + ", ",
+                     run.seed);
+}
+
+void print_state(const SweepFolder& folder) {
+  const SweepState state(folder);
+  std::fprintf(stderr, "sweep: %zu runs: %zu with result, %zu failed, %zu open\n",
+               state.runs.size(), state.done.size(), state.failed.size(), state.open.size());
+  for (const int id : state.failed) {
+    const auto failure = folder.failure(id);
+    if (!failure) continue;
+    std::fprintf(stderr, "  %s failed: %s\n",
+                 name_of(state.runs[static_cast<std::size_t>(id) - 1]).c_str(),
+                 failure->reason.c_str());
+  }
+}
+
+int execute_sweep(const SweepFolder& folder, int processes, ProgressStyle style) {
+  catch_interrupts();
+  Executor executor(folder, processes, style);
+  executor.run();
+  if (style != ProgressStyle::None) print_state(folder);
+  const SweepState state(folder);
+  if (interrupted() && state.done.size() < state.runs.size()) {
+    std::fputs("clatter: interrupted; the same command continues the sweep\n", stderr);
+    return kInterrupted;
+  }
+  return state.done.size() == state.runs.size() && !executor.broken() ? kOk : kFailed;
+}
+
+}  // namespace clatter

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "app/sweep/sweep_folder.h"
+#include "app/system/progress.h"
+
+namespace clatter {
+
+/// The runs of a sweep by their state. Each has its numbers in order.
+struct SweepState {
+  std::vector<SweepRun> runs;
+  std::vector<int> done;    ///< runs with a result
+  std::vector<int> failed;  ///< runs with a recorded failure
+  std::vector<int> open;    ///< all others
+
+  /// The state of a folder.
+  explicit SweepState(const SweepFolder& folder);
+};
+
+/// "run 17 (particles.count=200, seed 3)".
+std::string name_of(const SweepRun& run);
+
+/// Prints the numbers of runs by state to stderr, and the reason of each failure.
+void print_state(const SweepFolder& folder);
+
+/// Measures all runs without result, in as many processes at once as given. Failures that would
+/// occur again are not repeated. An interrupt lets the processes write their checkpoints. Prints
+/// the progress and the failures to stderr. Returns the exit code.
+int execute_sweep(const SweepFolder& folder, int processes, ProgressStyle style);
+
+}  // namespace clatter

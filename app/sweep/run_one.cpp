@@ -1,0 +1,88 @@
+#include "app/sweep/run_one.h"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+#include "app/runs/measure_run.h"
+#include "app/system/exit_code.h"
+#include "app/system/interrupt.h"
+#include "engine/error.h"
+
+namespace clatter {
+
+static bool is_present(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+static MeasureOptions options_of(const SweepFolder& folder, int id, ProgressStyle progress) {
+  constexpr double kCheckpointInterval = 60.0;  // seconds
+  const Sweep sweep = folder.sweep();
+  const SweepRun run = folder.run(id);
+  MeasureOptions options;
+  options.common.scene = folder.scene();
+  for (const auto* settings : {&sweep.set, &run.settings}) {
+    for (const Override& setting : *settings) {
+      options.common.settings.push_back(setting.key + '=' + setting.value);
+    }
+  }
+  options.common.seed = run.seed;
+  options.common.until = sweep.until;
+  options.common.quiet = progress != ProgressStyle::Auto;
+  options.common.progress = progress;
+  options.checkpoints.file = folder.checkpoint(id);
+  options.checkpoints.every = kCheckpointInterval;
+  if (is_present(options.checkpoints.file)) options.checkpoints.resume = options.checkpoints.file;
+  options.accuracy = sweep.accuracy;
+  options.out = folder.part(id);
+  return options;
+}
+
+// Measures, and turns an error into the reason of the failure.
+static SweepFailure attempt(const MeasureOptions& options) {
+  try {
+    return {measure(options), ""};
+  } catch (const Interrupted&) {
+    return {kInterrupted, ""};
+  } catch (const UserError& error) {
+    return {kWrongUse, error.what()};
+  } catch (const PhysicalStop& error) {
+    return {kPhysicalStop, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {kFailed, "out of memory"};
+  } catch (const std::exception& error) {
+    return {kFailed, error.what()};
+  }
+}
+
+// False after an interrupt.
+static bool wait_for_lock(SweepFolder& folder, int id) {
+  constexpr std::chrono::milliseconds kPause{100};
+  for (bool told = false; !folder.lock(id); told = true) {
+    if (interrupted()) return false;
+    if (!told) std::fprintf(stderr, "note: another process measures run %d; waiting for it\n", id);
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
+}
+
+int measure_run(SweepFolder& folder, int id, ProgressStyle progress) {
+  catch_interrupts();
+  if (!wait_for_lock(folder, id)) return kInterrupted;
+  SweepFailure outcome;
+  if (!is_present(folder.result(id))) {
+    outcome = attempt(options_of(folder, id, progress));
+    if (outcome.code == kOk) {
+      folder.publish(id);
+    } else if (outcome.code != kInterrupted) {
+      std::fprintf(stderr, "clatter: run %d: %s\n", id, outcome.reason.c_str());
+      folder.fail(id, outcome);
+    }
+  }
+  folder.unlock(id);
+  return outcome.code;
+}
+
+}  // namespace clatter

@@ -1,0 +1,274 @@
+#include "app/sweep/sweep_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "app/runs/picture_scene.h"
+#include "app/system/exit_code.h"
+#include "app/system/outputs.h"
+#include "engine/checkpoint/checkpoint.h"
+#include "engine/error.h"
+#include "engine/scene/scene_document.h"
+#include "engine/system/read_file.h"
+#include "engine/system/write_file.h"
+#include "engine/whole_number.h"
+
+namespace clatter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLargestSweep = 1'000'000;
+constexpr std::size_t kLargestManifest = 1'000'000'000;
+
+std::string line_of(const SweepRun& run) {
+  Json settings = Json::object();
+  for (const Override& setting : run.settings) settings[setting.key] = setting.value;
+  return Json{{"id", run.id}, {"set", settings}, {"seed", run.seed}}.dump() + '\n';
+}
+
+SweepRun run_in(const std::string& line, const std::string& manifest) {
+  try {
+    const Json json = Json::parse(line);
+    SweepRun run{json.at("id"), {}, json.at("seed")};
+    for (const auto& [key, value] : json.at("set").items()) run.settings.push_back({key, value});
+    return run;
+  } catch (const nlohmann::json::exception& error) {
+    throw RunError(manifest + " is damaged: " + error.what());
+  }
+}
+
+// The same text for the same run, in any order of the axes.
+std::string identity(SweepPoint settings, std::uint64_t seed) {
+  std::ranges::sort(settings, {}, &Override::key);
+  return settings_text(settings) + " seed=" + std::to_string(seed);
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+// A scene beside the sweep file has precedence over the gallery.
+SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
+  const auto beside = std::filesystem::path(sweep_file).parent_path() / sweep.scene;
+  return find_any_scene(is_file(beside) ? beside.string() : sweep.scene);
+}
+
+// A file that every run needs, with its name in the sweep's folder.
+struct Input {
+  std::filesystem::path name;
+  std::string bytes;
+};
+
+// The scene and, if it lies beside the scene, its start file.
+std::vector<Input> inputs_of(const SceneText& scene) {
+  std::vector<Input> inputs = {{"scene.toml", scene.text}};
+  const toml::table root = parse_document(scene.text, scene.file);
+  const std::filesystem::path name = root.at_path("particles.start.file").value_or(std::string());
+  const auto file = std::filesystem::path(scene.file).parent_path() / name;
+  if (scene.origin == Origin::Gallery || name.empty() || name.is_absolute() || !is_file(file)) {
+    return inputs;
+  }
+  if (*name.begin() == "..") {
+    throw UserError(place_of(root, "particles.start.file", scene.file),
+                    "the start file is not below the folder of the scene",
+                    "copy it there, or give its absolute path");
+  }
+  inputs.push_back({name, read_file(file.string(), std::numeric_limits<int>::max(), "")});
+  return inputs;
+}
+
+// Throws if the folder cannot continue with this sweep file.
+void require_same_sweep(const SweepFolder& folder, const Sweep& sweep,
+                        const std::vector<Input>& inputs, const std::string& file) {
+  const auto refuse = [&](const std::string& difference) {
+    throw UserError({file}, folder.path().string() + " has runs with " + difference,
+                    "give another folder as --out");
+  };
+  for (const Input& input : inputs) {
+    const auto copy = folder.path() / input.name;
+    if (!is_file(copy) ||
+        read_file(copy.string(), std::numeric_limits<int>::max(), "") != input.bytes) {
+      refuse("another scene");
+    }
+  }
+  const Sweep before = folder.sweep();
+  const auto sorted = [](std::vector<std::string> keys) {
+    std::ranges::sort(keys);
+    return keys;
+  };
+  if (identity(before.set, 0) != identity(sweep.set, 0)) refuse("other settings in [set]");
+  if (sorted(before.axes()) != sorted(sweep.axes())) refuse("other axes");
+  if (before.accuracy.relative != sweep.accuracy.relative ||
+      before.accuracy.of != sweep.accuracy.of)
+    refuse("another 'accuracy'");
+  if (before.until != sweep.until) refuse("another 'until'");
+}
+
+}  // namespace
+
+bool SweepFailure::is_final() const {
+  return code == kPhysicalStop || code == kWrongUse;
+}
+
+SweepFolder::SweepFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+  if (is_file(folder_ / "manifest.jsonl")) return;
+  throw UserError({folder_.string()}, "this is not the folder of a sweep",
+                  "start one with `clatter sweep FILE --out DIR`");
+}
+
+SweepFolder SweepFolder::make(const std::string& text, const std::string& file,
+                              const std::filesystem::path& folder) {
+  const Sweep sweep = read_sweep(text, file);
+  const SceneText scene = scene_of(sweep, file);
+  check_entries(sweep, scene, text, file);
+  const std::vector<Input> inputs = inputs_of(scene);
+  std::error_code ignored;
+  if (std::filesystem::exists(folder, ignored) && !is_file(folder / "scene.toml") &&
+      !(std::filesystem::is_directory(folder, ignored) &&
+        std::filesystem::is_empty(folder, ignored))) {
+    throw UserError({"--out", 0, 0}, folder.string() + " exists and is not the folder of a sweep",
+                    "give another name");
+  }
+  make_folder(folder, "--out");
+  for (const char* inner : {"runs", "results", "failed"}) make_folder(folder / inner, "--out");
+  SweepFolder made;
+  made.folder_ = folder;
+  if (!made.lock(0)) {
+    throw UserError({"--out", 0, 0}, "another sweep runs in " + folder.string(),
+                    "wait for its end, or give another folder");
+  }
+  if (is_file(folder / "manifest.jsonl")) {
+    require_same_sweep(made, sweep, inputs, file);
+  } else {
+    for (const Input& input : inputs) {
+      std::filesystem::create_directories((folder / input.name).parent_path(), ignored);
+      write_file(folder / input.name, input.bytes);
+    }
+  }
+  write_file(folder / "sweep.toml", text);
+  made.add(sweep.points(), sweep.seeds);
+  return made;
+}
+
+Sweep SweepFolder::sweep() const {
+  const std::string file = folder_ / "sweep.toml";
+  return read_sweep(read_file(file, kLargestSweep, "a sweep is a text of a few kB"), file);
+}
+
+std::vector<SweepRun> SweepFolder::runs() const {
+  const std::string manifest = folder_ / "manifest.jsonl";
+  std::vector<SweepRun> runs;
+  if (!is_file(manifest)) return runs;
+  std::istringstream lines(read_file(manifest, kLargestManifest, ""));
+  for (std::string line; std::getline(lines, line);) runs.push_back(run_in(line, manifest));
+  return runs;
+}
+
+SweepRun SweepFolder::run(int id) const {
+  const std::string manifest = folder_ / "manifest.jsonl";
+  std::istringstream lines(read_file(manifest, kLargestManifest, ""));
+  std::string line;
+  for (int k = 0; k < id; ++k) {
+    if (std::getline(lines, line)) continue;
+    throw UserError({folder_.string()}, fmt::format("there is no run {}", id),
+                    fmt::format("give a number from 1 to {}", k));
+  }
+  return run_in(line, manifest);
+}
+
+std::optional<SweepFailure> SweepFolder::failure(int id) const {
+  const auto path = file("failed", id, ".json");
+  if (!is_file(path)) return std::nullopt;
+  const Json json = Json::parse(read_file(path.string(), kLargestSweep, ""), nullptr, false);
+  if (!json.is_object()) return SweepFailure{kFailed, "unknown"};
+  return SweepFailure{json.value("code", static_cast<int>(kFailed)),
+                      json.value("reason", std::string("unknown"))};
+}
+
+void SweepFolder::add(const std::vector<SweepPoint>& points,
+                      const std::vector<std::uint64_t>& seeds) const {
+  std::vector<SweepRun> runs = this->runs();
+  std::set<std::string> known;
+  std::string text;
+  for (const SweepRun& run : runs) {
+    known.insert(identity(run.settings, run.seed));
+    text += line_of(run);
+  }
+  const std::size_t before = text.size();
+  int id = static_cast<int>(runs.size());
+  for (const SweepPoint& point : points) {
+    for (const std::uint64_t seed : seeds) {
+      if (known.insert(identity(point, seed)).second) text += line_of({++id, point, seed});
+    }
+  }
+  if (text.size() > before) write_file(folder_ / "manifest.jsonl", text);
+}
+
+void SweepFolder::publish(int id) const {
+  rename_synced(part(id), result(id));
+  std::error_code ignored;
+  std::filesystem::remove(file("failed", id, ".json"), ignored);
+  std::filesystem::remove(checkpoint(id), ignored);
+  std::filesystem::remove(previous_checkpoint(checkpoint(id)), ignored);
+}
+
+void SweepFolder::fail(int id, const SweepFailure& failure) const {
+  std::error_code ignored;
+  std::filesystem::remove(part(id), ignored);
+  write_file(file("failed", id, ".json"),
+             Json{{"code", failure.code}, {"reason", failure.reason}}.dump() + '\n');
+}
+
+bool SweepFolder::lock(int id) {
+  if (!locks_) {
+    const auto path = folder_ / "runs/locks";
+    locks_ = FileDescriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (!locks_) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+  }
+  return set_lock(id, F_WRLCK);
+}
+
+void SweepFolder::unlock(int id) {
+  set_lock(id, F_UNLCK);
+}
+
+// Such locks work across the machines of a cluster. They belong to the process, and closing the
+// file in any way would end them: hence one descriptor for all.
+bool SweepFolder::set_lock(int id, short type) const {
+  struct flock lock {};
+  lock.l_type = type;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = id;
+  lock.l_len = 1;
+  return fcntl(locks_.get(), F_SETLK, &lock) == 0;
+}
+
+std::filesystem::path SweepFolder::file(const char* folder, int id, const char* suffix) const {
+  return folder_ / folder / (std::to_string(id) + suffix);
+}
+
+std::vector<int> SweepFolder::ids_in(const char* folder) const {
+  std::vector<int> ids;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder, ignored)) {
+    const auto id = whole_number<int>(entry.path().stem().string());
+    if (id && entry.path().extension() == ".json") ids.push_back(*id);
+  }
+  std::ranges::sort(ids);
+  return ids;
+}
+
+}  // namespace clatter
