@@ -31,14 +31,13 @@ static std::vector<const char*> with_commands(int argc, const char* const* argv,
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2) words.push_back("view");
   const std::string_view command = words[1], next = argc < 3 ? "" : words[2];
-  const bool is_flag = next.starts_with('-') && next != "-h" && next != "--help";
+  const bool asks_help = next == "-h" || next == "--help";
+  const bool is_flag = next.starts_with('-') && !asks_help;
   if (command == "bench" && (next.empty() || is_flag)) words.insert(words.begin() + 2, "engine");
   const bool names_inner =
       std::ranges::any_of(program.get_subcommand("sweep")->get_subcommands({}),
                           [next](const CLI::App* inner) { return inner->get_name() == next; });
-  if (command == "sweep" && !next.empty() && next != "-h" && next != "--help" && !names_inner) {
-    words.insert(words.begin() + 2, "start");
-  }
+  if (command == "sweep" && !names_inner && !asks_help) words.insert(words.begin() + 2, "start");
   return words;
 }
 

@@ -7,6 +7,7 @@
 #include "app/commands/flags.h"
 #include "app/sweep/executor.h"
 #include "app/sweep/run_one.h"
+#include "app/sweep/sweep_table.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
 #include "engine/system/read_file.h"
@@ -114,6 +115,21 @@ void add_status(CLI::App& sweep, int& exit_code) {
   });
 }
 
+void add_collect(CLI::App& sweep, int& exit_code) {
+  auto options = std::make_shared<SweepOptions>();
+  CLI::App* command = sweep.add_subcommand("collect",
+                                           "Write the results as one table, with a row per point: "
+                                           "table.csv, table.jsonl and table.h5 in "
+                                           "the folder. The last two have the profiles too.");
+  add_folder(*command, options->folder);
+  command->callback([options, &exit_code] {
+    const SweepFolder folder(options->folder);
+    write_table(folder, read_table(folder));
+    print_state(folder);
+    exit_code = kOk;
+  });
+}
+
 }  // namespace
 
 void add_sweep_command(CLI::App& program, int& exit_code) {
@@ -125,6 +141,7 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
   add_start(*sweep, exit_code);
   add_run(*sweep, exit_code);
   add_status(*sweep, exit_code);
+  add_collect(*sweep, exit_code);
 }
 
 }  // namespace clatter

@@ -1,7 +1,5 @@
 #include "app/results/hdf5_file.h"
 
-#include <H5Cpp.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -9,22 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/error.h"
+#include "app/results/hdf5_writer.h"
 #include "engine/scene/scene_keys.h"
-#include "engine/system/write_file.h"
 
 namespace clatter {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Shape = std::vector<hsize_t>;
-
-H5::StrType text_type() {
-  H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
-  type.setCset(H5T_CSET_UTF8);
-  return type;
-}
 
 // The Boolean type that h5py and pandas recognise.
 H5::EnumType flag_type() {
@@ -36,18 +26,10 @@ H5::EnumType flag_type() {
   return type;
 }
 
-H5::DataSpace space_of(const Shape& shape) {
-  return H5::DataSpace(static_cast<int>(shape.size()), shape.data());
-}
-
 template <class T>
 void write_value(const H5::H5Object& object, const std::string& name, const H5::DataType& type,
                  const T& value) {
   object.createAttribute(name, type, H5::DataSpace()).write(type, &value);
-}
-
-void write_text(const H5::H5Object& object, const std::string& name, const std::string& text) {
-  write_value(object, name, text_type(), text.c_str());
 }
 
 template <class T>
@@ -96,19 +78,6 @@ void write_object(const H5::Group& group, const Json& object) {
   }
 }
 
-void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
-                   const std::vector<double>& values, const Shape& shape) {
-  const H5::DataSet dataset =
-      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape));
-  if (!values.empty()) dataset.write(values.data(), H5::PredType::NATIVE_DOUBLE);
-  write_text(dataset, "units", unit);
-}
-
-void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
-                   const std::vector<double>& values) {
-  write_dataset(group, name, unit, values, {values.size()});
-}
-
 void write_series(const H5::Group& group, const Measured& measured) {
   write_dataset(group, "time", "t", measured.series_time);
   const std::string unit = unit_of(Quantity::Temperature, 2);
@@ -146,7 +115,7 @@ void write_edges(const H5::Group& group, const FieldMaps& maps) {
   }
 }
 
-Shape shape_of(const FieldMap& map) {
+Hdf5Shape shape_of(const FieldMap& map) {
   return {map.cells.rbegin(), map.cells.rend()};
 }
 
@@ -176,7 +145,7 @@ void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& part
       stop.check();
       values.insert(values.end(), part.maps[f].values.begin(), part.maps[f].values.end());
     }
-    Shape shape = shape_of(map);
+    Hdf5Shape shape = shape_of(map);
     shape.insert(shape.begin(), parts.size());
     write_dataset(group, name_of(map.field), map_unit(map), values, shape);
   }
@@ -197,32 +166,11 @@ void write_all(const H5::H5File& file, const Json& result, const Measured& measu
   write_map_series(file.createGroup("map_series"), measured.map_series, stop);
 }
 
-// The bytes of the file. The file is made in memory, so that a complete file or no file appears.
-std::string image_of(const Json& result, const Measured& measured, const StopRequest& stop) {
-  constexpr std::size_t kGrowth = std::size_t{1} << 20;
-  H5::FileAccPropList in_memory;
-  in_memory.setCore(kGrowth, false);
-  H5::H5File file("measurement", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
-  write_all(file, result, measured, stop);
-  file.flush(H5F_SCOPE_GLOBAL);
-  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
-  std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
-  if (H5Fget_file_image(file.getId(), image.data(), image.size()) != size || size <= 0) {
-    throw H5::FileIException("H5Fget_file_image", "no image");
-  }
-  return image;
-}
-
 }  // namespace
 
 void write_hdf5(const std::filesystem::path& path, const Json& result, const Measured& measured,
                 const StopRequest& stop) {
-  try {
-    H5::Exception::dontPrint();
-    write_file(path, image_of(result, measured, stop));
-  } catch (const H5::Exception& error) {
-    throw RunError("cannot make " + path.string() + ": " + error.getDetailMsg());
-  }
+  write_hdf5(path, [&](const H5::H5File& file) { write_all(file, result, measured, stop); });
 }
 
 }  // namespace clatter

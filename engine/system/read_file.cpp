@@ -1,7 +1,9 @@
 #include "engine/system/read_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "engine/error.h"
 
@@ -16,6 +18,10 @@ std::string read_file(const std::string& path, std::size_t largest, const std::s
     bytes.resize(std::min(before + piece, largest + 1));
     file.read(&bytes[before], static_cast<std::streamsize>(bytes.size() - before));
     bytes.resize(before + static_cast<std::size_t>(file.gcount()));
+  }
+  std::error_code ignored;
+  if (!file.is_open() && !std::filesystem::exists(path, ignored)) {
+    throw UserError({path}, "there is no such file", "check the name");
   }
   if (file.bad() || (file.fail() && !file.eof())) {
     throw UserError({path}, "the file cannot be read", "check its permissions");

@@ -1,0 +1,64 @@
+#include "app/results/hdf5_writer.h"
+
+#include <algorithm>
+
+#include "engine/error.h"
+#include "engine/system/write_file.h"
+
+namespace clatter {
+
+H5::StrType text_type() {
+  H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
+  type.setCset(H5T_CSET_UTF8);
+  return type;
+}
+
+H5::DataSpace space_of(const Hdf5Shape& shape) {
+  return H5::DataSpace(static_cast<int>(shape.size()), shape.data());
+}
+
+void write_text(const H5::H5Object& object, const std::string& name, const std::string& text) {
+  const char* bytes = text.c_str();
+  object.createAttribute(name, text_type(), H5::DataSpace()).write(text_type(), &bytes);
+}
+
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values, const Hdf5Shape& shape) {
+  const H5::DataSet dataset =
+      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape));
+  if (!values.empty()) dataset.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+  if (!unit.empty()) write_text(dataset, "units", unit);
+}
+
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values) {
+  write_dataset(group, name, unit, values, {values.size()});
+}
+
+// The bytes of the file.
+static std::string image_of(const std::function<void(const H5::H5File&)>& fill) {
+  constexpr std::size_t kGrowth = std::size_t{1} << 20;
+  H5::FileAccPropList in_memory;
+  in_memory.setCore(kGrowth, false);
+  H5::H5File file("measurement", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
+  fill(file);
+  file.flush(H5F_SCOPE_GLOBAL);
+  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
+  std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (H5Fget_file_image(file.getId(), image.data(), image.size()) != size || size <= 0) {
+    throw H5::FileIException("H5Fget_file_image", "no image");
+  }
+  return image;
+}
+
+void write_hdf5(const std::filesystem::path& path,
+                const std::function<void(const H5::H5File&)>& fill) {
+  try {
+    H5::Exception::dontPrint();
+    write_file(path, image_of(fill));
+  } catch (const H5::Exception& error) {
+    throw RunError("cannot make " + path.string() + ": " + error.getDetailMsg());
+  }
+}
+
+}  // namespace clatter

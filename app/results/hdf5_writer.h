@@ -1,0 +1,34 @@
+#pragma once
+
+#include <H5Cpp.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace clatter {
+
+using Hdf5Shape = std::vector<hsize_t>;
+
+/// Text in UTF-8, of any length.
+H5::StrType text_type();
+
+/// A data space of this shape.
+H5::DataSpace space_of(const Hdf5Shape& shape);
+
+/// Writes a text as an attribute.
+void write_text(const H5::H5Object& object, const std::string& name, const std::string& text);
+
+/// Writes numbers as a dataset of this shape, with the attribute "units" unless `unit` is empty.
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values, const Hdf5Shape& shape);
+/// Writes a list of numbers.
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values);
+
+/// Writes an HDF5 file, completely or not at all: `fill` fills it in memory. Throws RunError.
+void write_hdf5(const std::filesystem::path& path,
+                const std::function<void(const H5::H5File&)>& fill);
+
+}  // namespace clatter

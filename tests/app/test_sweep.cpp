@@ -1,0 +1,305 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/shell.h"
+#include "tests/app/tables.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+namespace {
+
+// No symmetry: the walls differ, and gravity is oblique.
+const std::string kScene = R"(
+box.size = [9.0, 7.0]
+particles = { count = 8, restitution = 0.9 }
+gravity.acceleration = [0.03, -0.1]
+measure = { burn_in = 2.0, duration = 30.0, fields = ["density"], cells = [3, 2] }
+[walls.left]
+kind = "driven"
+drive_speed = 1.0
+[walls.right]
+kind = "thermal"
+temperature = 0.7
+[walls.bottom]
+kind = "thermal"
+temperature = 1.5
+[walls.top]
+kind = "static"
+)";
+
+const std::string kSweep = R"(scene = "a.toml"
+seeds = [4, 2, 9]
+[set]
+"measure.profile_axis" = "y"
+[axes]
+"particles.restitution" = [0.7, 0.95]
+"walls.right.temperature" = [0.5, 2.0]
+)";
+
+void write_sweep(const Shell& shell) {
+  shell.write("a.toml", kScene);
+  shell.write("s.toml", kSweep);
+}
+
+// The table of a sweep, by column; the cells of a column by row.
+std::map<std::string, std::vector<std::string>> read_csv(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::string>> columns;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    if (names.empty()) {
+      names = row;
+      continue;
+    }
+    REQUIRE(row.size() == names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(row[k]);
+  }
+  return columns;
+}
+
+json without_performance(json result) {
+  result.erase("performance");
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Sweep: each result is that of `clatter measure`, and the table has their means") {
+  const Shell shell;
+  write_sweep(shell);
+  const Outcome sweep = shell.run("clatter sweep s.toml --out d");
+  CAPTURE(sweep.err);
+  REQUIRE(sweep.code == 0);
+  CHECK(sweep.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
+  REQUIRE(shell.run("clatter sweep collect d").code == 0);
+  const auto table = read_csv(shell.read("d/table.csv"));
+
+  std::istringstream manifest(shell.read("d/manifest.jsonl"));
+  const std::vector<std::string> restitutions = {"0.7", "0.95"}, temperatures = {"0.5", "2.0"};
+  const std::vector<int> seeds = {4, 2, 9};
+  int id = 0;
+  for (std::size_t point = 0; point < 4; ++point) {
+    std::vector<json> results;
+    for (const int seed : seeds) {
+      std::string line;
+      REQUIRE(std::getline(manifest, line));
+      const json run = json::parse(line);
+      CHECK(run.at("id") == ++id);
+      CHECK(run.at("seed") == seed);
+      CHECK(run.at("set").at("particles.restitution") == restitutions[point / 2]);
+      CHECK(run.at("set").at("walls.right.temperature") == temperatures[point % 2]);
+      const Outcome alone = shell.run(
+          "clatter measure a.toml --quiet --seed " + std::to_string(seed) +
+          " --set measure.profile_axis=y --set particles.restitution=" + restitutions[point / 2] +
+          " --set walls.right.temperature=" + temperatures[point % 2]);
+      results.push_back(json::parse(alone.out));
+      CHECK(without_performance(results.back()) ==
+            without_performance(
+                json::parse(shell.read("d/results/" + std::to_string(id) + ".json"))));
+    }
+    const auto cell = [&](const std::string& column) {
+      CAPTURE(column);
+      return std::stod(table.at(column).at(point));
+    };
+    CHECK(cell("particles.restitution") == std::stod(restitutions[point / 2]));
+    CHECK(cell("walls.right.temperature") == std::stod(temperatures[point % 2]));
+    CHECK(cell("replicas") == 3);
+    CHECK(table.at("seeds").at(point) == "4 2 9");
+    std::string hashes;
+    double events = 0.0, measured = 0.0, overlap = 0.0;
+    for (const json& result : results) {
+      hashes += (hashes.empty() ? "" : " ") + result.at("state_hash").get<std::string>();
+      events += result.at("events").at("disk_disk").get<double>();
+      measured += result.at("time").at("measured").get<double>();
+      overlap = std::max(overlap, result.at("checks").at("deepest_overlap").get<double>());
+    }
+    CHECK(table.at("state_hashes").at(point) == hashes);
+    CHECK(cell("events.disk_disk") == events);
+    CHECK(cell("time.measured") == doctest::Approx(measured));
+    CHECK(cell("checks.deepest_overlap") == overlap);
+    int means = 0;
+    for (const auto& [name, column] : table) {
+      const std::string suffix = "_standard_error";
+      if (!name.ends_with(suffix)) continue;
+      ++means;
+      std::string mean_name = name.substr(0, name.size() - suffix.size());
+      std::string place = "/" + mean_name;
+      std::ranges::replace(place, '.', '/');
+      const json::json_pointer at(place);
+      double sum = 0.0, squares = 0.0, blocked = 0.0;
+      for (const json& result : results) {
+        const double mean = result.at(at).at("mean");
+        const double error = result.at(at).at("standard_error");
+        sum += mean;
+        squares += mean * mean;
+        blocked += error * error;
+      }
+      CAPTURE(name);
+      CHECK(cell(mean_name) == doctest::Approx(sum / 3));
+      // The variance of the mean of three values.
+      CHECK(cell(name) == doctest::Approx(std::sqrt((squares - sum * sum / 3) / 6)).epsilon(1e-6));
+      CHECK(cell(mean_name + "_blocking_error") == doctest::Approx(std::sqrt(blocked) / 3));
+    }
+    // Temperature (3), kurtosis (2), collision rate, energy (3), pressure (4).
+    CHECK(means == 13);
+  }
+}
+
+TEST_CASE("Sweep: one replica has the error of its run, and JSON lines have the profiles") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.write("s.toml",
+              "scene = \"a.toml\"\nseeds = [5]\n[axes]\n\"particles.count\" = [4, 6, 8]\n");
+  REQUIRE(shell.run("clatter sweep s.toml --out d && clatter sweep collect d").code == 0);
+  const auto table = read_csv(shell.read("d/table.csv"));
+  CHECK_FALSE(table.contains("temperature_blocking_error"));
+  std::istringstream lines(shell.read("d/table.jsonl"));
+  for (const int id : {1, 2, 3}) {
+    const json result = json::parse(shell.read("d/results/" + std::to_string(id) + ".json"));
+    std::string line;
+    REQUIRE(std::getline(lines, line));
+    const json row = json::parse(line);
+    CHECK(row.at("temperature_standard_error") == result.at("temperature").at("standard_error"));
+    CHECK(row.at("pressure.top") == result.at("pressure").at("top").at("mean"));
+    CHECK(row.at("profile") == result.at("profile"));
+    CHECK(row.at("particles.count") == 2 + 2 * id);
+  }
+  const Outcome hdf5 = shell.run(CLATTER_READERS "read_hdf5.py d/table.h5");
+  if (says(hdf5.err, "No module named")) return;
+  const json file = json::parse(hdf5.out);
+  INFO(hdf5.out.substr(0, 400));
+  CHECK(file.at("members").contains("temperature"));
+}
+
+TEST_CASE("Sweep: more values add runs, and all other changes are refused") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter sweep s.toml --out d").code == 0);
+  const Outcome before = shell.run("cd d/results && ls -i1 && cksum *");
+  shell.run("sed -i 's/2.0\\]/2.0, 3.0]/; s/4, 2, 9/4, 2, 9, 8/' s.toml");
+  const Outcome more = shell.run("clatter sweep s.toml --out d");
+  CHECK(more.code == 0);
+  CHECK(says(more.err, "sweep: 24 runs: 24 with result"));
+  for (int id = 1; id <= 12; ++id) {
+    const std::string name = std::to_string(id) + ".json";
+    CHECK(says(before.out, shell.run("cd d/results && ls -i1 " + name).out));
+  }
+  // A shorter file removes nothing.
+  shell.run("sed -i 's/, 3.0\\]/]/' s.toml");
+  CHECK(says(shell.run("clatter sweep s.toml --out d").err, "24 runs: 24 with result"));
+
+  const std::string text = shell.read("s.toml");
+  const auto refused = [&](const std::string& change, const std::string& message) {
+    shell.write("s.toml", text);
+    REQUIRE(shell.run(change).code == 0);
+    const Outcome outcome = shell.run("clatter sweep s.toml --out d");
+    CHECK(outcome.code == 2);
+    CHECK_MESSAGE(says(outcome.err, message), outcome.err);
+  };
+  refused("sed -i 's/= \"y\"/= \"x\"/' s.toml", "s.toml: d has runs with other settings in [set]");
+  refused("sed -i 's/\\[set\\]/until = 9\\n[set]/' s.toml", "d has runs with another 'until'");
+  refused("sed -i 's/\\[set\\]/accuracy = \"5%\"\\n[set]/' s.toml",
+          "d has runs with another 'accuracy'");
+  refused("echo '\"particles.count\" = [5]' >> s.toml", "d has runs with other axes");
+  refused("sed -i 's/count = 8/count = 9/' a.toml", "d has runs with another scene");
+}
+
+TEST_CASE("Sweep: failed runs are listed with their reasons, and do not stop the others") {
+  const Shell shell;
+  // The collapse of a cooling gas, and a box that is too small for a combination of values.
+  shell.write("s.toml", R"(scene = "cooling"
+[set]
+"measure.burn_in" = 0.0
+"measure.duration" = 1000.0
+[axes]
+"particles.restitution" = [0.99, 0.1]
+"particles.count" = [30, 300]
+"box.size" = [[25.0, 25.0], [8.0, 8.0]]
+)");
+  const Outcome sweep = shell.run("clatter sweep s.toml --out d");
+  CHECK(sweep.code == 1);
+  CAPTURE(sweep.err);
+  const std::string restitution = "particles.restitution=0.1 particles.count=300 ";
+  CHECK(says(sweep.err, "sweep: 8 runs: "));
+  CHECK(says(sweep.err, "  run 7 (" + restitution +
+                            "box.size=[25.0, 25.0], seed 1) failed: "
+                            "inelastic collapse"));
+  CHECK(says(sweep.err, "  run 8 (" + restitution + "box.size=[8.0, 8.0], seed 1) failed: "));
+  CHECK(says(sweep.err, "300 particles do not fit into the box"));
+  // Failures that would occur again are not repeated.
+  const Outcome again = shell.run("clatter sweep s.toml --out d");
+  CHECK(again.code == 1);
+  CHECK(again.err == sweep.err.substr(sweep.err.find("sweep: 8 runs")));
+  CHECK(says(shell.run("clatter sweep status d").err, "inelastic collapse"));
+  CHECK(shell.run("clatter sweep run d 8").code == 2);
+}
+
+TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 3000/; s/count = 8/count = 30/' a.toml");
+  REQUIRE(shell.run("clatter sweep s.toml --out calm --quiet && clatter sweep collect calm").code ==
+          0);
+  // An interrupt ends all processes, with checkpoints.
+  const Outcome interrupted = shell.run(
+      "timeout -s INT 1 clatter sweep s.toml --out d --progress none; echo $?; ls d/runs");
+  CHECK(interrupted.out.starts_with("124\n"));
+  CHECK(says(interrupted.out, ".checkpoint"));
+  // Kills of the sweep and of single runs, at times without any pattern.
+  for (const char* delay : {"0.13", "0.31", "0.07", "0.43", "0.23", "0.37"}) {
+    shell.run(std::string("clatter sweep s.toml --out d --quiet & sleep ") + delay +
+              "; kill -9 $!; pkill -9 -f 'sweep run d' ; wait");
+  }
+  const Outcome last = shell.run("clatter sweep s.toml --out d --quiet && clatter sweep collect d");
+  CAPTURE(last.err);
+  CHECK(last.code == 0);
+  CHECK(shell.run("cmp calm/table.csv d/table.csv && cmp calm/table.jsonl d/table.jsonl").code ==
+        0);
+  CHECK(shell.run("ls d/runs").out == "locks\n");
+}
+
+TEST_CASE("Sweep: a folder belongs to one sweep at a time") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 30000/' a.toml; mkdir other; touch other/file");
+  const Outcome two = shell.run(
+      "clatter sweep s.toml --out d --quiet & sleep 1; clatter sweep s.toml --out d; echo $?; kill "
+      "%1; wait");
+  CHECK(two.out == "2\n");
+  CHECK(says(two.err, "--out: another sweep runs in d; wait for its end, or give another folder"));
+  const Outcome other = shell.run("clatter sweep s.toml --out other");
+  CHECK(other.code == 2);
+  CHECK(says(other.err, "--out: other exists and is not the folder of a sweep; give another name"));
+  const Outcome none = shell.run("clatter sweep status other");
+  CHECK(none.code == 2);
+  CHECK(says(none.err, "other: this is not the folder of a sweep; start one with `clatter sweep"));
+}
+
+TEST_CASE("Sweep: a single run is measured by hand, once") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 1e9/' a.toml");
+  shell.run("timeout -s INT 1 clatter sweep s.toml --out d --quiet");
+  shell.run("sed -i 's/duration = 1e9/duration = 30/' d/scene.toml; rm d/runs/*.checkpoint");
+  CHECK(shell.run("clatter sweep run d 2 11-12 --quiet").code == 0);
+  CHECK(shell.run("ls d/results").out == "11.json\n12.json\n2.json\n");
+  const std::string time = shell.run("stat -c %Y.%i d/results/2.json").out;
+  CHECK(shell.run("clatter sweep run d 2").code == 0);
+  CHECK(shell.run("stat -c %Y.%i d/results/2.json").out == time);
+  const Outcome wrong = shell.run("clatter sweep run d 13");
+  CHECK(wrong.code == 2);
+  CHECK(says(wrong.err, "d: there is no run 13; give a number from 1 to 12"));
+  CHECK(says(shell.run("clatter sweep run d 5-3").err, "ID: '5-3' is no run; give numbers"));
+}
+
+}  // namespace clatter
