@@ -57,6 +57,7 @@ TEST_CASE("Chart axis: a short logarithmic axis also has ticks at 2 and 5, or at
   CHECK(minor(logarithmic(1.5, 8.5), 7, 1.0) == std::vector<double>{3, 4, 6, 7, 8});
   CHECK(numbers(logarithmic(0.12, 9.0), 7) == "0.2 0.5 1 2 5");
   CHECK(numbers(logarithmic(1.5e-4, 1.1e-3), 7) == "2×10⁻⁴ 5×10⁻⁴ 10⁻³");
+  CHECK(numbers(logarithmic(1.75, 2.25), 4) == "1.8 2.0 2.2");
   CHECK(numbers(logarithmic(3.05, 3.35), 4) == "3.1 3.2 3.3");
 }
 

@@ -334,6 +334,7 @@ TEST_CASE("Chart: the picture has the markers, dashes and texts of the file") {
   Chart chart = chart_of({{0.0, 0.0}, {0.3, 0.8, 0.1}, {1.0, 1.0}});
   chart.series.push_back({"", {{0.8, 0.2}}});
   chart.lines.push_back({"", {{-1.0, 0.5}, {2.0, 0.5}}, LineStyle::Dashed});
+  chart.x.label = "xxxxxxxx";
   const auto elements = drawn(chart);
   const Image image = chart_image(gl, chart, kSize);
   CHECK(image.size == kSize);
@@ -366,8 +367,7 @@ TEST_CASE("Chart: the picture has the markers, dashes and texts of the file") {
   CHECK(dark / length == doctest::Approx(5.0 / 8.0).epsilon(0.05));
   CHECK(changes ==
         doctest::Approx(2.0 * length / (8.0 * line.number("stroke-width"))).epsilon(0.05));
-  // The label of x is at its place and nothing is between it and the edge of the picture.
-  const Element label = text_of(elements, "x");
+  // The label of x is in the middle of its place, with nothing below it.
   const auto ink_between = [&](double x0, double x1, double y0, double y1) {
     int count = 0;
     for (double y = y0; y < y1; ++y) {
@@ -375,8 +375,12 @@ TEST_CASE("Chart: the picture has the markers, dashes and texts of the file") {
     }
     return count;
   };
+  const Element label = text_of(elements, chart.x.label);
   const double x = label.number("x"), y = label.number("y"), em = label.number("font-size");
-  CHECK(ink_between(x - 0.35 * em, x + 0.35 * em, y - 0.6 * em, y + 1.0) > 0.05 * em * em);
+  const int before = ink_between(x - 3.0 * em, x, y - 0.6 * em, y + 1.0);
+  CHECK(before > 0.2 * em * em);
+  CHECK(ink_between(x, x + 3.0 * em, y - 0.6 * em, y + 1.0) ==
+        doctest::Approx(before).epsilon(0.1));
   CHECK(ink_between(0.0, kSize.width, y + 2.0, kSize.height) == 0);
   // The label of y is turned: its descender is to the right of its baseline.
   const Element turned = text_of(elements, "y");
