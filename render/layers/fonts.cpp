@@ -37,6 +37,24 @@ Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
   return loaded_fonts(atlas);
 }
 
+void add_letters(ImFontAtlas& atlas, const std::string& text, std::span<const double> sizes) {
+  // Dear ImGui counts sizes from the ascent to the descent, which are 2384 / 2048 em of DejaVu Sans.
+  constexpr double kLineHeight = 2384.0 / 2048.0;
+  const std::string_view file = embedded_fonts().front().bytes;
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  ImFontGlyphRangesBuilder letters;
+  letters.AddText(text.data(), text.data() + text.size());
+  letters.AddText("? ");  // the first replaces letters that the typeface lacks
+  ImVector<ImWchar> ranges;
+  letters.BuildRanges(&ranges);
+  for (const double size : sizes) {
+    atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()),
+                               static_cast<float>(kLineHeight * size), &config, ranges.Data);
+  }
+  atlas.Build();
+}
+
 Fonts loaded_fonts(const ImFontAtlas& atlas) {
   return {atlas.Fonts[3], atlas.Fonts[0], atlas.Fonts[1], atlas.Fonts[2]};
 }

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <span>
 #include <string>
 
 #include "render/theme.h"
@@ -25,6 +26,10 @@ Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title = "");
 
 /// The fonts that add_fonts() added to `atlas`.
 Fonts loaded_fonts(const ImFontAtlas& atlas);
+
+/// Adds the letters of a text in the embedded typeface to an empty atlas, once for each size in
+/// pixels per em, and builds the atlas. The fonts are in the order of the sizes.
+void add_letters(ImFontAtlas& atlas, const std::string& text, std::span<const double> sizes);
 
 /// Size of a text in pixels, with lines broken at `wrap` pixels; 0: not broken.
 ImVec2 text_extent(const ImFont& font, const std::string& text, float wrap = 0.0f);

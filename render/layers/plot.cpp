@@ -7,10 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "render/gl/canvas.h"
 #include "render/layers/fonts.h"
-#include "render/layers/gui_context.h"
-#include "render/layers/gui_layer.h"
+#include "render/layers/gui_picture.h"
 
 namespace clatter {
 
@@ -210,27 +208,12 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
 }  // namespace
 
 Image plot_image(const Gl& gl, const Plot& plot, Size size, const ThemeColours& theme) {
-  const Canvas canvas(gl, size);
-  canvas.bind();
-  gl.Viewport(0, 0, size.width, size.height);
-  gl.ClearColor(theme.background.red / 255.0f, theme.background.green / 255.0f,
-                theme.background.blue / 255.0f, 1.0f);
-  gl.Clear(GL_COLOR_BUFFER_BIT);
-  gl.Enable(GL_BLEND);
-  gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-
-  GuiLayer gui(gl);
-  const GuiContext context = make_gui_context();
-  const CurrentContext current(context.get());
-  ImGui::GetIO().DisplaySize =
-      ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
-  const Fonts fonts = add_fonts(*ImGui::GetIO().Fonts, std::round(size.height / 55.0f));
-  gui.upload(*ImGui::GetIO().Fonts);
-  ImGui::NewFrame();
-  draw_page(*ImGui::GetForegroundDrawList(), fonts, plot, size, theme);
-  ImGui::Render();
-  gui.draw(*ImGui::GetDrawData());
-  return canvas.read();
+  return gui_picture(
+      gl, size, theme.background,
+      [&](ImFontAtlas& fonts) { add_fonts(fonts, std::round(size.height / 55.0f)); },
+      [&](ImDrawList& list, const ImFontAtlas& fonts) {
+        draw_page(list, loaded_fonts(fonts), plot, size, theme);
+      });
 }
 
 }  // namespace clatter
