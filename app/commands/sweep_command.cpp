@@ -1,14 +1,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <thread>
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
 #include "app/sweep/executor.h"
+#include "app/sweep/refinement.h"
 #include "app/sweep/run_one.h"
+#include "app/sweep/studies.h"
+#include "app/sweep/submit.h"
+#include "app/sweep/sweep_plot.h"
 #include "app/sweep/sweep_table.h"
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/system/read_file.h"
 #include "engine/whole_number.h"
@@ -25,25 +31,51 @@ struct SweepOptions {
   std::string folder;
   std::optional<int> threads;
   std::vector<std::string> ids;
+  bool prepare = false;
 
   int processes() const {
     return threads.value_or(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   }
 };
 
-// The numbers in words such as 17 and 20-25.
+// The numbers in words such as 17 and 20-25,30.
 std::vector<int> ids_of(const std::vector<std::string>& words) {
   std::vector<int> ids;
   for (const std::string& word : words) {
-    const std::size_t dash = std::min(word.find('-'), word.size());
-    const auto first = whole_number<int>(word.substr(0, dash));
-    const auto last = dash == word.size() ? first : whole_number<int>(word.substr(dash + 1));
-    if (!first || !last || *first < 1 || *last < *first) {
-      throw UserError({"ID", 0, 0}, "'" + word + "' is no run", "give numbers such as 17 or 20-25");
+    std::istringstream parts(word);
+    for (std::string part; std::getline(parts, part, ',');) {
+      const std::size_t dash = std::min(part.find('-'), part.size());
+      const auto first = whole_number<int>(part.substr(0, dash));
+      const auto last = dash == part.size() ? first : whole_number<int>(part.substr(dash + 1));
+      if (!first || !last || *first < 1 || *last < *first) {
+        throw UserError({"ID", 0, 0}, "'" + part + "' is no run",
+                        "give numbers such as 17 or 20-25");
+      }
+      for (int id = *first; id <= *last; ++id) ids.push_back(id);
     }
-    for (int id = *first; id <= *last; ++id) ids.push_back(id);
   }
   return ids;
+}
+
+// Measures the open runs of a sweep, and then the points of its refinement.
+int measure_sweep(const SweepFolder& folder, const SweepOptions& options) {
+  const Sweep sweep = folder.sweep();
+  while (true) {
+    const int code = execute_sweep(folder, options.processes(), options.common.shown_progress());
+    if (code == kInterrupted || !sweep.refinement) return code;
+    const std::vector<SweepPoint> points = refined_points(folder, sweep);
+    if (points.empty()) return code;
+    folder.add(points, sweep.seeds);
+  }
+}
+
+void write_study_charts(const SweepFolder& folder, const SweepTable& table, const Study& study) {
+  for (const StudyChart& chart : study.charts) {
+    const Chart drawn = chart_of(table, folder.sweep().axes(), chart.plot);
+    for (const char* suffix : {".png", ".svg"}) {
+      write_chart(folder.path() / (chart.name + suffix), drawn);
+    }
+  }
 }
 
 // Measures all runs, even after a failure. The exit code is that of the last failure.
@@ -67,6 +99,19 @@ void add_quiet_and_progress(CLI::App& command, CommonOptions& options) {
   add_progress_flag(command, options);
 }
 
+// --out, --threads, --quiet, --progress.
+void add_execution_flags(CLI::App& command, SweepOptions& options) {
+  command.add_option("--out", options.folder, "Folder of the sweep.")
+      ->required()
+      ->check(named_file())
+      ->type_name("DIR");
+  command
+      .add_option("--threads", options.threads,
+                  "Number of runs at once. Default: the number of processors.")
+      ->check(whole_number_between(1, 256));
+  add_quiet_and_progress(command, options.common);
+}
+
 void add_start(CLI::App& sweep, int& exit_code) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* command = sweep.add_subcommand(
@@ -74,20 +119,18 @@ void add_start(CLI::App& sweep, int& exit_code) {
       "Measure all runs of a sweep file. The same command continues an interrupted sweep, and adds "
       "the new runs of a longer file. This is the default.");
   command->add_option("file", options->file, "Sweep file.")->required()->type_name("SWEEP.toml");
-  command->add_option("--out", options->folder, "Folder of the sweep.")
-      ->required()
-      ->check(named_file())
-      ->type_name("DIR");
-  command
-      ->add_option("--threads", options->threads,
-                   "Number of runs at once. Default: the number of processors.")
-      ->check(whole_number_between(1, 256));
-  add_quiet_and_progress(*command, options->common);
+  add_execution_flags(*command, *options);
+  command->add_flag("--prepare", options->prepare,
+                    "Make the folder with the list of runs, and measure nothing.");
   command->callback([options, &exit_code] {
     const std::string text =
         read_file(options->file, kLargestSweep, "a sweep is a text of a few kB");
     const SweepFolder folder = SweepFolder::make(text, options->file, options->folder);
-    exit_code = execute_sweep(folder, options->processes(), options->common.shown_progress());
+    if (options->prepare) {
+      print_state(folder);
+    } else {
+      exit_code = measure_sweep(folder, *options);
+    }
   });
 }
 
@@ -130,6 +173,132 @@ void add_collect(CLI::App& sweep, int& exit_code) {
   });
 }
 
+void add_plot(CLI::App& sweep, int& exit_code) {
+  struct PlotOptions {
+    std::string folder;
+    std::string out;
+    SweepPlot plot;
+    bool log = false;
+  };
+  auto options = std::make_shared<PlotOptions>();
+  CLI::App* command = sweep.add_subcommand(
+      "plot",
+      "Draw the results as points with error bars. Quantities are columns of the table. * and / "
+      "join columns and numbers, as in 1/theory.psi.");
+  add_folder(*command, options->folder);
+  command->add_option("--x", options->plot.x, "Quantity of the x axis.")
+      ->required()
+      ->type_name("QUANTITY");
+  command->add_option("--y", options->plot.y, "Quantity of the y axis.")
+      ->required()
+      ->type_name("QUANTITY");
+  command
+      ->add_option(
+          "--by", options->plot.by,
+          "Column whose values are the series. Default: all axes of the sweep that --x does "
+          "not contain.")
+      ->type_name("COLUMN");
+  command->add_flag("--log", options->log, "Logarithmic axes.");
+  command->add_flag("--log-x", options->plot.log_x, "Logarithmic x axis.");
+  command->add_flag("--log-y", options->plot.log_y, "Logarithmic y axis.");
+  command->add_flag("--theory", options->plot.theory, "Draw the lines of the theories.");
+  command->add_option("--title", options->plot.title, "Title of the chart.")->type_name("TEXT");
+  command->add_option("--x-label", options->plot.x_label, "Label of the x axis.")
+      ->type_name("TEXT");
+  command->add_option("--y-label", options->plot.y_label, "Label of the y axis.")
+      ->type_name("TEXT");
+  command->add_option("--out", options->out, "File of the chart.")
+      ->required()
+      ->check(named_file())
+      ->type_name("FILE.png|svg");
+  command->callback([options, &exit_code] {
+    const std::filesystem::path out = options->out;
+    if (out.extension() != ".png" && out.extension() != ".svg") {
+      throw UserError({"--out", 0, 0}, "'" + options->out + "' is no picture",
+                      "give a name such as chart.png or chart.svg");
+    }
+    require_writable_file(out, "--out");
+    options->plot.log_x |= options->log;
+    options->plot.log_y |= options->log;
+    const SweepFolder folder(options->folder);
+    write_chart(out, chart_of(read_table(folder), folder.sweep().axes(), options->plot));
+    exit_code = kOk;
+  });
+}
+
+void add_submit(CLI::App& sweep, int& exit_code) {
+  struct SubmitOptions {
+    std::string folder;
+    bool slurm = false;
+    bool parallel = false;
+    bool dry_run = false;
+    TaskLimits limits;
+  };
+  auto options = std::make_shared<SubmitOptions>();
+  CLI::App* command = sweep.add_subcommand(
+      "submit",
+      "Give the runs without result to a scheduler. `clatter sweep FILE --out DIR "
+      "--prepare` makes the folder without running anything.");
+  add_folder(*command, options->folder);
+  CLI::Option* slurm = command->add_flag("--slurm", options->slurm,
+                                         "Write the batch script DIR/slurm/job.sh and submit it.");
+  command
+      ->add_flag("--parallel", options->parallel,
+                 "Print the command line for GNU parallel on stdout.")
+      ->excludes(slurm);
+  command
+      ->add_option("--chunk", options->limits.chunk,
+                   "Runs per task. Default: 1, with Slurm at most 1000 tasks.")
+      ->check(whole_number_between(1, 100'000));
+  command
+      ->add_option("--time", options->limits.time,
+                   "Time limit of a task, as for sbatch. Default: that of the partition.")
+      ->type_name("HH:MM:SS")
+      ->needs(slurm);
+  command
+      ->add_option("--partition", options->limits.partition, "Partition. Default: of the cluster.")
+      ->type_name("NAME")
+      ->needs(slurm);
+  command->add_flag("--dry-run", options->dry_run, "Write the script without submitting it.")
+      ->needs(slurm);
+  command->callback([options, &exit_code] {
+    const SweepFolder folder(options->folder);
+    exit_code = kOk;
+    if (options->parallel) return print(parallel_line(folder, options->limits.chunk));
+    if (!options->slurm) {
+      throw UserError({"submit", 0, 0}, "no scheduler is given", "add --slurm or --parallel");
+    }
+    const std::filesystem::path script = write_batch_script(folder, options->limits);
+    if (script.empty()) return print_state(folder);
+    if (options->dry_run) return print(script.string() + '\n');
+    submit_batch(script);
+  });
+}
+
+void add_study(CLI::App& sweep, int& exit_code, const char* name, const char* help,
+               Study (*study_of)(int)) {
+  struct StudyOptions {
+    SweepOptions sweep;
+    int dimension = 2;
+  };
+  auto options = std::make_shared<StudyOptions>();
+  CLI::App* command = sweep.add_subcommand(name, help);
+  add_execution_flags(*command, options->sweep);
+  command->add_option("--dimension", options->dimension, "2: disks. 3: spheres.")
+      ->check(whole_number_between(2, 3))
+      ->capture_default_str();
+  command->callback([options, study_of, name, &exit_code] {
+    const Study study = study_of(options->dimension);
+    const SweepFolder folder =
+        SweepFolder::make(study.sweep, std::string(name) + ".toml", options->sweep.folder);
+    exit_code = measure_sweep(folder, options->sweep);
+    const SweepTable table = read_table(folder);
+    if (exit_code == kInterrupted || table.rows.empty()) return;
+    write_table(folder, table);
+    write_study_charts(folder, table, study);
+  });
+}
+
 }  // namespace
 
 void add_sweep_command(CLI::App& program, int& exit_code) {
@@ -142,6 +311,16 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
   add_run(*sweep, exit_code);
   add_status(*sweep, exit_code);
   add_collect(*sweep, exit_code);
+  add_plot(*sweep, exit_code);
+  add_submit(*sweep, exit_code);
+  add_study(*sweep, exit_code, "fig31",
+            "Measure and draw the temperature of a vibrated gas against its dissipation, with the "
+            "theories.",
+            temperature_study);
+  add_study(*sweep, exit_code, "rough",
+            "Measure and draw the ratio of spin and translational temperature of rough particles, "
+            "with the theory.",
+            rough_study);
 }
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -140,12 +141,6 @@ std::vector<std::string> values_of(const Entry& axis, const std::string& file) {
   if (values.empty()) {
     refuse(axis.place, "the axis " + in_quotes(axis.key) + " has no values", "give at least one");
   }
-  std::set<std::string> seen;
-  for (const std::string& value : values) {
-    if (seen.insert(value).second) continue;
-    refuse(axis.place, "the axis " + in_quotes(axis.key) + " has " + value + " twice",
-           "remove one, or write a range of decimals as from = 0.0");
-  }
   return values;
 }
 
@@ -228,6 +223,12 @@ void read_axes(const toml::table& root, const std::string& file, Sweep& sweep) {
       }
       for (std::size_t k = 0; k < values.size(); ++k) entries[k].push_back({axis.key, values[k]});
     }
+    std::set<std::string> seen;
+    for (const SweepPoint& entry : entries) {
+      if (seen.insert(settings_text(entry)).second) continue;
+      refuse(axes[group.front()].place, settings_text(entry) + " is given twice",
+             "remove one, or write a range of decimals as from = 0.0");
+    }
     runs *= static_cast<double>(entries.size());
     sweep.entries.push_back(std::move(entries));
   }
@@ -283,6 +284,37 @@ void read_accuracy(const toml::table& root, const std::string& file, Sweep& swee
   sweep.accuracy.relative = *share;
 }
 
+bool is_number(const std::string& toml) {
+  double number = 0.0;
+  const char* end = toml.data() + toml.size();
+  return std::from_chars(toml.data(), end, number).ptr == end;
+}
+
+void read_refinement(const toml::table& root, const std::string& file, Sweep& sweep) {
+  KeyReader reader(root, file);
+  bool refine = false;
+  Refinement refinement;
+  reader.value("refine", refine);
+  reader.value("budget", refinement.budget, between(1, kMostRuns), refine ? kRequired : kOptional);
+  if (!refine) {
+    if (!root.contains("budget")) return;
+    refuse(place_of(root, "budget", file), "'budget' without 'refine'", "add refine = true");
+  }
+  const auto is_numeric = [](const SweepPoint& entry) {
+    return entry.size() == 1 && is_number(entry.front().value);
+  };
+  const bool has_axis = !sweep.entries.empty() && sweep.entries.front().size() >= 3 &&
+                        std::ranges::all_of(sweep.entries.front(), is_numeric);
+  if (!has_axis) {
+    refuse(place_of(root, "refine", file),
+           "refinement needs a first axis of at least three numbers, outside of 'zip'",
+           "begin [axes] with, say, \"particles.restitution\" = [0.5, 0.7, 0.9]");
+  }
+  const Entry first = flat_entries(root, "axes", file).front();
+  sweep.logarithmic = first.value->is_table() && range_in(first, file).logarithmic;
+  sweep.refinement = refinement;
+}
+
 // The scene of a point. The sweep's own settings come first.
 void test_point(const Sweep& sweep, const SceneText& scene, const SweepPoint& point) {
   std::vector<Override> settings = sweep.set;
@@ -317,7 +349,7 @@ std::vector<SweepPoint> Sweep::points() const {
 Sweep read_sweep(const std::string& text, const std::string& file) {
   const toml::table root = parse_document(text, file);
   refuse_unknown_keys(root, {"scene", "replicas", "seeds", "accuracy", "accuracy_of", "until",
-                             "set", "axes", "zip"});
+                             "set", "axes", "zip", "refine", "budget"});
   Sweep sweep;
   KeyReader reader(root, file);
   reader.value("scene", sweep.scene, {}, kRequired);
@@ -329,6 +361,7 @@ Sweep read_sweep(const std::string& text, const std::string& file) {
     sweep.set.push_back({entry.key, toml_text(*entry.value)});
   }
   read_axes(root, file, sweep);
+  read_refinement(root, file, sweep);
   return sweep;
 }
 

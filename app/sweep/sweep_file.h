@@ -13,6 +13,12 @@ namespace clatter {
 /// The settings of a point of a sweep: one value of each axis, in the order of the axes.
 using SweepPoint = std::vector<Override>;
 
+/// Further points between the values of the first axis, where the measured curve bends or is
+/// uncertain.
+struct Refinement {
+  int budget = 0;  ///< number of points at its end
+};
+
 /// A sweep file: runs of one scene at points of its parameters.
 struct Sweep {
   std::string scene;                       ///< path, relative to the sweep file, or gallery name
@@ -24,6 +30,10 @@ struct Sweep {
   std::vector<std::vector<std::string>> groups;
   /// [groups][entries] The values of a group, in the order of the file.
   std::vector<std::vector<SweepPoint>> entries;
+
+  std::optional<Refinement> refinement;  ///< absent: none
+  /// Whether the first axis is a logarithmic range.
+  bool logarithmic = false;
 
   /// The keys of all groups.
   std::vector<std::string> axes() const;

@@ -289,6 +289,7 @@ SweepTable read_table(const SweepFolder& folder) {
   for (const auto& [point, ids] : points) {
     Replicas replicas;
     for (const int id : ids) replicas.push_back(read_result(folder.result(id)));
+    table.points.push_back(point);
     table.rows.push_back(row_of(point, replicas));
     table.profiles.push_back(mean_profile(replicas));
     for (const auto& [name, value] : table.rows.back().items()) {

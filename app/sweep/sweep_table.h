@@ -14,6 +14,8 @@ namespace clatter {
 struct SweepTable {
   /// Settings, means and their errors, events, checks and theory, by their dotted names.
   std::vector<std::string> columns;
+  /// [points] Settings.
+  std::vector<SweepPoint> points;
   /// [points] Values by column: a number or a text. Absent where the point has no such value.
   std::vector<nlohmann::ordered_json> rows;
   /// [points] Profiles as in the result file. Null without a profile.

@@ -94,8 +94,7 @@ TEST_CASE("Sweep file: each mistake is refused at its place") {
        "as { from = 0.5, to = 0.9, count = 5 }, or move the key to [set]"},
       {"[axes]\na = []\n", "s.toml:3:1: the axis \"a\" has no values; give at least one"},
       {"[axes]\na = [1, 2, 1]\n",
-       "s.toml:3:1: the axis \"a\" has 1 twice; remove one, or write a range of decimals as from = "
-       "0.0"},
+       "s.toml:3:1: a=1 is given twice; remove one, or write a range of decimals as from = 0.0"},
       {"[axes]\na = { from = 1, count = 2 }\n",
        "s.toml:3:1: the range of \"a\" has no 'to'; write, say, { from = 0.5, to = 0.9, count = 5 "
        "}"},

@@ -1,0 +1,150 @@
+#include "app/sweep/studies.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "engine/physics/theory.h"
+
+namespace clatter {
+
+namespace {
+
+// A list of numbers as TOML.
+std::string list_of(const std::vector<double>& numbers) {
+  std::string list;
+  for (const double number : numbers) {
+    fmt::format_to(std::back_inserter(list), "{}{:.6g}", list.empty() ? "" : ", ", number);
+  }
+  return '[' + list + ']';
+}
+
+// Time in which a small change of the temperature decays, from the slope of the refined theory.
+double relaxation_time(const VibratedGas& gas, double temperature) {
+  constexpr double kStep = 1e-4;
+  const double high = gas.temperature_change_refined(temperature * (1.0 + kStep));
+  const double low = gas.temperature_change_refined(temperature * (1.0 - kStep));
+  return 2.0 * kStep * temperature / (low - high);
+}
+
+}  // namespace
+
+// Each point starts at the temperature of the theory. Its times are those of the relaxation, which
+// takes 10^4 collisions per particle near the elastic limit.
+Study temperature_study(int dimension) {
+  struct Box {
+    double count, length;
+  };
+  const bool disks = dimension == 2;
+  const double side = disks ? 25.0 : 8.0;
+  const std::vector<Box> boxes =
+      disks ? std::vector<Box>{{25, 20}, {50, 20}, {100, 20}, {200, 20}, {100, 40}}
+            : std::vector<Box>{{32, 20}, {64, 20}, {128, 20}, {256, 20}, {128, 40}};
+  const std::vector<double> restitutions = {0.5, 0.7, 0.9, 0.97, 0.99, 0.997, 0.999};
+  constexpr double kBurnIn = 20.0, kLongest = 20000.0;  // in relaxation times
+  std::vector<double> alphas, counts, temperatures, burn_ins, durations, intervals;
+  std::string sizes;
+  for (const double alpha : restitutions) {
+    for (const Box& box : boxes) {
+      const VibratedGas gas{.count = box.count,
+                            .length = box.length,
+                            .wall_size = disks ? side : side * side,
+                            .restitution = alpha,
+                            .drive_speed = 1.0,
+                            .dimension = dimension};
+      const double temperature = gas.temperature_corrected();
+      const double time = relaxation_time(gas, temperature);
+      alphas.push_back(alpha);
+      counts.push_back(box.count);
+      temperatures.push_back(temperature);
+      burn_ins.push_back(kBurnIn * time);
+      durations.push_back(kLongest * time);
+      intervals.push_back(0.1 * kBurnIn * time);
+      sizes += (sizes.empty() ? "[" : ", [") + list_of({box.length, side}).substr(1);
+      if (!disks) sizes.insert(sizes.size() - 1, fmt::format(", {:g}", side));
+    }
+  }
+  Study study;
+  study.sweep = fmt::format(
+      R"(# The temperature of a gas between two driven walls. Each point starts at the temperature of the
+# corrected theory. Burn-in and longest duration are {:g} and {:g} relaxation times.
+scene = "vibrated"
+accuracy = "0.5%"
+zip = [["particles.restitution", "box.size", "particles.count", "particles.start.temperature",
+        "measure.burn_in", "measure.duration", "measure.series_interval"]]
+
+[set]
+"measure.fields" = []
+"measure.cells" = {}
+
+[axes]
+"particles.restitution" = {}
+"box.size" = [{}]
+"particles.count" = {}
+"particles.start.temperature" = {}
+"measure.burn_in" = {}
+"measure.duration" = {}
+"measure.series_interval" = {}
+)",
+      kBurnIn, kLongest, disks ? "[1, 1]" : "[1, 1, 1]", list_of(alphas), sizes, list_of(counts),
+      list_of(temperatures), list_of(burn_ins), list_of(durations), list_of(intervals));
+  const std::string x = "1/theory.epsilon_effective/theory.psi";
+  study.charts = {
+      {"temperature",
+       {.x = x,
+        .y = "temperature",
+        .by = "particles.restitution",
+        .log_x = true,
+        .log_y = true,
+        .theory = true,
+        .x_label = "1/(ε ψ)",
+        .y_label = "T/(m v²), with the drive speed v",
+        .title = "A vibrated gas obeys one curve near the elastic limit",
+        .caption = "Temperature of a gas between two driven walls, against the inverse of its "
+                   "dissipation. Standard errors are at most 0.5 %."}},
+      {"ratio",
+       {.x = x,
+        .y = "temperature/theory.temperature_corrected",
+        .by = "particles.restitution",
+        .log_x = true,
+        .x_label = "1/(ε ψ)",
+        .y_label = "T/(temperature of the corrected theory)",
+        .title = "Where the theory of a vibrated gas holds",
+        .caption =
+            "Measured temperature over that of the corrected theory. Strong dissipation makes "
+            "the density nonuniform, which the theory neglects."}}};
+  return study;
+}
+
+Study rough_study(int dimension) {
+  Study study;
+  study.sweep = fmt::format(
+      R"(# The ratio of spin and translational temperature of rough particles. Kicks drive the
+# translation only.
+scene = "{}"
+replicas = 2
+
+[set]
+"measure.burn_in" = 50.0
+"measure.duration" = 500.0
+"measure.fields" = []
+"particles.friction" = inf           # beta is then the same in all collisions
+
+[axes]
+"particles.restitution" = [0.7, 0.9, 0.98]
+"particles.tangential_restitution" = {{ from = -0.9, to = 0.9, count = 13 }}
+)",
+      dimension == 2 ? "rough_driven" : "spheres_rough");
+  study.charts = {{"ratio",
+                   {.x = "particles.tangential_restitution",
+                    .y = "spin_temperature/temperature",
+                    .theory = true,
+                    .y_label = "R = T_rot/T",
+                    .title = "Collisions do not share energy equally between motion and spin",
+                    .caption = "Ratio of the temperatures in a gas of rough particles. Kicks drive "
+                               "the translation, and collisions drive the spins."}}};
+  return study;
+}
+
+}  // namespace clatter

@@ -1,0 +1,247 @@
+#include "app/sweep/sweep_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "engine/error.h"
+#include "engine/scene/field.h"
+#include "engine/scene/key_docs.h"
+#include "engine/scene/text.h"
+#include "engine/system/write_file.h"
+#include "render/context/context.h"
+#include "render/output/image.h"
+
+namespace clatter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr Size kChartSize = {1200, 900};
+
+// A factor of a quantity: a column or a number, to the power 1 or -1.
+struct Factor {
+  std::string column;  // empty: the number
+  double number = 1.0;
+  bool divides = false;
+};
+
+using Product = std::vector<Factor>;
+
+std::optional<double> whole_text_number(std::string_view text) {
+  double number = 0.0;
+  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || stopped != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == text.npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
+}
+
+// Reads a quantity such as 1/theory.psi. `flag` is the name for errors.
+Product product_in(const std::string& text, const SweepTable& table, const char* flag) {
+  Product factors;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of("*/", begin), text.size());
+    Factor factor;
+    factor.column = trimmed(std::string_view(text).substr(begin, end - begin));
+    factor.divides = begin > 0 && text[begin - 1] == '/';
+    if (const auto number = whole_text_number(factor.column)) {
+      factor.number = *number;
+      factor.column.clear();
+    } else if (std::ranges::find(table.columns, factor.column) == table.columns.end()) {
+      const std::string near(near_miss(factor.column, table.columns));
+      throw UserError({flag, 0, 0}, "the table has no column '" + factor.column + "'",
+                      near.empty() ? "give a name of the first line of table.csv"
+                                   : "did you mean '" + near + "'?");
+    }
+    factors.push_back(factor);
+    begin = end + 1;
+  }
+  return factors;
+}
+
+double number_in(const Json& row, const std::string& column) {
+  const auto cell = row.find(column);
+  return cell != row.end() && cell->is_number() ? cell->get<double>() : NAN;
+}
+
+// The value of a quantity and its standard error, of independent factors.
+ChartPoint value_of(const Product& quantity, const Json& row) {
+  double value = 1.0, variance = 0.0;
+  for (const Factor& factor : quantity) {
+    const double number = factor.column.empty() ? factor.number : number_in(row, factor.column);
+    value = factor.divides ? value / number : value * number;
+    const double error = number_in(row, factor.column + "_standard_error");
+    if (std::isfinite(error)) variance += (error / number) * (error / number);
+  }
+  return {.y = value, .error = std::fabs(value) * std::sqrt(variance)};
+}
+
+bool contains(const Product& quantity, const std::string& column) {
+  return std::ranges::find(quantity, column, &Factor::column) != quantity.end();
+}
+
+// A theory of a column, or of the ratio of two columns.
+struct Theory {
+  std::string_view measured;
+  std::string_view divisor;  // empty: none
+  std::string_view column;
+  std::string_view name;
+  LineStyle style;
+};
+
+constexpr std::array<Theory, 6> kTheories = {
+    {{"temperature", "", "theory.temperature_simple", "simple theory", LineStyle::Dotted},
+     {"temperature", "", "theory.temperature_refined", "refined theory", LineStyle::Dashed},
+     {"temperature", "", "theory.temperature_corrected", "corrected theory", LineStyle::Solid},
+     {"temperature", "", "theory.temperature_driven", "kinetic theory", LineStyle::Solid},
+     {"spin_temperature", "temperature", "theory.temperature_ratio", "kinetic theory",
+      LineStyle::Solid},
+     {"pressure.virial", "", "theory.compressibility", "kinetic theory", LineStyle::Solid}}};
+
+// The quantity with the theory's column in place of the measured columns. Absent if the quantity
+// does not contain these.
+std::optional<Product> predicted(const Theory& theory, const Product& quantity) {
+  Product result = quantity;
+  const auto find = [&](std::string_view column, bool divides) {
+    return std::ranges::find_if(result, [&](const Factor& factor) {
+      return factor.column == column && factor.divides == divides;
+    });
+  };
+  const auto measured = find(theory.measured, false);
+  if (measured == result.end()) return std::nullopt;
+  measured->column = theory.column;
+  if (theory.divisor.empty()) return result;
+  const auto divisor = find(theory.divisor, true);
+  if (divisor == result.end()) return std::nullopt;
+  result.erase(divisor);
+  return result;
+}
+
+// Symbols of columns, with their unit.
+struct Symbol {
+  std::string_view column;
+  std::string_view symbol;
+  std::string_view unit;  // in letters of kUnits; empty: 1
+};
+
+constexpr std::array<Symbol, 18> kSymbols = {
+    {{"temperature", "temperature T", "m a²/t²"},
+     {"temperature_x", "temperature T_x", "m a²/t²"},
+     {"temperature_y", "temperature T_y", "m a²/t²"},
+     {"temperature_z", "temperature T_z", "m a²/t²"},
+     {"spin_temperature", "spin temperature T_rot", "m a²/t²"},
+     {"collision_rate", "collision rate per particle ω", "1/t"},
+     {"pressure.virial", "compressibility Z = p/(ρT)", ""},
+     {"energy.dissipated", "dissipated power", "m a²/t³"},
+     {"energy.walls_in", "power of the walls", "m a²/t³"},
+     {"energy.bulk_in", "power of the kicks", "m a²/t³"},
+     {"theory.psi", "ψ", ""},
+     {"theory.chi", "χ", ""},
+     {"theory.epsilon_effective", "ε", ""},
+     {"particles.count", "number of particles N", ""},
+     {"particles.area_fraction", "area fraction φ", ""},
+     {"particles.volume_fraction", "volume fraction φ", ""},
+     {"particles.restitution", "restitution α", ""},
+     {"particles.tangential_restitution", "tangential restitution β", ""}}};
+
+// "restitution" of "particles.restitution".
+std::string short_name(const std::string& column) {
+  return in_words(column.substr(column.rfind('.') + 1));
+}
+
+std::string label_of_column(const std::string& column) {
+  const auto symbol = std::ranges::find(kSymbols, column, &Symbol::column);
+  if (symbol != kSymbols.end()) {
+    const std::string unit(symbol->unit);
+    return std::string(symbol->symbol) + (unit.empty() ? "" : " (" + unit + ")");
+  }
+  for (const KeyDoc& key : key_docs()) {
+    if (key.path() != column || key.key.unit.empty()) continue;
+    const std::string unit(key.key.unit);
+    return short_name(column) + (unit == "1" ? "" : " (" + unit + ")");
+  }
+  return in_words(column);
+}
+
+std::string label_of(const std::string& text, const Product& quantity) {
+  const bool is_column = quantity.size() == 1 && !quantity.front().column.empty();
+  return is_column ? label_of_column(text) : text;
+}
+
+// "restitution 0.8, count 50".
+std::string series_name(const Json& row, const std::vector<std::string>& columns) {
+  std::string name;
+  for (const std::string& column : columns) {
+    const Json value = row.value(column, Json(nullptr));
+    const std::string text = value.is_string()         ? value.get<std::string>()
+                             : value.is_number_float() ? number_text(value.get<double>())
+                                                       : value.dump();
+    name += (name.empty() ? "" : ", ") + short_name(column) + ' ' + text;
+  }
+  return name;
+}
+
+}  // namespace
+
+Chart chart_of(const SweepTable& table, const std::vector<std::string>& axes,
+               const SweepPlot& plot) {
+  const auto x = product_in(plot.x, table, "--x"), y = product_in(plot.y, table, "--y");
+  std::vector<std::string> by = {plot.by};
+  if (plot.by.empty()) {
+    by = axes;
+    std::erase_if(by, [&](const std::string& axis) { return contains(x, axis); });
+  } else {
+    product_in(plot.by, table, "--by");
+  }
+  Chart chart{.title = plot.title,
+              .caption = plot.caption,
+              .x = {plot.x_label.empty() ? label_of(plot.x, x) : plot.x_label, plot.log_x},
+              .y = {plot.y_label.empty() ? label_of(plot.y, y) : plot.y_label, plot.log_y},
+              .series = {},
+              .lines = {}};
+  std::map<std::string, std::size_t> index_of;
+  std::vector<std::vector<const Json*>> rows;
+  for (const Json& row : table.rows) {
+    const std::string name = series_name(row, by);
+    const auto [at, is_new] = index_of.emplace(name, chart.series.size());
+    if (is_new) {
+      chart.series.push_back({name, {}});
+      rows.emplace_back();
+    }
+    ChartPoint point = value_of(y, row);
+    point.x = value_of(x, row).y;
+    chart.series[at->second].points.push_back(point);
+    rows[at->second].push_back(&row);
+  }
+  for (std::size_t k = 0; plot.theory && k < rows.size(); ++k) {
+    for (const Theory& theory : kTheories) {
+      const auto prediction = predicted(theory, y);
+      if (!prediction) continue;
+      ChartLine line{std::string(theory.name), {}, theory.style, k};
+      for (const Json* row : rows[k]) {
+        line.points.emplace_back(value_of(x, *row).y, value_of(*prediction, *row).y);
+      }
+      std::erase_if(line.points, [](const Vec2& point) { return !point.allFinite(); });
+      std::ranges::sort(line.points, {}, [](const Vec2& point) { return point[0]; });
+      if (!line.points.empty()) chart.lines.push_back(std::move(line));
+    }
+  }
+  return chart;
+}
+
+void write_chart(const std::filesystem::path& file, const Chart& chart) {
+  if (file.extension() == ".svg") return write_file(file, chart_svg(chart, kChartSize));
+  const auto context = open_context(Backend::Auto);
+  write_png(file, chart_image(context->gl(), chart, kChartSize));
+}
+
+}  // namespace clatter
