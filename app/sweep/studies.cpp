@@ -105,15 +105,17 @@ zip = [["particles.restitution", "box.size", "particles.count", "particles.start
                    "dissipation. Standard errors are at most 0.5 %."}},
       {"ratio",
        {.x = x,
-        .y = "temperature/theory.temperature_corrected",
+        .y = "temperature/theory.temperature_refined",
         .by = "particles.restitution",
         .log_x = true,
+        .theory = true,
         .x_label = "1/(ε ψ)",
-        .y_label = "T/(temperature of the corrected theory)",
-        .title = "Where the theory of a vibrated gas holds",
+        .y_label = "T/(temperature of the refined theory)",
+        .title = "Where the theories of a vibrated gas hold",
         .caption =
-            "Measured temperature over that of the corrected theory. Strong dissipation makes "
-            "the density nonuniform, which the theory neglects."}}};
+            "Temperatures over that of the refined theory. The corrected theory has the higher "
+            "density at the walls and holds for weak dissipation, on the right. Strong dissipation "
+            "makes the gas cold and dense in the middle, which all three theories neglect."}}};
   return study;
 }
 

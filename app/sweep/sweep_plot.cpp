@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -190,6 +191,35 @@ std::string series_name(const Json& row, const std::vector<std::string>& columns
   return name;
 }
 
+void sort_points(ChartLine& line) {
+  std::erase_if(line.points, [](const Vec2& point) { return !point.allFinite(); });
+  std::ranges::sort(line.points, {}, [](const Vec2& point) { return point[0]; });
+}
+
+bool is_monotone(const ChartLine& line) {
+  const auto y = [](const Vec2& point) { return point[1]; };
+  return std::ranges::is_sorted(line.points, {}, y) ||
+         std::ranges::is_sorted(line.points, std::greater(), y);
+}
+
+// Adds the lines of a theory, one per series. A theory that depends on x only is one line for all
+// series: its points are monotone together.
+void add_theory(const std::vector<ChartLine>& lines, Chart& chart) {
+  ChartLine all = lines.front();
+  all.series.reset();
+  all.points.clear();
+  for (const ChartLine& line : lines) {
+    all.points.insert(all.points.end(), line.points.begin(), line.points.end());
+  }
+  sort_points(all);
+  if (all.points.empty()) return;
+  if (lines.size() > 1 && is_monotone(all)) return chart.lines.push_back(std::move(all));
+  for (ChartLine line : lines) {
+    sort_points(line);
+    if (!line.points.empty()) chart.lines.push_back(std::move(line));
+  }
+}
+
 }  // namespace
 
 Chart chart_of(const SweepTable& table, const std::vector<std::string>& axes,
@@ -222,18 +252,19 @@ Chart chart_of(const SweepTable& table, const std::vector<std::string>& axes,
     chart.series[at->second].points.push_back(point);
     rows[at->second].push_back(&row);
   }
-  for (std::size_t k = 0; plot.theory && k < rows.size(); ++k) {
-    for (const Theory& theory : kTheories) {
-      const auto prediction = predicted(theory, y);
-      if (!prediction) continue;
+  if (!plot.theory || chart.series.empty()) return chart;
+  for (const Theory& theory : kTheories) {
+    const auto prediction = predicted(theory, y);
+    if (!prediction) continue;
+    std::vector<ChartLine> lines;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
       ChartLine line{std::string(theory.name), {}, theory.style, k};
       for (const Json* row : rows[k]) {
         line.points.emplace_back(value_of(x, *row).y, value_of(*prediction, *row).y);
       }
-      std::erase_if(line.points, [](const Vec2& point) { return !point.allFinite(); });
-      std::ranges::sort(line.points, {}, [](const Vec2& point) { return point[0]; });
-      if (!line.points.empty()) chart.lines.push_back(std::move(line));
+      lines.push_back(std::move(line));
     }
+    add_theory(lines, chart);
   }
   return chart;
 }
