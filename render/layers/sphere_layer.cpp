@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "render/layers/eye_uniforms.h"
 #include "render/layers/sphere_light.h"
 #include "render/neighbour_shade.h"
 #include "render/occlusion.h"
@@ -193,29 +194,16 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
 void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
                                const Projection& projection, const Eye& eye,
                                const std::optional<Slab>& slab) const {
-  const auto set = [&](const char* name, const Vec3& vector) {
-    const auto [x, y, z] = as_floats(vector);
-    gl_->Uniform3f(program.uniform(name), x, y, z);
-  };
   const DrawnRegion region = drawn_region(snapshot, slab, true);
   const DrawnRegion ghosts = drawn_region(snapshot, slab, false);
-  const Size drawn = projection.drawn();
-  const Eigen::Matrix3f axes = eye.axes().cast<float>();
   program.use();
-  gl_->Uniform2f(program.uniform("u_size"), drawn.width, drawn.height);
-  gl_->Uniform2f(program.uniform("u_origin"), eye.origin().x(), eye.origin().y());
-  gl_->Uniform1f(program.uniform("u_scale"), eye.scale());
-  gl_->Uniform1f(program.uniform("u_inverse_distance"), eye.inverse_distance());
-  gl_->Uniform1f(program.uniform("u_depth_range"), eye.depth_range(snapshot.box));
+  set_eye(*gl_, program, snapshot.box, projection, eye);
   gl_->Uniform1f(program.uniform("u_radius"), 0.5 * snapshot.diameter);
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
-  // Transposed: from the view to the world.
-  gl_->UniformMatrix3fv(program.uniform("u_axes"), 1, GL_TRUE, axes.data());
-  set("u_centre", eye.centre());
-  set("u_low", region.low);
-  set("u_high", region.high);
-  set("u_ghost_low", ghosts.low);
-  set("u_ghost_high", ghosts.high);
+  set_vector(*gl_, program, "u_low", region.low);
+  set_vector(*gl_, program, "u_high", region.high);
+  set_vector(*gl_, program, "u_ghost_low", ghosts.low);
+  set_vector(*gl_, program, "u_ghost_high", ghosts.high);
 }
 
 void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
