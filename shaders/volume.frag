@@ -1,6 +1,6 @@
 #version 330 core
-// A field as a fog that emits and absorbs light. Each cell is uniform, so the light of a ray is a sum
-// over the cells on its way, without a step. The ray ends at the surface in the depth buffer.
+// A field as a fog that emits and absorbs light. Each cell is uniform, so the light of a ray is an
+// exact sum over its cells. The ray ends at the surface in the depth buffer.
 
 uniform sampler3D u_cells;         // linear light of the cells, and their share of u_extinction
 uniform sampler2D u_depths;
@@ -33,9 +33,9 @@ float place_of(float depth) {
   return -z_by_w / (1.0 + z_by_w * u_inverse_distance);
 }
 
-// Place of the surface that ends the ray, at most `last`. The soft edge of a sphere covers a part of
-// its pixel, and has the depth of the sphere. There the ray ends in the middle between the sphere and
-// the surface behind, which a pixel beside has.
+// Place of the surface that ends the ray, at most `last`. The soft edge of a sphere has the depth
+// of the sphere, but covers only a part of its pixel. There the ray ends in the middle between the
+// sphere and the surface behind it. A neighbouring pixel has the depth of this surface.
 float surface(float last) {
   ivec2 pixel = ivec2(gl_FragCoord.xy), corner = textureSize(u_depths, 0) - 1;
   float own = texelFetch(u_depths, pixel, 0).r, farthest = own;
