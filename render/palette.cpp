@@ -77,16 +77,21 @@ ColourMap diverging_map() {
   return kCoolWarm;
 }
 
+double ColourScale::place(double value) const {
+  const double share = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  if (!about_zero) return share;
+  const double shown = low + share * (high - low);
+  return 0.5 + 0.5 * shown / std::max(std::abs(low), std::abs(high));
+}
+
+double ColourScale::strength(double value) const {
+  return about_zero ? std::abs(2.0 * place(value) - 1.0) : place(value);
+}
+
 Colour ColourScale::operator()(double value) const {
-  const double steps = static_cast<double>(map.size() - 1);
-  double share = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  if (about_zero) {
-    const double shown = low + share * (high - low);
-    share = 0.5 + 0.5 * shown / std::max(std::abs(low), std::abs(high));
-  }
-  const double place = steps * share;
-  const std::size_t index = std::min(static_cast<std::size_t>(place), map.size() - 2);
-  Colour colour = mix(map[index], map[index + 1], place - static_cast<double>(index));
+  const double steps = static_cast<double>(map.size() - 1) * place(value);
+  const std::size_t index = std::min(static_cast<std::size_t>(steps), map.size() - 2);
+  Colour colour = mix(map[index], map[index + 1], steps - static_cast<double>(index));
   colour.alpha = opacity;
   return colour;
 }

@@ -43,6 +43,13 @@ struct ColourScale {
 
   /// The colour of `value`, clamped to the ends.
   Colour operator()(double value) const;
+  /// Magnitude of `value` as a share of the range, 0 to 1: 0 at the first colour, or at zero with
+  /// `about_zero`.
+  double strength(double value) const;
+
+ private:
+  // Position of `value` in the map, 0 to 1.
+  double place(double value) const;
 };
 
 }  // namespace clatter

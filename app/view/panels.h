@@ -20,6 +20,8 @@ void view_panel(Session& session, Controls& controls);
 void accuracy_panel(Session& session, Controls& controls);
 /// Direction of view, angle of view and slab of spheres. Returns true if the view changed.
 bool space_controls(const Session& session, Controls& controls, View& view);
+/// The heatmap of spheres as a volume. Returns true if the view changed.
+bool choose_volume(const Session& session, Controls& controls, View& view);
 /// Slices of the heatmap of spheres. Returns true if the view changed.
 bool choose_slices(const Session& session, Controls& controls, View& view);
 /// Ends of a colour range of the particles, symmetric for quantities of both signs: a round number

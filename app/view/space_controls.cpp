@@ -85,6 +85,17 @@ bool space_controls(const Session& session, Controls& controls, View& view) {
   return changed;
 }
 
+bool choose_volume(const Session& session, Controls& controls, View& view) {
+  return controls.number({.key = "view.volume",
+                          .name = "Volume",
+                          .unit = "1/a",
+                          .help = "The heatmap as glowing fog: its extinction coefficient at the "
+                                  "end of the colour range; 0: none",
+                          .high = 5.0,
+                          .format = "%.2f"},
+                         view.volume, session.opened().view.volume);
+}
+
 static Slice* find_slice(std::vector<Slice>& slices, Axis axis) {
   const auto found = std::ranges::find(slices, axis, &Slice::axis);
   return found == slices.end() ? nullptr : &*found;
@@ -102,8 +113,8 @@ bool choose_slices(const Session& session, Controls& controls, View& view) {
     Slice* slice = find_slice(view.slices, axis);
     bool on = slice != nullptr;
     if (controls.toggle(("view.slices." + name).c_str(), ("Slice across " + name).c_str(),
-                        "Plane on which the heatmap is drawn. Without any it is the middle one "
-                        "across z",
+                        "Plane on which the heatmap is drawn. Without any, and without a volume, "
+                        "it is the middle one across z",
                         on)) {
       changed = true;
       std::erase_if(view.slices, [axis](const Slice& other) { return other.axis == axis; });

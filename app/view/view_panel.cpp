@@ -58,8 +58,9 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
     return found == fields.end() ? 0 : static_cast<int>(found - fields.begin());
   };
   int chosen = place(view.field);
-  const char* help = session.scene().dimension() == 2 ? "The field below the disks"
-                                                      : "The field, drawn on slices of the box";
+  const char* help = session.scene().dimension() == 2
+                         ? "The field below the disks"
+                         : "The field, drawn on slices of the box or as a volume";
   if (!controls.choice("view.field", "Heatmap", help, words, chosen,
                        place(session.opened().view.field))) {
     return false;
@@ -160,7 +161,10 @@ void view_panel(Session& session, Controls& controls) {
         usual.range, [&] { return colour_ends(session.frame().snapshot, view.colour_by); });
   }
   changed |= choose_heatmap(session, controls, view);
-  if (!disks && view.field) changed |= choose_slices(session, controls, view);
+  if (!disks && view.field) {
+    changed |= choose_volume(session, controls, view);
+    changed |= choose_slices(session, controls, view);
+  }
   changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows, "none",
                     view.arrows, usual.arrows);
   changed |= choose_trails(controls, view.trails, usual.trails);

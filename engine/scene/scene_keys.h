@@ -77,6 +77,7 @@ inline constexpr double kMaxCameraWidth = 1e9;
 inline constexpr double kMaxAzimuth = 36000.0;
 inline constexpr double kMaxElevation = 90.0;
 inline constexpr double kMaxViewAngle = 120.0;
+inline constexpr double kMaxVolume = 1e3;
 inline constexpr Limits kAzimuths = between(-kMaxAzimuth, kMaxAzimuth);
 inline constexpr Limits kElevations = between(-kMaxElevation, kMaxElevation);
 /// A wall that adds energy (theory 4.1) has a restitution above 1.
@@ -434,7 +435,11 @@ inline constexpr auto kViewKeys = key_table(
       "Of spheres: direction of the viewer, as an angle about the y axis. 0 is along z, 90 along "
       "x."},
      {"elevation", "deg", "Of spheres: height of the viewer, as an angle above the xz plane."},
-     {"view_angle", "deg", "Of spheres: horizontal angle of view. 0 is a parallel projection."}});
+     {"view_angle", "deg", "Of spheres: horizontal angle of view. 0 is a parallel projection."},
+     {"volume", "1/a",
+      "Of spheres: draws the heatmap as a volume, like glowing fog. The number is its extinction "
+      "coefficient at the end of the colour range. Smaller magnitudes are more transparent, and "
+      "cells without a value are empty. 0: no volume. With a volume there is no default slice."}});
 
 /// The keys of [view] in a box of this dimension. The list comes last, because a file has it below
 /// the other keys.
@@ -465,6 +470,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
     io.value(kViewKeys.at("azimuth"), view.azimuth, kAzimuths);
     io.value(kViewKeys.at("elevation"), view.elevation, kElevations);
     io.value(kViewKeys.at("view_angle"), view.view_angle, between(0.0, kMaxViewAngle));
+    io.value(kViewKeys.at("volume"), view.volume, between(0.0, kMaxVolume));
     io.table("slab", view.slab, [](auto& io, Slab& slab) { visit_slab(io, slab); });
     io.list("slices", view.slices, [](auto& io, Slice& slice) { visit_slice(io, slice); });
   }

@@ -94,7 +94,10 @@ struct View {
   double view_angle = 25.0;  ///< of spheres: horizontal angle of view, degrees; 0: orthographic
   std::optional<Slab> slab = {};   ///< only spheres, or their parts, in it are drawn; absent: all
   std::vector<Slice> slices = {};  ///< of the heatmap of spheres; empty: the middle plane across z
-  std::vector<CameraKey> camera;   ///< in order of time; empty: always the whole box
+  /// Of the heatmap of spheres, drawn as a volume: extinction coefficient at the end of its colour
+  /// range, 1/a; 0: no volume. With a volume there is no slice unless `slices` has it.
+  double volume = 0.0;
+  std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
   /// Whether it shows time averages: a heatmap or arrows.
   bool shows_averages() const { return field || arrows; }

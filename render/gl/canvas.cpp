@@ -22,8 +22,16 @@ Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
   gl.TexImage2D(GL_TEXTURE_2D, 0, format, size.width, size.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                 nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  const auto attach_colours = [&] {
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
+  };
+  if (depth == Depth::Buffer) {
+    colours_ = generate<Framebuffer>(gl, gl.GenFramebuffers);
+    bind_colours();
+    attach_colours();
+  }
   bind();
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
+  attach_colours();
   if (depth == Depth::Buffer) {
     depth_ = generate<Texture>(gl, gl.GenTextures);
     gl.BindTexture(GL_TEXTURE_2D, depth_->id());
@@ -45,6 +53,10 @@ int Canvas::largest_side(const Gl& gl) {
 
 void Canvas::bind() const {
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+}
+
+void Canvas::bind_colours() const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, colours_->id());
 }
 
 Image Canvas::read() const {

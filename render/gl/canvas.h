@@ -25,6 +25,9 @@ class Canvas {
   Depth depth() const { return depth_ ? Depth::Buffer : Depth::None; }
   /// Makes this canvas the target of later draw calls.
   void bind() const;
+  /// As bind(), but without depths, so that shaders can read them from depth_texture(). Only with
+  /// Depth::Buffer.
+  void bind_colours() const;
   /// Reads the current picture.
   Image read() const;
   /// Copies the picture into another framebuffer, 0 for the window of the context, with its lower
@@ -32,6 +35,8 @@ class Canvas {
   void copy_to(GLuint framebuffer, int x = 0, int y = 0) const;
   /// OpenGL name of the texture that holds the picture.
   GLuint texture() const { return colour_.id(); }
+  /// OpenGL name of the texture that holds the depths. Only with Depth::Buffer.
+  GLuint depth_texture() const { return depth_->id(); }
 
  private:
   const Gl* gl_;
@@ -39,6 +44,7 @@ class Canvas {
   Texture colour_;
   std::optional<Texture> depth_;
   Framebuffer framebuffer_;
+  std::optional<Framebuffer> colours_;  ///< without the depths
 };
 
 }  // namespace clatter

@@ -1,5 +1,7 @@
 #include "render/layers/face_layer.h"
 
+#include "render/layers/eye_uniforms.h"
+
 namespace clatter {
 
 std::array<int, 2> others_of(int axis) {
@@ -30,13 +32,8 @@ FaceLayer::FaceLayer(const Gl& gl, const char* fragment_file)
 }
 
 const Program& FaceLayer::use(const Vec3& box, const Projection& projection, const Eye& eye) const {
-  const Size drawn = projection.drawn();
   program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
-  gl_->Uniform2f(program_.uniform("u_origin"), eye.origin().x(), eye.origin().y());
-  gl_->Uniform1f(program_.uniform("u_scale"), eye.scale());
-  gl_->Uniform1f(program_.uniform("u_inverse_distance"), eye.inverse_distance());
-  gl_->Uniform1f(program_.uniform("u_depth_range"), eye.depth_range(box));
+  set_eye(*gl_, program_, box, projection, eye);
   return program_;
 }
 

@@ -247,23 +247,34 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
   space_->box.draw_sides(snapshot, projection, eye, theme);
+  const bool field = legends.field && has_values(*snapshot.field);
+  const bool volume = field && view.volume > 0.0;
   std::vector<Slice> slices;
-  if (legends.field && has_values(*snapshot.field)) {
+  if (field) {
     slices = slices_of(snapshot, view);
     space_->slices.draw(snapshot, slices, projection, eye, legends.field->scale,
                         thin(theme.static_wall, kHatchOpacity));
   }
   pause(projection);
-  // Spheres without a shape have no depths, so edges behind them are drawn first.
+  // Spheres without a shape and the volume have no depths, so edges behind them are drawn first.
   const bool light = SphereLight::draws(eye, snapshot);
+  const bool depthless = light || volume;
   using Sides = BoxLayer::Sides;
-  if (light) space_->box.draw_edges(snapshot, projection, eye, theme, Sides::Far);
+  if (depthless) space_->box.draw_edges(snapshot, projection, eye, theme, Sides::Far);
   // All spheres without a shape are behind a plane across the view, and the others before it.
   if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
-  space_->spheres.draw(snapshot, projection, eye, colours, view.slab);
+  // The volume would end at the faint parts of spheres in front of it.
+  space_->spheres.draw(snapshot, projection, eye, colours, view.slab, !volume);
   pause(projection);
+  if (volume) {
+    fine_->bind_colours();
+    space_->volume.draw(snapshot, view, projection, eye, legends.field->scale,
+                        fine_->depth_texture());
+    fine_->bind();
+    pause(projection);
+  }
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
-  space_->box.draw_edges(snapshot, projection, eye, theme, light ? Sides::Near : Sides::All);
+  space_->box.draw_edges(snapshot, projection, eye, theme, depthless ? Sides::Near : Sides::All);
   gl_->Disable(GL_DEPTH_TEST);
 }
 

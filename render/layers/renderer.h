@@ -18,6 +18,7 @@
 #include "render/layers/sphere_layer.h"
 #include "render/layers/sphere_light.h"
 #include "render/layers/trail_layer.h"
+#include "render/layers/volume_layer.h"
 #include "render/layers/wall_layer.h"
 
 namespace clatter {
@@ -78,11 +79,12 @@ class Renderer {
   /// The layers of spheres, which pictures of disks do not need.
   struct SpaceLayers {
     SpaceLayers(const Gl& gl, Blending blending)
-        : box(gl), slices(gl), light(gl), spheres(gl, blending), lines(gl) {}
+        : box(gl), slices(gl), light(gl), spheres(gl, blending), volume(gl, blending), lines(gl) {}
     BoxLayer box;
     SliceLayer slices;
     SphereLight light;
     SphereLayer spheres;
+    VolumeLayer volume;
     LineLayer lines;
   };
   void draw_lines(const Snapshot& snapshot, const Projection& projection, const View& view,

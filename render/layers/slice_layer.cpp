@@ -7,7 +7,7 @@
 namespace clatter {
 
 std::vector<Slice> slices_of(const Snapshot& snapshot, const View& view) {
-  if (!view.slices.empty()) return view.slices;
+  if (!view.slices.empty() || view.volume > 0.0) return view.slices;
   return {{Axis::Z, 0.5 * snapshot.box.z()}};
 }
 

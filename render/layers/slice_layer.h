@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-/// The slices of a view, or the middle one across z.
+/// The slices of a view; without any, and without a volume, the middle one across z.
 std::vector<Slice> slices_of(const Snapshot& snapshot, const View& view);
 
 /// Draws slices through a field of spheres.

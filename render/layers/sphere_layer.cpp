@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "render/layers/eye_uniforms.h"
 #include "render/layers/sphere_light.h"
 #include "render/neighbour_shade.h"
 #include "render/occlusion.h"
@@ -35,9 +36,9 @@ double distance_from(const Eye& eye, const Vec3& seen) {
 }
 
 std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                          const std::optional<Slab>& slab) {
+                          const std::optional<Slab>& slab, bool ghosts) {
   const double radius = 0.5 * snapshot.diameter;
-  const DrawnRegion region = drawn_region(snapshot, slab, false);
+  const DrawnRegion region = drawn_region(snapshot, slab, !ghosts);
   const DrawnRegion uncut = drawn_region(snapshot, slab, true);
   std::vector<Seen> all;
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
@@ -161,8 +162,9 @@ void SphereLayer::read_from(std::size_t first) const {
 }
 
 void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                          const DiskColours& colours, const std::optional<Slab>& slab) {
-  const std::vector<Seen> all = visible(snapshot, projection, eye, slab);
+                          const DiskColours& colours, const std::optional<Slab>& slab,
+                          bool ghosts) {
+  const std::vector<Seen> all = visible(snapshot, projection, eye, slab, ghosts);
   std::vector<std::uint32_t> shown = not_hidden(all, 0.5 * snapshot.diameter, projection, eye);
   join_runs(shown, all, projection.drawn());
   std::vector<Vec3> centres;
@@ -192,35 +194,22 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
 
 void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
                                const Projection& projection, const Eye& eye,
-                               const std::optional<Slab>& slab) const {
-  const auto set = [&](const char* name, const Vec3& vector) {
-    const auto [x, y, z] = as_floats(vector);
-    gl_->Uniform3f(program.uniform(name), x, y, z);
-  };
+                               const std::optional<Slab>& slab, bool ghosts) const {
   const DrawnRegion region = drawn_region(snapshot, slab, true);
-  const DrawnRegion ghosts = drawn_region(snapshot, slab, false);
-  const Size drawn = projection.drawn();
-  const Eigen::Matrix3f axes = eye.axes().cast<float>();
+  const DrawnRegion faint = drawn_region(snapshot, slab, !ghosts);
   program.use();
-  gl_->Uniform2f(program.uniform("u_size"), drawn.width, drawn.height);
-  gl_->Uniform2f(program.uniform("u_origin"), eye.origin().x(), eye.origin().y());
-  gl_->Uniform1f(program.uniform("u_scale"), eye.scale());
-  gl_->Uniform1f(program.uniform("u_inverse_distance"), eye.inverse_distance());
-  gl_->Uniform1f(program.uniform("u_depth_range"), eye.depth_range(snapshot.box));
+  set_eye(*gl_, program, snapshot.box, projection, eye);
   gl_->Uniform1f(program.uniform("u_radius"), 0.5 * snapshot.diameter);
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
-  // Transposed: from the view to the world.
-  gl_->UniformMatrix3fv(program.uniform("u_axes"), 1, GL_TRUE, axes.data());
-  set("u_centre", eye.centre());
-  set("u_low", region.low);
-  set("u_high", region.high);
-  set("u_ghost_low", ghosts.low);
-  set("u_ghost_high", ghosts.high);
+  set_vector(*gl_, program, "u_low", region.low);
+  set_vector(*gl_, program, "u_high", region.high);
+  set_vector(*gl_, program, "u_ghost_low", faint.low);
+  set_vector(*gl_, program, "u_ghost_high", faint.high);
 }
 
 void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                       const DiskColours& colours, const std::optional<Slab>& slab) {
-  collect(snapshot, projection, eye, colours, slab);
+                       const DiskColours& colours, const std::optional<Slab>& slab, bool ghosts) {
+  collect(snapshot, projection, eye, colours, slab, ghosts);
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, spheres_.size() * sizeof(Sphere), spheres_.data(),
                   GL_STREAM_DRAW);
@@ -228,7 +217,7 @@ void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, c
   if (marked && !marked_) marked_.emplace(*gl_, blending_, "MARKED ");
   const Programs& programs = marked ? *marked_ : plain_;
   for (const Program* program : {&programs.uncut, &programs.cut}) {
-    set_uniforms(*program, snapshot, projection, eye, slab);
+    set_uniforms(*program, snapshot, projection, eye, slab, ghosts);
   }
   if (blending_ == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
   gl_->BindVertexArray(vertices_.id());

@@ -22,9 +22,10 @@ class SphereLayer {
   /// Encoded blending is for pictures without a background.
   explicit SphereLayer(const Gl& gl, Blending blending = Blending::Light);
 
-  /// Draws the spheres of a snapshot, and their images at periodic borders.
+  /// Draws the spheres of a snapshot, and their images at periodic borders. With `ghosts` the parts
+  /// beyond these borders are drawn faintly, with depths.
   void draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-            const DiskColours& colours, const std::optional<Slab>& slab);
+            const DiskColours& colours, const std::optional<Slab>& slab, bool ghosts = true);
 
  private:
   struct Sphere {
@@ -50,9 +51,9 @@ class SphereLayer {
 
   void read_from(std::size_t first) const;
   void collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-               const DiskColours& colours, const std::optional<Slab>& slab);
+               const DiskColours& colours, const std::optional<Slab>& slab, bool ghosts);
   void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
-                    const Eye& eye, const std::optional<Slab>& slab) const;
+                    const Eye& eye, const std::optional<Slab>& slab, bool ghosts) const;
 
   const Gl* gl_;
   Blending blending_;

@@ -56,6 +56,7 @@ Scene uneven_spheres() {
   view.view_angle = 35.0;
   view.slab = Slab{Axis::Y, 2.5, 17.5};
   view.slices = {{Axis::X, 4.5}, {Axis::Z, 6.5}};
+  view.volume = 0.75;
   return scene;
 }
 

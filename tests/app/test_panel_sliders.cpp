@@ -75,6 +75,7 @@ const std::vector<SliderMeaning> kSphereSliders = {
     {"view.view_angle", "/view/view_angle", 0.0, 90.0, "Angle of view 35 °", "parallel"},
     {"view.slab.from", "/view/slab/from", 0.0, 17.4, "From 2.5 a", "along its axis"},
     {"view.slab.to", "/view/slab/to", 2.6, 23.0, "To 17.5 a", "along its axis"},
+    {"view.volume", "/view/volume", 0.0, 5.0, "Volume 0.75 1/a", "glowing fog"},
     {"view.slices.x.position", "/view/slices/0/position", 0.0, 19.0, "Position 4.5 a",
      "along its axis"},
     {"view.slices.z.position", "/view/slices/1/position", 0.0, 21.0, "Position 6.5 a",

@@ -13,7 +13,7 @@
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
-// Pictures of eight scenes, kept in assets/golden. Where a change of the looks is meant,
+// Pictures of nine scenes, kept in assets/golden. Where a change of the looks is meant,
 //   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*OSMesa*'
 // draws them again; look at each before it is kept.
 
@@ -89,6 +89,22 @@ constexpr std::array kGolden = {Golden{"driven", R"(
         slab = { axis = "z", from = 0.0, to = 5.0 }
         slices = [{ axis = "z", position = 2.0 }, { axis = "y", position = 0.0 }])",
                                        4.0},
+                                Golden{"volume", R"(
+        box.size = [10.0, 7.0, 8.0]
+        particles = { count = 60, restitution = 0.9 }
+        walls.left = { kind = "driven", drive_speed = 1.0 }
+        walls.right = { kind = "static" }
+        measure.cells = [5, 4, 4]
+        [view]
+        colour_by = "none"
+        field = "density"
+        field_palette = "inferno"
+        field_range = [0.0, 0.3]
+        volume = 0.5
+        slices = [{ axis = "y", position = 1.0 }]
+        slab = { axis = "x", from = 2.0, to = 10.0 }
+        overlay = false)",
+                                       6.0},
                                 Golden{"packing", R"(
         box.size = [7.0, 7.0, 7.0]
         particles = { volume_fraction = 0.55, restitution = 0.9 }

@@ -30,6 +30,20 @@ TEST_CASE("Palette: zero keeps its colour between ends that differ") {
   CHECK(scale(-2.0) == symmetric(-1.0));
 }
 
+TEST_CASE("Palette: the strength of a value is its share of the range") {
+  const ColourMap map = colour_map(Palette::Viridis);
+  const ColourScale rising{map, 2.0, 4.0}, falling{map, 0.0, -2.0};
+  CHECK(rising.strength(1.0) == 0.0);
+  CHECK(rising.strength(2.5) == 0.25);
+  CHECK(rising.strength(9.0) == 1.0);
+  CHECK(falling.strength(-0.5) == 0.25);
+  const ColourScale scale{.map = diverging_map(), .low = -1.0, .high = 4.0, .about_zero = true};
+  for (const double sign : {-1.0, 1.0}) CHECK(scale.strength(sign) == 0.25);
+  CHECK(scale.strength(-3.0) == 0.25);  // the range ends at -1
+  CHECK(scale.strength(0.0) == 0.0);
+  CHECK(scale.strength(4.0) == 1.0);
+}
+
 TEST_CASE("Palette: zero is grey on the diverging map") {
   const Colour grey = ColourScale{diverging_map(), -1.0, 1.0}(0.0);
   CHECK(grey.red == grey.green);

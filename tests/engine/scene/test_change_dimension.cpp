@@ -36,6 +36,7 @@ field = "temperature_z"
 azimuth = 70.0
 slab = { axis = "y", from = 1.0, to = 3.0 }
 slices = [{ axis = "x", position = 2.0 }]
+volume = 0.5
 camera = [{ time = 1.0, centre = [1.0, 2.0, 3.0] }]
 [[change]]
 time = 3.0
@@ -53,7 +54,7 @@ TEST_CASE("Change of dimension: spheres become disks, without the keys of z") {
   const auto [disks, removed] = change_dimension(deep_scene(), 2);
   CHECK(removed == Keys{"walls.back", "walls.front", "gravity.acceleration along z",
                         "measure.profile_axis", "measure.fields", "view.colour_by", "view.field",
-                        "view.slab", "view.slices", "view.camera", "change"});
+                        "view.slab", "view.slices", "view.volume", "view.camera", "change"});
   // 90 disks fill 90 pi/6 / 480 = 0.0982 of an area of 720, in the ratio of 10 to 8.
   CHECK(disks.box == VecX(Vec2(30.0, 24.0)));
   CHECK(disks.particles.count == 90);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/publish/snapshot.h"
+#include "render/eye.h"
+#include "render/gl/shader_program.h"
+#include "render/layers/disk_colours.h"
+
+namespace clatter {
+
+/// Draws a field of spheres as a fog that emits and absorbs light. The extinction coefficient of a
+/// cell is proportional to the magnitude in it, and its light has the colour of the value. Cells
+/// without a value are empty.
+class VolumeLayer {
+ public:
+  /// Encoded blending is for pictures without a background.
+  explicit VolumeLayer(const Gl& gl, Blending blending = Blending::Light);
+
+  /// Draws the field of the snapshot, in the slab, in front of the surfaces of `depths`, a texture
+  /// of the depths of the picture. The bound framebuffer must not have these depths.
+  void draw(const Snapshot& snapshot, const View& view, const Projection& projection,
+            const Eye& eye, const ColourScale& scale, GLuint depths);
+
+ private:
+  const Gl* gl_;
+  Blending blending_;
+  Program program_;
+  VertexArray vertices_;  ///< no attributes: the shader computes the corners
+  Texture cells_;
+  std::vector<Light> fog_;  ///< [cells_z][cells_y][cells_x]; reused to avoid allocations
+};
+
+}  // namespace clatter
