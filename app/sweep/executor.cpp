@@ -92,8 +92,8 @@ class Executor {
  private:
   // Short runs share a process, so that starts of processes cost little.
   void start() {
-    constexpr double kLeastSeconds = 1.0;
-    constexpr double kMostRuns = 50.0;
+    constexpr double kLeastSeconds = 5.0;
+    constexpr double kMostRuns = 100.0;
     const double share = static_cast<double>(open_.size()) / (2.0 * processes_);
     const double fitting = run_seconds_ > 0.0 ? kLeastSeconds / run_seconds_ : 1.0;
     const auto count =

@@ -100,9 +100,9 @@ zip = [["particles.restitution", "box.size", "particles.count", "particles.start
         .theory = true,
         .x_label = "1/(ε ψ)",
         .y_label = "T/(m v²), with the drive speed v",
-        .title = "A vibrated gas obeys one curve near the elastic limit",
-        .caption = "Temperature of a gas between two driven walls, against the inverse of its "
-                   "dissipation. Standard errors are at most 0.5 %."}},
+        .title = "The temperature of a vibrated gas",
+        .caption = "A gas between two driven walls. Dilute gases follow one curve, dense gases are "
+                   "hotter. Standard errors are at most 0.5 %."}},
       {"ratio",
        {.x = x,
         .y = "temperature/theory.temperature_refined",
