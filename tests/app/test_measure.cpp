@@ -262,6 +262,10 @@ TEST_CASE("Measure: where t_c makes most collisions elastic, a better one is adv
   CHECK(frozen.code == 0);
   // A thousandth of the time between collisions (theory 6.2), at phi = 0.2 and T = 0.98.
   CHECK(says(frozen.err, "a smaller value, for example 0.0008, restores the dissipation"));
+  const Outcome usual = shell.run(
+      "clatter measure cooling --set collapse.contact_time=1e-6 --set measure.burn_in=1 --until 5");
+  CHECK(usual.code == 0);
+  CHECK_FALSE(says(usual.err, "contact_time"));
   shell.write("pile.toml",
               "box.size = [10, 20]\nparticles = { count = 20, restitution = 0.5 }\n"
               "walls.bottom = { kind = 'static', restitution = 0.5 }\n"
