@@ -417,6 +417,21 @@ TEST_CASE("Wrong use: a folder in the place of a table is refused") {
                 {"--vtk", "maps/series.pvd is a folder"});
 }
 
+TEST_CASE("Wrong use: the fix comes after the problem") {
+  const Shell shell;
+  shell.write("change.toml",
+              "particles.count = 10\n[[change]]\ntime = 1\n"
+              "set = { \"particles.restitution\" = 0.5 }\n");
+  check_refused(shell, "clatter measure change.toml --until 2 --replicas 2",
+                {"--replicas: the laws of this scene change; measure each seed separately, or"});
+  check_refused(shell, "clatter render vibrated --to 1 --fps 60 --out a.gif",
+                {"--fps: a GIF has at most 50 frames per second; give at most --fps 50, or"});
+  check_refused(shell, "clatter render vibrated --to 1 --transparent --out a.mp4",
+                {"--transparent: only PNG pictures can be transparent; write to a FILE.png or"});
+  check_refused(shell, "clatter check vibrated --set particles.count",
+                {"--set particles.count: no value is set; write --set KEY=VALUE, for example"});
+}
+
 TEST_CASE("Wrong use: replicas beyond the last seed are refused") {
   const Shell shell;
   const std::string line = "clatter measure vibrated --until 1 --replicas 2 --seed ";
