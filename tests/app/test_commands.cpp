@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/runs/options.h"
 #include "tests/app/shell.h"
 
 namespace clatter {
@@ -114,6 +115,19 @@ TEST_CASE("Commands: check has the prices of gravity, kicks, walls, balances and
   CHECK(row(checked("[\"density\"]' --set measure.estimator=snapshot --set measure.interval=1"),
             "fields") == "x1.1  density");
   CHECK(std::regex_search(checked("[]'"), std::regex("\n  fields +- +-  no\n")));
+}
+
+TEST_CASE("Commands: a --set gives its own key, the tables above and the keys below") {
+  CommonOptions options;
+  options.settings = {"walls.left={kind=\"static\"}", "view.speed=2"};
+  for (const char* key : {"walls", "walls.left", "walls.left.kind", "view", "view.speed"}) {
+    CAPTURE(key);
+    CHECK(options.sets(key));
+  }
+  for (const char* key : {"walls.lef", "walls.left2", "walls.right", "view.speed_limit", "speed"}) {
+    CAPTURE(key);
+    CHECK_FALSE(options.sets(key));
+  }
 }
 
 TEST_CASE("Commands: a flag wins over the scene") {
