@@ -474,6 +474,22 @@ TEST_CASE("Measure: tables without fields are noted") {
   CHECK_FALSE(says(shell.run("clatter measure vibrated --until 1 --csv maps").err, kNote));
 }
 
+TEST_CASE("Measure: averages continue over a change of a restitution, and restart over gravity") {
+  const Shell shell;
+  for (const std::string key : {"particles.restitution = 0.8", "gravity.acceleration = [0.1, 0]"}) {
+    CAPTURE(key);
+    shell.run("clatter check vibrated --quiet > s.toml");
+    shell.write("change.toml", shell.read("s.toml") + "[[change]]\ntime = 3\nset." + key + "\n");
+    const Outcome outcome =
+        shell.run("clatter measure change.toml --set measure.burn_in=1 --until 6");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    const bool restarts = key.starts_with("gravity");
+    CHECK(says(outcome.err, "averages restart at t = 3\n") == restarts);
+    CHECK(json::parse(outcome.out).at("time").at("burn_in") == (restarts ? 3.0 : 1.0));
+  }
+}
+
 TEST_CASE("Measure: a gas that cools is reported as not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
