@@ -45,7 +45,7 @@ Study temperature_study(int dimension) {
             : std::vector<Box>{{32, 20}, {64, 20}, {128, 20}, {256, 20}, {128, 40}};
   const std::vector<double> restitutions = {0.5, 0.7, 0.9, 0.97, 0.99, 0.997, 0.999};
   constexpr double kBurnIn = 20.0,
-                   kLongest = 20000.0;  // in relaxation times, where epsilon psi = 1
+                   kLongest = 30000.0;  // in relaxation times, where epsilon psi = 1
   constexpr double kExponent = 0.7, kLeast = 0.05;
   std::vector<double> alphas, counts, temperatures, burn_ins, durations, intervals;
   std::string sizes;
