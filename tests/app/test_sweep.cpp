@@ -233,6 +233,19 @@ TEST_CASE("Sweep: more values add runs, and all other changes are refused") {
   refused("sed -i 's/count = 8/count = 9/' a.toml", "d has runs with another scene");
 }
 
+TEST_CASE("Sweep: a seed that is added with the axes in another order belongs to the same points") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter sweep s.toml --out d --quiet").code == 0);
+  shell.run("sed -i '/restitution/{h;d}; $G; s/4, 2, 9/4, 2, 9, 8/' s.toml");
+  CHECK(shell.read("s.toml").ends_with("2.0]\n\"particles.restitution\" = [0.7, 0.95]\n"));
+  const Outcome more = shell.run("clatter sweep s.toml --out d && clatter sweep collect d");
+  CAPTURE(more.err);
+  REQUIRE(more.code == 0);
+  CHECK(read_csv(shell.read("d/table.csv")).at("replicas") ==
+        std::vector<std::string>{"4", "4", "4", "4"});
+}
+
 TEST_CASE("Sweep: failed runs are listed with their reasons, and do not stop the others") {
   const Shell shell;
   // The collapse of a cooling gas, and a box that is too small for a combination of values.
