@@ -279,7 +279,7 @@ TEST_CASE("Sweep: failed runs are listed with their reasons, and do not stop the
 TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
   const Shell shell;
   write_sweep(shell);
-  shell.run("sed -i 's/duration = 30/duration = 3000/; s/count = 8/count = 30/' a.toml");
+  shell.run("sed -i 's/duration = 30/duration = 9000/; s/count = 8/count = 30/' a.toml");
   REQUIRE(shell.run("clatter sweep s.toml --out calm --quiet && clatter sweep collect calm").code ==
           0);
   // An interrupt ends all processes, with checkpoints.
@@ -290,7 +290,7 @@ TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
   // Kills of the sweep and of single runs, at times without any pattern.
   for (const char* delay : {"0.13", "0.31", "0.07", "0.43", "0.23", "0.37"}) {
     shell.run(std::string("clatter sweep s.toml --out d --quiet & sleep ") + delay +
-              "; kill -9 $!; pkill -9 -f 'sweep run d' ; wait");
+              "; kill -9 $! $(pgrep -P $!); wait");
   }
   const Outcome last = shell.run("clatter sweep s.toml --out d --quiet && clatter sweep collect d");
   CAPTURE(last.err);
