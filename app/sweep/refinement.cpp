@@ -72,7 +72,7 @@ std::optional<SweepPoint> middle_of(const CurvePoint& a, const CurvePoint& b, bo
   SweepPoint middle = a.settings;
   std::string& text = middle[a.axis].value;
   if (is_whole(a.value()) && is_whole(b.value())) {
-    text = fmt::format("{:.0f}", value);
+    text = fmt::format("{:.0f}", std::nearbyint(value) + 0.0);  // no -0
   } else {
     text = fmt::format("{:.12g}", value);
     if (is_whole(text)) text += ".0";
