@@ -168,6 +168,21 @@ TEST_CASE("Refinement: whole numbers stay whole, and no point occurs twice") {
   }
 }
 
+TEST_CASE("Refinement: the middle of -1 and 0 is not a second 0") {
+  const MadeSweep sweep(R"(scene = "rough_driven"
+refine = true
+budget = 9
+[set]
+"view.colour_by" = "speed"
+[axes]
+"particles.tangential_restitution" = [-1, 0, 1]
+)");
+  const auto points = sweep.finish([](const SweepPoint& point) {
+    return Mean{std::fabs(setting(point, "particles.tangential_restitution")), 0.1};
+  });
+  CHECK(points.size() == 3);
+}
+
 TEST_CASE("Refinement: the sweep ends at its budget of points, of all curves together") {
   const auto text = [](int budget) {
     return "scene = \"vibrated\"\nrefine = true\nreplicas = 3\nbudget = " + std::to_string(budget) +
@@ -191,17 +206,17 @@ budget = 50
 "particles.restitution" = [0.1, 0.2, 0.3, 0.4, 0.5]
 "particles.count" = [20, 30]
 )");
-  // Two straight lines of different height are no kinks. One of them has a kink at 0.2.
+  // Two straight lines of different height are no kinks. One of them has a kink at 0.4.
   sweep.measure([](const SweepPoint& point) {
     const double x = setting(point, "particles.restitution");
     return setting(point, "particles.count") == 20.0 ? Mean{5.0 + x, 1e-6}
-                                                     : Mean{std::fabs(x - 0.2), 1e-6};
+                                                     : Mean{std::fabs(x - 0.4), 1e-6};
   });
   const std::vector<std::string> next = sweep.next();
   REQUIRE(next.size() == 4);
   CHECK(std::set<std::string>(next.begin(), next.begin() + 2) ==
-        std::set<std::string>{"particles.restitution=0.15 particles.count=30",
-                              "particles.restitution=0.25 particles.count=30"});
+        std::set<std::string>{"particles.restitution=0.35 particles.count=30",
+                              "particles.restitution=0.45 particles.count=30"});
 }
 
 TEST_CASE("Refinement: the first axis of the file is refined, in any order of the manifest") {
