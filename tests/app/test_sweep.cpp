@@ -303,7 +303,7 @@ TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
 TEST_CASE("Sweep: a folder belongs to one sweep at a time") {
   const Shell shell;
   write_sweep(shell);
-  shell.run("sed -i 's/duration = 30/duration = 30000/' a.toml; mkdir other; touch other/file");
+  shell.run("sed -i 's/duration = 30/duration = 1e6/' a.toml; mkdir other; touch other/file");
   const Outcome two = shell.run(
       "clatter sweep s.toml --out d --quiet & sleep 1; clatter sweep s.toml --out d; echo $?; kill "
       "%1; wait");
