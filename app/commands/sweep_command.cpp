@@ -221,7 +221,12 @@ void add_plot(CLI::App& sweep, int& exit_code) {
     options->plot.log_x |= options->log;
     options->plot.log_y |= options->log;
     const SweepFolder folder(options->folder);
-    write_chart(out, chart_of(read_table(folder), folder.sweep().axes(), options->plot));
+    const SweepTable table = read_table(folder);
+    if (table.rows.empty()) {
+      throw UserError({options->folder}, "the sweep has no results",
+                      "measure it with `clatter sweep FILE --out DIR`");
+    }
+    write_chart(out, chart_of(table, folder.sweep().axes(), options->plot));
     exit_code = kOk;
   });
 }

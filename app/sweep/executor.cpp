@@ -185,6 +185,8 @@ class Executor {
 
 SweepState::SweepState(const SweepFolder& folder)
     : runs(folder.runs()), done(folder.done()), failed(folder.failed()) {
+  // A kill after the write of a result may leave the failure of an earlier attempt.
+  std::erase_if(failed, [&](int id) { return std::ranges::binary_search(done, id); });
   std::vector<int> ended;
   std::ranges::set_union(done, failed, std::back_inserter(ended));
   auto next = ended.begin();

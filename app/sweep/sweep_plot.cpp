@@ -46,7 +46,16 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
 }
 
-// Reads a quantity such as 1/theory.psi. `flag` is the name for errors.
+// `flag` is the name for errors.
+void require_column(const std::string& column, const SweepTable& table, const char* flag) {
+  if (std::ranges::find(table.columns, column) != table.columns.end()) return;
+  const std::string near(near_miss(column, table.columns));
+  throw UserError(
+      {flag, 0, 0}, "the table has no column '" + column + "'",
+      near.empty() ? "give a name of the first line of table.csv" : "did you mean '" + near + "'?");
+}
+
+// Reads a quantity such as 1/theory.psi.
 Product product_in(const std::string& text, const SweepTable& table, const char* flag) {
   Product factors;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -57,11 +66,8 @@ Product product_in(const std::string& text, const SweepTable& table, const char*
     if (const auto number = whole_text_number(factor.column)) {
       factor.number = *number;
       factor.column.clear();
-    } else if (std::ranges::find(table.columns, factor.column) == table.columns.end()) {
-      const std::string near(near_miss(factor.column, table.columns));
-      throw UserError({flag, 0, 0}, "the table has no column '" + factor.column + "'",
-                      near.empty() ? "give a name of the first line of table.csv"
-                                   : "did you mean '" + near + "'?");
+    } else {
+      require_column(factor.column, table, flag);
     }
     factors.push_back(factor);
     begin = end + 1;
@@ -159,14 +165,22 @@ std::string short_name(const std::string& column) {
   return in_words(column.substr(column.rfind('.') + 1));
 }
 
+// The path of the documentation of a key. All walls share theirs.
+std::string documented_path(const std::string& column) {
+  constexpr std::string_view kWalls = "walls.";
+  if (!column.starts_with(kWalls)) return column;
+  return "walls.SIDE" + column.substr(std::min(column.find('.', kWalls.size()), column.size()));
+}
+
 std::string label_of_column(const std::string& column) {
   const auto symbol = std::ranges::find(kSymbols, column, &Symbol::column);
   if (symbol != kSymbols.end()) {
     const std::string unit(symbol->unit);
     return std::string(symbol->symbol) + (unit.empty() ? "" : " (" + unit + ")");
   }
+  const std::string path = documented_path(column);
   for (const KeyDoc& key : key_docs()) {
-    if (key.path() != column || key.key.unit.empty()) continue;
+    if (key.path() != path || key.key.unit.empty()) continue;
     const std::string unit(key.key.unit);
     return short_name(column) + (unit == "1" ? "" : " (" + unit + ")");
   }
@@ -202,8 +216,15 @@ bool is_monotone(const ChartLine& line) {
          std::ranges::is_sorted(line.points, std::greater(), y);
 }
 
+// Whether a sorted line has one value at each x.
+bool is_function(const ChartLine& line) {
+  return std::ranges::adjacent_find(line.points, [](const Vec2& a, const Vec2& b) {
+           return a[0] == b[0] && a[1] != b[1];
+         }) == line.points.end();
+}
+
 // Adds the lines of a theory, one per series. A theory that depends on x only is one line for all
-// series: its points are monotone together.
+// series: its points together are a monotone function.
 void add_theory(const std::vector<ChartLine>& lines, Chart& chart) {
   ChartLine all = lines.front();
   all.series.reset();
@@ -213,7 +234,8 @@ void add_theory(const std::vector<ChartLine>& lines, Chart& chart) {
   }
   sort_points(all);
   if (all.points.empty()) return;
-  if (lines.size() > 1 && is_monotone(all)) return chart.lines.push_back(std::move(all));
+  if (lines.size() > 1 && is_monotone(all) && is_function(all))
+    return chart.lines.push_back(std::move(all));
   for (ChartLine line : lines) {
     sort_points(line);
     if (!line.points.empty()) chart.lines.push_back(std::move(line));
@@ -230,7 +252,7 @@ Chart chart_of(const SweepTable& table, const std::vector<std::string>& axes,
     by = axes;
     std::erase_if(by, [&](const std::string& axis) { return contains(x, axis); });
   } else {
-    product_in(plot.by, table, "--by");
+    require_column(plot.by, table, "--by");
   }
   Chart chart{.title = plot.title,
               .caption = plot.caption,
