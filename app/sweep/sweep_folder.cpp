@@ -60,6 +60,17 @@ bool is_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, ignored);
 }
 
+// Whether a folder is absent or empty, or has a sweep, which may have been killed while it made the
+// folder. The folder of the locks is made first.
+bool can_hold_sweep(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder, ignored)) return true;
+  if (is_file(folder / "manifest.jsonl") || is_file(folder / "runs/locks")) return true;
+  if (!std::filesystem::is_directory(folder, ignored)) return false;
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder, ignored),
+                             [](const auto& entry) { return entry.path().filename() == "runs"; });
+}
+
 // A scene beside the sweep file has precedence over the gallery.
 SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
   const auto beside = std::filesystem::path(sweep_file).parent_path() / sweep.scene;
@@ -135,24 +146,22 @@ SweepFolder SweepFolder::make(const std::string& text, const std::string& file,
   const SceneText scene = scene_of(sweep, file);
   check_entries(sweep, scene, text, file);
   const std::vector<Input> inputs = inputs_of(scene);
-  std::error_code ignored;
-  if (std::filesystem::exists(folder, ignored) && !is_file(folder / "scene.toml") &&
-      !(std::filesystem::is_directory(folder, ignored) &&
-        std::filesystem::is_empty(folder, ignored))) {
+  if (!can_hold_sweep(folder)) {
     throw UserError({"--out", 0, 0}, folder.string() + " exists and is not the folder of a sweep",
                     "give another name");
   }
-  make_folder(folder, "--out");
-  for (const char* inner : {"runs", "results", "failed"}) make_folder(folder / inner, "--out");
+  for (const auto& place : {folder, folder / "runs"}) make_folder(place, "--out");
   SweepFolder made;
   made.folder_ = folder;
   if (!made.lock(0)) {
     throw UserError({"--out", 0, 0}, "another sweep runs in " + folder.string(),
                     "wait for its end, or give another folder");
   }
+  for (const char* inner : {"results", "failed"}) make_folder(folder / inner, "--out");
   if (is_file(folder / "manifest.jsonl")) {
     require_same_sweep(made, sweep, inputs, file);
   } else {
+    std::error_code ignored;
     for (const Input& input : inputs) {
       std::filesystem::create_directories((folder / input.name).parent_path(), ignored);
       write_file(folder / input.name, input.bytes);

@@ -304,6 +304,24 @@ TEST_CASE("Sweep: a folder belongs to one sweep at a time") {
   CHECK(says(none.err, "other: this is not the folder of a sweep; start one with `clatter sweep"));
 }
 
+TEST_CASE("Sweep: a folder that a killed sweep has begun is completed, and no file is replaced") {
+  const Shell shell;
+  write_sweep(shell);
+  for (const char* begun : {"mkdir -p d/runs", "mkdir -p d/runs d/results && touch d/runs/locks",
+                            "mkdir -p d/runs && touch d/runs/locks d/.scene.toml.17-0"}) {
+    CAPTURE(begun);
+    REQUIRE(shell.run(begun).code == 0);
+    const Outcome outcome = shell.run("clatter sweep s.toml --out d --prepare");
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    shell.run("rm -r d");
+  }
+  shell.write("scene.toml", "# of the user\n");
+  const Outcome outcome = shell.run("clatter sweep s.toml --out .");
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "--out: . exists and is not the folder of a sweep; give another name"));
+  CHECK(shell.read("scene.toml") == "# of the user\n");
+}
+
 TEST_CASE("Sweep: a single run is measured by hand, once") {
   const Shell shell;
   write_sweep(shell);
