@@ -5,12 +5,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "app/runs/picture_scene.h"
@@ -19,6 +21,7 @@
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
 #include "engine/scene/scene_document.h"
+#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
 #include "engine/whole_number.h"
@@ -77,6 +80,11 @@ SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
   return find_any_scene(is_file(beside) ? beside.string() : sweep.scene);
 }
 
+// Names in the folder of a sweep that a start file cannot have.
+constexpr std::array<std::string_view, 10> kOwnNames = {
+    "scene.toml", "sweep.toml", "manifest.jsonl", "runs",     "results",
+    "failed",     "table.csv",  "table.jsonl",    "table.h5", "slurm"};
+
 // A file that every run needs, with its name in the sweep's folder.
 struct Input {
   std::filesystem::path name;
@@ -92,10 +100,15 @@ std::vector<Input> inputs_of(const SceneText& scene) {
   if (scene.origin == Origin::Gallery || name.empty() || name.is_absolute() || !is_file(file)) {
     return inputs;
   }
-  if (*name.begin() == "..") {
-    throw UserError(place_of(root, "particles.start.file", scene.file),
-                    "the start file is not below the folder of the scene",
+  const std::filesystem::path first = *name.lexically_normal().begin();
+  const Place place = place_of(root, "particles.start.file", scene.file);
+  if (first == "..") {
+    throw UserError(place, "the start file is not below the folder of the scene",
                     "copy it there, or give its absolute path");
+  }
+  if (std::ranges::find(kOwnNames, first) != std::end(kOwnNames)) {
+    throw UserError(place, "the folder of a sweep has its own " + in_quotes(first.string()),
+                    "rename the start file, or give its absolute path");
   }
   inputs.push_back({name, read_file(file.string(), std::numeric_limits<int>::max(), "")});
   return inputs;

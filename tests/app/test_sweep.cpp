@@ -322,6 +322,30 @@ TEST_CASE("Sweep: a folder that a killed sweep has begun is completed, and no fi
   CHECK(shell.read("scene.toml") == "# of the user\n");
 }
 
+TEST_CASE("Sweep: the start file of a scene is copied into the folder, and nowhere else") {
+  const Shell shell;
+  shell.write("a.toml", kScene);
+  shell.write("s.toml", "scene = \"a.toml\"\n");
+  REQUIRE(shell.run("clatter measure a.toml --quiet --until 3 --save-state x.csv").code == 0);
+  shell.run(
+      "mkdir -p in/sub up; mv a.toml s.toml in; cp x.csv in/sub/y.csv; cp x.csv in/table.csv");
+  const auto sweep = [&](const std::string& start, const std::string& out) {
+    shell.run("sed -i 's|^particles.*|particles = { start = { layout = \"file\", file = \"" +
+              start + "\" } }|' in/a.toml");
+    return shell.run("clatter sweep in/s.toml --out " + out + " --quiet");
+  };
+  const Outcome below = sweep("sub/y.csv", "d");
+  CHECK_MESSAGE(below.code == 0, below.err);
+  CHECK(shell.read("d/sub/y.csv") == shell.read("x.csv"));
+  const Outcome beside = sweep("sub/../../x.csv", "up/d");
+  CHECK(beside.code == 2);
+  CHECK(says(beside.err, "the start file is not below the folder of the scene; copy it there"));
+  const Outcome own = sweep("table.csv", "up/d");
+  CHECK(own.code == 2);
+  CHECK(says(own.err, "the folder of a sweep has its own \"table.csv\"; rename the start file"));
+  CHECK(shell.run("ls up").out == "");
+}
+
 TEST_CASE("Sweep: a single run is measured by hand, once") {
   const Shell shell;
   write_sweep(shell);
