@@ -35,21 +35,25 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kLargestSweep = 1'000'000;
 constexpr std::size_t kLargestManifest = 1'000'000'000;
 
+constexpr const char* kManifestAdvice = "restore the file, or start the sweep in another folder";
+
 std::string line_of(const SweepRun& run) {
   Json settings = Json::object();
   for (const Override& setting : run.settings) settings[setting.key] = setting.value;
   return Json{{"id", run.id}, {"set", settings}, {"seed", run.seed}}.dump() + '\n';
 }
 
-SweepRun run_in(const std::string& line, const std::string& manifest) {
+// The run of a line of the manifest. `id` is the number of the line.
+SweepRun run_in(const std::string& line, int id, const std::string& manifest) {
   try {
     const Json json = Json::parse(line);
     SweepRun run{json.at("id"), {}, json.at("seed")};
     for (const auto& [key, value] : json.at("set").items()) run.settings.push_back({key, value});
-    return run;
-  } catch (const nlohmann::json::exception& error) {
-    throw RunError(manifest + " is damaged: " + error.what());
+    if (run.id == id) return run;
+  } catch (const nlohmann::json::exception&) {  // reported below
   }
+  throw RunError(
+      fmt::format("{} is damaged: line {} is not run {}; {}", manifest, id, id, kManifestAdvice));
 }
 
 // The same text for the same run, in any order of the axes.
@@ -144,7 +148,7 @@ void require_same_sweep(const SweepFolder& folder, const Sweep& sweep,
 }  // namespace
 
 bool SweepFailure::is_final() const {
-  return code == kPhysicalStop || code == kWrongUse;
+  return code == kPhysicalStop;
 }
 
 SweepFolder::SweepFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
@@ -171,7 +175,7 @@ SweepFolder SweepFolder::make(const std::string& text, const std::string& file,
                     "wait for its end, or give another folder");
   }
   for (const char* inner : {"results", "failed"}) make_folder(folder / inner, "--out");
-  if (is_file(folder / "manifest.jsonl")) {
+  if (!made.runs().empty()) {
     require_same_sweep(made, sweep, inputs, file);
   } else {
     std::error_code ignored;
@@ -192,11 +196,21 @@ Sweep SweepFolder::sweep() const {
 
 std::vector<SweepRun> SweepFolder::runs() const {
   const std::string manifest = folder_ / "manifest.jsonl";
+  // Before the manifest is read, because another process may add runs.
+  int last = 0;
+  for (const auto& ids : {done(), failed(), ids_in("runs", ".checkpoint")}) {
+    if (!ids.empty()) last = std::max(last, ids.back());
+  }
   std::vector<SweepRun> runs;
-  if (!is_file(manifest)) return runs;
-  std::istringstream lines(read_file(manifest, kLargestManifest, ""));
-  for (std::string line; std::getline(lines, line);) runs.push_back(run_in(line, manifest));
-  return runs;
+  if (is_file(manifest)) {
+    std::istringstream lines(read_file(manifest, kLargestManifest, ""));
+    for (std::string line; std::getline(lines, line);) {
+      runs.push_back(run_in(line, static_cast<int>(runs.size()) + 1, manifest));
+    }
+  }
+  if (last <= static_cast<int>(runs.size())) return runs;
+  throw RunError(fmt::format("{} is damaged: it has no run {}, which has begun; {}", manifest, last,
+                             kManifestAdvice));
 }
 
 SweepRun SweepFolder::run(int id) const {
@@ -208,16 +222,18 @@ SweepRun SweepFolder::run(int id) const {
     throw UserError({folder_.string()}, fmt::format("there is no run {}", id),
                     fmt::format("give a number from 1 to {}", k));
   }
-  return run_in(line, manifest);
+  return run_in(line, id, manifest);
 }
 
 std::optional<SweepFailure> SweepFolder::failure(int id) const {
   const auto path = file("failed", id, ".json");
   if (!is_file(path)) return std::nullopt;
-  const Json json = Json::parse(read_file(path.string(), kLargestSweep, ""), nullptr, false);
-  if (!json.is_object()) return SweepFailure{kFailed, "unknown"};
-  return SweepFailure{json.value("code", static_cast<int>(kFailed)),
-                      json.value("reason", std::string("unknown"))};
+  try {
+    const Json json = Json::parse(read_file(path.string(), kLargestSweep, ""));
+    return SweepFailure{json.at("code"), json.at("reason")};
+  } catch (const nlohmann::json::exception&) {
+    return SweepFailure{kFailed, "unknown"};
+  }
 }
 
 void SweepFolder::add(const std::vector<SweepPoint>& points,
@@ -241,8 +257,8 @@ void SweepFolder::add(const std::vector<SweepPoint>& points,
 
 void SweepFolder::publish(int id) const {
   rename_synced(part(id), result(id));
+  forget_failure(id);
   std::error_code ignored;
-  std::filesystem::remove(file("failed", id, ".json"), ignored);
   std::filesystem::remove(checkpoint(id), ignored);
   std::filesystem::remove(previous_checkpoint(checkpoint(id)), ignored);
 }
@@ -252,6 +268,11 @@ void SweepFolder::fail(int id, const SweepFailure& failure) const {
   std::filesystem::remove(part(id), ignored);
   write_file(file("failed", id, ".json"),
              Json{{"code", failure.code}, {"reason", failure.reason}}.dump() + '\n');
+}
+
+void SweepFolder::forget_failure(int id) const {
+  std::error_code ignored;
+  std::filesystem::remove(file("failed", id, ".json"), ignored);
 }
 
 bool SweepFolder::lock(int id) {
@@ -275,19 +296,22 @@ bool SweepFolder::set_lock(int id, short type) const {
   lock.l_whence = SEEK_SET;
   lock.l_start = id;
   lock.l_len = 1;
-  return fcntl(locks_.get(), F_SETLK, &lock) == 0;
+  if (fcntl(locks_.get(), F_SETLK, &lock) == 0) return true;
+  if (errno == EACCES || errno == EAGAIN) return false;
+  throw RunError("cannot lock " + (folder_ / "runs/locks").string() + ": " + std::strerror(errno) +
+                 "; put the folder on a file system with locks");
 }
 
 std::filesystem::path SweepFolder::file(const char* folder, int id, const char* suffix) const {
   return folder_ / folder / (std::to_string(id) + suffix);
 }
 
-std::vector<int> SweepFolder::ids_in(const char* folder) const {
+std::vector<int> SweepFolder::ids_in(const char* folder, const char* suffix) const {
   std::vector<int> ids;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder, ignored)) {
     const auto id = whole_number<int>(entry.path().stem().string());
-    if (id && entry.path().extension() == ".json") ids.push_back(*id);
+    if (id && *id > 0 && entry.path() == file(folder, *id, suffix)) ids.push_back(*id);
   }
   std::ranges::sort(ids);
   return ids;

@@ -277,7 +277,7 @@ TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
   // Kills of the sweep and of single runs, at times without any pattern.
   for (const char* delay : {"0.13", "0.31", "0.07", "0.43", "0.23", "0.37"}) {
     shell.run(std::string("clatter sweep s.toml --out d --quiet & sleep ") + delay +
-              "; kill -9 $!; pkill -9 -f 'sweep run d' ; wait");
+              "; kill -9 $!; pkill -9 -f \"sweep run $(pwd -P)/d \"; wait");
   }
   const Outcome last = shell.run("clatter sweep s.toml --out d --quiet && clatter sweep collect d");
   CAPTURE(last.err);
@@ -344,6 +344,80 @@ TEST_CASE("Sweep: the start file of a scene is copied into the folder, and nowhe
   CHECK(own.code == 2);
   CHECK(says(own.err, "the folder of a sweep has its own \"table.csv\"; rename the start file"));
   CHECK(shell.run("ls up").out == "");
+}
+
+TEST_CASE("Sweep: a failure that can pass is repeated, and its record is removed") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter measure a.toml --quiet --until 3 --save-state x.csv").code == 0);
+  shell.run(
+      "sed -i \"s|^particles.*|particles.start = { layout = \\\"file\\\", file = "
+      "\\\"$PWD/x.csv\\\" }|\" a.toml");
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare && mv x.csv y.csv").code == 0);
+  CHECK(shell.run("clatter sweep run d 1-2").code == 2);
+  const Outcome missing = shell.run("clatter sweep status d");
+  CHECK(says(missing.err,
+             "run 2 (particles.restitution=0.7 walls.right.temperature=0.5, seed 2) "
+             "failed: "));
+  CHECK(says(missing.err, "there is no file"));
+  const Outcome found = shell.run("mv y.csv x.csv; clatter sweep s.toml --out d");
+  CHECK(found.code == 0);
+  CHECK(found.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
+  CHECK(shell.run("ls d/failed").out == "");
+}
+
+TEST_CASE("Sweep: a damaged checkpoint is named, and its run starts again without it") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare; echo x > d/runs/3.checkpoint").code ==
+          0);
+  const Outcome damaged = shell.run("clatter sweep s.toml --out d");
+  CHECK(damaged.code == 1);
+  CHECK(says(damaged.err,
+             "d/runs/3.checkpoint: this is not a checkpoint; remove it, and start the "
+             "sweep again\n"));
+  const Outcome removed = shell.run("rm d/runs/3.checkpoint; clatter sweep s.toml --out d");
+  CHECK(removed.code == 0);
+  CHECK(removed.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
+}
+
+TEST_CASE("Sweep: failures are printed with --quiet too") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/seeds.*/accuracy = 0.1\\naccuracy_of = \"nothing\"/' s.toml");
+  const Outcome outcome = shell.run("clatter sweep s.toml --out d --quiet");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "sweep: 4 runs: 0 with result, 4 failed, 0 open"));
+  CHECK(says(outcome.err, "nothing"));
+}
+
+TEST_CASE("Sweep: a process without a result is named with the reason of its end") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 3e6/' a.toml");
+  // The failure of an earlier start does not count as the end of the run. The process has reported
+  // its progress before it is killed.
+  shell.run(
+      "clatter sweep s.toml --out d --prepare; echo '{\"code\":1,\"reason\":\"old\"}' > "
+      "d/failed/1.json");
+  const Outcome killed = shell.run(
+      "clatter sweep s.toml --out d --threads 1 --progress none & "
+      "until pgrep -f \"sweep run $(pwd -P)/d \" > child; do sleep 0.05; done; sleep 2; "
+      "kill -9 $(cat child); sleep 0.5; kill -INT $!; wait");
+  CHECK_MESSAGE(killed.err ==
+                    "clatter: run 1 (particles.restitution=0.7 walls.right.temperature=0.5, seed "
+                    "4) has ended without a result: Killed\n"
+                    "clatter: interrupted; the same command continues the sweep\n",
+                killed.err);
+  CHECK(shell.run("ls d/failed").out == "");
+}
+
+TEST_CASE("Sweep: a folder can have the name of a flag") {
+  const Shell shell;
+  write_sweep(shell);
+  const Outcome outcome = shell.run("clatter sweep s.toml --out=--quiet");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
 }
 
 TEST_CASE("Sweep: a single run is measured by hand, once") {
