@@ -420,6 +420,66 @@ TEST_CASE("Sweep: a folder can have the name of a flag") {
   CHECK(outcome.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
 }
 
+TEST_CASE("Sweep: damaged and foreign files are named, and never counted") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/seeds.*/seeds = [4, 2]/' s.toml");
+  REQUIRE(shell.run("clatter sweep s.toml --out calm --quiet && clatter sweep collect calm").code ==
+          0);
+  const auto damaged = [&](const std::string& damage, const std::string& line) {
+    REQUIRE(shell.run("rm -rf d; cp -r calm d; " + damage).code == 0);
+    return shell.run(line);
+  };
+  const std::string start = "clatter sweep s.toml --out d", collect = "clatter sweep collect d";
+  // Files that are no records of this sweep.
+  for (const char* stranger :
+       {"cp d/results/1.json d/results/01.json", "cp d/results/1.json d/results/-1.json",
+        "mkdir d/failed/3.json", "echo '{\"code\":\"x\"}' > d/failed/3.json",
+        "echo '{\"code\":3,\"reason\":\"x\"}' > d/failed/3.json"}) {
+    CAPTURE(std::string(stranger));
+    for (const char* first : {"true; ", "rm d/results/2.json; "}) {
+      const Outcome outcome = damaged(first + std::string(stranger), start);
+      CHECK(outcome.code == 0);
+      CHECK(outcome.err == "sweep: 8 runs: 8 with result, 0 failed, 0 open\n");
+      CHECK(shell.run(collect + " && cmp d/table.csv calm/table.csv").code == 0);
+    }
+  }
+  // A manifest without all runs would give other settings to their results.
+  const std::string advice = "restore the file, or start the sweep in another folder";
+  for (const char* damage : {": > d/manifest.jsonl", "rm d/manifest.jsonl",
+                             "rm d/manifest.jsonl d/results/*; echo > d/runs/2.checkpoint",
+                             "rm d/results/*; echo '{}' > d/failed/99.json"}) {
+    CAPTURE(std::string(damage));
+    const Outcome outcome = damaged(damage, start);
+    CHECK(outcome.code == 1);
+    CHECK(says(outcome.err, "d/manifest.jsonl is damaged: it has no run "));
+    CHECK(says(outcome.err, advice));
+    CHECK(shell.run("cmp d/sweep.toml calm/sweep.toml").code == 0);
+  }
+  for (const char* damage :
+       {"tac calm/manifest.jsonl > d/manifest.jsonl",
+        "head -c 100 calm/manifest.jsonl > "
+        "d/manifest.jsonl",
+        "echo '{\"id\":\"1\"}' > d/manifest.jsonl", "sed -i 's/\"0.7\"/0.7/' d/manifest.jsonl"}) {
+    CAPTURE(std::string(damage));
+    const Outcome outcome = damaged(damage, "clatter sweep status d");
+    CHECK(outcome.code == 1);
+    CHECK(says(outcome.err, "d/manifest.jsonl is damaged: line "));
+    CHECK(says(outcome.err, advice));
+  }
+  // Results.
+  for (const char* damage : {": > d/results/3.json", "echo '{\"state_hash\":1}' > d/results/3.json",
+                             "sed -i 's/\"profile\": *{/\"profile\":4, \"x\": {/' d/results/3.json",
+                             "cp d/results/2.json d/results/3.json"}) {
+    CAPTURE(std::string(damage));
+    const Outcome outcome = damaged(damage, collect);
+    CHECK(outcome.code == 1);
+    CHECK_MESSAGE(says(outcome.err, "d/results/3.json"), outcome.err);
+    CHECK_MESSAGE(says(outcome.err, "is damaged; remove it, and start the sweep again"),
+                  outcome.err);
+  }
+}
+
 TEST_CASE("Sweep: a single run is measured by hand, once") {
   const Shell shell;
   write_sweep(shell);
