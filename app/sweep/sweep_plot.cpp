@@ -46,6 +46,15 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
 }
 
+// `flag` is the name for errors.
+void require_column(const std::string& column, const SweepTable& table, const char* flag) {
+  if (std::ranges::find(table.columns, column) != table.columns.end()) return;
+  const std::string near(near_miss(column, table.columns));
+  throw UserError(
+      {flag, 0, 0}, "the table has no column '" + column + "'",
+      near.empty() ? "give a name of the first line of table.csv" : "did you mean '" + near + "'?");
+}
+
 // Reads a quantity such as 1/theory.psi. `flag` is the name for errors.
 Product product_in(const std::string& text, const SweepTable& table, const char* flag) {
   Product factors;
@@ -57,11 +66,8 @@ Product product_in(const std::string& text, const SweepTable& table, const char*
     if (const auto number = whole_text_number(factor.column)) {
       factor.number = *number;
       factor.column.clear();
-    } else if (std::ranges::find(table.columns, factor.column) == table.columns.end()) {
-      const std::string near(near_miss(factor.column, table.columns));
-      throw UserError({flag, 0, 0}, "the table has no column '" + factor.column + "'",
-                      near.empty() ? "give a name of the first line of table.csv"
-                                   : "did you mean '" + near + "'?");
+    } else {
+      require_column(factor.column, table, flag);
     }
     factors.push_back(factor);
     begin = end + 1;
@@ -230,7 +236,7 @@ Chart chart_of(const SweepTable& table, const std::vector<std::string>& axes,
     by = axes;
     std::erase_if(by, [&](const std::string& axis) { return contains(x, axis); });
   } else {
-    product_in(plot.by, table, "--by");
+    require_column(plot.by, table, "--by");
   }
   Chart chart{.title = plot.title,
               .caption = plot.caption,

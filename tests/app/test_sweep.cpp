@@ -309,7 +309,7 @@ TEST_CASE("Sweep: a folder that a killed sweep has begun is completed, and no fi
   write_sweep(shell);
   for (const char* begun : {"mkdir -p d/runs", "mkdir -p d/runs d/results && touch d/runs/locks",
                             "mkdir -p d/runs && touch d/runs/locks d/.scene.toml.17-0"}) {
-    CAPTURE(begun);
+    CAPTURE(std::string(begun));
     REQUIRE(shell.run(begun).code == 0);
     const Outcome outcome = shell.run("clatter sweep s.toml --out d --prepare");
     CHECK_MESSAGE(outcome.code == 0, outcome.err);
@@ -412,6 +412,26 @@ TEST_CASE("Sweep: a process without a result is named with the reason of its end
   CHECK(shell.run("ls d/failed").out == "");
 }
 
+TEST_CASE("Sweep: a chart without points is refused, and series are the values of one column") {
+  const Shell shell;
+  write_sweep(shell);
+  const auto refused = [&](const std::string& flags, const std::string& message) {
+    const Outcome outcome = shell.run("clatter sweep plot d --out c.svg --x replicas " + flags);
+    CHECK(outcome.code == 2);
+    CHECK_MESSAGE(says(outcome.err, message), outcome.err);
+    CHECK(shell.run("ls c.svg").code != 0);
+  };
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare").code == 0);
+  refused("--y temperature", "d: no run has a result; measure the runs first");
+  REQUIRE(shell.run("clatter sweep s.toml --out d").code == 0);
+  refused("--y temperature --by 'replicas*2'", "--by: the table has no column 'replicas*2'");
+  const std::string empty = "d: the chart has no points; give columns of numbers";
+  refused("--y program", empty);
+  refused("--y temperature/0", empty);
+  refused("--y 0*temperature --log", empty);
+  CHECK(shell.run("clatter sweep plot d --out c.svg --x replicas --y temperature").code == 0);
+}
+
 TEST_CASE("Sweep: a folder can have the name of a flag") {
   const Shell shell;
   write_sweep(shell);
@@ -495,6 +515,10 @@ TEST_CASE("Sweep: a single run is measured by hand, once") {
   CHECK(wrong.code == 2);
   CHECK(says(wrong.err, "d: there is no run 13; give a number from 1 to 12"));
   CHECK(says(shell.run("clatter sweep run d 5-3").err, "ID: '5-3' is no run; give numbers"));
+  CHECK(says(shell.run("clatter sweep run d ''").err, "ID: '' is no run; give numbers"));
+  // A long list of numbers costs no memory.
+  CHECK(says(shell.run("ulimit -v 1000000; clatter sweep run d 12-2147483647").err,
+             "there is no run 13; give a number from 1 to 12"));
 }
 
 }  // namespace clatter
