@@ -1,7 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <sstream>
+#include <cmath>
 #include <thread>
+#include <utility>
 
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
@@ -38,12 +39,13 @@ struct SweepOptions {
   }
 };
 
-// The numbers in words such as 17 and 20-25,30.
-std::vector<int> ids_of(const std::vector<std::string>& words) {
-  std::vector<int> ids;
+// First and last number of each part of words such as 17 and 20-25,30.
+std::vector<std::pair<int, int>> ids_of(const std::vector<std::string>& words) {
+  std::vector<std::pair<int, int>> ids;
   for (const std::string& word : words) {
-    std::istringstream parts(word);
-    for (std::string part; std::getline(parts, part, ',');) {
+    for (std::size_t begin = 0; begin <= word.size();) {
+      const std::size_t end = std::min(word.find(',', begin), word.size());
+      const std::string part = word.substr(begin, end - begin);
       const std::size_t dash = std::min(part.find('-'), part.size());
       const auto first = whole_number<int>(part.substr(0, dash));
       const auto last = dash == part.size() ? first : whole_number<int>(part.substr(dash + 1));
@@ -51,7 +53,8 @@ std::vector<int> ids_of(const std::vector<std::string>& words) {
         throw UserError({"ID", 0, 0}, "'" + part + "' is no run",
                         "give numbers such as 17 or 20-25");
       }
-      for (int id = *first; id <= *last; ++id) ids.push_back(id);
+      ids.emplace_back(*first, *last);
+      begin = end + 1;
     }
   }
   return ids;
@@ -69,6 +72,18 @@ int measure_sweep(const SweepFolder& folder, const SweepOptions& options) {
   }
 }
 
+// Whether any point can be drawn.
+bool has_points(const Chart& chart) {
+  const auto fits = [](double value, bool logarithmic) {
+    return std::isfinite(value) && (value > 0.0 || !logarithmic);
+  };
+  return std::ranges::any_of(chart.series, [&](const ChartSeries& series) {
+    return std::ranges::any_of(series.points, [&](const ChartPoint& point) {
+      return fits(point.x, chart.x.logarithmic) && fits(point.y, chart.y.logarithmic);
+    });
+  });
+}
+
 void write_study_charts(const SweepFolder& folder, const SweepTable& table, const Study& study) {
   for (const StudyChart& chart : study.charts) {
     const Chart drawn = chart_of(table, folder.sweep().axes(), chart.plot);
@@ -82,10 +97,12 @@ void write_study_charts(const SweepFolder& folder, const SweepTable& table, cons
 int measure_runs(const SweepOptions& options) {
   SweepFolder folder(options.folder);
   int code = kOk;
-  for (const int id : ids_of(options.ids)) {
-    const int ended = measure_run(folder, id, options.common.shown_progress());
-    if (ended == kInterrupted) return kInterrupted;
-    if (ended != kOk) code = ended;
+  for (const auto& [first, last] : ids_of(options.ids)) {
+    for (int id = first; id <= last; ++id) {
+      const int ended = measure_run(folder, id, options.common.shown_progress());
+      if (ended == kInterrupted) return kInterrupted;
+      if (ended != kOk) code = ended;
+    }
   }
   return code;
 }
@@ -226,7 +243,12 @@ void add_plot(CLI::App& sweep, int& exit_code) {
       throw UserError({options->folder}, "the sweep has no results",
                       "measure it with `clatter sweep FILE --out DIR`");
     }
-    write_chart(out, chart_of(table, folder.sweep().axes(), options->plot));
+    const Chart chart = chart_of(table, folder.sweep().axes(), options->plot);
+    if (!has_points(chart)) {
+      throw UserError({options->folder}, "the chart has no points",
+                      "give columns of numbers, which are positive on logarithmic axes");
+    }
+    write_chart(out, chart);
     exit_code = kOk;
   });
 }

@@ -37,8 +37,9 @@ struct Job {
       : ids(std::move(runs)), began(Clock::now()), program(command(folder, ids)) {}
 
   static std::vector<std::string> command(const SweepFolder& folder, const std::vector<int>& ids) {
-    std::vector<std::string> words = {"clatter",    "sweep", "run", folder.path().string(),
-                                      "--progress", "json"};
+    // The folder is absolute, because a name such as -d would be a flag.
+    const std::string path = std::filesystem::absolute(folder.path()).string();
+    std::vector<std::string> words = {"clatter", "sweep", "run", path, "--progress", "json"};
     for (const int id : ids) words.push_back(std::to_string(id));
     return words;
   }
@@ -53,16 +54,8 @@ class Executor {
         terminal_(style == ProgressStyle::Auto && isatty(STDERR_FILENO)) {
     SweepState state(folder);
     runs_ = std::move(state.runs);
-    done_before_ = state.done.size();
-    open_.assign(state.open.begin(), state.open.end());
-    for (const int id : state.failed) {
-      if (folder.failure(id)->is_final()) {
-        ++done_before_;
-      } else {
-        open_.push_back(id);
-      }
-    }
-    std::ranges::sort(open_);
+    open_.assign(state.wanted.begin(), state.wanted.end());
+    done_before_ = runs_.size() - open_.size();
     wanted_ = open_.size();
   }
 
@@ -78,7 +71,7 @@ class Executor {
       for (auto job = jobs_.begin(); job != jobs_.end();) {
         const std::optional<int> code = job->program.poll();
         count_ended(*job);
-        if (code) finish(*job);
+        if (code) finish(*job, *code);
         job = code ? jobs_.erase(job) : std::next(job);
       }
       show();
@@ -100,6 +93,7 @@ class Executor {
         static_cast<std::size_t>(std::max(1.0, std::min({share, fitting, kMostRuns})));
     std::vector<int> ids(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(count));
     open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(count));
+    for (const int id : ids) folder_.forget_failure(id);  // else has_ended() would be true
     jobs_.emplace_back(folder_, std::move(ids));
   }
 
@@ -123,15 +117,17 @@ class Executor {
   }
 
   // The first run without an end has broken the process. The others of the process are open again.
-  void finish(const Job& job) {
+  void finish(const Job& job, int code) {
     if (job.ended > 0) run_seconds_ = seconds_since(job.began) / static_cast<double>(job.ended);
-    if (job.ended == job.ids.size() || stopping_) return;
+    if (job.ended == job.ids.size() || interrupted()) return;
     broken_ = true;
     const int id = job.ids[job.ended];
+    std::string reason = job.program.message();
+    if (reason.empty()) reason = job.program.process().signal();
+    if (reason.empty()) reason = fmt::format("exit code {}", code);
     std::fprintf(stderr, "%sclatter: %s has ended without a result: %s\n",
                  terminal_ ? "\r\033[K" : "",
-                 name_of(runs_[static_cast<std::size_t>(id) - 1]).c_str(),
-                 job.program.process().last_words().c_str());
+                 name_of(runs_[static_cast<std::size_t>(id) - 1]).c_str(), reason.c_str());
     open_.insert(open_.begin(), job.ids.begin() + static_cast<std::ptrdiff_t>(job.ended) + 1,
                  job.ids.end());
   }
@@ -183,20 +179,22 @@ class Executor {
 
 }  // namespace
 
+// The runs come last: another process may add some, and no number may be beyond them.
 SweepState::SweepState(const SweepFolder& folder)
-    : runs(folder.runs()), done(folder.done()), failed(folder.failed()) {
+    : failed(folder.failed()), done(folder.done()), runs(folder.runs()) {
   // A kill after the write of a result may leave the failure of an earlier attempt.
   std::erase_if(failed, [&](int id) { return std::ranges::binary_search(done, id); });
   std::vector<int> ended;
   std::ranges::set_union(done, failed, std::back_inserter(ended));
-  auto next = ended.begin();
   for (const SweepRun& run : runs) {
-    if (next != ended.end() && *next == run.id) {
-      ++next;
-    } else {
-      open.push_back(run.id);
-    }
+    if (!std::ranges::binary_search(ended, run.id)) open.push_back(run.id);
   }
+  wanted = open;
+  for (const int id : failed) {
+    const auto failure = folder.failure(id);
+    if (!failure || !failure->is_final()) wanted.push_back(id);
+  }
+  std::ranges::sort(wanted);
 }
 
 std::string name_of(const SweepRun& run) {
@@ -222,13 +220,15 @@ int execute_sweep(const SweepFolder& folder, int processes, ProgressStyle style)
   catch_interrupts();
   Executor executor(folder, processes, style);
   executor.run();
-  if (style != ProgressStyle::None) print_state(folder);
   const SweepState state(folder);
-  if (interrupted() && state.done.size() < state.runs.size()) {
+  const bool complete = state.done.size() == state.runs.size();
+  const bool failed = !complete && !interrupted();
+  if (style != ProgressStyle::None || failed) print_state(folder);
+  if (!complete && interrupted()) {
     std::fputs("clatter: interrupted; the same command continues the sweep\n", stderr);
     return kInterrupted;
   }
-  return state.done.size() == state.runs.size() && !executor.broken() ? kOk : kFailed;
+  return complete && !executor.broken() ? kOk : kFailed;
 }
 
 }  // namespace clatter

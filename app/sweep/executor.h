@@ -7,10 +7,11 @@ namespace clatter {
 
 /// The runs of a sweep by their state. Each has its numbers in order.
 struct SweepState {
-  std::vector<SweepRun> runs;
+  std::vector<int> failed;  ///< runs with a recorded failure and no result
   std::vector<int> done;    ///< runs with a result
-  std::vector<int> failed;  ///< runs with a recorded failure
+  std::vector<SweepRun> runs;
   std::vector<int> open;    ///< all others
+  std::vector<int> wanted;  ///< open runs, and failed runs that can succeed when repeated
 
   /// The state of a folder.
   explicit SweepState(const SweepFolder& folder);

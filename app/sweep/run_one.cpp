@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 #include <thread>
 
 #include "app/runs/measure_run.h"
@@ -40,6 +41,15 @@ static MeasureOptions options_of(const SweepFolder& folder, int id, ProgressStyl
   return options;
 }
 
+// The fix for a checkpoint that cannot be used is another than that of `clatter measure --resume`.
+static SweepFailure failure_of(const UserError& error, const std::string& checkpoint) {
+  if (checkpoint.empty() || !std::string_view(error.what()).starts_with(checkpoint + ':')) {
+    return {kWrongUse, error.what()};
+  }
+  return {kWrongUse,
+          checkpoint + ": " + error.problem() + "; remove it, and start the sweep again"};
+}
+
 // Measures, and turns an error into the reason of the failure.
 static SweepFailure attempt(const MeasureOptions& options) {
   try {
@@ -47,7 +57,7 @@ static SweepFailure attempt(const MeasureOptions& options) {
   } catch (const Interrupted&) {
     return {kInterrupted, ""};
   } catch (const UserError& error) {
-    return {kWrongUse, error.what()};
+    return failure_of(error, options.checkpoints.resume);
   } catch (const PhysicalStop& error) {
     return {kPhysicalStop, error.what()};
   } catch (const std::bad_alloc&) {

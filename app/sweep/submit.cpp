@@ -30,12 +30,7 @@ std::string shell_word(const std::string& text) {
 
 // Runs without result in groups of this size, each as a word such as "17,20-25".
 std::vector<std::string> chunks_of(const SweepFolder& folder, std::size_t size) {
-  const SweepState state(folder);
-  std::vector<int> open = state.open;
-  for (const int id : state.failed) {
-    if (!folder.failure(id)->is_final()) open.push_back(id);
-  }
-  std::ranges::sort(open);
+  const std::vector<int> open = SweepState(folder).wanted;
   std::vector<std::string> chunks;
   for (std::size_t begin = 0; begin < open.size(); begin += size) {
     const std::size_t end = std::min(begin + size, open.size());
@@ -88,7 +83,7 @@ std::string parallel_line(const SweepFolder& folder, int chunk) {
 
 std::filesystem::path write_batch_script(const SweepFolder& folder, const TaskLimits& limits) {
   constexpr std::size_t kMostTasks = 1000;  // Slurm's default is 1001
-  const std::size_t open = SweepState(folder).runs.size() - folder.done().size();
+  const std::size_t open = SweepState(folder).wanted.size();
   const std::size_t chunk = limits.chunk > 0 ? static_cast<std::size_t>(limits.chunk)
                                              : (open + kMostTasks - 1) / kMostTasks;
   const std::vector<std::string> chunks = chunks_of(folder, std::max<std::size_t>(1, chunk));

@@ -203,6 +203,17 @@ std::vector<std::vector<std::size_t>> groups_of(const toml::table& root,
   return groups;
 }
 
+// A key has one meaning in a sweep: [set] and [axes] give it once in all.
+void require_distinct_keys(const std::vector<Entry>& set, const std::vector<Entry>& axes) {
+  std::set<std::string> seen;
+  for (const auto* entries : {&set, &axes}) {
+    for (const Entry& entry : *entries) {
+      if (seen.insert(entry.key).second) continue;
+      refuse(entry.place, in_quotes(entry.key) + " is given twice", "remove one");
+    }
+  }
+}
+
 void read_axes(const toml::table& root, const std::string& file, Sweep& sweep) {
   const std::vector<Entry> axes = flat_entries(root, "axes", file);
   for (const Entry& axis : axes) require_no_start_file(axis);
@@ -356,7 +367,9 @@ Sweep read_sweep(const std::string& text, const std::string& file) {
   reader.value("until", sweep.until, above(0.0));
   read_seeds(root, file, sweep);
   read_accuracy(root, file, sweep);
-  for (const Entry& entry : flat_entries(root, "set", file)) {
+  const std::vector<Entry> set = flat_entries(root, "set", file);
+  require_distinct_keys(set, flat_entries(root, "axes", file));
+  for (const Entry& entry : set) {
     require_no_start_file(entry);
     sweep.set.push_back({entry.key, toml_text(*entry.value)});
   }

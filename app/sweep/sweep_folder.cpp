@@ -5,12 +5,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "app/runs/picture_scene.h"
@@ -19,6 +21,7 @@
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
 #include "engine/scene/scene_document.h"
+#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
 #include "engine/whole_number.h"
@@ -32,21 +35,25 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kLargestSweep = 1'000'000;
 constexpr std::size_t kLargestManifest = 1'000'000'000;
 
+constexpr const char* kManifestAdvice = "restore the file, or start the sweep in another folder";
+
 std::string line_of(const SweepRun& run) {
   Json settings = Json::object();
   for (const Override& setting : run.settings) settings[setting.key] = setting.value;
   return Json{{"id", run.id}, {"set", settings}, {"seed", run.seed}}.dump() + '\n';
 }
 
-SweepRun run_in(const std::string& line, const std::string& manifest) {
+// The run of a line of the manifest. `id` is the number of the line.
+SweepRun run_in(const std::string& line, int id, const std::string& manifest) {
   try {
     const Json json = Json::parse(line);
     SweepRun run{json.at("id"), {}, json.at("seed")};
     for (const auto& [key, value] : json.at("set").items()) run.settings.push_back({key, value});
-    return run;
-  } catch (const nlohmann::json::exception& error) {
-    throw RunError(manifest + " is damaged: " + error.what());
+    if (run.id == id) return run;
+  } catch (const nlohmann::json::exception&) {  // reported below
   }
+  throw RunError(
+      fmt::format("{} is damaged: line {} is not run {}; {}", manifest, id, id, kManifestAdvice));
 }
 
 // The same text for the same run, in any order of the axes.
@@ -69,11 +76,27 @@ bool is_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, ignored);
 }
 
+// Whether a folder is absent or empty, or has a sweep, which may have been killed while it made the
+// folder. The folder of the locks is made first.
+bool can_hold_sweep(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder, ignored)) return true;
+  if (is_file(folder / "manifest.jsonl") || is_file(folder / "runs/locks")) return true;
+  if (!std::filesystem::is_directory(folder, ignored)) return false;
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder, ignored),
+                             [](const auto& entry) { return entry.path().filename() == "runs"; });
+}
+
 // A scene beside the sweep file has precedence over the gallery.
 SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
   const auto beside = std::filesystem::path(sweep_file).parent_path() / sweep.scene;
   return find_any_scene(is_file(beside) ? beside.string() : sweep.scene);
 }
+
+// Names in the folder of a sweep that a start file cannot have.
+constexpr std::array<std::string_view, 10> kOwnNames = {
+    "scene.toml", "sweep.toml", "manifest.jsonl", "runs",     "results",
+    "failed",     "table.csv",  "table.jsonl",    "table.h5", "slurm"};
 
 // A file that every run needs, with its name in the sweep's folder.
 struct Input {
@@ -90,10 +113,15 @@ std::vector<Input> inputs_of(const SceneText& scene) {
   if (scene.origin == Origin::Gallery || name.empty() || name.is_absolute() || !is_file(file)) {
     return inputs;
   }
-  if (*name.begin() == "..") {
-    throw UserError(place_of(root, "particles.start.file", scene.file),
-                    "the start file is not below the folder of the scene",
+  const std::filesystem::path first = *name.lexically_normal().begin();
+  const Place place = place_of(root, "particles.start.file", scene.file);
+  if (first == "..") {
+    throw UserError(place, "the start file is not below the folder of the scene",
                     "copy it there, or give its absolute path");
+  }
+  if (std::ranges::find(kOwnNames, first) != std::end(kOwnNames)) {
+    throw UserError(place, "the folder of a sweep has its own " + in_quotes(first.string()),
+                    "rename the start file, or give its absolute path");
   }
   inputs.push_back({name, read_file(file.string(), std::numeric_limits<int>::max(), "")});
   return inputs;
@@ -129,7 +157,7 @@ void require_same_sweep(const SweepFolder& folder, const Sweep& sweep,
 }  // namespace
 
 bool SweepFailure::is_final() const {
-  return code == kPhysicalStop || code == kWrongUse;
+  return code == kPhysicalStop;
 }
 
 SweepFolder::SweepFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
@@ -144,24 +172,22 @@ SweepFolder SweepFolder::make(const std::string& text, const std::string& file,
   const SceneText scene = scene_of(sweep, file);
   check_entries(sweep, scene, text, file);
   const std::vector<Input> inputs = inputs_of(scene);
-  std::error_code ignored;
-  if (std::filesystem::exists(folder, ignored) && !is_file(folder / "scene.toml") &&
-      !(std::filesystem::is_directory(folder, ignored) &&
-        std::filesystem::is_empty(folder, ignored))) {
+  if (!can_hold_sweep(folder)) {
     throw UserError({"--out", 0, 0}, folder.string() + " exists and is not the folder of a sweep",
                     "give another name");
   }
-  make_folder(folder, "--out");
-  for (const char* inner : {"runs", "results", "failed"}) make_folder(folder / inner, "--out");
+  for (const auto& place : {folder, folder / "runs"}) make_folder(place, "--out");
   SweepFolder made;
   made.folder_ = folder;
   if (!made.lock(0)) {
     throw UserError({"--out", 0, 0}, "another sweep runs in " + folder.string(),
                     "wait for its end, or give another folder");
   }
-  if (is_file(folder / "manifest.jsonl")) {
+  for (const char* inner : {"results", "failed"}) make_folder(folder / inner, "--out");
+  if (!made.runs().empty()) {
     require_same_sweep(made, sweep, inputs, file);
   } else {
+    std::error_code ignored;
     for (const Input& input : inputs) {
       std::filesystem::create_directories((folder / input.name).parent_path(), ignored);
       write_file(folder / input.name, input.bytes);
@@ -179,11 +205,21 @@ Sweep SweepFolder::sweep() const {
 
 std::vector<SweepRun> SweepFolder::runs() const {
   const std::string manifest = folder_ / "manifest.jsonl";
+  // Before the manifest is read, because another process may add runs.
+  int last = 0;
+  for (const auto& ids : {done(), failed(), ids_in("runs", ".checkpoint")}) {
+    if (!ids.empty()) last = std::max(last, ids.back());
+  }
   std::vector<SweepRun> runs;
-  if (!is_file(manifest)) return runs;
-  std::istringstream lines(read_file(manifest, kLargestManifest, ""));
-  for (std::string line; std::getline(lines, line);) runs.push_back(run_in(line, manifest));
-  return runs;
+  if (is_file(manifest)) {
+    std::istringstream lines(read_file(manifest, kLargestManifest, ""));
+    for (std::string line; std::getline(lines, line);) {
+      runs.push_back(run_in(line, static_cast<int>(runs.size()) + 1, manifest));
+    }
+  }
+  if (last <= static_cast<int>(runs.size())) return runs;
+  throw RunError(fmt::format("{} is damaged: it has no run {}, which has begun; {}", manifest, last,
+                             kManifestAdvice));
 }
 
 SweepRun SweepFolder::run(int id) const {
@@ -195,16 +231,18 @@ SweepRun SweepFolder::run(int id) const {
     throw UserError({folder_.string()}, fmt::format("there is no run {}", id),
                     fmt::format("give a number from 1 to {}", k));
   }
-  return run_in(line, manifest);
+  return run_in(line, id, manifest);
 }
 
 std::optional<SweepFailure> SweepFolder::failure(int id) const {
   const auto path = file("failed", id, ".json");
   if (!is_file(path)) return std::nullopt;
-  const Json json = Json::parse(read_file(path.string(), kLargestSweep, ""), nullptr, false);
-  if (!json.is_object()) return SweepFailure{kFailed, "unknown"};
-  return SweepFailure{json.value("code", static_cast<int>(kFailed)),
-                      json.value("reason", std::string("unknown"))};
+  try {
+    const Json json = Json::parse(read_file(path.string(), kLargestSweep, ""));
+    return SweepFailure{json.at("code"), json.at("reason")};
+  } catch (const nlohmann::json::exception&) {
+    return SweepFailure{kFailed, "unknown"};
+  }
 }
 
 void SweepFolder::add(const std::vector<SweepPoint>& points,
@@ -230,8 +268,8 @@ void SweepFolder::add(const std::vector<SweepPoint>& points,
 
 void SweepFolder::publish(int id) const {
   rename_synced(part(id), result(id));
+  forget_failure(id);
   std::error_code ignored;
-  std::filesystem::remove(file("failed", id, ".json"), ignored);
   std::filesystem::remove(checkpoint(id), ignored);
   std::filesystem::remove(previous_checkpoint(checkpoint(id)), ignored);
 }
@@ -241,6 +279,11 @@ void SweepFolder::fail(int id, const SweepFailure& failure) const {
   std::filesystem::remove(part(id), ignored);
   write_file(file("failed", id, ".json"),
              Json{{"code", failure.code}, {"reason", failure.reason}}.dump() + '\n');
+}
+
+void SweepFolder::forget_failure(int id) const {
+  std::error_code ignored;
+  std::filesystem::remove(file("failed", id, ".json"), ignored);
 }
 
 bool SweepFolder::lock(int id) {
@@ -264,19 +307,22 @@ bool SweepFolder::set_lock(int id, short type) const {
   lock.l_whence = SEEK_SET;
   lock.l_start = id;
   lock.l_len = 1;
-  return fcntl(locks_.get(), F_SETLK, &lock) == 0;
+  if (fcntl(locks_.get(), F_SETLK, &lock) == 0) return true;
+  if (errno == EACCES || errno == EAGAIN) return false;
+  throw RunError("cannot lock " + (folder_ / "runs/locks").string() + ": " + std::strerror(errno) +
+                 "; put the folder on a file system with locks");
 }
 
 std::filesystem::path SweepFolder::file(const char* folder, int id, const char* suffix) const {
   return folder_ / folder / (std::to_string(id) + suffix);
 }
 
-std::vector<int> SweepFolder::ids_in(const char* folder) const {
+std::vector<int> SweepFolder::ids_in(const char* folder, const char* suffix) const {
   std::vector<int> ids;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder, ignored)) {
     const auto id = whole_number<int>(entry.path().stem().string());
-    if (id && entry.path().extension() == ".json") ids.push_back(*id);
+    if (id && *id > 0 && entry.path() == file(folder, *id, suffix)) ids.push_back(*id);
   }
   std::ranges::sort(ids);
   return ids;

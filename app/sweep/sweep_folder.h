@@ -23,7 +23,8 @@ struct SweepFailure {
   int code = 0;  ///< exit code, see exit_code.h
   std::string reason;
 
-  /// Whether the same run would fail again: a physical stop or a wrong scene.
+  /// Whether the same run would fail again: a physical stop. Other reasons may pass, such as a full
+  /// disk or a missing start file.
   bool is_final() const;
 };
 
@@ -58,14 +59,14 @@ class SweepFolder {
 
   /// The content of the sweep file.
   Sweep sweep() const;
-  /// All runs. Run ID has the index ID - 1.
+  /// All runs. Run ID has the index ID - 1. Throws RunError if the manifest is damaged.
   std::vector<SweepRun> runs() const;
   /// A run. Throws UserError if there is none of this number.
   SweepRun run(int id) const;
   /// The numbers of the runs with a result, in order.
-  std::vector<int> done() const { return ids_in("results"); }
+  std::vector<int> done() const { return ids_in("results", ".json"); }
   /// The numbers of the failed runs, in order.
-  std::vector<int> failed() const { return ids_in("failed"); }
+  std::vector<int> failed() const { return ids_in("failed", ".json"); }
   /// The failure of a run. Absent if it has not failed.
   std::optional<SweepFailure> failure(int id) const;
 
@@ -75,16 +76,18 @@ class SweepFolder {
   void publish(int id) const;
   /// Records a failure, and removes the part of the run.
   void fail(int id, const SweepFailure& failure) const;
+  /// Removes the record of a failure before the run is repeated.
+  void forget_failure(int id) const;
 
   /// Locks a run, or with id 0 the sweep, until unlock() or the end of this process. False if
-  /// another process has the lock. Throws RunError if the folder is not writable.
+  /// another process has the lock. Throws RunError if the folder is not writable or has no locks.
   bool lock(int id);
   void unlock(int id);
 
  private:
   SweepFolder() = default;
   std::filesystem::path file(const char* folder, int id, const char* suffix) const;
-  std::vector<int> ids_in(const char* folder) const;
+  std::vector<int> ids_in(const char* folder, const char* suffix) const;
   bool set_lock(int id, short type) const;
 
   std::filesystem::path folder_;

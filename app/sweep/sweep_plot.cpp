@@ -55,7 +55,7 @@ void require_column(const std::string& column, const SweepTable& table, const ch
       near.empty() ? "give a name of the first line of table.csv" : "did you mean '" + near + "'?");
 }
 
-// Reads a quantity such as 1/theory.psi.
+// Reads a quantity such as 1/theory.psi. `flag` is the name for errors.
 Product product_in(const std::string& text, const SweepTable& table, const char* flag) {
   Product factors;
   for (std::size_t begin = 0; begin <= text.size();) {

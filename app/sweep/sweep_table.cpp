@@ -160,10 +160,16 @@ Json mean_profile(const Replicas& replicas) {
   return profile;
 }
 
-Json read_result(const std::filesystem::path& file) {
+[[noreturn]] void refuse_damaged(const std::string& file) {
+  throw RunError(file + " is damaged; remove it, and start the sweep again");
+}
+
+Json read_result(const std::filesystem::path& file, std::uint64_t seed) {
   Json result = Json::parse(read_file(file.string(), kLargestResult, ""), nullptr, false);
-  if (result.is_object() && result.contains("state_hash")) return result;
-  throw RunError(file.string() + " is damaged; remove it, and start the sweep again");
+  const bool is_complete = result.is_object() && result.value("seed", Json()) == Json(seed) &&
+                           result.contains("state_hash") && result.contains("program");
+  if (!is_complete) refuse_damaged(file.string());
+  return result;
 }
 
 std::string csv_cell(const Json& value) {
@@ -277,21 +283,31 @@ SweepTable read_table(const SweepFolder& folder) {
   const std::set<int> has_result(done.begin(), done.end());
   // Points in the order of their first run.
   std::map<std::string, std::size_t> index_of;
-  std::vector<std::pair<SweepPoint, std::vector<int>>> points;
+  std::vector<std::pair<SweepPoint, std::vector<SweepRun>>> points;
   for (const SweepRun& run : folder.runs()) {
     if (!has_result.contains(run.id)) continue;
     const auto [at, is_new] = index_of.emplace(settings_text(run.settings), points.size());
     if (is_new) points.push_back({run.settings, {}});
-    points[at->second].second.push_back(run.id);
+    points[at->second].second.push_back(run);
   }
   SweepTable table;
   std::set<std::string> known;
-  for (const auto& [point, ids] : points) {
+  for (const auto& [point, runs] : points) {
     Replicas replicas;
-    for (const int id : ids) replicas.push_back(read_result(folder.result(id)));
+    for (const SweepRun& run : runs) {
+      replicas.push_back(read_result(folder.result(run.id), run.seed));
+    }
     table.points.push_back(point);
-    table.rows.push_back(row_of(point, replicas));
-    table.profiles.push_back(mean_profile(replicas));
+    try {
+      table.rows.push_back(row_of(point, replicas));
+      table.profiles.push_back(mean_profile(replicas));
+    } catch (const Json::exception&) {
+      std::string files;
+      for (const SweepRun& run : runs) {
+        files += (files.empty() ? "" : " or ") + folder.result(run.id).string();
+      }
+      refuse_damaged(files);
+    }
     for (const auto& [name, value] : table.rows.back().items()) {
       if (known.insert(name).second) table.columns.push_back(name);
     }

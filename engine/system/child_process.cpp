@@ -188,8 +188,11 @@ std::string ChildProcess::last_words() const {
   std::string text = read_at(errors_, size - length, length);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (text.empty() && hung_) return "it does not read its input";
-  if (text.empty() && WIFSIGNALED(status_)) return strsignal(WTERMSIG(status_));
-  return text;
+  return text.empty() ? signal() : text;
+}
+
+std::string ChildProcess::signal() const {
+  return WIFSIGNALED(status_) ? strsignal(WTERMSIG(status_)) : "";
 }
 
 }  // namespace clatter

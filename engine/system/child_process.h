@@ -54,6 +54,8 @@ class ChildProcess {
   /// The end of its output on standard error. Without output, the reason of its end: it hung, or
   /// the name of a signal.
   std::string last_words() const;
+  /// The name of the signal that has ended it; empty: none.
+  std::string signal() const;
 
  private:
   friend void wait_for_any(std::span<const ChildProcess* const>, std::chrono::milliseconds);

@@ -317,6 +317,202 @@ TEST_CASE("Sweep: a folder belongs to one sweep at a time") {
   CHECK(says(none.err, "other: this is not the folder of a sweep; start one with `clatter sweep"));
 }
 
+TEST_CASE("Sweep: a folder that a killed sweep has begun is completed, and no file is replaced") {
+  const Shell shell;
+  write_sweep(shell);
+  for (const char* begun : {"mkdir -p d/runs", "mkdir -p d/runs d/results && touch d/runs/locks",
+                            "mkdir -p d/runs && touch d/runs/locks d/.scene.toml.17-0"}) {
+    CAPTURE(std::string(begun));
+    REQUIRE(shell.run(begun).code == 0);
+    const Outcome outcome = shell.run("clatter sweep s.toml --out d --prepare");
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    shell.run("rm -r d");
+  }
+  shell.write("scene.toml", "# of the user\n");
+  const Outcome outcome = shell.run("clatter sweep s.toml --out .");
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "--out: . exists and is not the folder of a sweep; give another name"));
+  CHECK(shell.read("scene.toml") == "# of the user\n");
+}
+
+TEST_CASE("Sweep: the start file of a scene is copied into the folder, and nowhere else") {
+  const Shell shell;
+  shell.write("a.toml", kScene);
+  shell.write("s.toml", "scene = \"a.toml\"\n");
+  REQUIRE(shell.run("clatter measure a.toml --quiet --until 3 --save-state x.csv").code == 0);
+  shell.run(
+      "mkdir -p in/sub up; mv a.toml s.toml in; cp x.csv in/sub/y.csv; cp x.csv in/table.csv");
+  const auto sweep = [&](const std::string& start, const std::string& out) {
+    shell.run("sed -i 's|^particles.*|particles = { start = { layout = \"file\", file = \"" +
+              start + "\" } }|' in/a.toml");
+    return shell.run("clatter sweep in/s.toml --out " + out + " --quiet");
+  };
+  const Outcome below = sweep("sub/y.csv", "d");
+  CHECK_MESSAGE(below.code == 0, below.err);
+  CHECK(shell.read("d/sub/y.csv") == shell.read("x.csv"));
+  const Outcome beside = sweep("sub/../../x.csv", "up/d");
+  CHECK(beside.code == 2);
+  CHECK(says(beside.err, "the start file is not below the folder of the scene; copy it there"));
+  const Outcome own = sweep("table.csv", "up/d");
+  CHECK(own.code == 2);
+  CHECK(says(own.err, "the folder of a sweep has its own \"table.csv\"; rename the start file"));
+  CHECK(shell.run("ls up").out == "");
+}
+
+TEST_CASE("Sweep: a failure that can pass is repeated, and its record is removed") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter measure a.toml --quiet --until 3 --save-state x.csv").code == 0);
+  shell.run(
+      "sed -i \"s|^particles.*|particles.start = { layout = \\\"file\\\", file = "
+      "\\\"$PWD/x.csv\\\" }|\" a.toml");
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare && mv x.csv y.csv").code == 0);
+  CHECK(shell.run("clatter sweep run d 1-2").code == 2);
+  const Outcome missing = shell.run("clatter sweep status d");
+  CHECK(says(missing.err,
+             "run 2 (particles.restitution=0.7 walls.right.temperature=0.5, seed 2) "
+             "failed: "));
+  CHECK(says(missing.err, "there is no file"));
+  const Outcome found = shell.run("mv y.csv x.csv; clatter sweep s.toml --out d");
+  CHECK(found.code == 0);
+  CHECK(found.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
+  CHECK(shell.run("ls d/failed").out == "");
+}
+
+TEST_CASE("Sweep: a damaged checkpoint is named, and its run starts again without it") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare; echo x > d/runs/3.checkpoint").code ==
+          0);
+  const Outcome damaged = shell.run("clatter sweep s.toml --out d");
+  CHECK(damaged.code == 1);
+  CHECK(says(damaged.err,
+             "d/runs/3.checkpoint: this is not a checkpoint; remove it, and start the "
+             "sweep again\n"));
+  const Outcome removed = shell.run("rm d/runs/3.checkpoint; clatter sweep s.toml --out d");
+  CHECK(removed.code == 0);
+  CHECK(removed.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
+}
+
+TEST_CASE("Sweep: failures are printed with --quiet too") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/seeds.*/accuracy = 0.1\\naccuracy_of = \"nothing\"/' s.toml");
+  const Outcome outcome = shell.run("clatter sweep s.toml --out d --quiet");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "sweep: 4 runs: 0 with result, 4 failed, 0 open"));
+  CHECK(says(outcome.err, "nothing"));
+}
+
+TEST_CASE("Sweep: a process without a result is named with the reason of its end") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 3e6/' a.toml");
+  // The failure of an earlier start does not count as the end of the run. The process has reported
+  // its progress before it is killed.
+  shell.run(
+      "clatter sweep s.toml --out d --prepare; echo '{\"code\":1,\"reason\":\"old\"}' > "
+      "d/failed/1.json");
+  const Outcome killed = shell.run(
+      "clatter sweep s.toml --out d --threads 1 --progress none & "
+      "until pgrep -f \"sweep run $(pwd -P)/d \" > child; do sleep 0.05; done; sleep 2; "
+      "kill -9 $(cat child); sleep 0.5; kill -INT $!; wait");
+  CHECK_MESSAGE(killed.err ==
+                    "clatter: run 1 (particles.restitution=0.7 walls.right.temperature=0.5, seed "
+                    "4) has ended without a result: Killed\n"
+                    "clatter: interrupted; the same command continues the sweep\n",
+                killed.err);
+  CHECK(shell.run("ls d/failed").out == "");
+}
+
+TEST_CASE("Sweep: a chart without points is refused, and series are the values of one column") {
+  const Shell shell;
+  write_sweep(shell);
+  const auto refused = [&](const std::string& flags, const std::string& message) {
+    const Outcome outcome = shell.run("clatter sweep plot d --out c.svg --x replicas " + flags);
+    CHECK(outcome.code == 2);
+    CHECK_MESSAGE(says(outcome.err, message), outcome.err);
+    CHECK(shell.run("ls c.svg").code != 0);
+  };
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare").code == 0);
+  refused("--y temperature", "d: no run has a result; measure the runs first");
+  REQUIRE(shell.run("clatter sweep s.toml --out d").code == 0);
+  refused("--y temperature --by 'replicas*2'", "--by: the table has no column 'replicas*2'");
+  const std::string empty = "d: the chart has no points; give columns of numbers";
+  refused("--y program", empty);
+  refused("--y temperature/0", empty);
+  refused("--y 0*temperature --log", empty);
+  CHECK(shell.run("clatter sweep plot d --out c.svg --x replicas --y temperature").code == 0);
+}
+
+TEST_CASE("Sweep: a folder can have the name of a flag") {
+  const Shell shell;
+  write_sweep(shell);
+  const Outcome outcome = shell.run("clatter sweep s.toml --out=--quiet");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err == "sweep: 12 runs: 12 with result, 0 failed, 0 open\n");
+}
+
+TEST_CASE("Sweep: damaged and foreign files are named, and never counted") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/seeds.*/seeds = [4, 2]/' s.toml");
+  REQUIRE(shell.run("clatter sweep s.toml --out calm --quiet && clatter sweep collect calm").code ==
+          0);
+  const auto damaged = [&](const std::string& damage, const std::string& line) {
+    REQUIRE(shell.run("rm -rf d; cp -r calm d; " + damage).code == 0);
+    return shell.run(line);
+  };
+  const std::string start = "clatter sweep s.toml --out d", collect = "clatter sweep collect d";
+  // Files that are no records of this sweep.
+  for (const char* stranger :
+       {"cp d/results/1.json d/results/01.json", "cp d/results/1.json d/results/-1.json",
+        "mkdir d/failed/3.json", "echo '{\"code\":\"x\"}' > d/failed/3.json",
+        "echo '{\"code\":3,\"reason\":\"x\"}' > d/failed/3.json"}) {
+    CAPTURE(std::string(stranger));
+    for (const char* first : {"true; ", "rm d/results/2.json; "}) {
+      const Outcome outcome = damaged(first + std::string(stranger), start);
+      CHECK(outcome.code == 0);
+      CHECK(outcome.err == "sweep: 8 runs: 8 with result, 0 failed, 0 open\n");
+      CHECK(shell.run(collect + " && cmp d/table.csv calm/table.csv").code == 0);
+    }
+  }
+  // A manifest without all runs would give other settings to their results.
+  const std::string advice = "restore the file, or start the sweep in another folder";
+  for (const char* damage : {": > d/manifest.jsonl", "rm d/manifest.jsonl",
+                             "rm d/manifest.jsonl d/results/*; echo > d/runs/2.checkpoint",
+                             "rm d/results/*; echo '{}' > d/failed/99.json"}) {
+    CAPTURE(std::string(damage));
+    const Outcome outcome = damaged(damage, start);
+    CHECK(outcome.code == 1);
+    CHECK(says(outcome.err, "d/manifest.jsonl is damaged: it has no run "));
+    CHECK(says(outcome.err, advice));
+    CHECK(shell.run("cmp d/sweep.toml calm/sweep.toml").code == 0);
+  }
+  for (const char* damage :
+       {"tac calm/manifest.jsonl > d/manifest.jsonl",
+        "head -c 100 calm/manifest.jsonl > "
+        "d/manifest.jsonl",
+        "echo '{\"id\":\"1\"}' > d/manifest.jsonl", "sed -i 's/\"0.7\"/0.7/' d/manifest.jsonl"}) {
+    CAPTURE(std::string(damage));
+    const Outcome outcome = damaged(damage, "clatter sweep status d");
+    CHECK(outcome.code == 1);
+    CHECK(says(outcome.err, "d/manifest.jsonl is damaged: line "));
+    CHECK(says(outcome.err, advice));
+  }
+  // Results.
+  for (const char* damage : {": > d/results/3.json", "echo '{\"state_hash\":1}' > d/results/3.json",
+                             "sed -i 's/\"profile\": *{/\"profile\":4, \"x\": {/' d/results/3.json",
+                             "cp d/results/2.json d/results/3.json"}) {
+    CAPTURE(std::string(damage));
+    const Outcome outcome = damaged(damage, collect);
+    CHECK(outcome.code == 1);
+    CHECK_MESSAGE(says(outcome.err, "d/results/3.json"), outcome.err);
+    CHECK_MESSAGE(says(outcome.err, "is damaged; remove it, and start the sweep again"),
+                  outcome.err);
+  }
+}
+
 TEST_CASE("Sweep: a single run is measured by hand, once") {
   const Shell shell;
   write_sweep(shell);
@@ -332,6 +528,10 @@ TEST_CASE("Sweep: a single run is measured by hand, once") {
   CHECK(wrong.code == 2);
   CHECK(says(wrong.err, "d: there is no run 13; give a number from 1 to 12"));
   CHECK(says(shell.run("clatter sweep run d 5-3").err, "ID: '5-3' is no run; give numbers"));
+  CHECK(says(shell.run("clatter sweep run d ''").err, "ID: '' is no run; give numbers"));
+  // A long list of numbers costs no memory.
+  CHECK(says(shell.run("ulimit -v 1000000; clatter sweep run d 12-2147483647").err,
+             "there is no run 13; give a number from 1 to 12"));
 }
 
 }  // namespace clatter

@@ -112,6 +112,9 @@ TEST_CASE("Sweep file: each mistake is refused at its place") {
       {"replicas = 1000\n[axes]\na = { from = 1, to = 1000000, count = 1000 }\n"
        "b = { from = 1, to = 1000000, count = 1000 }\n",
        "s.toml:3:1: the sweep has 1e+09 runs; give fewer values; a sweep has at most 100000 runs"},
+      {"[axes]\n\"a.b\" = [1, 2]\n[axes.a]\nb = [3, 4]\n",
+       "s.toml:5:1: \"a.b\" is given twice; remove one"},
+      {"[set]\na = 1\n[axes]\na = [3, 4]\n", "s.toml:5:1: \"a\" is given twice; remove one"},
       {"[set]\n\"particles.cout\" = 3\n", "s.toml:3:1: unknown key 'cout'; did you mean 'count'?"},
       {"[set]\n\"particles.start.file\" = \"a.csv\"\n",
        "s.toml:3:1: a sweep cannot set \"particles.start.file\"; name the start file in the scene, "
