@@ -435,7 +435,7 @@ TEST_CASE("Sweep: a chart without points is refused, and series are the values o
     CHECK(shell.run("ls c.svg").code != 0);
   };
   REQUIRE(shell.run("clatter sweep s.toml --out d --prepare").code == 0);
-  refused("--y temperature", "d: no run has a result; measure the runs first");
+  refused("--y temperature", "d: the sweep has no results; measure it with");
   REQUIRE(shell.run("clatter sweep s.toml --out d").code == 0);
   refused("--y temperature --by 'replicas*2'", "--by: the table has no column 'replicas*2'");
   const std::string empty = "d: the chart has no points; give columns of numbers";
