@@ -219,7 +219,7 @@ int execute_sweep(const SweepFolder& folder, int processes, ProgressStyle style)
   catch_interrupts();
   Executor executor(folder, processes, style);
   executor.run();
-  const SweepState state(folder);
+  const SweepState state(SweepFolder(folder.path()));  // throws if the folder has been removed
   const bool complete = state.done.size() == state.runs.size();
   const bool failed = !complete && !interrupted();
   if (style != ProgressStyle::None || failed) print_state(folder);

@@ -432,6 +432,19 @@ TEST_CASE("Sweep: a chart without points is refused, and series are the values o
   CHECK(shell.run("clatter sweep plot d --out c.svg --x replicas --y temperature").code == 0);
 }
 
+TEST_CASE("Sweep: a folder that is removed during the sweep is not a success") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 1e5/' a.toml");
+  // The last process has ended before the sweep looks at the folder.
+  const Outcome outcome = shell.run(
+      "clatter sweep s.toml --out d --quiet --threads 1 & until ls d/results/1.json; do sleep "
+      "0.01; "
+      "done; rm -rf d; kill -INT $!; wait $!");
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "d: this is not the folder of a sweep"));
+}
+
 TEST_CASE("Sweep: a folder can have the name of a flag") {
   const Shell shell;
   write_sweep(shell);
