@@ -81,7 +81,11 @@ bool can_hold_sweep(const std::filesystem::path& folder) {
 // A scene beside the sweep file has precedence over the gallery.
 SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
   const auto beside = std::filesystem::path(sweep_file).parent_path() / sweep.scene;
-  return find_any_scene(is_file(beside) ? beside.string() : sweep.scene);
+  if (is_file(beside)) return find_any_scene(beside.string());
+  SceneText scene = find_any_scene(sweep.scene);
+  if (scene.origin == Origin::Gallery) return scene;
+  throw UserError({sweep_file}, "the scene '" + sweep.scene + "' is not in the folder of this file",
+                  "give its path from there");
 }
 
 // Names in the folder of a sweep that a start file cannot have.

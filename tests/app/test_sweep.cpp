@@ -445,6 +445,18 @@ TEST_CASE("Sweep: a folder that is removed during the sweep is not a success") {
   CHECK(says(outcome.err, "d: this is not the folder of a sweep"));
 }
 
+TEST_CASE("Sweep: the scene is beside the sweep file or in the gallery") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("mkdir in; mv s.toml in");
+  const Outcome elsewhere = shell.run("clatter sweep in/s.toml --out d");
+  CHECK(elsewhere.code == 2);
+  CHECK(says(elsewhere.err,
+             "in/s.toml: the scene 'a.toml' is not in the folder of this file; give "
+             "its path from there"));
+  CHECK(shell.run("mv a.toml in; clatter sweep in/s.toml --out d --quiet").code == 0);
+}
+
 TEST_CASE("Sweep: a folder can have the name of a flag") {
   const Shell shell;
   write_sweep(shell);
