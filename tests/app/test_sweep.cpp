@@ -457,6 +457,20 @@ TEST_CASE("Sweep: the scene is beside the sweep file or in the gallery") {
   CHECK(shell.run("mv a.toml in; clatter sweep in/s.toml --out d --quiet").code == 0);
 }
 
+TEST_CASE("Sweep: a batch script names any folder that Slurm can read") {
+  const Shell shell;
+  write_sweep(shell);
+  const auto script = [&](const std::string& folder) {
+    shell.run("clatter sweep s.toml --prepare --out " + folder);
+    return shell.run("clatter sweep submit --slurm --dry-run " + folder);
+  };
+  CHECK(script("'a %a b'").code == 0);
+  CHECK(says(shell.read("a %a b/slurm/job.sh"), "/a %%a b/slurm/%a.log\"\n"));
+  const Outcome quotes = script("'a\"b'");
+  CHECK(quotes.code == 2);
+  CHECK(says(quotes.err, "a batch script cannot name this folder; rename it"));
+}
+
 TEST_CASE("Sweep: a folder can have the name of a flag") {
   const Shell shell;
   write_sweep(shell);
