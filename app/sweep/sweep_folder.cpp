@@ -312,8 +312,12 @@ std::filesystem::path SweepFolder::file(const char* folder, int id, const char* 
 
 std::vector<int> SweepFolder::ids_in(const char* folder, const char* suffix) const {
   std::vector<int> ids;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder, ignored)) {
+  std::error_code error;
+  const std::filesystem::directory_iterator entries(folder_ / folder, error);
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw RunError("cannot read " + (folder_ / folder).string() + ": " + error.message());
+  }
+  for (const auto& entry : entries) {
     const auto id = whole_number<int>(entry.path().stem().string());
     if (id && *id > 0 && entry.path() == file(folder, *id, suffix)) ids.push_back(*id);
   }

@@ -526,6 +526,10 @@ TEST_CASE("Sweep: damaged and foreign files are named, and never counted") {
     CHECK(says(outcome.err, "d/manifest.jsonl is damaged: line "));
     CHECK(says(outcome.err, advice));
   }
+  // A folder that cannot be read has an unknown number of runs.
+  const Outcome unreadable = damaged("rm -r d/results; touch d/results", collect);
+  CHECK(unreadable.code == 1);
+  CHECK(says(unreadable.err, "cannot read d/results: Not a directory"));
   // Results.
   for (const char* damage : {": > d/results/3.json", "echo '{\"state_hash\":1}' > d/results/3.json",
                              "sed -i 's/\"profile\": *{/\"profile\":4, \"x\": {/' d/results/3.json",
