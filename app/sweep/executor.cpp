@@ -122,8 +122,9 @@ class Executor {
     if (job.ended == job.ids.size() || interrupted()) return;
     broken_ = true;
     const int id = job.ids[job.ended];
-    std::string reason = job.program.message();
-    if (reason.empty()) reason = job.program.process().signal();
+    // The last message may be that of an earlier run.
+    std::string reason = job.program.process().signal();
+    if (reason.empty()) reason = job.program.message();
     if (reason.empty()) reason = fmt::format("exit code {}", code);
     std::fprintf(stderr, "%sclatter: %s has ended without a result: %s\n",
                  terminal_ ? "\r\033[K" : "",
