@@ -122,8 +122,9 @@ class Executor {
     if (job.ended == job.ids.size() || interrupted()) return;
     broken_ = true;
     const int id = job.ids[job.ended];
-    std::string reason = job.program.message();
-    if (reason.empty()) reason = job.program.process().signal();
+    // The last message may be that of an earlier run.
+    std::string reason = job.program.process().signal();
+    if (reason.empty()) reason = job.program.message();
     if (reason.empty()) reason = fmt::format("exit code {}", code);
     std::fprintf(stderr, "%sclatter: %s has ended without a result: %s\n",
                  terminal_ ? "\r\033[K" : "",
@@ -220,7 +221,7 @@ int execute_sweep(const SweepFolder& folder, int processes, ProgressStyle style)
   catch_interrupts();
   Executor executor(folder, processes, style);
   executor.run();
-  const SweepState state(folder);
+  const SweepState state(SweepFolder(folder.path()));  // throws if the folder has been removed
   const bool complete = state.done.size() == state.runs.size();
   const bool failed = !complete && !interrupted();
   if (style != ProgressStyle::None || failed) print_state(folder);

@@ -28,6 +28,18 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
+// The path of a file in an option of a batch script. Throws UserError if Slurm cannot read it.
+std::string option_path(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  if (text.find_first_of("\"\n\\") != text.npos) {
+    throw UserError({text}, "a batch script cannot name this folder",
+                    "rename it without quotation marks, backslashes and line breaks");
+  }
+  std::string escaped;  // % begins a replacement symbol
+  for (const char c : text) escaped += c == '%' ? std::string("%%") : std::string(1, c);
+  return escaped;
+}
+
 // Runs without result in groups of this size, each as a word such as "17,20-25".
 std::vector<std::string> chunks_of(const SweepFolder& folder, std::size_t size) {
   const std::vector<int> open = SweepState(folder).wanted;
@@ -104,7 +116,7 @@ std::filesystem::path write_batch_script(const SweepFolder& folder, const TaskLi
   option("--requeue");
   option("--signal=B:USR1@60");
   option("--open-mode=append");
-  option(fmt::format("--output=\"{}/%a.log\"", place.string()));
+  option(fmt::format("--output=\"{}/%a.log\"", option_path(place)));
   script += "chunks=(\n";
   for (const std::string& word : chunks) script += "  " + word + '\n';
   script += fmt::format(R"()

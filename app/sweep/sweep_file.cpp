@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -162,19 +163,19 @@ std::vector<std::vector<std::size_t>> groups_of(const toml::table& root,
   std::vector<std::size_t> leader(axes.size());
   for (std::size_t k = 0; k < axes.size(); ++k) leader[k] = k;
   const toml::node* zip = root.get("zip");
-  const Place place = place_of(root, "zip", file);
   const auto index_of = [&](const toml::node& name) {
     const std::string key(name.value_or(std::string_view()));
     const auto found = std::ranges::find(axes, key, &Entry::key);
     if (found == axes.end()) {
       refuse(place_of(name, file), toml_text(name) + " is not an axis", "name keys of [axes]");
     }
-    const auto index = static_cast<std::size_t>(found - axes.begin());
-    return index;
+    return static_cast<std::size_t>(found - axes.begin());
   };
   std::set<std::size_t> zipped;
-  if (zip && !zip->is_array())
-    refuse(place, "'zip' is not a list", "give lists of axes that vary together");
+  if (zip && !zip->is_array()) {
+    refuse(place_of(root, "zip", file), "'zip' is not a list",
+           "give lists of axes that vary together");
+  }
   if (zip) {
     for (const toml::node& names : *zip->as_array()) {
       if (!names.is_array() || names.as_array()->empty()) {

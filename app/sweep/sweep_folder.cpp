@@ -90,7 +90,11 @@ bool can_hold_sweep(const std::filesystem::path& folder) {
 // A scene beside the sweep file has precedence over the gallery.
 SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
   const auto beside = std::filesystem::path(sweep_file).parent_path() / sweep.scene;
-  return find_any_scene(is_file(beside) ? beside.string() : sweep.scene);
+  if (is_file(beside)) return find_any_scene(beside.string());
+  SceneText scene = find_any_scene(sweep.scene);
+  if (scene.origin == Origin::Gallery) return scene;
+  throw UserError({sweep_file}, "the scene '" + sweep.scene + "' is not in the folder of this file",
+                  "give its path from there");
 }
 
 // Names in the folder of a sweep that a start file cannot have.
@@ -319,8 +323,12 @@ std::filesystem::path SweepFolder::file(const char* folder, int id, const char* 
 
 std::vector<int> SweepFolder::ids_in(const char* folder, const char* suffix) const {
   std::vector<int> ids;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder, ignored)) {
+  std::error_code error;
+  const std::filesystem::directory_iterator entries(folder_ / folder, error);
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw RunError("cannot read " + (folder_ / folder).string() + ": " + error.message());
+  }
+  for (const auto& entry : entries) {
     const auto id = whole_number<int>(entry.path().stem().string());
     if (id && *id > 0 && entry.path() == file(folder, *id, suffix)) ids.push_back(*id);
   }

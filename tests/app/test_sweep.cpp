@@ -445,6 +445,45 @@ TEST_CASE("Sweep: a chart without points is refused, and series are the values o
   CHECK(shell.run("clatter sweep plot d --out c.svg --x replicas --y temperature").code == 0);
 }
 
+TEST_CASE("Sweep: a folder that is removed during the sweep is not a success") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("sed -i 's/duration = 30/duration = 1e5/' a.toml");
+  // The last process has ended before the sweep looks at the folder.
+  const Outcome outcome = shell.run(
+      "clatter sweep s.toml --out d --quiet --threads 1 & until ls d/results/1.json; do sleep "
+      "0.01; "
+      "done; rm -rf d; kill -INT $!; wait $!");
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "d: this is not the folder of a sweep"));
+}
+
+TEST_CASE("Sweep: the scene is beside the sweep file or in the gallery") {
+  const Shell shell;
+  write_sweep(shell);
+  shell.run("mkdir in; mv s.toml in");
+  const Outcome elsewhere = shell.run("clatter sweep in/s.toml --out d");
+  CHECK(elsewhere.code == 2);
+  CHECK(says(elsewhere.err,
+             "in/s.toml: the scene 'a.toml' is not in the folder of this file; give "
+             "its path from there"));
+  CHECK(shell.run("mv a.toml in; clatter sweep in/s.toml --out d --quiet").code == 0);
+}
+
+TEST_CASE("Sweep: a batch script names any folder that Slurm can read") {
+  const Shell shell;
+  write_sweep(shell);
+  const auto script = [&](const std::string& folder) {
+    shell.run("clatter sweep s.toml --prepare --out " + folder);
+    return shell.run("clatter sweep submit --slurm --dry-run " + folder);
+  };
+  CHECK(script("'a %a b'").code == 0);
+  CHECK(says(shell.read("a %a b/slurm/job.sh"), "/a %%a b/slurm/%a.log\"\n"));
+  const Outcome quotes = script("'a\"b'");
+  CHECK(quotes.code == 2);
+  CHECK(says(quotes.err, "a batch script cannot name this folder; rename it"));
+}
+
 TEST_CASE("Sweep: a folder can have the name of a flag") {
   const Shell shell;
   write_sweep(shell);
@@ -500,6 +539,10 @@ TEST_CASE("Sweep: damaged and foreign files are named, and never counted") {
     CHECK(says(outcome.err, "d/manifest.jsonl is damaged: line "));
     CHECK(says(outcome.err, advice));
   }
+  // A folder that cannot be read has an unknown number of runs.
+  const Outcome unreadable = damaged("rm -r d/results; touch d/results", collect);
+  CHECK(unreadable.code == 1);
+  CHECK(says(unreadable.err, "cannot read d/results: Not a directory"));
   // Results.
   for (const char* damage : {": > d/results/3.json", "echo '{\"state_hash\":1}' > d/results/3.json",
                              "sed -i 's/\"profile\": *{/\"profile\":4, \"x\": {/' d/results/3.json",
