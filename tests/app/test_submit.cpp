@@ -26,7 +26,7 @@ void end_most_runs(const SweepFolder& folder) {
   folder.fail(3, {kFailed, "killed"});
   folder.fail(5, {kFailed, "no space left"});
   folder.fail(6, {kPhysicalStop, "inelastic collapse"});
-  folder.fail(7, {kWrongUse, "particles do not fit"});
+  folder.fail(7, {kPhysicalStop, "particles overlapped"});
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -86,7 +86,7 @@ TEST_CASE("Submit: tasks contain each run without result once") {
   CHECK(chunks_in(script_of(folder, {.chunk = 4, .time = "", .partition = ""})) ==
         std::vector<std::string>{"1-4", "5-8", "9"});
 
-  // Final failures would occur again. Other failures are repeated.
+  // A physical stop would occur again. Other failures are repeated.
   end_most_runs(folder);
   CHECK(parallel_line(folder, 1) == start + "2 3 5 8 9\n");
   CHECK(parallel_line(folder, 2) == start + "2-3 5,8 9\n");
