@@ -293,7 +293,7 @@ TEST_CASE("Sweep: a folder belongs to one sweep at a time") {
   shell.run("sed -i 's/duration = 30/duration = 3e6/' a.toml; mkdir other; touch other/file");
   const Outcome two = shell.run(
       "clatter sweep s.toml --out d --quiet & sleep 1; clatter sweep s.toml --out d; echo $?; kill "
-      "%1; wait");
+      "$!; wait");
   CHECK(two.out == "2\n");
   CHECK(says(two.err, "--out: another sweep runs in d; wait for its end, or give another folder"));
   const Outcome other = shell.run("clatter sweep s.toml --out other");
