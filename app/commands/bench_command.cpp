@@ -8,6 +8,7 @@
 #include "app/bench/window.h"
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
+#include "app/system/outputs.h"
 
 namespace clatter {
 
@@ -32,7 +33,9 @@ struct EngineOptions {
 };
 
 void add_json_flag(CLI::App& table, std::string& json) {
-  table.add_option("--json", json, "File for the table as JSON.")->type_name("FILE");
+  table.add_option("--json", json, "File for the table as JSON.")
+      ->type_name("FILE")
+      ->each([](const std::string& file) { require_writable_file(file, "--json"); });
 }
 
 void add_dimension_flag(CLI::App& table, int& dimension) {

@@ -240,7 +240,8 @@ void add_plot(CLI::App& sweep, int& exit_code) {
     const SweepFolder folder(options->folder);
     const SweepTable table = read_table(folder);
     if (table.rows.empty()) {
-      throw UserError({options->folder}, "no run has a result", "measure the runs first");
+      throw UserError({options->folder}, "the sweep has no results",
+                      "measure it with `clatter sweep FILE --out DIR`");
     }
     const Chart chart = chart_of(table, folder.sweep().axes(), options->plot);
     if (!has_points(chart)) {

@@ -184,6 +184,7 @@ class Executor {
 // The runs come last: another process may add some, and no number may be beyond them.
 SweepState::SweepState(const SweepFolder& folder)
     : failed(folder.failed()), done(folder.done()), runs(folder.runs()) {
+  // A kill after the write of a result may leave the failure of an earlier attempt.
   std::erase_if(failed, [&](int id) { return std::ranges::binary_search(done, id); });
   std::vector<int> ended;
   std::ranges::set_union(done, failed, std::back_inserter(ended));

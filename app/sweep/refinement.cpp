@@ -21,6 +21,9 @@ struct CurvePoint {
   double y;
   double error;
   SweepPoint settings;
+  std::size_t axis;  // index of the first axis in the settings
+
+  const std::string& value() const { return settings[axis].value; }
 };
 
 // An interval that can be divided, with the error of a linear interpolation.
@@ -45,10 +48,12 @@ std::map<std::string, std::vector<CurvePoint>> curves_of(const SweepTable& table
                       "name a mean of the result file");
     }
     SweepPoint settings = table.points[row];
+    const auto at = std::ranges::find(settings, axis, &Override::key);
     const double x = values.at(axis).get<double>();
     const CurvePoint point{sweep.logarithmic ? std::log(x) : x, values.at(of).get<double>(),
-                           values.at(of + "_standard_error").get<double>(), settings};
-    settings.erase(settings.begin());
+                           values.at(of + "_standard_error").get<double>(), settings,
+                           static_cast<std::size_t>(at - settings.begin())};
+    settings.erase(at);
     curves[settings_text(settings)].push_back(point);
   }
   for (auto& [name, curve] : curves) std::ranges::sort(curve, {}, &CurvePoint::x);
@@ -65,14 +70,14 @@ std::optional<SweepPoint> middle_of(const CurvePoint& a, const CurvePoint& b, bo
   const double x = 0.5 * (a.x + b.x);
   const double value = logarithmic ? std::exp(x) : x;
   SweepPoint middle = a.settings;
-  if (is_whole(a.settings.front().value) && is_whole(b.settings.front().value)) {
-    middle.front().value = fmt::format("{:.0f}", value);
+  std::string& text = middle[a.axis].value;
+  if (is_whole(a.value()) && is_whole(b.value())) {
+    text = fmt::format("{:.0f}", std::nearbyint(value) + 0.0);  // no -0
   } else {
-    middle.front().value = fmt::format("{:.12g}", value);
-    if (is_whole(middle.front().value)) middle.front().value += ".0";
+    text = fmt::format("{:.12g}", value);
+    if (is_whole(text)) text += ".0";
   }
-  const std::string& text = middle.front().value;
-  if (text == a.settings.front().value || text == b.settings.front().value) return std::nullopt;
+  if (text == a.value() || text == b.value()) return std::nullopt;
   return middle;
 }
 

@@ -62,6 +62,15 @@ std::string identity(SweepPoint settings, std::uint64_t seed) {
   return settings_text(settings) + " seed=" + std::to_string(seed);
 }
 
+// The settings of a point in the order of another point with the same keys.
+SweepPoint in_order_of(const SweepPoint& other, const SweepPoint& point) {
+  SweepPoint ordered;
+  for (const Override& setting : other) {
+    ordered.push_back(*std::ranges::find(point, setting.key, &Override::key));
+  }
+  return ordered;
+}
+
 bool is_file(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored);
@@ -251,7 +260,9 @@ void SweepFolder::add(const std::vector<SweepPoint>& points,
   }
   const std::size_t before = text.size();
   int id = static_cast<int>(runs.size());
-  for (const SweepPoint& point : points) {
+  for (const SweepPoint& added : points) {
+    // A longer file may have another order of the axes. Equal points need equal lines.
+    const SweepPoint point = runs.empty() ? added : in_order_of(runs.front().settings, added);
     for (const std::uint64_t seed : seeds) {
       if (known.insert(identity(point, seed)).second) text += line_of({++id, point, seed});
     }

@@ -165,14 +165,22 @@ std::string short_name(const std::string& column) {
   return in_words(column.substr(column.rfind('.') + 1));
 }
 
+// The path of the documentation of a key. All walls share theirs.
+std::string documented_path(const std::string& column) {
+  constexpr std::string_view kWalls = "walls.";
+  if (!column.starts_with(kWalls)) return column;
+  return "walls.SIDE" + column.substr(std::min(column.find('.', kWalls.size()), column.size()));
+}
+
 std::string label_of_column(const std::string& column) {
   const auto symbol = std::ranges::find(kSymbols, column, &Symbol::column);
   if (symbol != kSymbols.end()) {
     const std::string unit(symbol->unit);
     return std::string(symbol->symbol) + (unit.empty() ? "" : " (" + unit + ")");
   }
+  const std::string path = documented_path(column);
   for (const KeyDoc& key : key_docs()) {
-    if (key.path() != column || key.key.unit.empty()) continue;
+    if (key.path() != path || key.key.unit.empty()) continue;
     const std::string unit(key.key.unit);
     return short_name(column) + (unit == "1" ? "" : " (" + unit + ")");
   }
@@ -208,8 +216,15 @@ bool is_monotone(const ChartLine& line) {
          std::ranges::is_sorted(line.points, std::greater(), y);
 }
 
+// Whether a sorted line has one value at each x.
+bool is_function(const ChartLine& line) {
+  return std::ranges::adjacent_find(line.points, [](const Vec2& a, const Vec2& b) {
+           return a[0] == b[0] && a[1] != b[1];
+         }) == line.points.end();
+}
+
 // Adds the lines of a theory, one per series. A theory that depends on x only is one line for all
-// series: its points are monotone together.
+// series: its points together are a monotone function.
 void add_theory(const std::vector<ChartLine>& lines, Chart& chart) {
   ChartLine all = lines.front();
   all.series.reset();
@@ -219,7 +234,8 @@ void add_theory(const std::vector<ChartLine>& lines, Chart& chart) {
   }
   sort_points(all);
   if (all.points.empty()) return;
-  if (lines.size() > 1 && is_monotone(all)) return chart.lines.push_back(std::move(all));
+  if (lines.size() > 1 && is_monotone(all) && is_function(all))
+    return chart.lines.push_back(std::move(all));
   for (ChartLine line : lines) {
     sort_points(line);
     if (!line.points.empty()) chart.lines.push_back(std::move(line));

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/runs/options.h"
 #include "tests/app/shell.h"
 
 namespace clatter {
@@ -79,6 +80,54 @@ TEST_CASE("Commands: check prints the used and unused features of a scene, and i
   // Three numbers for each of 100 cells in 66 windows, and in 65 maps. Also three for each of 10
   // columns in 1000 windows.
   CHECK(std::regex_search(all, std::regex("\n  fields +5544 +x1.4  density, velocity\n")));
+}
+
+TEST_CASE("Commands: check has the prices of gravity, kicks, walls, balances and snapshots") {
+  const Shell shell;
+  shell.write("gas.toml",
+              "box.size = [10, 10]\n"
+              "particles = { count = 25, start.temperature = 3 }\n"
+              "walls.left = { kind = \"sawtooth\", stroke = 0.1, frequency = 1 }\n"
+              "walls.right = { kind = \"static\" }\n"
+              "gravity.acceleration = [-1, 0]\n"
+              "bulk_drive = { interval = 0.5, kick_speed = 0.1 }\n");
+  const auto checked = [&](const std::string& measure) {
+    return shell.run("clatter check gas.toml --until 100 --set 'measure.fields=" + measure).err;
+  };
+  const auto row = [](const std::string& text, const std::string& feature) {
+    std::smatch found;
+    std::regex_search(text, found, std::regex("\n  " + feature + " +([0-9]+) +(.*)\n"));
+    return found.empty() ? "" : found[2].str();
+  };
+  // 0.25 disks per unit of area are phi = 0.19635, and chi = 1.4153 (theory 6.1). Enskog's rate
+  // (theory 6.2) is 2 sqrt(pi T) 0.25 * 1.4153 = 2.173 per disk. A kick costs 0.45 of a collision
+  // of two.
+  const std::string balances = checked("[\"balance\"]'");
+  CAPTURE(balances);
+  CHECK(says(balances, "The scene is valid: 25 disks, area fraction 0.1963."));
+  CHECK(says(balances, "about 2.72e+03 collisions, 200 kicks"));
+  CHECK(row(balances, "bulk drive") == "x1.83  yes");
+  CHECK(row(balances, "moving walls") == "x1  yes");
+  CHECK(row(balances, "gravity") == "x1.15  yes");
+  CHECK(std::regex_search(balances, std::regex("\n  spins +- +-  no\n")));
+  CHECK(row(balances, "fields").starts_with("x2  "));
+  CHECK(row(checked("[\"balance\",\"density\"]'"), "fields").starts_with("x2.4  "));
+  CHECK(row(checked("[\"density\"]' --set measure.estimator=snapshot --set measure.interval=1"),
+            "fields") == "x1.1  density");
+  CHECK(std::regex_search(checked("[]'"), std::regex("\n  fields +- +-  no\n")));
+}
+
+TEST_CASE("Commands: a --set gives its own key, the tables above and the keys below") {
+  CommonOptions options;
+  options.settings = {"walls.left={kind=\"static\"}", "view.speed=2"};
+  for (const char* key : {"walls", "walls.left", "walls.left.kind", "view", "view.speed"}) {
+    CAPTURE(key);
+    CHECK(options.sets(key));
+  }
+  for (const char* key : {"walls.lef", "walls.left2", "walls.right", "view.speed_limit", "speed"}) {
+    CAPTURE(key);
+    CHECK_FALSE(options.sets(key));
+  }
 }
 
 TEST_CASE("Commands: a flag wins over the scene") {

@@ -86,4 +86,38 @@ TEST_CASE("Completions: every command has the scripts of zsh and fish") {
                 {"'csh' is unknown; give one of bash, zsh, fish"});
 }
 
+TEST_CASE("Completions: zsh and fish offer the values of each kind of flag") {
+  const Shell shell;
+  const std::string zsh = shell.run("clatter completions zsh").out;
+  for (const char* line :
+       {"'--seed[Seed of all random numbers]:N: '", "'--quiet[Print errors only on stderr]'",
+        "'--progress[Form of the progress on stderr]:auto|json|none:(auto json none)'",
+        "'--checkpoint[Keep a checkpoint up to date]:FILE:_files'",
+        "'--csv[Folder for tables of series, profiles and maps]:DIR:_files -/'",
+        "'*--set[Change a key of the scene, as in --set particles.count=500]"
+        ":KEY=VALUE:__clatter_settings'",
+        "'*:SCENE:__clatter_scenes'", "'*:KEY:__clatter_keys'"}) {
+    CAPTURE(line);
+    CHECK(says(zsh, std::string("    ") + line));
+  }
+  CHECK(says(zsh, "]:FIRST\\:END: '"));
+  CHECK(
+      says(zsh, "_clatter_bench() {\n  local state line\n  typeset -A opt_args\n  _arguments -C "));
+  const std::string fish = shell.run("clatter completions fish").out;
+  const std::string start = "complete -c clatter -n '__clatter_command_is ";
+  for (const char* line :
+       {"measure' -l seed -d 'Seed of all random numbers' -r -f\n",
+        "measure' -l quiet -d 'Print errors only on stderr'\n",
+        "measure' -l progress -d 'Form of the progress on stderr' -r -f -a 'auto json none'\n",
+        "measure' -l checkpoint -d 'Keep a checkpoint up to date' -r -F\n",
+        "measure' -l csv -d 'Folder for tables of series, profiles and maps' -r -f"
+        " -a '(__fish_complete_directories)'\n",
+        "measure' -l set -d 'Change a key of the scene, as in --set particles.count=500' -r -f"
+        " -a 'schema= title= ",
+        "measure' -F -a 'barometer collapse ", "help keys' -f -a 'schema title "}) {
+    CAPTURE(line);
+    CHECK(says(fish, start + line));
+  }
+}
+
 }  // namespace clatter

@@ -53,6 +53,29 @@ TEST_CASE("Help: a table has all of its keys, and no name has all keys of a scen
   CHECK_FALSE(says(camera, "view.card\n"));
 }
 
+TEST_CASE("Help: entries of keys are separate, and name the keys that change in a run") {
+  const Shell shell;
+  const std::string all = shell.run("clatter help keys").out;
+  CHECK(all.starts_with("schema\n"));
+  CHECK(says(all, "\n\ntitle\n"));
+  CHECK(says(shell.run("clatter help keys particles.restitution").out,
+             "\n  changes  in a run, by [[change]] and in the window\n"));
+}
+
+TEST_CASE("Help: a page has the usage, the summaries of its commands and the related flags") {
+  const Shell shell;
+  const std::string program = shell.run("clatter --help").out;
+  CHECK(program.starts_with("Simulate driven granular gases of hard disks and spheres."));
+  CHECK(says(program, "\nUsage: clatter [OPTIONS] COMMAND\n"));
+  CHECK(says(program, "\n  scenes                    List the scenes of the gallery.\n"));
+  CHECK(says(shell.run("clatter help bench").out, "\nTables:\n  engine "));
+  CHECK(says(shell.run("clatter help help").out, "\nTopics:\n  keys "));
+  const std::string measure = shell.run("clatter help measure").out;
+  CHECK(says(measure, " Print errors only on stderr.\n"));
+  CHECK(says(measure, " Default: 600. Needs --checkpoint.\n"));
+  CHECK(says(measure, " Excludes --accuracy, --checkpoint, --csv, --hdf5, --resume,\n"));
+}
+
 TEST_CASE("Help: a misspelt key or command is refused with a suggestion") {
   const Shell shell;
   check_refused(shell, "clatter help keys particles.restitutoin",

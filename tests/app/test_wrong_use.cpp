@@ -125,6 +125,10 @@ TEST_CASE("Wrong use: no run starts if its output cannot be written") {
   check_refused(shell, "clatter render vibrated --to 1e5 --out missing/x.mp4",
                 {"--out", "missing"});
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.avi", {"x.avi", ".mp4"});
+  for (const std::string table : {"engine", "growth", "features", "fields", "render", "window"}) {
+    check_refused(shell, "clatter bench " + table + " --json missing/x", {"--json", "missing"});
+  }
+  check_refused(shell, "clatter bench growth --plot missing/x.png", {"--plot", "missing"});
 }
 
 TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a message") {
@@ -411,6 +415,21 @@ TEST_CASE("Wrong use: a folder in the place of a table is refused") {
                 {"--csv", "tab/maps.csv is a folder; remove it"});
   check_refused(shell, "clatter measure vibrated --until 1e6 --vtk maps --out r.json",
                 {"--vtk", "maps/series.pvd is a folder"});
+}
+
+TEST_CASE("Wrong use: the fix comes after the problem") {
+  const Shell shell;
+  shell.write("change.toml",
+              "particles.count = 10\n[[change]]\ntime = 1\n"
+              "set = { \"particles.restitution\" = 0.5 }\n");
+  check_refused(shell, "clatter measure change.toml --until 2 --replicas 2",
+                {"--replicas: the laws of this scene change; measure each seed separately, or"});
+  check_refused(shell, "clatter render vibrated --to 1 --fps 60 --out a.gif",
+                {"--fps: a GIF has at most 50 frames per second; give at most --fps 50, or"});
+  check_refused(shell, "clatter render vibrated --to 1 --transparent --out a.mp4",
+                {"--transparent: only PNG pictures can be transparent; write to a FILE.png or"});
+  check_refused(shell, "clatter check vibrated --set particles.count",
+                {"--set particles.count: no value is set; write --set KEY=VALUE, for example"});
 }
 
 TEST_CASE("Wrong use: replicas beyond the last seed are refused") {
