@@ -124,6 +124,7 @@ class Executor {
     const int id = job.ids[job.ended];
     // The last message may be that of an earlier run.
     std::string reason = job.program.process().signal();
+    if (reason.empty() && code == kInterrupted) reason = "it was interrupted";
     if (reason.empty()) reason = job.program.message();
     if (reason.empty()) reason = fmt::format("exit code {}", code);
     std::fprintf(stderr, "%sclatter: %s has ended without a result: %s\n",

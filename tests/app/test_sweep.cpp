@@ -284,7 +284,7 @@ TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
           0);
   // An interrupt ends all processes, with checkpoints.
   const Outcome interrupted = shell.run(
-      "timeout -s INT 1 clatter sweep s.toml --out d --progress none; echo $?; ls d/runs");
+      "timeout -s INT 0.5 clatter sweep s.toml --out d --progress none; echo $?; ls d/runs");
   CHECK(interrupted.out.starts_with("124\n"));
   CHECK(says(interrupted.out, ".checkpoint"));
   // Kills of the sweep and of single runs, at times without any pattern.
@@ -407,7 +407,7 @@ TEST_CASE("Sweep: failures are printed with --quiet too") {
 TEST_CASE("Sweep: a process without a result is named with the reason of its end") {
   const Shell shell;
   write_sweep(shell);
-  shell.run("sed -i 's/duration = 30/duration = 3e6/' a.toml");
+  shell.run("sed -i 's/duration = 30/duration = 9e6/' a.toml");
   // The failure of an earlier start does not count as the end of the run. The process has reported
   // its progress before it is killed.
   shell.run(
@@ -416,10 +416,13 @@ TEST_CASE("Sweep: a process without a result is named with the reason of its end
   const Outcome killed = shell.run(
       "clatter sweep s.toml --out d --threads 1 --progress none & "
       "until pgrep -f \"sweep run $(pwd -P)/d \" > child; do sleep 0.05; done; sleep 2; "
-      "kill -9 $(cat child); sleep 0.5; kill -INT $!; wait");
+      "kill -9 $(cat child); sleep 0.5; kill -TERM $(pgrep -f \"sweep run $(pwd -P)/d \"); sleep "
+      "1.5; kill -INT $!; wait");
   CHECK_MESSAGE(killed.err ==
                     "clatter: run 1 (particles.restitution=0.7 walls.right.temperature=0.5, seed "
                     "4) has ended without a result: Killed\n"
+                    "clatter: run 2 (particles.restitution=0.7 walls.right.temperature=0.5, seed "
+                    "2) has ended without a result: it was interrupted\n"
                     "clatter: interrupted; the same command continues the sweep\n",
                 killed.err);
   CHECK(shell.run("ls d/failed").out == "");
