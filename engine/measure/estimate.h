@@ -10,8 +10,8 @@ namespace clatter {
 struct Estimate {
   double mean = 0.0;
   double standard_error = 0.0;
-  /// Ratio of the squared errors of the longest blocks and of blocks of a quarter of their length, at
-  /// least 1. Far above 1 the error may rise further in a longer series.
+  /// Ratio of the squared errors of the longest blocks and of blocks of a quarter of their length,
+  /// at least 1. Far above 1 the error may rise further in a longer series.
   double rise = 1.0;
   /// Difference of the means of the series' second and first half, divided by their combined
   /// cautious errors. Beyond about 3 the series is not stationary. 0 for fewer than 512 values.
@@ -25,9 +25,9 @@ struct Estimate {
 Estimate independent_estimate(std::span<const double> values);
 
 /// Standard error of the mean of a correlated, stationary series from overlapping blocks (theory
-/// 10.1-10.2; Meketon & Schmeiser 1984). The blocks have a sixteenth of the length of the series, and
-/// the error is extrapolated to longer ones. Its relative uncertainty is about 20 %. Series of fewer
-/// than 64 values have blocks of one value. 0 for fewer than two values.
+/// 10.1-10.2; Meketon & Schmeiser 1984). The blocks have a sixteenth of the length of the series,
+/// and the error is extrapolated to longer ones. Its relative uncertainty is about 20 %. Series of
+/// fewer than 64 values have blocks of one value. 0 for fewer than two values.
 double blocked_error(const std::vector<double>& series);
 
 /// Mean of a series and its standard error as of blocked_error().

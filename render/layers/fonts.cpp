@@ -38,7 +38,8 @@ Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
 }
 
 void add_letters(ImFontAtlas& atlas, const std::string& text, std::span<const double> sizes) {
-  // Dear ImGui counts sizes from the ascent to the descent, which are 2384 / 2048 em of DejaVu Sans.
+  // Dear ImGui counts sizes from the ascent to the descent, which are 2384 / 2048 em of DejaVu
+  // Sans.
   constexpr double kLineHeight = 2384.0 / 2048.0;
   const std::string_view file = embedded_fonts().front().bytes;
   ImFontConfig config;
