@@ -177,10 +177,10 @@ void add_status(CLI::App& sweep, int& exit_code) {
 
 void add_collect(CLI::App& sweep, int& exit_code) {
   auto options = std::make_shared<SweepOptions>();
-  CLI::App* command = sweep.add_subcommand("collect",
-                                           "Write the results as one table, with a row per point: "
-                                           "table.csv, table.jsonl and table.h5 in "
-                                           "the folder. The last two have the profiles too.");
+  CLI::App* command = sweep.add_subcommand(
+      "collect",
+      "Write the results as one table with a row per point. The folder gets table.csv, table.jsonl "
+      "and table.h5. The last two have the profiles too.");
   add_folder(*command, options->folder);
   command->callback([options, &exit_code] {
     const SweepFolder folder(options->folder);
@@ -332,7 +332,7 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
   CLI::App* sweep = program.add_subcommand(
       "sweep",
       "Measure a scene at many points of its parameters. A sweep file names the scene and the "
-      "parameters.");
+      "parameters: `clatter sweep FILE --out DIR` measures them.");
   sweep->require_subcommand(1);
   add_start(*sweep, exit_code);
   add_run(*sweep, exit_code);
