@@ -16,4 +16,9 @@ std::optional<T> whole_number(std::string_view text) {
   return number;
 }
 
+/// The number in a text; absent if the text is anything else.
+inline std::optional<double> real_number(std::string_view text) {
+  return whole_number<double>(text);
+}
+
 }  // namespace clatter

@@ -17,14 +17,11 @@
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/error.h"
-#include "engine/system/read_file.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
 
 namespace {
-
-constexpr std::size_t kLargestSweep = 1'000'000;
 
 struct SweepOptions {
   CommonOptions common;  // --quiet and --progress only
@@ -140,8 +137,7 @@ void add_start(CLI::App& sweep, int& exit_code) {
   command->add_flag("--prepare", options->prepare,
                     "Make the folder with the list of runs, and measure nothing.");
   command->callback([options, &exit_code] {
-    const std::string text =
-        read_file(options->file, kLargestSweep, "a sweep is a text of a few kB");
+    const std::string text = sweep_text(options->file);
     const SweepFolder folder = SweepFolder::make(text, options->file, options->folder);
     if (options->prepare) {
       print_state(folder);

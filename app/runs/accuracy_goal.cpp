@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "app/results/result_json.h"
 #include "engine/error.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
 std::optional<double> share_in(std::string_view text) {
   const bool percent = text.ends_with('%');
   if (percent) text.remove_suffix(1);
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stopped != end) return std::nullopt;
-  const double share = percent ? 0.01 * number : number;
+  const std::optional<double> number = real_number(text);
+  if (!number) return std::nullopt;
+  const double share = percent ? 0.01 * *number : *number;
   return share > 0.0 && share < 1.0 ? std::optional(share) : std::nullopt;
 }
 

@@ -9,12 +9,10 @@
 #include <deque>
 #include <iterator>
 #include <list>
-#include <set>
 
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/program_job.h"
-#include "engine/error.h"
 
 namespace clatter {
 

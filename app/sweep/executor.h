@@ -5,13 +5,13 @@
 
 namespace clatter {
 
-/// The runs of a sweep by their state. Each has its numbers in order.
+/// The runs of a sweep by their state. Each list has the numbers of its runs, in order.
 struct SweepState {
-  std::vector<int> failed;  ///< runs with a recorded failure and no result
-  std::vector<int> done;    ///< runs with a result
-  std::vector<SweepRun> runs;
-  std::vector<int> open;    ///< all others
-  std::vector<int> wanted;  ///< open runs, and failed runs that can succeed when repeated
+  std::vector<int> failed;     ///< runs with a recorded failure and no result
+  std::vector<int> done;       ///< runs with a result
+  std::vector<SweepRun> runs;  ///< all runs; run ID has the index ID - 1
+  std::vector<int> open;       ///< all others
+  std::vector<int> wanted;     ///< open runs, and failed runs that can succeed when repeated
 
   /// The state of a folder.
   explicit SweepState(const SweepFolder& folder);

@@ -24,10 +24,8 @@ static MeasureOptions options_of(const SweepFolder& folder, int id, ProgressStyl
   const SweepRun run = folder.run(id);
   MeasureOptions options;
   options.common.scene = folder.scene();
-  for (const auto* settings : {&sweep.set, &run.settings}) {
-    for (const Override& setting : *settings) {
-      options.common.settings.push_back(setting.key + '=' + setting.value);
-    }
+  for (const Override& setting : sweep.settings_at(run.settings)) {
+    options.common.settings.push_back(setting.key + '=' + setting.value);
   }
   options.common.seed = run.seed;
   options.common.until = sweep.until;
@@ -41,7 +39,7 @@ static MeasureOptions options_of(const SweepFolder& folder, int id, ProgressStyl
   return options;
 }
 
-// The fix for a checkpoint that cannot be used is another than that of `clatter measure --resume`.
+// A checkpoint that cannot be used has its own fix: `clatter sweep run` has no flag --resume.
 static SweepFailure failure_of(const UserError& error, const std::string& checkpoint) {
   if (checkpoint.empty() || !std::string_view(error.what()).starts_with(checkpoint + ':')) {
     return {kWrongUse, error.what()};

@@ -67,11 +67,10 @@ double memory_of(const SweepFolder& folder) {
   std::set<std::string> seen;
   for (const SweepRun& run : folder.runs()) {
     if (!seen.insert(settings_text(run.settings)).second) continue;
-    std::vector<Override> settings = sweep.set;
-    settings.insert(settings.end(), run.settings.begin(), run.settings.end());
     double bytes = 0.0;
     try {
-      for (const FeatureCost& part : feature_costs(load_scene(folder.scene(), settings))) {
+      for (const FeatureCost& part :
+           feature_costs(load_scene(folder.scene(), sweep.settings_at(run.settings)))) {
         bytes += part.bytes;
       }
     } catch (const UserError&) {

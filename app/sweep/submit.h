@@ -13,8 +13,8 @@ struct TaskLimits {
   std::string partition;  ///< partition of the cluster; empty: the default
 };
 
-/// The runs without result as a command line of GNU parallel, for the processors of one machine.
-/// Empty if there are none.
+/// The runs without result as a command line of GNU parallel, for the processors of one machine, in
+/// tasks of `chunk` runs. Empty if there are none.
 std::string parallel_line(const SweepFolder& folder, int chunk);
 
 /// Writes a batch script for Slurm into the folder: one array job with all runs without result.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -14,6 +13,8 @@
 #include "engine/scene/key_reader.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
+#include "engine/system/read_file.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -296,12 +297,6 @@ void read_accuracy(const toml::table& root, const std::string& file, Sweep& swee
   sweep.accuracy.relative = *share;
 }
 
-bool is_number(const std::string& toml) {
-  double number = 0.0;
-  const char* end = toml.data() + toml.size();
-  return std::from_chars(toml.data(), end, number).ptr == end;
-}
-
 void read_refinement(const toml::table& root, const std::string& file, Sweep& sweep) {
   KeyReader reader(root, file);
   bool refine = false;
@@ -313,7 +308,7 @@ void read_refinement(const toml::table& root, const std::string& file, Sweep& sw
     refuse(place_of(root, "budget", file), "'budget' without 'refine'", "add refine = true");
   }
   const auto is_numeric = [](const SweepPoint& entry) {
-    return entry.size() == 1 && is_number(entry.front().value);
+    return entry.size() == 1 && real_number(entry.front().value);
   };
   const bool has_axis = !sweep.entries.empty() && sweep.entries.front().size() >= 3 &&
                         std::ranges::all_of(sweep.entries.front(), is_numeric);
@@ -327,19 +322,18 @@ void read_refinement(const toml::table& root, const std::string& file, Sweep& sw
   sweep.refinement = refinement;
 }
 
-// The scene of a point. The sweep's own settings come first.
-void test_point(const Sweep& sweep, const SceneText& scene, const SweepPoint& point) {
-  std::vector<Override> settings = sweep.set;
-  settings.insert(settings.end(), point.begin(), point.end());
-  parse_scene(scene, settings);
-}
-
 }  // namespace
 
 std::vector<std::string> Sweep::axes() const {
   std::vector<std::string> keys;
   for (const auto& group : groups) keys.insert(keys.end(), group.begin(), group.end());
   return keys;
+}
+
+std::vector<Override> Sweep::settings_at(const SweepPoint& point) const {
+  std::vector<Override> settings = set;
+  settings.insert(settings.end(), point.begin(), point.end());
+  return settings;
 }
 
 std::vector<SweepPoint> Sweep::points() const {
@@ -356,6 +350,10 @@ std::vector<SweepPoint> Sweep::points() const {
     points = std::move(longer);
   }
   return points;
+}
+
+std::string sweep_text(const std::string& file) {
+  return read_file(file, 1'000'000, "a sweep is a text of a few kB");
 }
 
 Sweep read_sweep(const std::string& text, const std::string& file) {
@@ -387,7 +385,7 @@ void check_entries(const Sweep& sweep, const SceneText& scene, const std::string
   // The error of a setting names its key. All other errors have the place of the changed axis.
   const auto test = [&](const SweepPoint& point, const std::string& changed) {
     try {
-      test_point(sweep, scene, point);
+      parse_scene(scene, sweep.settings_at(point));
     } catch (const UserError& error) {
       const std::string_view message = error.what();
       Place place = {file};

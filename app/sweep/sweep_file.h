@@ -37,9 +37,14 @@ struct Sweep {
 
   /// The keys of all groups.
   std::vector<std::string> axes() const;
+  /// The settings of the runs at a point: those of all runs, then those of the point.
+  std::vector<Override> settings_at(const SweepPoint& point) const;
   /// The product of all groups. The entries of the last group vary fastest.
   std::vector<SweepPoint> points() const;
 };
+
+/// The text of a sweep file. Throws UserError if it cannot be read or has more than 1 MB.
+std::string sweep_text(const std::string& file);
 
 /// Reads a sweep file from its text. `file` is the name for errors. Throws UserError with file,
 /// line, column, problem and fix.

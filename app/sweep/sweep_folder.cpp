@@ -32,7 +32,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kLargestSweep = 1'000'000;
+constexpr std::size_t kLargestFailure = 1'000'000;
 constexpr std::size_t kLargestManifest = 1'000'000'000;
 
 constexpr const char* kManifestAdvice = "restore the file, or start the sweep in another folder";
@@ -204,7 +204,7 @@ SweepFolder SweepFolder::make(const std::string& text, const std::string& file,
 
 Sweep SweepFolder::sweep() const {
   const std::string file = folder_ / "sweep.toml";
-  return read_sweep(read_file(file, kLargestSweep, "a sweep is a text of a few kB"), file);
+  return read_sweep(sweep_text(file), file);
 }
 
 std::vector<SweepRun> SweepFolder::runs() const {
@@ -242,7 +242,7 @@ std::optional<SweepFailure> SweepFolder::failure(int id) const {
   const auto path = file("failed", id, ".json");
   if (!is_file(path)) return std::nullopt;
   try {
-    const Json json = Json::parse(read_file(path.string(), kLargestSweep, ""));
+    const Json json = Json::parse(read_file(path.string(), kLargestFailure, ""));
     return SweepFailure{json.at("code"), json.at("reason")};
   } catch (const nlohmann::json::exception&) {
     return SweepFailure{kFailed, "unknown"};

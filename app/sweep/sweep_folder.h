@@ -61,7 +61,7 @@ class SweepFolder {
   Sweep sweep() const;
   /// All runs. Run ID has the index ID - 1. Throws RunError if the manifest is damaged.
   std::vector<SweepRun> runs() const;
-  /// A run. Throws UserError if there is none of this number.
+  /// The run of this number. Throws UserError if the manifest does not have it.
   SweepRun run(int id) const;
   /// The numbers of the runs with a result, in order.
   std::vector<int> done() const { return ids_in("results", ".json"); }
@@ -82,6 +82,7 @@ class SweepFolder {
   /// Locks a run, or with id 0 the sweep, until unlock() or the end of this process. False if
   /// another process has the lock. Throws RunError if the folder is not writable or has no locks.
   bool lock(int id);
+  /// Ends the lock of a run, or with id 0 of the sweep.
   void unlock(int id);
 
  private:

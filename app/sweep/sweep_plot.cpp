@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -13,6 +12,7 @@
 #include "engine/scene/key_docs.h"
 #include "engine/scene/text.h"
 #include "engine/system/write_file.h"
+#include "engine/whole_number.h"
 #include "render/context/context.h"
 #include "render/output/image.h"
 
@@ -32,13 +32,6 @@ struct Factor {
 };
 
 using Product = std::vector<Factor>;
-
-std::optional<double> whole_text_number(std::string_view text) {
-  double number = 0.0;
-  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || stopped != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -63,7 +56,7 @@ Product product_in(const std::string& text, const SweepTable& table, const char*
     Factor factor;
     factor.column = trimmed(std::string_view(text).substr(begin, end - begin));
     factor.divides = begin > 0 && text[begin - 1] == '/';
-    if (const auto number = whole_text_number(factor.column)) {
+    if (const auto number = real_number(factor.column)) {
       factor.number = *number;
       factor.column.clear();
     } else {

@@ -351,7 +351,7 @@ class ChartDrawing {
         return entry.line && entry.line->style == line.style && entry.name == name;
       });
       if (known != legend.entries.end()) {
-        // An entry of several series has none of their colours.
+        // An entry that several series share is grey.
         if (known->line->colour != stroke.colour) known->line->colour = kTheory;
       } else if (!name.empty()) {
         legend.entries.push_back({{}, stroke, name});
