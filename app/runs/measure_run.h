@@ -13,13 +13,13 @@ struct MeasureOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
   AccuracyGoal accuracy;
-  int replicas = 1;
-  std::optional<int> threads;  // parallel replicas; absent: the number of processors
-  std::string out;             // result file; empty: stdout
-  std::string csv;             // folder for tables; empty: none
-  std::string vtk;             // folder for maps; empty: none
-  std::string hdf5;            // file for all results; empty: none
-  std::string save_state;      // file for the state at the end; empty: none
+  int replicas = 1;            ///< runs with consecutive seeds
+  std::optional<int> threads;  ///< parallel replicas; absent: the number of processors
+  std::string out;             ///< result file; empty: stdout
+  std::string csv;             ///< folder for tables; empty: none
+  std::string vtk;             ///< folder for maps; empty: none
+  std::string hdf5;            ///< file for all results; empty: none
+  std::string save_state;      ///< file for the state at the end; empty: none
 };
 
 /// Measures a scene and writes the results. Returns the exit code. Throws UserError, RunError,
