@@ -20,12 +20,10 @@ namespace {
 
 void print_parts(const Scene& scene) {
   const std::vector<FeatureCost> parts = feature_costs(scene);
-  double bytes = 0.0;
-  for (const FeatureCost& part : parts) bytes += part.bytes;
   std::fprintf(stderr,
                "Memory: about %.3g MB. Features and their cost; a dash: not in this scene.\n"
                "  feature       bytes per particle  CPU time  in this scene\n",
-               1e-6 * bytes);
+               1e-6 * memory_of(scene));
   for (const FeatureCost& part : parts) {
     const double share = part.bytes / std::max(1, scene.particles.count);
     const bool off = part.extent == "no";

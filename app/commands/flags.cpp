@@ -45,10 +45,10 @@ void add_progress_flag(CLI::App& command, CommonOptions& options) {
 
 void add_backend_flag(CLI::App& command, Backend& backend) {
   command.add_option("--backend", backend, "Source of OpenGL.")
-      ->transform(one_of<Backend>({{"auto", Backend::Auto},
-                                   {"egl", Backend::Egl},
-                                   {"osmesa", Backend::Osmesa},
-                                   {"glfw", Backend::Glfw}}))
+      ->transform(one_of<Backend>({{name_of(Backend::Auto), Backend::Auto},
+                                   {name_of(Backend::Egl), Backend::Egl},
+                                   {name_of(Backend::Osmesa), Backend::Osmesa},
+                                   {name_of(Backend::Glfw), Backend::Glfw}}))
       ->type_name("auto|glfw|egl|osmesa");
 }
 
@@ -71,6 +71,18 @@ void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options) {
       ->check(positive_number())
       ->needs(file)
       ->capture_default_str();
+}
+
+void add_cluster_flags(CLI::App& command, TaskLimits& limits, bool& dry_run, CLI::Option* slurm) {
+  command
+      .add_option("--time", limits.time,
+                  "Time limit of a task, as for sbatch. Default: that of the partition.")
+      ->type_name("HH:MM:SS")
+      ->needs(slurm);
+  command.add_option("--partition", limits.partition, "Partition. Default: of the cluster.")
+      ->type_name("NAME")
+      ->needs(slurm);
+  command.add_flag("--dry-run", dry_run, "Write the script without submitting it.")->needs(slurm);
 }
 
 void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal) {

@@ -4,6 +4,7 @@
 
 #include "app/runs/accuracy_goal.h"
 #include "app/runs/options.h"
+#include "app/system/batch_script.h"
 #include "render/context/context.h"
 
 namespace clatter {
@@ -24,6 +25,9 @@ void add_backend_flag(CLI::App& command, Backend& backend);
 
 /// --resume, --checkpoint, --checkpoint-every.
 void add_checkpoint_flags(CLI::App& command, CheckpointOptions& options);
+
+/// --time, --partition, --dry-run of commands with the flag `slurm`.
+void add_cluster_flags(CLI::App& command, TaskLimits& limits, bool& dry_run, CLI::Option* slurm);
 
 /// --accuracy, --accuracy-of.
 void add_accuracy_flags(CLI::App& command, AccuracyGoal& goal);

@@ -10,6 +10,7 @@
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
 #include "app/runs/film.h"
+#include "app/runs/film_job.h"
 #include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
@@ -22,6 +23,7 @@
 #include "engine/whole_number.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
+#include "render/output/film_join.h"
 #include "render/output/frame_sink.h"
 #include "render/output/movie.h"
 
@@ -69,6 +71,10 @@ struct RenderOptions {
   bool transparent = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
+  std::string join;  // folder of the parts of the film; empty: draw it
+  int slurm = 0;     // tasks of an array job; 0: draw the film here
+  TaskLimits limits;
+  bool dry_run = false;
 
   std::string extension() const { return std::filesystem::path(out).extension(); }
   bool one_picture() const { return extension() == ".png"; }
@@ -324,6 +330,38 @@ int film_again(RenderOptions options, const View& view, std::uint64_t seed,
                      frames);
 }
 
+// Joins the parts of the film.
+int join(const RenderOptions& options, const FilmState& film) {
+  if (!options.film()) {
+    throw UserError({"--join", 0, 0}, "only films are joined",
+                    "give a film such as film.mp4 as --out");
+  }
+  require_writable_file(options.out, "--out");
+  join_parts(options.join, film.times.count, film.times.fps, options.out);
+  if (!options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
+  return kOk;
+}
+
+// Gives the film to Slurm.
+int submit(const RenderOptions& options, const Scene& scene, const FilmState& film) {
+  if (options.one_picture()) {
+    throw UserError({"--slurm", 0, 0}, "one picture needs no tasks",
+                    "give a film or a folder as --out, or omit --slurm");
+  }
+  const std::filesystem::path script = write_film_job({.scene = scene,
+                                                       .seed = options.common.seed.value_or(1),
+                                                       .film = film,
+                                                       .out = options.out,
+                                                       .backend = options.backend,
+                                                       .threads = options.threads,
+                                                       .tasks = options.slurm,
+                                                       .limits = options.limits,
+                                                       .overwrite = options.overwrite});
+  if (!options.dry_run) submit_batch(script);
+  print(script.string() + '\n');
+  return kOk;
+}
+
 int render(const RenderOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
@@ -342,6 +380,8 @@ int render(const RenderOptions& options) {
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
   require_checkpoint_place(checkpoint, options.checkpoints);
   require_format(options, film);
+  if (!options.join.empty()) return join(options, film);
+  if (options.slurm > 0) return submit(options, scene, film);
   catch_interrupts();
   const bool same_laws = resumed && changed_laws(*resumed).empty();
   const std::uint64_t seed = resumed ? resumed->checkpoint.seed : 0;
@@ -426,12 +466,36 @@ void add_render_command(CLI::App& program, int& exit_code) {
                     "Draw PNG pictures without a background.");
   command->add_flag("--overwrite", options->overwrite,
                     "Replace existing frames in a folder, or an interrupted film.");
-  command
-      ->add_option(
-          "--frames", options->frames,
-          "Draw these frames of the film only, numbered from 0, without END. Parts from several "
-          "machines make one film.")
-      ->type_name("FIRST:END");
+  CLI::Option* frames = command
+                            ->add_option("--frames", options->frames,
+                                         "Draw these frames of the film only, numbered from 0, "
+                                         "without END. Parts from several "
+                                         "machines make one film.")
+                            ->type_name("FIRST:END");
+  CLI::Option* join =
+      command
+          ->add_option(
+              "--join", options->join,
+              "Join the films FIRST.EXTENSION in a folder to the film --out, without drawing. "
+              "FIRST is the number of the first frame of a part.")
+          ->check(named_file())
+          ->type_name("DIR")
+          ->excludes(frames);
+  CLI::Option* slurm =
+      command
+          ->add_option(
+              "--slurm", options->slurm,
+              "Draw the film in this number of tasks on a cluster. The folder FILE.slurm gets "
+              "the batch script, the logs and the parts. The task that ends last joins them.")
+          ->check(whole_number_between(1, 1000))
+          ->type_name("TASKS")
+          ->excludes(frames)
+          ->excludes(join);
+  for (const char* flag : {"--resume", "--checkpoint"}) {
+    join->excludes(command->get_option(flag));
+    slurm->excludes(command->get_option(flag));
+  }
+  add_cluster_flags(*command, options->limits, options->dry_run, slurm);
   add_backend_flag(*command, options->backend);
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }

@@ -255,6 +255,7 @@ void add_submit(CLI::App& sweep, int& exit_code) {
     bool slurm = false;
     bool parallel = false;
     bool dry_run = false;
+    int chunk = 0;
     TaskLimits limits;
   };
   auto options = std::make_shared<SubmitOptions>();
@@ -270,28 +271,19 @@ void add_submit(CLI::App& sweep, int& exit_code) {
                  "Print the command line for GNU parallel on stdout.")
       ->excludes(slurm);
   command
-      ->add_option("--chunk", options->limits.chunk,
+      ->add_option("--chunk", options->chunk,
                    "Runs per task. Default: 1, with Slurm at most 1000 tasks.")
       ->check(whole_number_between(1, 100'000));
-  command
-      ->add_option("--time", options->limits.time,
-                   "Time limit of a task, as for sbatch. Default: that of the partition.")
-      ->type_name("HH:MM:SS")
-      ->needs(slurm);
-  command
-      ->add_option("--partition", options->limits.partition, "Partition. Default: of the cluster.")
-      ->type_name("NAME")
-      ->needs(slurm);
-  command->add_flag("--dry-run", options->dry_run, "Write the script without submitting it.")
-      ->needs(slurm);
+  add_cluster_flags(*command, options->limits, options->dry_run, slurm);
   command->callback([options, &exit_code] {
     const SweepFolder folder(options->folder);
     exit_code = kOk;
-    if (options->parallel) return print(parallel_line(folder, options->limits.chunk));
+    if (options->parallel) return print(parallel_line(folder, options->chunk));
     if (!options->slurm) {
       throw UserError({"submit", 0, 0}, "no scheduler is given", "add --slurm or --parallel");
     }
-    const std::filesystem::path script = write_batch_script(folder, options->limits);
+    const std::filesystem::path script =
+        write_batch_script(folder, options->chunk, options->limits);
     if (script.empty()) return print_state(folder);
     if (options->dry_run) return print(script.string() + '\n');
     submit_batch(script);

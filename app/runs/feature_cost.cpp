@@ -81,6 +81,12 @@ std::vector<FeatureCost> feature_costs(const Scene& scene) {
           fields_of(scene)};
 }
 
+double memory_of(const Scene& scene) {
+  double bytes = 0.0;
+  for (const FeatureCost& part : feature_costs(scene)) bytes += part.bytes;
+  return bytes;
+}
+
 std::string cost_text(double price) {
   if (!std::isfinite(price)) return "-";
   return fmt::format("x{:.3g}", price);

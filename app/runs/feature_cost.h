@@ -21,6 +21,9 @@ struct FeatureCost {
 /// All optional features, with their use in this scene.
 std::vector<FeatureCost> feature_costs(const Scene& scene);
 
+/// Memory of a scene in bytes: the sum of its features.
+double memory_of(const Scene& scene);
+
 /// Price of field averages, by estimator.
 double cost_of(Estimator estimator);
 /// Price of balances.

@@ -32,6 +32,20 @@ std::unique_ptr<GlContext> open_first_that_works() {
 
 }  // namespace
 
+const char* name_of(Backend backend) {
+  switch (backend) {
+    case Backend::Auto:
+      return "auto";
+    case Backend::Egl:
+      return "egl";
+    case Backend::Osmesa:
+      return "osmesa";
+    case Backend::Glfw:
+      return "glfw";
+  }
+  return "";
+}
+
 std::string GlContext::description() const {
   auto text = [this](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
   return std::string(text(GL_RENDERER)) + ", OpenGL " + text(GL_VERSION);

@@ -15,6 +15,9 @@ enum class Backend {
   Glfw,    ///< on a display
 };
 
+/// Name of a backend on the command line: "auto", "egl", "osmesa" or "glfw".
+const char* name_of(Backend backend);
+
 /// An OpenGL 3.3 core context. It is current on the thread that creates it, for its whole life. A
 /// thread may have only one at a time, because Mesa's backends share the current context.
 class GlContext {
@@ -26,7 +29,7 @@ class GlContext {
 
   /// The OpenGL functions, valid during the life of the context.
   const Gl& gl() const { return gl_; }
-  /// Name of the backend on the command line: "egl", "osmesa" or "glfw".
+  /// Name of the backend, see name_of().
   virtual const char* name() const = 0;
   /// Renderer and version from the driver: "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 ...".
   std::string description() const;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <sstream>
 
 #include "engine/error.h"
 #include "engine/system/checksum.h"
@@ -19,8 +18,7 @@ namespace clatter {
 
 namespace {
 
-// Input files of ffmpeg in the folder of the pieces.
-constexpr const char* kList = "pieces.txt";
+// Input of ffmpeg in the folder of the pieces.
 constexpr const char* kTexts = "texts.txt";
 
 // Thrown on the writing thread. The calling thread then reads the error of the encoder.
@@ -96,7 +94,7 @@ void Movie::open_folder() {
 // Whether films write files of this name into the folder: pieces, the joined film, and the inputs
 // of ffmpeg with their temporary files.
 bool Movie::is_own(const std::string& name) const {
-  for (const std::string input : {kList, kTexts}) {
+  for (const std::string input : {kPartList, kTexts}) {
     if (name == input || name.starts_with("." + input + ".")) return true;
   }
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
@@ -112,8 +110,8 @@ void Movie::remove_own_files() {
 }
 
 void Movie::require_earlier_pieces() {
-  const std::vector<Piece> earlier = pieces();
-  for (const Piece& piece : earlier) {
+  const std::vector<FilmPart> earlier = pieces();
+  for (const FilmPart& piece : earlier) {
     if (std::filesystem::exists(piece.path)) continue;
     throw UserError({path_.string()},
                     "the piece " + piece.path.string() + " of the film is missing",
@@ -145,12 +143,6 @@ std::filesystem::path Movie::piece_path(long first) const {
   return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }
 
-// A path without characters of the film's name, which could have a special meaning in lists of
-// ffmpeg. See name_while_open().
-std::filesystem::path Movie::name_in_folder(const std::string& file) const {
-  return std::filesystem::path(name_while_open(held_, folder_.string())) / file;
-}
-
 // Number of the first picture in the piece that contains this picture.
 long Movie::start_of_piece(long number) const {
   return std::max(options_.begin, number / kPiece * kPiece);
@@ -168,7 +160,8 @@ void Movie::start_piece() {
   const std::string name = name_while_open(file_, piece.string());
   try {
     encoder_ = std::make_unique<ChildProcess>(
-        encoding_command(program_, *format_, options_, name_in_folder(kTexts), name),
+        encoding_command(program_, *format_, options_,
+                         PartsFolder{folder_, held_}.safe_name(kTexts), name),
         Interrupts::Shielded, options_.stop);
   } catch (const RunError& error) {
     unlink(piece.c_str());
@@ -216,8 +209,8 @@ void Movie::finish(Ending ending) {
 }
 
 // The pieces of the film so far, in order.
-std::vector<Movie::Piece> Movie::pieces() const {
-  std::vector<Piece> all;
+std::vector<FilmPart> Movie::pieces() const {
+  std::vector<FilmPart> all;
   for (long first = options_.begin, after; first < next_; first = after) {
     after = std::min(start_of_piece(first) + kPiece, next_);
     all.push_back({piece_path(first), after - first});
@@ -226,34 +219,17 @@ std::vector<Movie::Piece> Movie::pieces() const {
 }
 
 void Movie::join() {
-  const std::vector<Piece> pieces = this->pieces();
-  std::string list = "ffconcat version 1.0\n";
-  for (const Piece& piece : pieces) {
-    list += fmt::format("file {}\nduration {:.9f}\n",
-                        list_entry(name_in_folder(piece.path.filename().string())),
-                        static_cast<double>(piece.count) / options_.fps);
-  }
-  write_file(folder_ / kList, list);
+  const std::vector<FilmPart> pieces = this->pieces();
   std::vector<PngText> texts = notes_;
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
   write_file(folder_ / kTexts, metadata_file(texts));
   require_unchanged(pieces);
-
-  const std::filesystem::path joined = folder_ / ("joined" + format_->extension);
-  const FileDescriptor file = open_new(joined);
-  if (!file) fail(std::strerror(errno));
-  ChildProcess joiner(joining_command(program_, *format_, name_in_folder(kTexts),
-                                      name_in_folder(kList),
-                                      name_while_open(file, joined.string())));
-  if (!joiner.wait()) {
-    unlink(joined.c_str());
-    fail(joiner);
-  }
+  std::filesystem::path joined;
   try {
-    require_pictures(joined, next_ - options_.begin);
-  } catch (const RunError&) {
-    unlink(joined.c_str());
-    throw;
+    joined =
+        join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, *format_, program_);
+  } catch (const RunError& error) {
+    fail(error.what());
   }
   try {
     rename_synced(joined, path_);
@@ -263,7 +239,7 @@ void Movie::join() {
 }
 
 // The encoder does not notice a piece that was truncated or replaced.
-void Movie::require_unchanged(const std::vector<Piece>& pieces) {
+void Movie::require_unchanged(const std::vector<FilmPart>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (checksum_of_file(pieces[i].path) == checksums_[i]) continue;
     throw RunError(pieces[i].path.string() + " is not the piece that was drawn");
@@ -275,40 +251,22 @@ void Movie::tidy() {
   if (encoder_) {
     encoder_->kill();
     const std::filesystem::path piece = piece_path(piece_);
-    if (pictures_in(piece) == 0) unlink(piece.c_str());
+    if (pictures_in(piece, program_) == 0) unlink(piece.c_str());
   }
   unlink((folder_ / kTexts).c_str());
   rmdir(folder_.c_str());
 }
 
-// Number of pictures that a player finds; -1: the encoder cannot start.
-long Movie::pictures_in(const std::filesystem::path& film) const {
-  std::error_code missing;
-  if (std::filesystem::file_size(film, missing) == 0 || missing) return 0;
-  std::istringstream list;
-  try {
-    ChildProcess reader(listing_command(program_, film));
-    reader.wait();
-    list.str(reader.new_words());
-  } catch (const RunError&) {
-    return -1;
-  }
-  long pictures = 0;
-  for (std::string line; std::getline(list, line);) pictures += line.starts_with("0,");
-  return pictures;
-}
-
 // An encoder may lose pictures without an error, for example if the disk is full at the end.
 void Movie::require_pictures(const std::filesystem::path& film, long count) {
-  const long found = pictures_in(film);
+  const long found = pictures_in(film, program_);
   if (found == count) return;
   fail(fmt::format("{} has {} of {} pictures; is the disk full?", film.string(), found, count));
 }
 
 void Movie::fail(ChildProcess& process) {
   process.kill();
-  const std::string words = process.last_words();
-  fail(words.empty() ? "it ended early and gave no reason" : words);
+  fail(reason_of(process));
 }
 
 void Movie::fail(const std::string& reason) {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "engine/system/child_process.h"
+#include "render/output/film_join.h"
 #include "render/output/frame_sink.h"
 #include "render/output/movie_format.h"
 #include "render/output/work_queue.h"
@@ -38,26 +39,19 @@ class Movie final : public FrameSink {
   std::vector<std::uint32_t> checksums() const override { return checksums_; }
 
  private:
-  struct Piece {
-    std::filesystem::path path;
-    long count;  // number of pictures
-  };
-
   std::filesystem::path piece_path(long first) const;
-  std::filesystem::path name_in_folder(const std::string& file) const;
   void open_folder();
   bool is_own(const std::string& name) const;
   void remove_own_files();
   void require_earlier_pieces();
   long start_of_piece(long number) const;
-  std::vector<Piece> pieces() const;
+  std::vector<FilmPart> pieces() const;
   void start_piece();
   void end_piece();
   void join();
   void tidy();
-  long pictures_in(const std::filesystem::path& film) const;
   void require_pictures(const std::filesystem::path& film, long count);
-  void require_unchanged(const std::vector<Piece>& pieces);
+  void require_unchanged(const std::vector<FilmPart>& pieces);
   std::string place_of_pieces() const;
   [[noreturn]] void fail(ChildProcess& process);
   [[noreturn]] void fail(const std::string& reason);

@@ -93,9 +93,12 @@ static std::vector<std::string> quiet(const std::string& encoder) {
   return {encoder, "-v", "error", "-nostdin", "-y"};
 }
 
-// Options for the texts of a film, as the second input after the pictures.
-static std::vector<std::string> texts_of(const std::filesystem::path& metadata) {
-  return {"-f", "ffmetadata", "-i", name_of(metadata), "-map_metadata", "1"};
+// Options for the texts of a film, as the second input after the pictures: a metadata file or a
+// film.
+static std::vector<std::string> texts_of(const std::filesystem::path& texts) {
+  std::vector<std::string> all = {"-i", name_of(texts), "-map_metadata", "1"};
+  if (!find_movie_format(texts.extension())) all.insert(all.begin(), {"-f", "ffmetadata"});
+  return all;
 }
 
 std::vector<std::string> encoding_command(const std::string& encoder, const MovieFormat& format,
@@ -119,15 +122,17 @@ std::string list_entry(const std::filesystem::path& film) {
 }
 
 std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
-                                         const std::filesystem::path& metadata,
+                                         const std::filesystem::path& texts,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file) {
   std::vector<std::string> all = quiet(encoder);
   append(all, {"-f", "concat", "-safe", "0", "-i", name_of(list)});
-  append(all, texts_of(metadata));
+  append(all, texts_of(texts));
+  append(all, {"-map", "0"});
   // "+bitexact" leaves out version and random identifiers: equal films are equal files.
   append(all, {"-c", "copy", "-fflags", "+bitexact"});
-  if (format.muxer == "mp4") append(all, {"-movflags", "+faststart"});
+  // The bit rate in an mp4 would depend on the pieces.
+  if (format.muxer == "mp4") append(all, {"-movflags", "+faststart", "-write_btrt", "0"});
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
 }

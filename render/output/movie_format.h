@@ -32,11 +32,11 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
 /// A film as an entry of a list for ffmpeg's "concat": a quoted URL.
 std::string list_entry(const std::filesystem::path& film);
 
-/// The command that joins films into `file` without encoding, with the texts of `metadata`. `list`
-/// is a file for ffmpeg's "concat", of list_entry(). The index of an mp4 comes first, so that it
-/// can play while it loads.
+/// The command that joins films into `file` without encoding, with the texts of a metadata file or
+/// of a film. `list` is a file for ffmpeg's "concat", of list_entry(). The index of an mp4 comes
+/// first, so that it can play while it loads.
 std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
-                                         const std::filesystem::path& metadata,
+                                         const std::filesystem::path& texts,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file);
 

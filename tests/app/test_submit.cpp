@@ -43,7 +43,7 @@ std::vector<std::string> chunks_in(const std::string& script) {
   for (const std::string& line : lines_of(script)) {
     if (line == ")") break;
     if (inside) chunks.push_back(line.substr(2));
-    if (line == "chunks=(") inside = true;
+    if (line == "tasks=(") inside = true;
   }
   return chunks;
 }
@@ -57,8 +57,8 @@ std::string option_in(const std::string& script, const std::string& name) {
   return "";
 }
 
-std::string script_of(const SweepFolder& folder, const TaskLimits& limits) {
-  return testing::bytes_of(write_batch_script(folder, limits));
+std::string script_of(const SweepFolder& folder, int chunk = 0, const TaskLimits& limits = {}) {
+  return testing::bytes_of(write_batch_script(folder, chunk, limits));
 }
 
 // The arguments of the printed command line, read by a shell, one a line.
@@ -83,8 +83,7 @@ TEST_CASE("Submit: tasks contain each run without result once") {
   CHECK(parallel_line(folder, 4) == start + "1-4 5-8 9\n");
   CHECK(parallel_line(folder, 9) == start + "1-9\n");
   CHECK(parallel_line(folder, 100) == start + "1-9\n");
-  CHECK(chunks_in(script_of(folder, {.chunk = 4, .time = "", .partition = ""})) ==
-        std::vector<std::string>{"1-4", "5-8", "9"});
+  CHECK(chunks_in(script_of(folder, 4)) == std::vector<std::string>{"1-4", "5-8", "9"});
 
   // A physical stop would occur again. Other failures are repeated.
   end_most_runs(folder);
@@ -92,21 +91,21 @@ TEST_CASE("Submit: tasks contain each run without result once") {
   CHECK(parallel_line(folder, 2) == start + "2-3 5,8 9\n");
   CHECK(parallel_line(folder, 3) == start + "2-3,5 8-9\n");
   CHECK(parallel_line(folder, 7) == start + "2-3,5,8-9\n");
-  const std::string script = script_of(folder, {.chunk = 2, .time = "", .partition = ""});
+  const std::string script = script_of(folder, 2);
   CHECK(chunks_in(script) == std::vector<std::string>{"2-3", "5,8", "9"});
   CHECK(option_in(script, "array") == "1-3");
 
   // A kill after the write of a result may leave the failure of an earlier attempt.
   for (const int id : {2, 3, 5, 8, 9}) testing::write_bytes(folder.result(id), "{}");
   CHECK(parallel_line(folder, 1) == "");
-  CHECK(write_batch_script(folder, {}).empty());
+  CHECK(write_batch_script(folder, 0, {}).empty());
 }
 
 TEST_CASE("Submit: a large sweep has at most 1000 tasks on a cluster") {
   const TemporaryFolder temporary;
   const SweepFolder folder =
       SweepFolder::make("scene = \"vibrated\"\nreplicas = 2500\n", "s.toml", temporary / "d");
-  const std::string script = script_of(folder, {});
+  const std::string script = script_of(folder);
   const std::vector<std::string> chunks = chunks_in(script);
   CHECK(chunks.size() == 834);  // of three runs each, the last of one
   CHECK(chunks.front() == "1-3");
@@ -117,12 +116,11 @@ TEST_CASE("Submit: a large sweep has at most 1000 tasks on a cluster") {
 TEST_CASE("Submit: the options of the script are those of the user") {
   const TemporaryFolder temporary;
   const SweepFolder folder = SweepFolder::make(kNineRuns, "s.toml", temporary / "d");
-  const std::string plain = script_of(folder, {});
+  const std::string plain = script_of(folder);
   CHECK(option_in(plain, "time") == "");
   CHECK(option_in(plain, "partition") == "");
   CHECK(option_in(plain, "output") == '"' + (temporary / "d/slurm/%a.log").string() + '"');
-  const std::string script =
-      script_of(folder, {.chunk = 0, .time = "1:30:00", .partition = "long"});
+  const std::string script = script_of(folder, 0, {.time = "1:30:00", .partition = "long"});
   CHECK(option_in(script, "time") == "1:30:00");
   CHECK(option_in(script, "partition") == "long");
 }
@@ -135,7 +133,7 @@ TEST_CASE("Submit: the memory request grows with the number of particles") {
         "[axes]\n\"particles.count\" = " +
         counts + "\n";
     const SweepFolder folder = SweepFolder::make(text, "s.toml", temporary / "d");
-    const std::string memory = option_in(script_of(folder, {}), "mem");
+    const std::string memory = option_in(script_of(folder), "mem");
     REQUIRE(memory.ends_with("M"));
     return std::stod(memory);
   };

@@ -1,0 +1,163 @@
+#include "app/runs/film_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "app/runs/feature_cost.h"
+#include "app/system/outputs.h"
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
+#include "engine/system/read_file.h"
+#include "engine/system/write_file.h"
+#include "render/output/movie.h"
+
+namespace clatter {
+
+namespace {
+
+// Ranges of frames such as 000120:180, of about equal length. They begin at whole pieces, so that
+// parts and whole film have the same pieces.
+std::vector<std::string> parts_of(const FilmJob& job) {
+  const long count = job.film.times.count;
+  const long pieces = (count + FrameSink::kPiece - 1) / FrameSink::kPiece;
+  const long parts = std::min<long>(job.tasks, pieces);
+  const auto begin = [&](long part) {
+    return std::min(count, part * pieces / parts * FrameSink::kPiece);
+  };
+  std::vector<std::string> words;
+  for (long part = 0; part < parts; ++part) {
+    words.push_back(fmt::format("{:06}:{}", begin(part), begin(part + 1)));
+  }
+  return words;
+}
+
+// The command of the whole film without its output, as words of an array in Bash.
+std::string film_command(const FilmJob& job) {
+  const FilmState& film = job.film;
+  const FrameTimes& times = film.times;
+  std::string words = fmt::format(
+      "{} render \"$folder/scene.toml\" --quiet --seed={}\n"
+      "  --from={} --to={} --speed={} --fps={} --size={} --supersample={} --shutter={}\n"
+      "  --threads={} --backend={}",
+      program_word(), job.seed, times.from, times.of(times.count), times.speed, times.fps,
+      size_text(film.size), film.samples, film.shutter, job.threads, name_of(job.backend));
+  if (!film.overlay) words += " --no-overlay";
+  if (film.transparent) words += " --transparent";
+  return words;
+}
+
+// The lines of a task that draw its part, or nothing if the part is complete.
+std::string drawing_lines(const FilmJob& job) {
+  const bool film = Movie::knows(job.out.extension());
+  const std::string extension = job.out.extension().string();
+  std::string lines = "film=(" + film_command(job) + ")\n";
+  if (film) {
+    lines += fmt::format("complete() {{ [[ -e $folder/$1{0} && ! -e $folder/$1{0}.part ]]; }}\n",
+                         extension);
+  }
+  const std::string out =
+      film ? "$folder/$part" + extension : shell_word(std::filesystem::absolute(job.out).string());
+  lines += fmt::format(R"(part=${{task%:*}}
+checkpoint=$folder/$part.checkpoint
+draw=("${{film[@]}}" --frames="$task" --out={} --checkpoint="$checkpoint")
+if [[ -e $checkpoint ]]; then
+  draw+=(--resume="$checkpoint")
+else
+  draw+=(--overwrite)
+fi
+)",
+                       film ? '"' + out + '"' : out);
+  if (film) lines += "complete $part && draw=(true)\n";
+  return lines + "\"${draw[@]}\"";
+}
+
+// The task that ends last joins the parts.
+std::string joining_lines(const FilmJob& job) {
+  if (!Movie::knows(job.out.extension())) return "";
+  return "for word in \"${tasks[@]}\"; do complete \"${word%:*}\" || exit 0; done\n"
+         "\"${film[@]}\" --join=\"$folder\" --out=" +
+         shell_word(std::filesystem::absolute(job.out).string()) + "\ncode=$?\n";
+}
+
+// Megabytes of a task: the gas, the pictures on their way, and the encoder. The largest encoder,
+// of WebM, needs 165 bytes per pixel.
+double memory_of(const FilmJob& job) {
+  constexpr double kPrograms = 250.0, kEncoder = 250.0, kSample = 16.0, kMargin = 1.5;
+  const Size size = job.film.size;
+  const double picture =
+      (kEncoder + kSample * job.film.samples * job.film.samples) * size.width * size.height;
+  return std::ceil(kPrograms + 1e-6 * (kMargin * memory_of(job.scene) + picture));
+}
+
+// The scene with a start file that a task finds from any folder.
+std::string scene_text(Scene scene) {
+  std::string& file = scene.particles.start.file;
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) file = std::filesystem::absolute(file).string();
+  return scene_to_toml(scene);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return "";
+  return read_file(file.string(), std::numeric_limits<int>::max(), "");
+}
+
+// A script without its options for Slurm, which do not change the film.
+std::string without_options(const std::string& script) {
+  const std::size_t begin = script.find("\ntasks=(");
+  return begin == script.npos ? "" : script.substr(begin);
+}
+
+// Whether a path is a folder with files.
+bool has_files(const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool empty = std::filesystem::is_empty(folder, error);
+  return !error && std::filesystem::is_directory(folder) && !empty;
+}
+
+// Removes the parts and checkpoints of another film.
+void remove_parts(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") >= 6) std::filesystem::remove_all(entry.path());
+  }
+}
+
+}  // namespace
+
+std::filesystem::path write_film_job(const FilmJob& job) {
+  std::filesystem::path out = job.out.has_filename() ? job.out : job.out.parent_path();
+  ArrayJob array;
+  array.folder = std::filesystem::absolute(out += ".slurm");
+  array.tasks = parts_of(job);
+  array.body = drawing_lines(job);
+  array.after = joining_lines(job);
+  array.megabytes = memory_of(job);
+  array.processors = 2;  // a task draws and encodes at the same time
+  array.limits = job.limits;
+  const std::string script = batch_script(array), scene = scene_text(job.scene);
+  const std::filesystem::path script_file = array.folder / "job.sh",
+                              scene_file = array.folder / "scene.toml";
+  const bool same_film = without_options(text_of(script_file)) == without_options(script) &&
+                         text_of(scene_file) == scene;
+  if (!same_film && !job.overwrite) {
+    for (const std::filesystem::path& folder : {array.folder, job.out}) {
+      if (!has_files(folder)) continue;
+      throw UserError({folder.string()}, "has the pictures of another film",
+                      "replace them with --overwrite, or give another --out");
+    }
+  }
+  make_folder(array.folder, "--out");
+  if (!same_film) remove_parts(array.folder);
+  write_file(scene_file, scene);
+  write_file(script_file, script);
+  return script_file;
+}
+
+}  // namespace clatter

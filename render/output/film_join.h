@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/system/child_process.h"
+#include "engine/system/file_descriptor.h"
+#include "render/output/movie_format.h"
+
+namespace clatter {
+
+/// Input of ffmpeg in a folder of film parts.
+inline constexpr const char* kPartList = "pieces.txt";
+
+/// A film file that is a part of a film.
+struct FilmPart {
+  std::filesystem::path path;
+  long count = 0;  ///< number of pictures
+};
+
+/// The last words of an encoder that failed, or a sentence without them.
+std::string reason_of(const ChildProcess& encoder);
+
+/// Number of pictures that a player finds in a film. -1: the encoder cannot start.
+long pictures_in(const std::filesystem::path& film, const std::string& encoder = "ffmpeg");
+
+/// An open folder of film parts.
+struct PartsFolder {
+  std::filesystem::path path;
+  const FileDescriptor& opened;
+
+  /// The path of a file in the folder. It has no characters of the folder's name, which could have
+  /// a special meaning in lists of ffmpeg. See name_while_open().
+  std::filesystem::path safe_name(const std::string& file) const;
+};
+
+/// Joins films in a folder to one, without encoding them again. `texts` is a file with its texts, a
+/// metadata file or a film. Returns the new file in the folder, with the pictures of all parts.
+/// Throws RunError with the reason.
+std::filesystem::path join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts,
+                                 double fps, const std::filesystem::path& texts,
+                                 const MovieFormat& format, const std::string& encoder = "ffmpeg");
+
+/// Joins the films FIRST.EXTENSION in a folder to the film `path` of `count` pictures. FIRST is the
+/// number of the first picture of a part. Throws UserError if pictures are missing, and RunError if
+/// the film cannot be written.
+void join_parts(const std::filesystem::path& folder, long count, double fps,
+                const std::filesystem::path& path);
+
+}  // namespace clatter
