@@ -33,7 +33,6 @@ void catch_interrupts() {
   std::signal(SIGINT, ask_to_end);
   std::signal(SIGTERM, ask_to_end);
   std::signal(SIGHUP, ask_to_end);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {

@@ -300,6 +300,16 @@ TEST_CASE("Sweep: interrupts and kills lose at most what was running") {
   CHECK(shell.run("ls d/runs").out == "locks\n");
 }
 
+TEST_CASE("Sweep: a list of runs beyond the largest file of the system is an error") {
+  const Shell shell;
+  shell.write("s.toml", "scene = \"vibrated\"\nreplicas = 1000\n");
+  const Outcome outcome = shell.run("ulimit -f 8; clatter sweep s.toml --out d --prepare");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "manifest.jsonl: File too large"));
+  CHECK(shell.run("clatter sweep s.toml --out d --prepare && wc -l <d/manifest.jsonl").out ==
+        "1000\n");
+}
+
 TEST_CASE("Sweep: a folder belongs to one sweep at a time") {
   const Shell shell;
   write_sweep(shell);
