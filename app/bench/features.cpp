@@ -102,7 +102,8 @@ class Trial {
                           .seed = 1,
                           .saved = simulation_->save(),
                           .measurement = {},
-                          .film = {}};
+                          .film = {},
+                          .trajectory = {}};
     write_checkpoint(file, checkpoint);
     std::filesystem::remove(file);
     std::filesystem::remove(previous_checkpoint(file));

@@ -44,6 +44,20 @@ void add_measure_command(CLI::App& program, int& exit_code) {
                    "--set 'particles.start={layout=\"file\",file=\"FILE.csv\"}'.")
       ->check(named_file())
       ->type_name("FILE.csv");
+  CLI::Option* trajectory =
+      command
+          ->add_option(
+              "--trajectory", options->trajectory,
+              "File for the states of all particles, at the interval --every. The extension "
+              "selects the format: .xyz (extended XYZ), .lammpstrj (LAMMPS) or .csv.")
+          ->check(named_file())
+          ->type_name("FILE");
+  CLI::Option* every = command
+                           ->add_option("--every", options->every,
+                                        "Simulation time between the states of --trajectory.")
+                           ->check(positive_number())
+                           ->needs(trajectory);
+  trajectory->needs(every);
   CLI::Option* replicas =
       command
           ->add_option("--replicas", options->replicas,
@@ -54,8 +68,8 @@ void add_measure_command(CLI::App& program, int& exit_code) {
       ->add_option("--threads", options->threads,
                    "Number of replicas that run at once. Default: the number of processors.")
       ->check(whole_number_between(1, 256));
-  for (const char* other :
-       {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5", "--save-state"}) {
+  for (const char* other : {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5",
+                            "--save-state", "--trajectory"}) {
     replicas->excludes(command->get_option(other));
   }
   command->callback([options, &exit_code] { exit_code = measure(*options); });

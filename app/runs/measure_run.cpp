@@ -13,6 +13,7 @@
 #include "app/results/hdf5_file.h"
 #include "app/results/json_text.h"
 #include "app/results/result_json.h"
+#include "app/results/trajectory.h"
 #include "app/results/vtk_files.h"
 #include "app/runs/ensemble.h"
 #include "app/runs/run.h"
@@ -84,6 +85,7 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
                                  {"--csv", options.csv},
                                  {"--vtk", options.vtk},
                                  {"--hdf5", options.hdf5},
+                                 {"--trajectory", options.trajectory},
                                  {"--save-state", options.save_state}};
   std::vector<Output> tables;
   const auto add_tables = [&](const char* flag, const std::filesystem::path& folder,
@@ -107,6 +109,10 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
   if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
+  if (!options.trajectory.empty()) {
+    trajectory_format(options.trajectory, "--trajectory");
+    require_writable_file(options.trajectory, "--trajectory");
+  }
   for (const Output& table : tables) require_replaceable(table.path, table.flag);
   if (!options.csv.empty()) make_folder(options.csv, "--csv");
   if (!options.vtk.empty()) make_folder(options.vtk, "--vtk");
@@ -277,13 +283,16 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
-  {
+  if (!options.trajectory.empty()) run.record(options.trajectory, options.every);
+  try {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
     if (options.accuracy.asked_for()) {
       run_to_goal(options.accuracy, run, measurement, end, progress);
     } else {
       run.until(end, progress);
     }
+  } catch (const RunError& error) {
+    throw RunError(error.what() + run.rescue());
   }
   run.put_aside();
   // The results of an interrupted run are written in full.
@@ -330,6 +339,10 @@ int measure(const MeasureOptions& options) {
                     "give a time after the checkpoint");
   }
   require_bounded_samples(scene.measure, end);
+  if (!options.trajectory.empty() && end / options.every > kMaxSamples) {
+    throw UserError({"--every", 0, 0}, "the trajectory would have more than 1e7 frames",
+                    "choose at least " + number_text(end / kMaxSamples));
+  }
   if (options.replicas > 1) return measure_replicas(options, scene, end);
   const std::filesystem::path checkpoint =
       checkpoint_path(options.common, options.checkpoints, resumed, options.out);

@@ -19,6 +19,8 @@ struct MeasureOptions {
   std::string csv;             ///< folder for tables; empty: none
   std::string vtk;             ///< folder for maps; empty: none
   std::string hdf5;            ///< file for all results; empty: none
+  std::string trajectory;      ///< file for the states at equal intervals; empty: none
+  double every = 0.0;          ///< interval of the trajectory, in simulation time
   std::string save_state;      ///< file for the state at the end; empty: none
 };
 

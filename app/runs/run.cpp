@@ -94,7 +94,7 @@ Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions&
 template <int D>
 Measurement<D>& Run<D>::measure(double end) {
   measure_end_ = end;
-  run_->on_change = [this](Simulation<D>& next) { measure_on(next); };
+  run_->on_change = [this](Simulation<D>& next) { follow(next); };
   if (!averages_go_on_) {
     measurement_.emplace(simulation(), scene_.measure, end);
     if (resumed_) tell_new_averages();
@@ -105,6 +105,23 @@ Measurement<D>& Run<D>::measure(double end) {
   measurement_.emplace(simulation(), scene_.measure, ArchiveReader(saved, resumed_->file));
   saved.clear();
   return *measurement_;
+}
+
+template <int D>
+void Run<D>::record(const std::filesystem::path& file, double every) {
+  run_->on_change = [this](Simulation<D>& next) { follow(next); };
+  std::string saved = resumed_ ? std::move(resumed_->checkpoint.trajectory) : "";
+  if (saved.empty()) {
+    recorder_.emplace(file, every, simulation());
+  } else {
+    recorder_.emplace(file, every, simulation(), saved, resumed_->file);
+  }
+}
+
+template <int D>
+void Run<D>::follow(Simulation<D>& next) {
+  if (measurement_) measure_on(next);
+  if (recorder_) recorder_->follow(next);
 }
 
 template <int D>
@@ -128,6 +145,15 @@ void Run<D>::tell_new_averages() const {
 
 template <int D>
 bool Run<D>::until(double time, Progress& progress) {
+  while (recorder_ && recorder_->next_time() <= time) {
+    if (!advance(recorder_->next_time(), progress)) return false;
+    recorder_->add(simulation());
+  }
+  return advance(time, progress);
+}
+
+template <int D>
+bool Run<D>::advance(double time, Progress& progress) {
   constexpr std::chrono::milliseconds kSlice{100};
   ended_early_ = true;
   try {
@@ -157,7 +183,8 @@ Checkpoint Run<D>::checkpoint() {
           .seed = seed_,
           .saved = simulation().save(),
           .measurement = measurement_ ? measurement_->save() : "",
-          .film = film_state ? film_state() : ""};
+          .film = film_state ? film_state() : "",
+          .trajectory = recorder_ ? recorder_->save() : ""};
 }
 
 template <int D>

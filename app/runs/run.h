@@ -8,6 +8,7 @@
 
 #include "app/runs/options.h"
 #include "app/runs/resume.h"
+#include "app/runs/trajectory_recorder.h"
 #include "app/system/progress.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
@@ -53,8 +54,13 @@ class Run {
   /// checkpoint.
   Measurement<D>& measure(double end);
 
+  /// Writes the states at the times 0, `every`, 2 `every` and so on into a trajectory file.
+  /// Continues the trajectory of the checkpoint. Throws UserError and RunError.
+  void record(const std::filesystem::path& file, double every);
+
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
+  /// Throws RunError if the trajectory cannot be written.
   bool until(double time, Progress& progress);
   /// Whether the last until() had an early end.
   bool ended_early() const { return ended_early_; }
@@ -76,6 +82,8 @@ class Run {
 
   Checkpoint checkpoint();
   void write();
+  bool advance(double time, Progress& progress);
+  void follow(Simulation<D>& next);
   void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
 
@@ -90,6 +98,7 @@ class Run {
   std::optional<ScheduledRun<D>> run_;
   double measure_end_ = 0.0;
   std::optional<Measurement<D>> measurement_;
+  std::optional<TrajectoryRecorder<D>> recorder_;
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // failure of the last checkpoint

@@ -18,6 +18,7 @@ struct Checkpoint {
   AnyRunState saved;               ///< the run itself
   std::string measurement;         ///< result of Measurement::save(); empty: no measurement
   std::string film;                ///< state of a film; empty: no film
+  std::string trajectory;          ///< state of a trajectory; empty: no trajectory
 };
 
 /// Writes a checkpoint. A whole checkpoint exists at every moment, even if the machine stops. The

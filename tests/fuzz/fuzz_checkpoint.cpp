@@ -75,7 +75,8 @@ const std::string& whole_checkpoint() {
                           .seed = 1,
                           .saved = run.simulation().save(),
                           .measurement = measurement.save(),
-                          .film = ""};
+                          .film = "",
+                          .trajectory = ""};
     write_checkpoint(file_name(), checkpoint);
     return read_file(file_name(), 1'000'000, "");
   }();

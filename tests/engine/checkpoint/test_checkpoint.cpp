@@ -14,9 +14,10 @@ using namespace clatter::testing;
 namespace {
 
 std::string archived(Checkpoint& checkpoint) {
-  auto& [program, command, scene, start_temperature, seed, saved, measurement, film] = checkpoint;
+  auto& [program, command, scene, start_temperature, seed, saved, measurement, film, trajectory] =
+      checkpoint;
   ArchiveWriter writer;
-  writer(program, command, scene, start_temperature, seed, saved, measurement, film);
+  writer(program, command, scene, start_temperature, seed, saved, measurement, film, trajectory);
   return writer.written();
 }
 
@@ -39,8 +40,8 @@ Checkpoint example() {
   saved.kicks_since_origin = 13;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
-  return {"clatter 9.8", "measure", "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6),
-          "film"};
+  return {"clatter 9.8", "measure",   "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6),
+          "film",        "trajectory"};
 }
 
 RunState<2>& disks(Checkpoint& checkpoint) {

@@ -1,0 +1,197 @@
+#include "app/results/trajectory.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <span>
+
+#include "engine/error.h"
+
+namespace clatter {
+
+namespace {
+
+using Buffer = fmt::memory_buffer;
+
+// Components of a vector of one axis are along z: the spin of a disk.
+template <class T, int Size>
+std::array<T, 3> in_space(const Eigen::Matrix<T, Size, 1>& vector) {
+  std::array<T, 3> all{};
+  for (int k = 0; k < Size; ++k) all[Size == 1 ? 2 : k] = vector[k];
+  return all;
+}
+
+template <class T>
+void add_numbers(Buffer& text, std::span<const T> numbers, char separator) {
+  for (const T number : numbers)
+    fmt::format_to(std::back_inserter(text), "{}{}", separator, number);
+}
+
+template <class T>
+void add_space(Buffer& text, const std::array<T, 3>& numbers) {
+  add_numbers<T>(text, numbers, ' ');
+}
+
+template <int D>
+std::array<double, 3> extents(const Model<D>& model) {
+  std::array<double, 3> all = in_space(model.box);
+  if (D == 2) all[2] = model.diameter;
+  return all;
+}
+
+template <int D>
+bool is_periodic(const Model<D>& model, int axis) {
+  return axis < D && model.periodic(axis);
+}
+
+template <int D>
+void add_xyz(Buffer& text, const TrajectoryFrame<D>& frame) {
+  const Model<D>& model = frame.model;
+  const auto [lx, ly, lz] = extents(model);
+  const auto pbc = [&](int axis) { return is_periodic(model, axis) ? 'T' : 'F'; };
+  const bool spins = !frame.state.spins.empty();
+  fmt::format_to(std::back_inserter(text),
+                 "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" pbc=\"{} {} {}\" Time={} "
+                 "Properties=species:S:1:pos:R:3:vel:R:3{}:image:I:3:radius:R:1\n",
+                 frame.state.positions.size(), lx, ly, lz, pbc(0), pbc(1), pbc(2), frame.time,
+                 spins ? ":omega:R:3" : "");
+  for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
+    text.push_back('X');
+    add_space(text, in_space(frame.state.positions[i]));
+    add_space(text, in_space(frame.state.velocities[i]));
+    if (spins) add_space(text, in_space(frame.state.spins[i]));
+    add_space(text, in_space(frame.images[i]));
+    fmt::format_to(std::back_inserter(text), " {}\n", 0.5 * model.diameter);
+  }
+}
+
+template <int D>
+void add_dump(Buffer& text, const TrajectoryFrame<D>& frame) {
+  const Model<D>& model = frame.model;
+  const bool spins = !frame.state.spins.empty();
+  const std::array<double, 3> box = extents(model);
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS",
+                 frame.number, frame.state.positions.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    fmt::format_to(out, " {}", is_periodic(model, axis) ? "pp" : "ff");
+  }
+  const double depth = D == 2 ? 0.5 * box[2] : 0.0;  // disks are in the middle of their layer
+  fmt::format_to(out, "\n0 {}\n0 {}\n{} {}\n", box[0], box[1], 0.0 - depth, box[2] - depth);
+  fmt::format_to(out, "ITEM: ATOMS id type radius x y z ix iy iz vx vy vz{}\n",
+                 spins ? " omegax omegay omegaz" : "");
+  for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
+    fmt::format_to(out, "{} 1 {}", i + 1, 0.5 * model.diameter);
+    add_space(text, in_space(frame.state.positions[i]));
+    add_space(text, in_space(frame.images[i]));
+    add_space(text, in_space(frame.state.velocities[i]));
+    if (spins) add_space(text, in_space(frame.state.spins[i]));
+    text.push_back('\n');
+  }
+}
+
+// "PREFIXx,PREFIXy" and so on.
+std::string axis_names(const std::string& prefix, int count) {
+  std::string names;
+  for (int k = 0; k < count; ++k) names += ',' + prefix + "xyz"[k];
+  return names;
+}
+
+template <int D>
+void add_csv(Buffer& text, const TrajectoryFrame<D>& frame) {
+  const auto add = [&](const auto& vector) {
+    using T = typename std::decay_t<decltype(vector)>::Scalar;
+    add_numbers<T>(text, {vector.data(), static_cast<std::size_t>(vector.size())}, ',');
+  };
+  const bool spins = !frame.state.spins.empty();
+  for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
+    fmt::format_to(std::back_inserter(text), "{},{}", frame.time, i);
+    add(frame.state.positions[i]);
+    add(frame.images[i]);
+    add(frame.state.velocities[i]);
+    if (spins) add(frame.state.spins[i]);
+    text.push_back('\n');
+  }
+}
+
+}  // namespace
+
+TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag) {
+  const std::string extension = file.extension();
+  if (extension == ".xyz" || extension == ".extxyz") return TrajectoryFormat::ExtXyz;
+  if (extension == ".lammpstrj" || extension == ".dump") return TrajectoryFormat::LammpsDump;
+  if (extension == ".csv") return TrajectoryFormat::Csv;
+  throw UserError({flag, 0, 0}, file.string() + " has no extension of a trajectory",
+                  "give a name that ends in .xyz, .lammpstrj or .csv");
+}
+
+template <int D>
+std::string header_text(TrajectoryFormat format, bool spins) {
+  if (format != TrajectoryFormat::Csv) return "";
+  const std::string spin = D == 2 ? ",omega" : axis_names("omega_", 3);
+  return "time,particle" + axis_names("", D) + axis_names("image_", D) + axis_names("v", D) +
+         (spins ? spin : "") + '\n';
+}
+
+template std::string header_text<2>(TrajectoryFormat, bool);
+template std::string header_text<3>(TrajectoryFormat, bool);
+
+template <int D>
+std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format) {
+  Buffer text;
+  switch (format) {
+    case TrajectoryFormat::ExtXyz:
+      add_xyz(text, frame);
+      break;
+    case TrajectoryFormat::LammpsDump:
+      add_dump(text, frame);
+      break;
+    case TrajectoryFormat::Csv:
+      add_csv(text, frame);
+      break;
+  }
+  return fmt::to_string(text);
+}
+
+template std::string frame_text(const TrajectoryFrame<2>&, TrajectoryFormat);
+template std::string frame_text(const TrajectoryFrame<3>&, TrajectoryFormat);
+
+TrajectoryFile::TrajectoryFile(std::filesystem::path path, std::uint64_t bytes)
+    : path_(std::move(path)),
+      file_(open(path_.c_str(), O_WRONLY | O_CLOEXEC | (bytes > 0 ? 0 : O_CREAT | O_TRUNC), 0666)),
+      bytes_(bytes) {
+  const bool missing = !file_ && errno == ENOENT && bytes > 0;
+  if (!file_ && !missing) fail();
+  if (bytes == 0) return;
+  struct stat status;
+  if (missing || fstat(file_.get(), &status) != 0 ||
+      static_cast<std::uint64_t>(status.st_size) < bytes) {
+    throw UserError({path_.string()}, "lacks frames that precede the checkpoint",
+                    "name the trajectory of the interrupted run");
+  }
+  // Frames after the checkpoint are written again.
+  if (ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0 ||
+      lseek(file_.get(), 0, SEEK_END) < 0) {
+    fail();
+  }
+}
+
+void TrajectoryFile::append(const std::string& text) {
+  if (!file_.write_all(std::as_bytes(std::span(text)))) fail();
+  bytes_ += text.size();
+}
+
+void TrajectoryFile::sync() {
+  if (!file_.sync()) fail();
+}
+
+void TrajectoryFile::fail() const {
+  throw RunError("cannot write " + path_.string() + ": " + std::strerror(errno));
+}
+
+}  // namespace clatter

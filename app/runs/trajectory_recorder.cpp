@@ -1,0 +1,88 @@
+#include "app/runs/trajectory_recorder.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/error.h"
+#include "engine/scene/text.h"
+
+namespace clatter {
+
+namespace {
+
+// The part of a recorder that a checkpoint keeps, besides the images.
+struct SavedTrajectory {
+  double every = 0.0;
+  std::uint64_t next = 0;
+  std::uint64_t bytes = 0;
+};
+
+template <class Archive>
+void visit(Archive& io, SavedTrajectory& saved) {
+  auto& [every, next, bytes] = saved;
+  io(every, next, bytes);
+}
+
+}  // namespace
+
+template <int D>
+TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
+                                          Simulation<D>& simulation)
+    : format_(trajectory_format(path, "--trajectory")), every_(every) {
+  next_ = static_cast<long>(std::floor(simulation.time() / every));
+  while (next_time() < simulation.time()) ++next_;
+  images_.emplace(simulation);
+  file_.emplace(path, 0);
+  file_->append(header_text<D>(format_, simulation.model().spins));
+}
+
+template <int D>
+TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
+                                          Simulation<D>& simulation, const std::string& saved,
+                                          const std::string& checkpoint)
+    : format_(trajectory_format(path, "--trajectory")), every_(every) {
+  images_.emplace(simulation);
+  ArchiveReader reader(saved, checkpoint);
+  SavedTrajectory before;
+  reader(before, *images_);
+  reader.finish();
+  if (before.every != every) {
+    throw UserError({"--every", 0, 0},
+                    "the trajectory of the checkpoint has " + number_text(before.every),
+                    "give this value, or omit --trajectory");
+  }
+  next_ = static_cast<long>(before.next);
+  file_.emplace(path, before.bytes);
+}
+
+template <int D>
+void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
+  const TrajectoryFrame<D> frame{.number = next_,
+                                 .time = simulation.time(),
+                                 .model = simulation.model(),
+                                 .state = simulation.state(),
+                                 .images = images_->images()};
+  file_->append(frame_text(frame, format_));
+  ++next_;
+}
+
+template <int D>
+void TrajectoryRecorder<D>::follow(Simulation<D>& next) {
+  const Images<D> before = *images_;
+  images_.emplace(next, before);
+}
+
+template <int D>
+std::string TrajectoryRecorder<D>::save() {
+  file_->sync();
+  SavedTrajectory saved{every_, static_cast<std::uint64_t>(next_), file_->bytes()};
+  ArchiveWriter writer;
+  writer(saved, *images_);
+  return writer.written();
+}
+
+template class TrajectoryRecorder<2>;
+template class TrajectoryRecorder<3>;
+
+}  // namespace clatter

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/dynamics/observer.h"
+#include "engine/dynamics/simulation.h"
+
+namespace clatter {
+
+/// Periodic images of the particles: the whole box lengths that each has moved along periodic axes
+/// since this observer was made. Position + image * box is the unwrapped position.
+template <int D>
+class Images : public Observer<D> {
+ public:
+  /// Watches a simulation from now on. All images are 0.
+  explicit Images(Simulation<D>& simulation);
+  /// Continues the images of `before`. The new simulation has the same particles at the same time,
+  /// and the one of `before` still exists.
+  Images(Simulation<D>& simulation, const Images& before);
+
+  void on_collision(const PairCollision<D>& collision) override;
+  void on_wall(const WallCollision<D>& collision) override;
+  void on_kick(const Kick<D>& kick) override;
+
+  /// [N] images of the positions in Simulation::state(), at the simulation's time.
+  std::vector<IntVec<D>> images() const;
+
+  /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
+  template <class Archive>
+  void visit(Archive& io) {
+    io(of_flights_);
+  }
+
+ private:
+  IntVec<D> image_in_flight(std::size_t particle) const;
+  void move(const ParticleChange<D>& change);
+
+  const Simulation<D>& simulation_;
+  std::vector<IntVec<D>> of_flights_;  // [N] image of the box in which the current flight began
+};
+
+extern template class Images<2>;
+extern template class Images<3>;
+
+}  // namespace clatter

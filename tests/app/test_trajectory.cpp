@@ -1,0 +1,238 @@
+// Trajectories of `clatter measure`.
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <sstream>
+
+#include "tests/app/shell.h"
+
+namespace clatter {
+
+namespace {
+
+// A scene without symmetry: rough disks in oblique gravity that changes, a periodic axis, and a
+// moving wall.
+constexpr const char* kDisks = R"(title = "T"
+box.size = [8, 6]
+particles = { count = 7, restitution = 0.9, tangential_restitution = 0.3 }
+gravity = { acceleration = [0.05, -0.02] }
+walls.bottom = { kind = "sinusoidal", stroke = 0.2, frequency = 1.0 }
+walls.top = { kind = "static" }
+measure = { burn_in = 1.0, duration = 20.0 }
+[[change]]
+time = 3.3
+set = { "gravity.acceleration" = [0.3, 0.1] }
+)";
+
+constexpr const char* kSpheres = R"(title = "T"
+box.size = [8, 6, 5]
+particles = { count = 9, restitution = 0.9, friction = 0.4 }
+walls.back = { kind = "driven", drive_speed = 1.5 }
+walls.front = { kind = "static" }
+measure = { burn_in = 1.0, duration = 20.0 }
+)";
+
+const std::string kRun = "clatter measure s.toml --seed 4 --quiet --out r.json ";
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> words_of(const std::string& line, char separator) {
+  std::istringstream stream(line);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(stream, word, separator);) words.push_back(word);
+  return words;
+}
+
+Row row_of(const std::vector<std::string>& names, const std::vector<std::string>& words) {
+  REQUIRE(names.size() == words.size());
+  Row row;
+  for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = words[k];
+  return row;
+}
+
+// The lines of a CSV table as rows.
+std::vector<Row> rows_in(const std::string& csv) {
+  const std::vector<std::string> lines = words_of(csv, '\n');
+  std::vector<Row> rows;
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    rows.push_back(row_of(words_of(lines[0], ','), words_of(lines[k], ',')));
+  }
+  return rows;
+}
+
+// The lines of the particles in a format with a head before each frame.
+std::vector<Row> rows_after(const std::string& text, const std::string& head,
+                            const std::vector<std::string>& names, std::size_t particles) {
+  const std::vector<std::string> lines = words_of(text, '\n');
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (!lines[k].starts_with(head)) continue;
+    for (std::size_t i = 1; i <= particles; ++i) {
+      rows.push_back(row_of(names, words_of(lines.at(k + i), ' ')));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("Trajectory: each frame is the state that a run up to its time saves, to the bit") {
+  for (const char* scene : {kDisks, kSpheres}) {
+    const Shell shell;
+    shell.write("s.toml", scene);
+    REQUIRE(shell.run(kRun + "--trajectory t.csv --every 2.5").code == 0);
+    const std::vector<Row> rows = rows_in(shell.read("t.csv"));
+    std::size_t next = 0;
+    for (const std::string time : {"1e-300", "2.5", "5", "7.5", "10", "12.5", "15", "17.5", "20"}) {
+      CAPTURE(time);
+      REQUIRE(
+          shell.run(kRun + "--set measure.burn_in=0 --save-state end.csv --until " + time).code ==
+          0);
+      const std::vector<Row> states = rows_in(shell.read("end.csv"));
+      for (std::size_t i = 0; i < states.size(); ++i, ++next) {
+        Row row = rows.at(next);
+        CHECK(row["time"] == (time == "1e-300" ? "0" : time));
+        CHECK(row["particle"] == std::to_string(i));
+        for (const auto& [name, value] : states[i]) CHECK(row[name] == value);
+      }
+    }
+    CHECK(next == rows.size());
+  }
+}
+
+TEST_CASE("Trajectory: a run with it has the same result") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  const std::string keep = " && sed '/\"performance\"/,$d' r.json";
+  const std::string alone = shell.run(kRun + keep).out;
+  CHECK(alone.find("state_hash") != alone.npos);
+  CHECK(shell.run(kRun + "--trajectory t.csv --every 0.3" + keep).out == alone);
+}
+
+TEST_CASE("Trajectory: images continue where laws change") {
+  const Shell shell;
+  shell.write("s.toml", kSpheres);
+  // Since inertia is a law of rough spheres, the run continues in a new simulation. Up to the first
+  // collision after the change its motion is the same.
+  shell.write("b.toml", std::string(kSpheres) +
+                            "[[change]]\ntime = 10.0\nset = { \"particles.inertia\" = 0.3 }\n");
+  const std::string flags = "--until 10.01 --every 10.005 --trajectory ";
+  REQUIRE(shell.run(kRun + flags + "a.csv").code == 0);
+  REQUIRE(shell.run("cp b.toml s.toml; " + kRun + flags + "b.csv").code == 0);
+  const std::vector<Row> one = rows_in(shell.read("a.csv")), two = rows_in(shell.read("b.csv"));
+  REQUIRE(one.size() == 18);
+  CHECK(Row(one[9])["time"] == "10.005");
+  int away = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i] == two[i]);
+    away += Row(one[i])["image_x"] != "0" && Row(one[i])["image_y"] != "0";
+  }
+  CHECK(away > 0);
+}
+
+TEST_CASE("Trajectory: the formats have the same numbers under their own names") {
+  for (const char* scene : {kDisks, kSpheres}) {
+    const bool disks = scene == kDisks;
+    const Shell shell;
+    shell.write("s.toml", scene);
+    for (const std::string file : {"t.csv", "t.xyz", "t.lammpstrj"}) {
+      REQUIRE(shell.run(kRun + "--every 4 --trajectory " + file).code == 0);
+    }
+    const std::vector<Row> rows = rows_in(shell.read("t.csv"));
+    const std::size_t particles = disks ? 7 : 9;
+    REQUIRE(rows.size() == 6 * particles);
+
+    const std::string xyz = shell.read("t.xyz"), dump = shell.read("t.lammpstrj");
+    const std::string lattice = disks ? "Lattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T F F\""
+                                      : "Lattice=\"8 0 0 0 6 0 0 0 5\" pbc=\"T T F\"";
+    CHECK(says(xyz, std::to_string(particles) + "\n" + lattice + " Time=4 "));
+    CHECK(says(xyz, " Properties=species:S:1:pos:R:3:vel:R:3:omega:R:3:image:I:3:radius:R:1\n"));
+    CHECK(says(dump, "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n" + std::to_string(particles) +
+                         "\nITEM: BOX BOUNDS " + (disks ? "pp ff ff" : "pp pp ff") +
+                         "\n0 8\n0 6\n" + (disks ? "-0.5 0.5" : "0 5") + "\nITEM: ATOMS id type "));
+    const auto in_xyz =
+        rows_after(xyz, "Lattice",
+                   {"species", "x", "y", "z", "vx", "vy", "vz", "omega_x", "omega_y", "omega_z",
+                    "image_x", "image_y", "image_z", "radius"},
+                   particles);
+    // LAMMPS has other names for images and spins.
+    const auto in_dump =
+        rows_after(dump, "ITEM: ATOMS id type radius x y z ix iy iz vx vy vz omegax omegay omegaz",
+                   {"id", "type", "radius", "x", "y", "z", "image_x", "image_y", "image_z", "vx",
+                    "vy", "vz", "omega_x", "omega_y", "omega_z"},
+                   particles);
+    bool moved = false;
+    for (const auto* found : {&in_xyz, &in_dump}) {
+      REQUIRE(found->size() == rows.size());
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        Row row = found->at(k);
+        CHECK(row["radius"] == "0.5");
+        for (const auto& [name, value] : rows[k]) {
+          if (name == "time" || name == "particle") continue;
+          CHECK(row[name == "omega" ? "omega_z" : name] == value);
+        }
+        if (disks) {
+          for (const char* flat : {"z", "vz", "image_z", "omega_x", "omega_y"}) {
+            CHECK(row[flat] == "0");
+          }
+        }
+        moved = moved || row["image_x"] != "0";
+      }
+    }
+    CHECK(moved);
+    CHECK(Row(in_dump[particles + 2])["id"] == "3");
+    CHECK(Row(in_dump[0])["type"] == "1");
+    CHECK(Row(in_xyz[0])["species"] == "X");
+  }
+}
+
+TEST_CASE("Trajectory: a resumed run continues it without a gap or a double frame") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  const std::string part = kRun + "--trajectory part.csv ";
+  REQUIRE(shell.run(kRun + "--trajectory whole.csv --every 0.7").code == 0);
+  for (const std::string end : {"6.9", "7"}) {
+    CAPTURE(end);
+    REQUIRE(shell.run(part + "--every 0.7 --checkpoint c --until " + end).code == 0);
+    check_refused(shell, part + "--every 0.8 --resume c",
+                  {"--every: the trajectory of the checkpoint has 0.7"});
+    check_refused(shell, kRun + "--trajectory none.csv --every 0.7 --resume c",
+                  {"none.csv: lacks frames that precede the checkpoint"});
+    // A killed run has written frames, and a part of one, after its last checkpoint.
+    shell.run("tail -n 5 whole.csv | head -c 100 >>part.csv");
+    const Outcome resumed =
+        shell.run(part + "--every 0.7 --resume c && cmp part.csv whole.csv && rm part.csv");
+    CAPTURE(resumed.err);
+    CHECK(resumed.code == 0);
+  }
+  // A checkpoint without trajectory: the first frame is the next multiple of the interval.
+  REQUIRE(shell.run(kRun + "--checkpoint c --until 6.9").code == 0);
+  REQUIRE(shell.run(kRun + "--resume c --trajectory late.csv --every 0.7").code == 0);
+  const std::vector<Row> late = rows_in(shell.read("late.csv"));
+  CHECK(Row(late.at(0))["time"] == "7");
+  CHECK(Row(late.at(0))["image_x"] == "0");
+}
+
+TEST_CASE("Trajectory: a failed write leaves a checkpoint, and wrong use is refused") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  const Outcome full =
+      shell.run("ulimit -f 100; " + kRun + "--trajectory t.xyz --every 0.1 --checkpoint c");
+  CHECK(full.code == 1);
+  CHECK(says(full.err, "cannot write t.xyz: File too large; continue with --resume c"));
+  REQUIRE(shell.run(kRun + "--trajectory t.xyz --every 0.1 --resume c").code == 0);
+  CHECK(shell.run(kRun + "--trajectory u.xyz --every 0.1 && cmp t.xyz u.xyz").code == 0);
+
+  check_refused(shell, kRun + "--trajectory t.foo --every 1",
+                {"--trajectory: t.foo has no extension of a trajectory; give a name that ends in"});
+  check_refused(shell, kRun + "--trajectory v.xyz", {"--trajectory requires --every"});
+  check_refused(shell, kRun + "--every 1", {"--every requires --trajectory"});
+  check_refused(shell, kRun + "--trajectory v.xyz --every 0", {"--every"});
+  check_refused(shell, kRun + "--trajectory v.xyz --every 1e-7",
+                {"--every: the trajectory would have more than 1e7 frames; choose at least"});
+  check_refused(shell, kRun + "--trajectory v.xyz --every 1 --replicas 2", {"--replicas"});
+  check_refused(shell, kRun + "--trajectory s.csv --save-state s.csv --every 1", {"s.csv"});
+}
+
+}  // namespace clatter

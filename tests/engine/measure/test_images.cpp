@@ -1,0 +1,98 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/measure/images.h"
+#include "engine/publish/scheduled_run.h"
+#include "tests/support/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+using Plane = std::integral_constant<int, 2>;
+using Space = std::integral_constant<int, 3>;
+
+// A gas that falls through a periodic box of unequal sides.
+template <int D>
+Scene falling_gas() {
+  Scene scene = gas(VecX::LinSpaced(D, 6.0, 8.0), 20, 0.9);
+  scene.gravity = VecX::LinSpaced(D, 0.05, -0.02);
+  return scene;
+}
+
+// Sum of the unwrapped positions.
+template <int D>
+Vec<D> centre(const Simulation<D>& simulation, const Images<D>& images) {
+  const State<D> state = simulation.state();
+  const std::vector<IntVec<D>> boxes = images.images();
+  Vec<D> sum = Vec<D>::Zero();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    sum +=
+        state.positions[i] + boxes[i].template cast<double>().cwiseProduct(simulation.model().box);
+  }
+  return sum;
+}
+
+template <int D>
+Vec<D> momentum(const Simulation<D>& simulation) {
+  Vec<D> sum = Vec<D>::Zero();
+  for (const Vec<D>& velocity : simulation.state().velocities) sum += velocity;
+  return sum;
+}
+
+}  // namespace
+
+// Collisions conserve momentum. So the unwrapped centre of mass falls freely, although particles
+// cross the sides of the box many times, in collisions too. A lost image is an error of at least 6.
+TEST_CASE_TEMPLATE("Images: the unwrapped centre of mass falls freely", Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  const Scene scene = falling_gas<D>();
+  const auto simulation = simulation_of<D>(scene, 5);
+  Images<D> images(*simulation);
+  const Vec<D> start = centre(*simulation, images), speed = momentum(*simulation);
+  const Vec<D> force = 20.0 * Vec<D>(*scene.gravity);
+  for (const double time : {0.0, 1.0, 20.0, 100.0}) {
+    CAPTURE(time);
+    simulation->run_until(time);
+    const Vec<D> moved = centre(*simulation, images) - start;
+    CHECK((moved - speed * time - 0.5 * force * time * time).norm() < 1e-8);
+  }
+  int most = 0;
+  for (const IntVec<D>& image : images.images()) most = std::max(most, image.cwiseAbs().maxCoeff());
+  CHECK(most > 10);
+  CHECK(simulation->counts().pair_collisions > 200);
+}
+
+TEST_CASE_TEMPLATE("Images: a resumed run has them, also under other laws", Dimension, Plane,
+                   Space) {
+  constexpr int D = Dimension::value;
+  Scene scene = falling_gas<D>();
+  const auto simulation = simulation_of<D>(scene, 6);
+  Images<D> images(*simulation);
+  simulation->run_until(30.0);
+  ArchiveWriter writer;
+  writer(images);
+
+  Simulation<D> resumed(model_of<D>(scene, 6), simulation->save());
+  Images<D> read(resumed);
+  ArchiveReader reader(writer.written(), "");
+  reader(read);
+  reader.finish();
+  CHECK(read.images() == images.images());
+
+  const Vec<D> start = centre(*simulation, images), speed = momentum(*simulation);
+  scene.gravity = VecX::LinSpaced(D, -0.3, 0.2);
+  Simulation<D> changed(model_of<D>(scene, 6), simulation->save());
+  Images<D> handed(changed, images);
+  CHECK(handed.images() == images.images());
+  simulation->run_until(60.0);
+  resumed.run_until(60.0);
+  changed.run_until(60.0);
+  CHECK(read.images() == images.images());
+  const Vec<D> force = 20.0 * Vec<D>(*scene.gravity);
+  const Vec<D> moved = centre(changed, handed) - start;
+  CHECK((moved - 30.0 * speed - 450.0 * force).norm() < 1e-8);
+}
