@@ -257,11 +257,15 @@ void Controls::show(const View& view, bool changed) {
 
 void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after,
                    const VecX& shift) {
+  const View view = session_.view();
+  const std::uint64_t views = session_.views();
   session_.set(after, shift);
-  session_.remember({.before = before, .after = after, .shift = shift});
+  Edit edit{.before = before, .after = after, .shift = shift};
+  if (session_.views() != views) edit.views = {{view, session_.view()}};
+  session_.remember(std::move(edit));
 }
 
-void Controls::log_place(const char* key) {
+void Controls::log_place(const std::string& key) {
   const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
   log_.widget(key, low.x, low.y, size.x, size.y);
 }

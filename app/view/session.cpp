@@ -113,11 +113,8 @@ Scene Session::recorded() const {
   scene.changes = frame().scene->changes;
   scene.view = view_;
   scene.view.speed = speed_;
-  if (!scene.spins()) {
-    // Roughness was switched on later: the scene at the start has no spins to show.
-    if (scene.view.colour_by == ColourBy::Spin) scene.view.colour_by = ColourBy::Speed;
-    if (scene.view.field && of_spins(*scene.view.field)) scene.view.field.reset();
-  }
+  // Roughness may have been switched on later: the scene at the start has no spins to show.
+  if (!scene.spins()) scene.view.hide_spins();
   return scene;
 }
 
@@ -201,6 +198,8 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
     tell(error.problem() + "; " + error.advice());
     return;
   }
+  View view = view_;
+  if (!scene_.spins() && view.hide_spins()) set_view(view);
   nlohmann::json keys;
   for (const Override& setting : settings) keys[setting.key] = setting.value;
   log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
@@ -218,13 +217,11 @@ void Session::remember(Edit edit) {
 }
 
 void Session::apply(const Edit& edit, bool again) {
-  if (edit.views) {
-    set_view((*edit.views)[again ? 1 : 0]);
-  } else if (!edit.scenes.empty()) {
-    start(edit.scenes[again ? 1 : 0], "dimension");
-  } else {
+  if (!edit.scenes.empty()) start(edit.scenes[again ? 1 : 0], "dimension");
+  if (!edit.after.empty()) {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
   }
+  if (edit.views) set_view((*edit.views)[again ? 1 : 0]);
 }
 
 void Session::undo() {

@@ -69,7 +69,7 @@ class Session {
 
   /// Sets keys. Laws change in the running simulation. Other keys restart it from the current
   /// particles, moved by `shift`, without those that no longer fit. An invalid setting becomes a
-  /// message.
+  /// message. If no particle spins afterwards, the view shows no spins.
   void set(const std::vector<Override>& settings, const VecX& shift = {});
   /// Adds an entry to the undo history, and clears the redo history.
   void remember(Edit edit);

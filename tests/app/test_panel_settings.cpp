@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/scene/scene_file.h"
 #include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
 
@@ -158,6 +159,32 @@ TEST_CASE("Panels: spins go with their keys, and come back with the numbers that
   tick(driver, "rough");
   CHECK(changes(before, settings(driver)) ==
         Places{"/particles/friction", "/particles/tangential_restitution"});
+}
+
+TEST_CASE("Panels: colours and fields of spins go with the spins, and come back with undo") {
+  Scene scene = uneven_disks();
+  scene.view.colour_by = ColourBy::Spin;
+  scene.view.field = Field(Quantity::Spin);
+  scene.measure.fields = {Field(Quantity::Spin)};
+  Session* session = nullptr;
+  PanelDriver driver(scene, [&](Session& of, Controls& controls) {
+    session = &of;
+    all_panels(of, controls);
+  });
+  tick(driver, "rough");
+  const auto smooth = [](const Frame& frame) { return !frame.scene->spins(); };
+  driver.wait_for([&](const Frame& frame) { return frame.run == 1 && smooth(frame); });
+  CHECK(driver.session().message().empty());
+  CHECK(driver.session().view().colour_by == ColourBy::Speed);
+  CHECK_FALSE(driver.session().view().field);
+  // The scene that would be saved is complete.
+  CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 1);
+  session->undo();
+  driver.wait_for([&](const Frame& frame) { return !smooth(frame); });
+  CHECK(driver.session().message().empty());
+  CHECK(driver.session().view().colour_by == ColourBy::Spin);
+  CHECK(driver.session().view().field == Field(Quantity::Spin));
+  CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 2);
 }
 
 TEST_CASE("Panels: a feature starts with its usual numbers when switched on") {
