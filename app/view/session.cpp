@@ -266,12 +266,8 @@ void Session::show_profile(Profiled what, Axis axis) {
 
 void Session::tell(const std::string& message) {
   message_ = message;
-  told_ = Clock::now();
+  ++told_;
   log_.event("message", {{"text", message}});
-}
-
-double Session::message_age() const {
-  return std::chrono::duration<double>(Clock::now() - told_).count();
 }
 
 }  // namespace clatter

@@ -91,8 +91,8 @@ class Session {
   void tell(const std::string& message);
   /// The last message; empty: none yet.
   const std::string& message() const { return message_; }
-  /// Seconds since the last message.
-  double message_age() const;
+  /// Number of messages so far.
+  std::uint64_t messages() const { return told_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -127,11 +127,11 @@ class Session {
   std::shared_ptr<const Scene> seen_;
   bool wishes_ = false;           // scene_ has settings that the engine may refuse
   std::optional<Before> before_;  // state before the scene being opened; absent: none
-  std::uint64_t messages_ = 0;
+  std::uint64_t messages_ = 0;    // Frame::messages of the last frame
   std::vector<Edit> done_;
   std::vector<Edit> undone_;
   std::string message_;
-  Clock::time_point told_;
+  std::uint64_t told_ = 0;
   Clock::time_point logged_;
 };
 

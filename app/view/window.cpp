@@ -96,7 +96,7 @@ static void show(const WindowOptions& options) {
       gui.draw();
       glfwSwapBuffers(window);
       guard.check();
-      wait_for_events(left > 0 || gui.films(), began, rate);
+      wait_for_events(left > 0 || gui.changes(), began, rate);
     }
     // Hide the window first: ~Gui interrupts a film and waits for its end.
     glfwHideWindow(window);

@@ -1,6 +1,7 @@
 // The texts of the window's panels: each name with the value of its own key.
 
 #include <doctest/doctest.h>
+#include <imgui.h>
 
 #include <cmath>
 
@@ -153,6 +154,40 @@ TEST_CASE("Panels: a picked sphere shows three components") {
       {"Sphere 0", "position 2.50, 5.25, 7.12", "velocity -3.000, 4.000, 12.000", "speed 13.000",
        "spin -0.625, 0.500, 0.250", "last collision t = 11.5000, front wall",
        "next collision t = 12.2500, sphere 2", "double-click to follow"});
+}
+
+TEST_CASE("Panels: a message is shown for 4 to 8 seconds, and stays under the mouse") {
+  MessageNote note;
+  Session* session = nullptr;
+  PanelDriver driver(Scene{}, [&](Session& of, Controls&) {
+    session = &of;
+    ImGui::GetIO().DeltaTime = 0.5f;
+    note.draw(of, {{0.0f, 0.0f}, {400.0f, 400.0f}});
+  });
+  const auto shown = [&] { return says(text_of(driver), "Saved"); };
+  // Half a second passes at each look.
+  const auto seconds = [&] {
+    double time = 0.0;
+    for (; shown() && time < 30.0; time += 0.5) {
+    }
+    CHECK_FALSE(note.shown());
+    return time;
+  };
+  driver.point_at(0.0f, 3000.0f);
+  CHECK_FALSE(shown());
+  session->tell("Saved: a");
+  CHECK(seconds() == 4.0);
+  session->tell("Saved: " + std::string(100, 'a'));
+  const double longer = seconds();
+  CHECK(longer > 5.0);
+  CHECK(longer < 8.0);
+  session->tell("Saved: " + std::string(1000, 'a'));
+  CHECK(seconds() == 8.0);
+  session->tell("Saved: a");
+  driver.point_at(200.0f, 340.0f);
+  for (int look = 0; look < 40; ++look) CHECK(shown());
+  driver.point_at(0.0f, 3000.0f);
+  CHECK(seconds() <= 4.0);
 }
 
 TEST_CASE("Panels: a curve of theory has its meaning beside the mouse") {
