@@ -174,15 +174,17 @@ double PlotScale::place(double value) const {
   return logarithmic ? std::log10(std::max(value, floor)) : value;
 }
 
-// Adds room around the data. Without data the ends are infinite, and become 0 and 1.
-static void widen(PlotScale& scale, bool from_zero) {
+// Adds room around the data: a linear axis has at least the length `span`. Without data the ends
+// are infinite, and become 0 and 1.
+static void widen(PlotScale& scale, bool from_zero, double span) {
   if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
   if (from_zero && !scale.logarithmic && scale.low > 0.0) scale.low = 0.0;
   if (from_zero) scale.high += 0.05 * (scale.high - scale.low);
-  if (!(scale.high > scale.low)) {
-    const double room = std::max(1e-12, 0.1 * std::fabs(scale.low));
-    scale.low -= room;
-    scale.high += room;
+  if (!(scale.high > scale.low) || (!scale.logarithmic && scale.high - scale.low < span)) {
+    const double middle = 0.5 * (scale.low + scale.high);
+    const double room = std::max({1e-12, 0.5 * span, 0.1 * std::fabs(middle)});
+    scale.low = middle - room;
+    scale.high = middle + room;
   }
 }
 
@@ -201,8 +203,10 @@ std::array<PlotScale, 2> scales_of(const LivePlot& plot) {
       include(y, point.y());
     }
   }
-  widen(x, false);
-  widen(y, true);
+  constexpr double kResolution = 1e-6;  // of the largest magnitude
+  widen(x, false, 0.0);
+  const double most = std::max(std::fabs(y.low), std::fabs(y.high));
+  widen(y, true, std::max(plot.span, std::isfinite(most) ? kResolution * most : 0.0));
   return {x, y};
 }
 
