@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -39,8 +40,8 @@ static void explain(const Slider& slider, double usual) {
   ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
   if (*slider.help) ImGui::TextDisabled("%s", slider.help);
-  ImGui::TextDisabled("Here: %s%s%s. Double-click to type.", text.c_str(), *slider.unit ? " " : "",
-                      slider.unit);
+  ImGui::TextDisabled("Here: %s%s%s. Click the number to type.", text.c_str(),
+                      *slider.unit ? " " : "", slider.unit);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -65,8 +66,9 @@ static bool reset_button() {
   return clicked;
 }
 
-// Name and symbol at the left of a line, value at its right, with room for the arrow.
-static void headline(const Slider& slider, double value) {
+// Name and symbol at the left of a line, value at its right, with room for the arrow. Returns true
+// if the value was clicked.
+static bool headline(const Slider& slider, double value) {
   ImGui::TextUnformatted(slider.name);
   if (*slider.symbol) {
     ImGui::SameLine();
@@ -82,6 +84,8 @@ static void headline(const Slider& slider, double value) {
   const char* text = (fits ? with_unit : number).c_str();
   ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
   ImGui::TextUnformatted(text);
+  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
+  return ImGui::IsItemClicked();
 }
 
 // Rounds to three digits, the resolution of dragging.
@@ -89,18 +93,35 @@ static double rounded(double value) {
   return std::stod(fmt::format("{:.3g}", value));
 }
 
-Controls::Moved Controls::draw(const Slider& slider, double& value, double usual) {
+// The value in the range of the slider. A message states the limit.
+double Controls::limited(const Slider& slider, double value) {
+  const double within = std::clamp(value, slider.low, slider.high);
+  if (within == value) return value;
+  const char* side = value > slider.high ? "at most" : "at least";
+  const std::string number = fmt::sprintf(slider.logarithmic ? "%g" : slider.format, within);
+  session_.tell(fmt::format("{}: {} {}{}{}{}{}", slider.name, side, number, *slider.unit ? " " : "",
+                            slider.unit, *slider.limit ? "; " : "", slider.limit));
+  return within;
+}
+
+// `place` is the name of the slider in the script log.
+Controls::Moved Controls::draw(const Slider& slider, double& value, double usual,
+                               const std::string& place) {
   Moved moved;
   ImGui::PushID(slider.key);
   ImGui::PushID(slider.name);
-  headline(slider, value);
+  const bool asked = headline(slider, value);
+  log_place(place + ".number");
   if (value != usual) moved.reset = reset_button();
 
-  // ImGui edits a slider as text after Ctrl + click. A double click shall do the same.
+  // ImGui edits a slider as text after Ctrl + click. A double click, and a click on the number,
+  // shall do the same.
   ImGuiIO& io = ImGui::GetIO();
   const bool ctrl = io.KeyCtrl;
   io.KeyCtrl = ctrl || io.MouseDoubleClicked[0];
-  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
+  const ImGuiID id = ImGui::GetID("##value");
+  if (asked) ImGui::GetCurrentContext()->NavActivateInputId = id;
+  const bool typing = ImGui::TempInputIsActive(id);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
   if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
@@ -108,19 +129,34 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   // ImGui takes the smallest magnitude of a logarithmic slider from the digits of its format.
   const char* format = slider.logarithmic ? "%.9g" : slider.format;
   const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp |
-      (slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0);
+      slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
   const double was = value;
   moved.changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &slider.low,
                                       &slider.high, format, flags);
-  if (moved.changed && slider.logarithmic) value = rounded(value);
   if (!typing) ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   io.KeyCtrl = ctrl;
   moved.taken = ImGui::IsItemActivated();
-  moved.let_go = ImGui::IsItemDeactivatedAfterEdit();
   if (moved.taken) before_ = was;
-  log_place(slider.key);
+  if (typing) {
+    // The number counts once it is complete.
+    typed_.reset();
+    if (moved.changed && !std::isnan(value)) typed_ = value;
+    moved.changed = false;
+  } else if (moved.changed && slider.logarithmic) {
+    value = rounded(value);
+  }
+  // A click without a drag changes nothing.
+  constexpr float kDrag = 3.0f;
+  moved.changed = moved.changed && ImGui::IsMouseDragging(ImGuiMouseButton_Left, kDrag);
+  if (!moved.changed) value = was;
+  if (ImGui::IsItemDeactivatedAfterEdit()) {
+    if (typed_) value = limited(slider, *typed_);
+    typed_.reset();
+    moved.changed = value != was;
+    moved.let_go = value != before_;
+  }
+  log_place(place);
   explain(slider, usual);
   ImGui::PopID();
   ImGui::PopID();
@@ -129,7 +165,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
 
 void Controls::law(const Slider& slider, double value, double usual) {
   const double now = value;
-  const Moved moved = draw(slider, value, usual);
+  const Moved moved = draw(slider, value, usual, slider.key);
   if (moved.reset) set({{slider.key, value_text(now)}}, {{slider.key, value_text(usual)}});
   if (moved.changed) session_.set({{slider.key, value_text(value)}});
   if (moved.let_go) {
@@ -139,7 +175,7 @@ void Controls::law(const Slider& slider, double value, double usual) {
 
 void Controls::whole(const Slider& slider, int value, int usual) {
   double shown = holding_ == slider.key ? held_ : value;
-  const Moved moved = draw(slider, shown, usual);
+  const Moved moved = draw(slider, shown, usual, slider.key);
   const auto put = [&](double number) {
     set({{slider.key, std::to_string(value)}},
         {{slider.key, value_text(static_cast<int>(number))}});
@@ -158,7 +194,8 @@ void Controls::component(const Slider& slider, const VecX& vector, int axis, con
   const std::string name = std::string(slider.key) + slider.name;
   VecX now = vector;
   if (holding_ == name) now[axis] = held_;
-  const Moved moved = draw(slider, now[axis], usual[axis]);
+  const Moved moved =
+      draw(slider, now[axis], usual[axis], slider.key + std::string(".") + "xyz"[axis]);
   VecX before = vector;
   if (moved.changed && at_once) session_.set({{slider.key, value_text(now)}});
   if (moved.changed && !at_once) {
@@ -179,7 +216,7 @@ void Controls::component(const Slider& slider, const VecX& vector, int axis, con
 }
 
 bool Controls::number(const Slider& slider, double& value, double usual) {
-  const Moved moved = draw(slider, value, usual);
+  const Moved moved = draw(slider, value, usual, slider.key);
   if (moved.reset) value = usual;
   return moved.changed || moved.reset;
 }
@@ -203,7 +240,7 @@ bool Controls::choice(const char* key, const char* name, const char* help,
         chosen = i;
       }
       // The position of the list is not final in its first frame.
-      if (!ImGui::IsWindowAppearing()) log_place((std::string(key) + '.' + word).c_str());
+      if (!ImGui::IsWindowAppearing()) log_place(std::string(key) + '.' + word);
     }
     ImGui::EndCombo();
   }
@@ -239,8 +276,8 @@ bool Controls::button(const char* key, const char* label, const char* help, floa
   return clicked;
 }
 
-bool Controls::card(const char* key, float height) {
-  const bool clicked = ImGui::Selectable("##card", false, 0, ImVec2(0.0f, height));
+bool Controls::card(const char* key, float height, bool selected) {
+  const bool clicked = ImGui::Selectable("##card", selected, 0, ImVec2(0.0f, height));
   log_place(key);
   return clicked;
 }

@@ -17,10 +17,13 @@ struct Slider {
   double high = 1.0;            ///< largest value
   bool logarithmic = false;     ///< logarithmic scale
   const char* format = "%.3f";  ///< printf format of the value
+  const char* limit = "";       ///< why no larger or smaller value is taken; empty: no reason
 };
 
 /// The widgets of the panels. Dragging a slider changes the gas immediately. Releasing it adds one
-/// entry to the undo history.
+/// entry to the undo history. A click on a slider changes nothing. A click on its number, a double
+/// click or Ctrl and a click open a text field. A typed number outside the range becomes the end of
+/// the range, with a message.
 class Controls {
  public:
   Controls(Session& session, ScriptLog& log) : session_(session), log_(log) {}
@@ -66,12 +69,14 @@ class Controls {
     bool reset = false;    // the reset arrow was clicked
   };
 
-  Moved draw(const Slider& slider, double& value, double usual);
-  void log_place(const char* key);
+  Moved draw(const Slider& slider, double& value, double usual, const std::string& place);
+  double limited(const Slider& slider, double value);
+  void log_place(const std::string& key);
 
   Session& session_;
   ScriptLog& log_;
   double before_ = 0.0;               // value at the start of the current drag
+  std::optional<double> typed_;       // number in the open text field, if it was edited
   double held_ = 0.0;                 // pending value of a slider that acts on release
   std::string holding_;               // name of that slider
   std::optional<View> shown_before_;  // view before the current drag
