@@ -282,6 +282,19 @@ bool Controls::card(const char* key, float height, bool selected) {
   return clicked;
 }
 
+void Controls::note(const char* key, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+  log_place(key);
+}
+
+void Controls::area(const char* key, float width, float height, const std::string& help) {
+  ImGui::Dummy(ImVec2(width, height));
+  log_place(key);
+  tell_help(help.c_str());
+}
+
 void Controls::show(const View& view, bool changed) {
   if (changed) {
     if (!shown_before_) shown_before_ = session_.view();

@@ -52,7 +52,11 @@ class Controls {
 
   /// Clickable area of full width and `height` pixels; the caller draws its content. Returns true
   /// if it was clicked.
-  bool card(const char* key, float height);
+  bool card(const char* key, float height, bool selected);
+  /// Faint text, wrapped at the width of the window.
+  void note(const char* key, const std::string& text);
+  /// Area without content, with a tooltip; the caller draws its content.
+  void area(const char* key, float width, float height, const std::string& help);
 
   /// Sets the view if it has `changed`. All changes up to the end of a drag are one undo entry.
   /// Call it in every frame.

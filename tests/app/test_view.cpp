@@ -319,6 +319,44 @@ TEST_CASE("Window: a click on a number types another one, at most the largest") 
   CHECK(driver.events("set").size() == 2);
 }
 
+TEST_CASE("Window: it is no larger than the screen") {
+  const GuiDriver driver("", "1280x800", "1200x720");
+  const json place = driver.wait_for("widget", 0, [](const json& event) {
+    return event["name"] == "close_lesson" && event["place"][1] < 720.0;
+  })["place"];
+  CHECK(place[0].get<double>() + place[2].get<double>() <= 1200.0);
+}
+
+TEST_CASE("Window: arrows and Enter choose a scene of the gallery") {
+  const GuiDriver driver("");
+  std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  for (const char* key : {"Down", "Down", "Down", "Up"}) driver.key(key);
+  driver.key("Return");
+  const json third = driver.wait_for("open", told);
+  // Without the keys of the list, the third scene of it.
+  std::istringstream list(driver.shell().run("clatter scenes | sed -n 3p").out);
+  std::string name;
+  list >> name;
+  driver.shell().run("clatter check " + name + " >checked");
+  CHECK(says(driver.shell().read("checked"), third["title"].get<std::string>()));
+
+  // With a search that finds no scene, Enter opens none.
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.key("slash");
+  driver.tool("type --delay 100 zzz");
+  place_of(driver, "gallery.none", told);
+  driver.key("Return");
+  for (int i = 0; i < 3; ++i) driver.key("BackSpace");
+  driver.tool("type --delay 100 cradle");
+  driver.key("Return");
+  CHECK(driver.wait_for("open", told)["title"] == "Newton's cradle");
+  CHECK(driver.events("open").size() == 3);
+}
+
 TEST_CASE("Window: the gallery has the order of the list of scenes") {
   const GuiDriver driver("");
   const std::size_t told = driver.told();
