@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 
@@ -9,6 +10,7 @@
 #include "app/view/panels.h"
 #include "app/view/plot.h"
 #include "app/view/top_bar.h"
+#include "engine/scene/scene_file.h"
 #include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
 
@@ -154,6 +156,49 @@ TEST_CASE("Panels: a picked sphere shows three components") {
       {"Sphere 0", "position 2.50, 5.25, 7.12", "velocity -3.000, 4.000, 12.000", "speed 13.000",
        "spin -0.625, 0.500, 0.250", "last collision t = 11.5000, front wall",
        "next collision t = 12.2500, sphere 2", "double-click to follow"});
+}
+
+TEST_CASE("Panels: the light of health is red after the run has stopped by itself") {
+  Session* session = nullptr;
+  PanelVisibility shown;
+  Scene scene = load_scene("collapse");
+  scene.contact_time.reset();
+  PanelDriver driver(scene, [&](Session& of, Controls& controls) {
+    session = &of;
+    top_bar(of, controls, shown);
+  });
+  const auto reasons = [&] {
+    const auto [x, y, width, height] = driver.place("health");
+    driver.point_at(x + 0.5f * width, y + 0.5f * height);
+    return text_of(driver);
+  };
+  CHECK_FALSE(says(reasons(), "inelastic collapse"));
+  session->set_speed(1e6);
+  session->play(true);
+  driver.wait_for([](const Frame& frame) { return !frame.stop.empty(); });
+  CHECK(says(reasons(), "inelastic collapse"));
+  session->restart();
+  driver.wait_for([](const Frame& frame) { return frame.run == 2 && frame.stop.empty(); });
+}
+
+TEST_CASE("Panels: a tooltip is beside its panel") {
+  ImVec4 tip;
+  bool on = false;
+  PanelDriver driver(Scene{}, [&](Session&, Controls& controls) {
+    ImGui::SetNextWindowPos(ImVec2(20.0f, 20.0f));
+    ImGui::SetNextWindowSize(ImVec2(200.0f, 300.0f));
+    ImGui::Begin("narrow");
+    controls.toggle("box", "Box", "Its help", on);
+    if (const ImGuiWindow* window = ImGui::FindWindowByName("##Tooltip_00")) {
+      tip = ImVec4(window->Pos.x, window->Pos.y, window->Size.x, window->Size.y);
+    }
+    ImGui::End();
+  });
+  const auto [x, y, width, height] = driver.place("box");
+  driver.point_at(x + 5.0f, y + 5.0f);
+  CHECK(says(text_of(driver), "Its help"));
+  CHECK(tip.x >= 220.0f);
+  CHECK(tip.y == y);
 }
 
 TEST_CASE("Panels: a message is shown for 4 to 8 seconds, and stays under the mouse") {
