@@ -111,6 +111,16 @@ TEST_CASE("Panels: the first item of a list removes the feature") {
   CHECK(settings(driver).at("/walls/right/kind") == "static");
 }
 
+TEST_CASE("Panels: \"none\" is also a name in scenes, as in the lists") {
+  const Scene scene = parse_scene(
+      "[particles]\ncount = 5\n[view]\nfield = 'density'\narrows = 'velocity'\n"
+      "field_palette = 'none'\n",
+      "", {{"view.field", "\"none\""}, {"view.arrows", "\"none\""}});
+  CHECK_FALSE(scene.view.field);
+  CHECK_FALSE(scene.view.arrows);
+  CHECK_FALSE(scene.view.field_palette);
+}
+
 TEST_CASE("Panels: ranges are automatic, locked or given from the one number to the other") {
   struct Range {
     const char* key;
