@@ -85,11 +85,15 @@ void Session::answered(const Frame& now) {
 }
 
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
-  seed_ = seed;
   plays_ = plays;
-  done_.clear();
-  undone_.clear();
-  start({scene, scene}, "open");
+  const OpenedScene now{scene, scene, seed};
+  if (frame().run > 0) {
+    if (!done_.empty() && done_.back().scenes.empty()) {
+      tell(fmt::format("Ctrl+Z returns to {} with its changes", opened_.title));
+    }
+    remember({.scenes = {{restarted(), opened_, seed_}, now}});
+  }
+  start(now, "open");
 }
 
 // Sends a scene to the engine, whose refusal restores the present one.
@@ -98,6 +102,7 @@ void Session::start(const OpenedScene& opened, const char* event) {
   wishes_ = true;
   scene_ = opened.scene;
   opened_ = opened.opened;
+  seed_ = opened.seed;
   view_ = scene_.view;
   speed_ = view_.speed;
   ++views_;
@@ -133,14 +138,14 @@ void Session::restart() {
 }
 
 void Session::switch_dimension() {
-  const OpenedScene before{restarted(), opened_};
+  const OpenedScene before{restarted(), opened_, seed_};
   try {
     const auto [scene, removed] = change_dimension(before.scene, 5 - before.scene.dimension());
     if (!removed.empty()) {
       tell(fmt::format("Without meaning for {}, and removed: {}; Ctrl+Z restores the former scene",
                        scene.dimension() == 2 ? "disks" : "spheres", fmt::join(removed, ", ")));
     }
-    remember({.scenes = {before, {scene, scene}}});
+    remember({.scenes = {before, {scene, scene, seed_}}});
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
@@ -217,7 +222,7 @@ void Session::remember(Edit edit) {
 }
 
 void Session::apply(const Edit& edit, bool again) {
-  if (!edit.scenes.empty()) start(edit.scenes[again ? 1 : 0], "dimension");
+  if (!edit.scenes.empty()) start(edit.scenes[again ? 1 : 0], "open");
   if (!edit.after.empty()) {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
   }

@@ -14,6 +14,7 @@ namespace clatter {
 struct OpenedScene {
   Scene scene;
   Scene opened;
+  std::uint64_t seed = 1;
 };
 
 /// One entry of the undo history.
@@ -22,7 +23,7 @@ struct Edit {
   std::vector<Override> after = {};   ///< keys that make the change
   VecX shift = {};  ///< shift of the particles with `after`; undo shifts them back; empty: none
   std::optional<std::array<View, 2>> views = {};  ///< view before and after; absent: unchanged
-  /// Scenes before and after a change of dimension, which start again; empty: no such change.
+  /// Scenes before and after, which start again; empty: no other scene.
   std::vector<OpenedScene> scenes = {};
 };
 
@@ -46,7 +47,8 @@ class Session {
   /// up to the newest frame. Requires a frame.
   Scene recorded() const;
 
-  /// Opens and starts a scene, and clears the undo history. Without `plays` the scene is paused.
+  /// Opens and starts a scene. Undo starts the former scene with its changes. Without `plays` the
+  /// scene is paused.
   void open(const Scene& scene, std::uint64_t seed, bool plays = true);
   /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
   /// laws it was opened with.

@@ -197,6 +197,53 @@ TEST_CASE("Panels: colours and fields of spins go with the spins, and come back 
   CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 2);
 }
 
+TEST_CASE("Panels: undo after another scene was opened returns to the changed scene") {
+  Session* session = nullptr;
+  PanelDriver driver(uneven_disks(), [&](Session& of, Controls& controls) {
+    session = &of;
+    all_panels(of, controls);
+  });
+  const auto opened = [](std::uint64_t run) {
+    return [run](const Frame& frame) { return frame.run == run; };
+  };
+  driver.wait_for(opened(1));
+  tick(driver, "rough");
+  const json changed = settings(driver);
+  session->open(Scene{}, 7, false);
+  CHECK(says(driver.session().message(), "Ctrl+Z returns to"));
+  driver.wait_for(opened(2));
+  CHECK(driver.session().frame().seed == 7);
+  session->undo();
+  driver.wait_for(opened(3));
+  CHECK(changes(changed, settings(driver)).empty());
+  CHECK(driver.session().frame().seed == 1);
+  session->redo();
+  driver.wait_for(opened(4));
+  CHECK(driver.session().frame().seed == 7);
+}
+
+TEST_CASE("Panels: a drag changes a halted gas once, at a time with few digits") {
+  Session* session = nullptr;
+  PanelDriver driver(uneven_disks(), [&](Session& of, Controls& controls) {
+    session = &of;
+    all_panels(of, controls);
+  });
+  session->set_speed(2.0);
+  session->play_until(M_PI);
+  driver.wait_for([](const Frame& frame) { return frame.snapshot.time == M_PI; });
+  const auto [x, y, width, height] = driver.place("particles.restitution");
+  driver.drag(x + 0.8f * width, y + 0.5f * height, x + 0.3f * width);
+  driver.wait_for([](const Frame& frame) { return !frame.scene->changes.empty(); });
+  const std::vector<Change> changes = driver.session().frame().scene->changes;
+  CHECK(changes.size() == 1);
+  // A frame has 2/60 = 0.033 time units, so the times are multiples of 0.001.
+  CHECK(changes[0].time == 3.142);
+  // A change at the same time again.
+  driver.drag(x + 0.3f * width, y + 0.5f * height, x + 0.4f * width);
+  driver.wait_for([](const Frame& frame) { return frame.scene->changes.size() > 1; });
+  CHECK(driver.session().frame().scene->changes[1].time == 3.142);
+}
+
 TEST_CASE("Panels: a feature starts with its usual numbers when switched on") {
   Scene scene = uneven_disks();
   scene.particles.roughness = {};
