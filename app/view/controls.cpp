@@ -221,20 +221,28 @@ bool Controls::number(const Slider& slider, double& value, double usual) {
   return moved.changed || moved.reset;
 }
 
+static std::string_view first_word(std::string_view words) {
+  return words.substr(0, words.find(' '));
+}
+
 bool Controls::choice(const char* key, const char* name, const char* help,
-                      const std::vector<std::string>& words, int& chosen, int usual) {
+                      const std::vector<std::string>& words, int& chosen, int usual, bool grouped) {
   ImGui::PushID(key);
   ImGui::TextUnformatted(name);
   bool changed = chosen != usual && reset_button();
   if (changed) chosen = usual;
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str());
+  const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str(),
+                                      grouped ? ImGuiComboFlags_HeightLargest : 0);
   if (!open) {
     log_place(key);
     tell_help(help);
   } else {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
       const std::string& word = words[static_cast<std::size_t>(i)];
+      if (grouped && i > 0 &&
+          first_word(words[static_cast<std::size_t>(i - 1)]) != first_word(word))
+        ImGui::Separator();
       if (ImGui::Selectable(word.c_str(), i == chosen)) {
         changed = i != chosen;
         chosen = i;

@@ -38,10 +38,11 @@ class Controls {
                  bool at_once = true);
   /// Slider for a setting of the window. Returns true if the value changed.
   bool number(const Slider& slider, double& value, double usual);
-  /// List of words. An arrow resets `chosen` to `usual`; both are indices into `words`. Returns
-  /// true if the choice changed.
+  /// List of words. An arrow resets `chosen` to `usual`; both are indices into `words`. In a long
+  /// list, `grouped`, lines separate words of another first word. Returns true if the choice
+  /// changed.
   bool choice(const char* key, const char* name, const char* help,
-              const std::vector<std::string>& words, int& chosen, int usual);
+              const std::vector<std::string>& words, int& chosen, int usual, bool grouped = false);
   /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
   /// entered.
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
