@@ -23,27 +23,45 @@ bool group(const char* name) {
 
 static constexpr float kTipWidth = 22.0f;  // in text sizes
 
-// Tooltip of the last widget.
-static void tell_help(const char* help) {
-  if (!*help || !ImGui::IsItemHovered()) return;
+// A tooltip of the last widget, beside its window, so that it covers no other widget. At the mouse
+// if there is no room beside the window.
+static void begin_tip() {
+  const float unit = ImGui::GetFontSize();
+  const ImVec2 window = ImGui::GetWindowPos(), screen = ImGui::GetIO().DisplaySize;
+  const float left = window.x, right = left + ImGui::GetWindowWidth();
+  const float room = (kTipWidth + 3.0f) * unit;
+  const bool low = ImGui::GetItemRectMin().y > 0.5f * screen.y;
+  const float y = low ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y;
+  if (right + room < screen.x) {
+    ImGui::SetNextWindowPos(ImVec2(right + 0.3f * unit, y), 0, ImVec2(0.0f, low ? 1.0f : 0.0f));
+  } else if (left > room) {
+    ImGui::SetNextWindowPos(ImVec2(left - 0.3f * unit, y), 0, ImVec2(1.0f, low ? 1.0f : 0.0f));
+  }
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
-  ImGui::TextUnformatted(help);
+  ImGui::PushTextWrapPos(kTipWidth * unit);
+}
+
+static void end_tip() {
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+static void tell_help(const char* help) {
+  if (!*help || !ImGui::IsItemHovered()) return;
+  begin_tip();
+  ImGui::TextUnformatted(help);
+  end_tip();
 }
 
 static void explain(const Slider& slider, double usual) {
   if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
   const std::string text = fmt::sprintf(slider.format, usual);
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
+  begin_tip();
   ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
   if (*slider.help) ImGui::TextDisabled("%s", slider.help);
   ImGui::TextDisabled("Here: %s%s%s. Click the number to type.", text.c_str(),
                       *slider.unit ? " " : "", slider.unit);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  end_tip();
 }
 
 // Round arrow at the right end of a line. Returns true if it was clicked.
