@@ -172,7 +172,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
     if (typed_) value = limited(slider, *typed_);
     typed_.reset();
     moved.changed = value != was;
-    moved.let_go = value != before_;
+    moved.let_go = true;
   }
   log_place(place);
   explain(slider, usual);
@@ -181,56 +181,72 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   return moved;
 }
 
+// Whether a drag shall change the laws now. Each change is a [[change]] of the saved scene, so
+// there are few.
+bool Controls::due() {
+  constexpr double kBetween = 0.25;  // seconds
+  if (!session_.frame().plays || ImGui::GetTime() - set_at_ < kBetween) return false;
+  set_at_ = ImGui::GetTime();
+  return true;
+}
+
 void Controls::law(const Slider& slider, double value, double usual) {
-  const double now = value;
-  const Moved moved = draw(slider, value, usual, slider.key);
-  if (moved.reset) set({{slider.key, value_text(now)}}, {{slider.key, value_text(usual)}});
-  if (moved.changed) session_.set({{slider.key, value_text(value)}});
-  if (moved.let_go) {
-    session_.remember({{{slider.key, value_text(before_)}}, {{slider.key, value_text(value)}}});
+  double shown = holding_ == slider.key ? held_ : value;
+  const Moved moved = draw(slider, shown, usual, slider.key);
+  const auto text = [&](double number) {
+    return std::vector<Override>{{slider.key, value_text(number)}};
+  };
+  if (moved.changed) {
+    holding_ = slider.key;
+    held_ = shown;
   }
+  if (shown != value && (moved.let_go || due())) session_.set(text(shown));
+  if (moved.let_go) {
+    holding_.clear();
+    if (shown != before_) session_.remember({text(before_), text(shown)});
+  }
+  if (moved.reset) set(text(value), text(usual));
 }
 
 void Controls::whole(const Slider& slider, int value, int usual) {
   double shown = holding_ == slider.key ? held_ : value;
   const Moved moved = draw(slider, shown, usual, slider.key);
   const auto put = [&](double number) {
+    if (number == value) return;
     set({{slider.key, std::to_string(value)}},
         {{slider.key, value_text(static_cast<int>(number))}});
-    holding_.clear();
   };
   if (moved.changed) {
     holding_ = slider.key;
     held_ = std::round(shown);
   }
-  if (moved.let_go) put(held_);
+  if (moved.let_go) {
+    put(std::round(shown));
+    holding_.clear();
+  }
   if (moved.reset) put(usual);
 }
 
 void Controls::component(const Slider& slider, const VecX& vector, int axis, const VecX& usual,
                          bool at_once) {
-  const std::string name = std::string(slider.key) + slider.name;
-  VecX now = vector;
-  if (holding_ == name) now[axis] = held_;
-  const Moved moved =
-      draw(slider, now[axis], usual[axis], slider.key + std::string(".") + "xyz"[axis]);
-  VecX before = vector;
-  if (moved.changed && at_once) session_.set({{slider.key, value_text(now)}});
-  if (moved.changed && !at_once) {
+  const std::string name = slider.key + std::string(".") + "xyz"[axis];
+  double shown = holding_ == name ? held_ : vector[axis];
+  const Moved moved = draw(slider, shown, usual[axis], name);
+  const auto text = [&](double number) {
+    VecX changed = vector;
+    changed[axis] = number;
+    return std::vector<Override>{{slider.key, value_text(changed)}};
+  };
+  if (moved.changed) {
     holding_ = name;
-    held_ = now[axis];
+    held_ = shown;
   }
+  if (shown != vector[axis] && (moved.let_go || (at_once && due()))) session_.set(text(shown));
   if (moved.let_go) {
-    before[axis] = before_;
-    if (at_once)
-      session_.remember({{{slider.key, value_text(before)}}, {{slider.key, value_text(now)}}});
-    if (!at_once) set({{slider.key, value_text(vector)}}, {{slider.key, value_text(now)}});
     holding_.clear();
+    if (shown != before_) session_.remember({text(before_), text(shown)});
   }
-  if (moved.reset) {
-    now[axis] = usual[axis];
-    set({{slider.key, value_text(vector)}}, {{slider.key, value_text(now)}});
-  }
+  if (moved.reset) set(text(vector[axis]), text(usual[axis]));
 }
 
 bool Controls::number(const Slider& slider, double& value, double usual) {

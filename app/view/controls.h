@@ -20,10 +20,10 @@ struct Slider {
   const char* limit = "";       ///< why no larger or smaller value is taken; empty: no reason
 };
 
-/// The widgets of the panels. Dragging a slider changes the gas immediately. Releasing it adds one
-/// entry to the undo history. A click on a slider changes nothing. A click on its number, a double
-/// click or Ctrl and a click open a text field. A typed number outside the range becomes the end of
-/// the range, with a message.
+/// The widgets of the panels. Dragging a slider changes a moving gas a few times per second, and a
+/// halted gas when it is released. Releasing it adds one entry to the undo history. A click on a
+/// slider changes nothing. A click on its number, a double click or Ctrl and a click open a text
+/// field. A typed number outside the range becomes the end of the range, with a message.
 class Controls {
  public:
   Controls(Session& session, ScriptLog& log) : session_(session), log_(log) {}
@@ -70,20 +70,22 @@ class Controls {
   struct Moved {
     bool changed = false;  // the value changed since the last frame
     bool taken = false;    // a drag began
-    bool let_go = false;   // a drag ended with another value
+    bool let_go = false;   // a drag or the typing of a number ended
     bool reset = false;    // the reset arrow was clicked
   };
 
   Moved draw(const Slider& slider, double& value, double usual, const std::string& place);
   double limited(const Slider& slider, double value);
+  bool due();
   void log_place(const std::string& key);
 
   Session& session_;
   ScriptLog& log_;
   double before_ = 0.0;               // value at the start of the current drag
   std::optional<double> typed_;       // number in the open text field, if it was edited
-  double held_ = 0.0;                 // pending value of a slider that acts on release
-  std::string holding_;               // name of that slider
+  double held_ = 0.0;                 // pending value of the slider that is dragged
+  std::string holding_;               // name of that slider; empty: none
+  double set_at_ = 0.0;               // time of the last change by a drag, seconds
   std::optional<View> shown_before_;  // view before the current drag
 };
 

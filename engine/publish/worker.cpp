@@ -103,7 +103,8 @@ class Work {
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
-    if (watched_) watched_->change(asked.laws);
+    // In a tenth of a frame there is a time with few digits, for the scene file.
+    if (watched_) watched_->change(asked.laws, 0.1 * pace_.speed() * frame_seconds_);
   }
   void obey(const command::Show& asked) {
     if (watched_) watched_->show(asked.view);
