@@ -84,24 +84,26 @@ static bool reset_button() {
   return clicked;
 }
 
-// Name and symbol at the left of a line, value at its right, with room for the arrow. Returns true
-// if the value was clicked.
+// Name and symbol at the left of a line, value with its unit at its right, with room for the arrow.
+// Symbol and unit are only in the tooltip if they have no room. Returns true if the value was
+// clicked.
 static bool headline(const Slider& slider, double value) {
-  ImGui::TextUnformatted(slider.name);
-  if (*slider.symbol) {
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", slider.symbol);
-  }
-  ImGui::SameLine();
-  const float left = ImGui::GetCursorPosX();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
-  const std::string number = fmt::sprintf(slider.format, value);
-  // The tooltip always has the unit; this line only if there is room.
-  const std::string with_unit = number + (*slider.unit ? std::string(" ") + slider.unit : "");
-  const bool fits = ImGui::CalcTextSize(with_unit.c_str()).x < right - left;
-  const char* text = (fits ? with_unit : number).c_str();
-  ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
-  ImGui::TextUnformatted(text);
+  std::string text = fmt::sprintf(slider.format, value);
+  ImGui::TextUnformatted(slider.name);
+  ImGui::SameLine();
+  const auto fits = [&](const std::string& words) {
+    return ImGui::CalcTextSize((words + text).c_str()).x + gap < right - ImGui::GetCursorPosX();
+  };
+  if (*slider.symbol && fits(slider.symbol)) {
+    ImGui::TextDisabled("%s", slider.symbol);
+    ImGui::SameLine();
+  }
+  const std::string unit = *slider.unit ? std::string(" ") + slider.unit : "";
+  if (fits(unit)) text += unit;
+  ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::TextUnformatted(text.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
   return ImGui::IsItemClicked();
 }
@@ -319,7 +321,9 @@ bool Controls::button(const char* key, const char* label, const char* help, floa
 }
 
 bool Controls::card(const char* key, float height, bool selected) {
+  ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_TextSelectedBg));
   const bool clicked = ImGui::Selectable("##card", selected, 0, ImVec2(0.0f, height));
+  ImGui::PopStyleColor();
   log_place(key);
   return clicked;
 }

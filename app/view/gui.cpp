@@ -186,7 +186,7 @@ void Gui::plots_drawer(float top, float width) {
       "Averages with a band of one standard error, or the relative residuals of the balances of "
       "mass, momentum and energy in the worst window. They start when the plots open, or when "
       "laws, averages or trails change. The engine then does about twice the work",
-      profile_names(profile_axis()), profiled_, 0, true);
+      profile_names(profile_axis()), profiled_, 0);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();

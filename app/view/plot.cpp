@@ -214,8 +214,11 @@ void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted(plot.title.c_str());
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", plot.y_label.c_str());
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit);
+  const float button = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit;
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(plot.y_label.c_str()).x < button) {
+    ImGui::TextDisabled("%s", plot.y_label.c_str());
+  }
+  ImGui::SameLine(button);
   ImGui::PushID(plot.title.c_str());
   if (ImGui::SmallButton("CSV")) ImGui::SetClipboardText(csv_of(plot).c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Copy the numbers");

@@ -201,6 +201,26 @@ TEST_CASE("Panels: a tooltip is beside its panel") {
   CHECK(tip.y == y);
 }
 
+TEST_CASE("Panels: where there is little room, names and values have it") {
+  float wide = 400.0f;
+  PanelDriver driver(Scene{}, [&](Session&, Controls& controls) {
+    ImGui::SetNextWindowSize(ImVec2(wide, 300.0f));
+    ImGui::Begin("other");
+    double speed = 1.25;
+    controls.number({.key = "speed", .name = "Drive speed", .symbol = "v_dr", .unit = "a/t"}, speed,
+                    speed);
+    draw_plot({.title = "Energy per time", .x_label = "t", .curves = {}, .y_label = "m a²/t³"},
+              200.0f);
+    ImGui::End();
+  });
+  CHECK(says(text_of(driver), "Drive speed v_dr 1.250 a/t"));
+  CHECK(says(text_of(driver), "Energy per time m a²/t³ [ CSV ]"));
+  wide = 170.0f;
+  CHECK(says(text_of(driver), "Drive speed 1.250"));
+  CHECK_FALSE(says(text_of(driver), "v_dr"));
+  CHECK(says(text_of(driver), "Energy per time [ CSV ]"));
+}
+
 TEST_CASE("Panels: a message is shown for 4 to 8 seconds, and stays under the mouse") {
   MessageNote note;
   Session* session = nullptr;
