@@ -72,6 +72,16 @@ Vec3 in_space(const VecX& position) {
   return {position.x(), position.y(), position.size() == 3 ? position.z() : 0.0};
 }
 
+VecX nearest_image(const Snapshot& snapshot, const VecX& position, const VecX& particle) {
+  VecX image = particle;
+  for (int axis = 0; axis < position.size(); ++axis) {
+    if (snapshot.walls[2 * axis]) continue;
+    const double length = snapshot.box[axis];
+    image[axis] -= length * std::round((particle[axis] - position[axis]) / length);
+  }
+  return image;
+}
+
 std::optional<std::size_t> particle_at(const Snapshot& snapshot, const Eye& eye, const Vec2& pixel,
                                        const std::optional<Slab>& slab) {
   const Ray ray(eye, pixel);

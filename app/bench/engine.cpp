@@ -33,7 +33,8 @@ struct EngineRate {
   double fraction;            // of the area or volume that particles fill
   double rate;                // millions of pair collisions per CPU second, best of three
   double setup_seconds;       // CPU time to build the start state and the simulation
-  double bytes_per_particle;  // peak resident size minus the size before the state was built
+  double bytes_per_particle;  // peak resident size minus the size before the state was built; NaN:
+                              // too little for the heap of the process
 };
 
 // Elastic disks in a periodic square, or elastic spheres in a periodic cube.
@@ -70,8 +71,10 @@ EngineRate measure_run(const Scene& scene, std::uint64_t equilibration) {
     const double rate = 1e-6 * static_cast<double>(batch) / (cpu_seconds() - began);
     result.rate = std::max(result.rate, rate);
   }
+  constexpr double kResolved = 4.0 * 1024.0 * 1024.0;
+  const auto memory = static_cast<double>(peak_memory_bytes() - memory_before);
   result.bytes_per_particle =
-      static_cast<double>(peak_memory_bytes() - memory_before) / static_cast<double>(particles);
+      memory < kResolved ? std::nan("") : memory / static_cast<double>(particles);
   return result;
 }
 
@@ -97,14 +100,15 @@ Json print_rates(const std::vector<Cell>& cells, int dimension, std::vector<Engi
     EngineRate r = measure_engine(scene_of(count, fraction, dimension));
     r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);
-    std::printf("%10d %6.3f %9.3f %9.3f %11.0f\n", r.count, r.fraction, r.rate, r.setup_seconds,
-                r.bytes_per_particle);
+    const double bytes = r.bytes_per_particle;
+    std::printf("%10d %6.3f %9.3f %9.3f %11s\n", r.count, r.fraction, r.rate, r.setup_seconds,
+                std::isnan(bytes) ? "-" : fmt::format("{:.0f}", bytes).c_str());
     std::fflush(stdout);
     json.push_back({{"count", r.count},
                     {disks ? "area_fraction" : "volume_fraction", r.fraction},
                     {"million_collisions_per_cpu_second", r.rate},
                     {"setup_seconds", r.setup_seconds},
-                    {disks ? "bytes_per_disk" : "bytes_per_sphere", r.bytes_per_particle}});
+                    {disks ? "bytes_per_disk" : "bytes_per_sphere", bytes}});
   }
   return json;
 }

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -22,27 +23,45 @@ bool group(const char* name) {
 
 static constexpr float kTipWidth = 22.0f;  // in text sizes
 
-// Tooltip of the last widget.
-static void tell_help(const char* help) {
-  if (!*help || !ImGui::IsItemHovered()) return;
+// A tooltip of the last widget, beside its window, so that it covers no other widget. At the mouse
+// if there is no room beside the window.
+static void begin_tip() {
+  const float unit = ImGui::GetFontSize();
+  const ImVec2 window = ImGui::GetWindowPos(), screen = ImGui::GetIO().DisplaySize;
+  const float left = window.x, right = left + ImGui::GetWindowWidth();
+  const float room = (kTipWidth + 3.0f) * unit;
+  const bool low = ImGui::GetItemRectMin().y > 0.5f * screen.y;
+  const float y = low ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y;
+  if (right + room < screen.x) {
+    ImGui::SetNextWindowPos(ImVec2(right + 0.3f * unit, y), 0, ImVec2(0.0f, low ? 1.0f : 0.0f));
+  } else if (left > room) {
+    ImGui::SetNextWindowPos(ImVec2(left - 0.3f * unit, y), 0, ImVec2(1.0f, low ? 1.0f : 0.0f));
+  }
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
-  ImGui::TextUnformatted(help);
+  ImGui::PushTextWrapPos(kTipWidth * unit);
+}
+
+static void end_tip() {
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+static void tell_help(const char* help) {
+  if (!*help || !ImGui::IsItemHovered()) return;
+  begin_tip();
+  ImGui::TextUnformatted(help);
+  end_tip();
 }
 
 static void explain(const Slider& slider, double usual) {
   if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
   const std::string text = fmt::sprintf(slider.format, usual);
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
+  begin_tip();
   ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
   if (*slider.help) ImGui::TextDisabled("%s", slider.help);
-  ImGui::TextDisabled("Here: %s%s%s. Double-click to type.", text.c_str(), *slider.unit ? " " : "",
-                      slider.unit);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  ImGui::TextDisabled("Here: %s%s%s. Click the number to type.", text.c_str(),
+                      *slider.unit ? " " : "", slider.unit);
+  end_tip();
 }
 
 // Round arrow at the right end of a line. Returns true if it was clicked.
@@ -65,23 +84,28 @@ static bool reset_button() {
   return clicked;
 }
 
-// Name and symbol at the left of a line, value at its right, with room for the arrow.
-static void headline(const Slider& slider, double value) {
-  ImGui::TextUnformatted(slider.name);
-  if (*slider.symbol) {
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", slider.symbol);
-  }
-  ImGui::SameLine();
-  const float left = ImGui::GetCursorPosX();
+// Name and symbol at the left of a line, value with its unit at its right, with room for the arrow.
+// Symbol and unit are only in the tooltip if they have no room. Returns true if the value was
+// clicked.
+static bool headline(const Slider& slider, double value) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
-  const std::string number = fmt::sprintf(slider.format, value);
-  // The tooltip always has the unit; this line only if there is room.
-  const std::string with_unit = number + (*slider.unit ? std::string(" ") + slider.unit : "");
-  const bool fits = ImGui::CalcTextSize(with_unit.c_str()).x < right - left;
-  const char* text = (fits ? with_unit : number).c_str();
-  ImGui::SameLine(right - ImGui::CalcTextSize(text).x);
-  ImGui::TextUnformatted(text);
+  std::string text = fmt::sprintf(slider.format, value);
+  ImGui::TextUnformatted(slider.name);
+  ImGui::SameLine();
+  const auto fits = [&](const std::string& words) {
+    return ImGui::CalcTextSize((words + text).c_str()).x + gap < right - ImGui::GetCursorPosX();
+  };
+  if (*slider.symbol && fits(slider.symbol)) {
+    ImGui::TextDisabled("%s", slider.symbol);
+    ImGui::SameLine();
+  }
+  const std::string unit = *slider.unit ? std::string(" ") + slider.unit : "";
+  if (fits(unit)) text += unit;
+  ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::TextUnformatted(text.c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
+  return ImGui::IsItemClicked();
 }
 
 // Rounds to three digits, the resolution of dragging.
@@ -89,18 +113,35 @@ static double rounded(double value) {
   return std::stod(fmt::format("{:.3g}", value));
 }
 
-Controls::Moved Controls::draw(const Slider& slider, double& value, double usual) {
+// The value in the range of the slider. A message states the limit.
+double Controls::limited(const Slider& slider, double value) {
+  const double within = std::clamp(value, slider.low, slider.high);
+  if (within == value) return value;
+  const char* side = value > slider.high ? "at most" : "at least";
+  const std::string number = fmt::sprintf(slider.logarithmic ? "%g" : slider.format, within);
+  session_.tell(fmt::format("{}: {} {}{}{}{}{}", slider.name, side, number, *slider.unit ? " " : "",
+                            slider.unit, *slider.limit ? "; " : "", slider.limit));
+  return within;
+}
+
+// `place` is the name of the slider in the script log.
+Controls::Moved Controls::draw(const Slider& slider, double& value, double usual,
+                               const std::string& place) {
   Moved moved;
   ImGui::PushID(slider.key);
   ImGui::PushID(slider.name);
-  headline(slider, value);
+  const bool asked = headline(slider, value);
+  log_place(place + ".number");
   if (value != usual) moved.reset = reset_button();
 
-  // ImGui edits a slider as text after Ctrl + click. A double click shall do the same.
+  // ImGui edits a slider as text after Ctrl + click. A double click, and a click on the number,
+  // shall do the same.
   ImGuiIO& io = ImGui::GetIO();
   const bool ctrl = io.KeyCtrl;
   io.KeyCtrl = ctrl || io.MouseDoubleClicked[0];
-  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
+  const ImGuiID id = ImGui::GetID("##value");
+  if (asked) ImGui::GetCurrentContext()->NavActivateInputId = id;
+  const bool typing = ImGui::TempInputIsActive(id);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
   if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
@@ -108,102 +149,142 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   // ImGui takes the smallest magnitude of a logarithmic slider from the digits of its format.
   const char* format = slider.logarithmic ? "%.9g" : slider.format;
   const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp |
-      (slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0);
+      slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
   const double was = value;
   moved.changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &slider.low,
                                       &slider.high, format, flags);
-  if (moved.changed && slider.logarithmic) value = rounded(value);
   if (!typing) ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   io.KeyCtrl = ctrl;
   moved.taken = ImGui::IsItemActivated();
-  moved.let_go = ImGui::IsItemDeactivatedAfterEdit();
   if (moved.taken) before_ = was;
-  log_place(slider.key);
+  if (typing) {
+    // The number counts once it is complete.
+    typed_.reset();
+    if (moved.changed && !std::isnan(value)) typed_ = value;
+    moved.changed = false;
+  } else if (moved.changed && slider.logarithmic) {
+    value = rounded(value);
+  }
+  // A click without a drag changes nothing.
+  constexpr float kDrag = 3.0f;
+  moved.changed = moved.changed && ImGui::IsMouseDragging(ImGuiMouseButton_Left, kDrag);
+  if (!moved.changed) value = was;
+  if (ImGui::IsItemDeactivatedAfterEdit()) {
+    if (typed_) value = limited(slider, *typed_);
+    typed_.reset();
+    moved.changed = value != was;
+    moved.let_go = true;
+  }
+  log_place(place);
   explain(slider, usual);
   ImGui::PopID();
   ImGui::PopID();
   return moved;
 }
 
+// Whether a drag shall change the laws now. Each change is a [[change]] of the saved scene, so
+// there are few.
+bool Controls::due() {
+  constexpr double kBetween = 0.25;  // seconds
+  if (!session_.frame().plays || ImGui::GetTime() - set_at_ < kBetween) return false;
+  set_at_ = ImGui::GetTime();
+  return true;
+}
+
 void Controls::law(const Slider& slider, double value, double usual) {
-  const double now = value;
-  const Moved moved = draw(slider, value, usual);
-  if (moved.reset) set({{slider.key, value_text(now)}}, {{slider.key, value_text(usual)}});
-  if (moved.changed) session_.set({{slider.key, value_text(value)}});
-  if (moved.let_go) {
-    session_.remember({{{slider.key, value_text(before_)}}, {{slider.key, value_text(value)}}});
+  double shown = holding_ == slider.key ? held_ : value;
+  const Moved moved = draw(slider, shown, usual, slider.key);
+  const auto text = [&](double number) {
+    return std::vector<Override>{{slider.key, value_text(number)}};
+  };
+  if (moved.changed) {
+    holding_ = slider.key;
+    held_ = shown;
   }
+  if (shown != value && (moved.let_go || due())) session_.set(text(shown));
+  if (moved.let_go) {
+    holding_.clear();
+    if (shown != before_) session_.remember({text(before_), text(shown)});
+  }
+  if (moved.reset) set(text(value), text(usual));
 }
 
 void Controls::whole(const Slider& slider, int value, int usual) {
   double shown = holding_ == slider.key ? held_ : value;
-  const Moved moved = draw(slider, shown, usual);
+  const Moved moved = draw(slider, shown, usual, slider.key);
   const auto put = [&](double number) {
+    if (number == value) return;
     set({{slider.key, std::to_string(value)}},
         {{slider.key, value_text(static_cast<int>(number))}});
-    holding_.clear();
   };
   if (moved.changed) {
     holding_ = slider.key;
     held_ = std::round(shown);
   }
-  if (moved.let_go) put(held_);
+  if (moved.let_go) {
+    put(std::round(shown));
+    holding_.clear();
+  }
   if (moved.reset) put(usual);
 }
 
 void Controls::component(const Slider& slider, const VecX& vector, int axis, const VecX& usual,
                          bool at_once) {
-  const std::string name = std::string(slider.key) + slider.name;
-  VecX now = vector;
-  if (holding_ == name) now[axis] = held_;
-  const Moved moved = draw(slider, now[axis], usual[axis]);
-  VecX before = vector;
-  if (moved.changed && at_once) session_.set({{slider.key, value_text(now)}});
-  if (moved.changed && !at_once) {
+  const std::string name = slider.key + std::string(".") + "xyz"[axis];
+  double shown = holding_ == name ? held_ : vector[axis];
+  const Moved moved = draw(slider, shown, usual[axis], name);
+  const auto text = [&](double number) {
+    VecX changed = vector;
+    changed[axis] = number;
+    return std::vector<Override>{{slider.key, value_text(changed)}};
+  };
+  if (moved.changed) {
     holding_ = name;
-    held_ = now[axis];
+    held_ = shown;
   }
+  if (shown != vector[axis] && (moved.let_go || (at_once && due()))) session_.set(text(shown));
   if (moved.let_go) {
-    before[axis] = before_;
-    if (at_once)
-      session_.remember({{{slider.key, value_text(before)}}, {{slider.key, value_text(now)}}});
-    if (!at_once) set({{slider.key, value_text(vector)}}, {{slider.key, value_text(now)}});
     holding_.clear();
+    if (shown != before_) session_.remember({text(before_), text(shown)});
   }
-  if (moved.reset) {
-    now[axis] = usual[axis];
-    set({{slider.key, value_text(vector)}}, {{slider.key, value_text(now)}});
-  }
+  if (moved.reset) set(text(vector[axis]), text(usual[axis]));
 }
 
 bool Controls::number(const Slider& slider, double& value, double usual) {
-  const Moved moved = draw(slider, value, usual);
+  const Moved moved = draw(slider, value, usual, slider.key);
   if (moved.reset) value = usual;
   return moved.changed || moved.reset;
 }
 
+static std::string_view first_word(std::string_view words) {
+  return words.substr(0, words.find(' '));
+}
+
 bool Controls::choice(const char* key, const char* name, const char* help,
-                      const std::vector<std::string>& words, int& chosen, int usual) {
+                      const std::vector<std::string>& words, int& chosen, int usual, bool grouped) {
   ImGui::PushID(key);
   ImGui::TextUnformatted(name);
   bool changed = chosen != usual && reset_button();
   if (changed) chosen = usual;
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str());
+  const bool open = ImGui::BeginCombo("##choice", words[static_cast<std::size_t>(chosen)].c_str(),
+                                      grouped ? ImGuiComboFlags_HeightLargest : 0);
   if (!open) {
     log_place(key);
     tell_help(help);
   } else {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
       const std::string& word = words[static_cast<std::size_t>(i)];
+      if (grouped && i > 0 &&
+          first_word(words[static_cast<std::size_t>(i - 1)]) != first_word(word))
+        ImGui::Separator();
       if (ImGui::Selectable(word.c_str(), i == chosen)) {
         changed = i != chosen;
         chosen = i;
       }
       // The position of the list is not final in its first frame.
-      if (!ImGui::IsWindowAppearing()) log_place((std::string(key) + '.' + word).c_str());
+      if (!ImGui::IsWindowAppearing()) log_place(std::string(key) + '.' + word);
     }
     ImGui::EndCombo();
   }
@@ -239,10 +320,25 @@ bool Controls::button(const char* key, const char* label, const char* help, floa
   return clicked;
 }
 
-bool Controls::card(const char* key, float height) {
-  const bool clicked = ImGui::Selectable("##card", false, 0, ImVec2(0.0f, height));
+bool Controls::card(const char* key, float height, bool selected) {
+  ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_TextSelectedBg));
+  const bool clicked = ImGui::Selectable("##card", selected, 0, ImVec2(0.0f, height));
+  ImGui::PopStyleColor();
   log_place(key);
   return clicked;
+}
+
+void Controls::note(const char* key, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+  log_place(key);
+}
+
+void Controls::area(const char* key, float width, float height, const std::string& help) {
+  ImGui::Dummy(ImVec2(width, height));
+  log_place(key);
+  tell_help(help.c_str());
 }
 
 void Controls::show(const View& view, bool changed) {
@@ -257,11 +353,15 @@ void Controls::show(const View& view, bool changed) {
 
 void Controls::set(const std::vector<Override>& before, const std::vector<Override>& after,
                    const VecX& shift) {
+  const View view = session_.view();
+  const std::uint64_t views = session_.views();
   session_.set(after, shift);
-  session_.remember({.before = before, .after = after, .shift = shift});
+  Edit edit{.before = before, .after = after, .shift = shift};
+  if (session_.views() != views) edit.views = {{view, session_.view()}};
+  session_.remember(std::move(edit));
 }
 
-void Controls::log_place(const char* key) {
+void Controls::log_place(const std::string& key) {
   const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
   log_.widget(key, low.x, low.y, size.x, size.y);
 }

@@ -17,10 +17,13 @@ struct Slider {
   double high = 1.0;            ///< largest value
   bool logarithmic = false;     ///< logarithmic scale
   const char* format = "%.3f";  ///< printf format of the value
+  const char* limit = "";       ///< why no larger or smaller value is taken; empty: no reason
 };
 
-/// The widgets of the panels. Dragging a slider changes the gas immediately. Releasing it adds one
-/// entry to the undo history.
+/// The widgets of the panels. Dragging a slider changes a moving gas a few times per second, and a
+/// halted gas when it is released. Releasing it adds one entry to the undo history. A click on a
+/// slider changes nothing. A click on its number, a double click or Ctrl and a click open a text
+/// field. A typed number outside the range becomes the end of the range, with a message.
 class Controls {
  public:
   Controls(Session& session, ScriptLog& log) : session_(session), log_(log) {}
@@ -35,10 +38,11 @@ class Controls {
                  bool at_once = true);
   /// Slider for a setting of the window. Returns true if the value changed.
   bool number(const Slider& slider, double& value, double usual);
-  /// List of words. An arrow resets `chosen` to `usual`; both are indices into `words`. Returns
-  /// true if the choice changed.
+  /// List of words. An arrow resets `chosen` to `usual`; both are indices into `words`. In a long
+  /// list, `grouped`, lines separate words of another first word. Returns true if the choice
+  /// changed.
   bool choice(const char* key, const char* name, const char* help,
-              const std::vector<std::string>& words, int& chosen, int usual);
+              const std::vector<std::string>& words, int& chosen, int usual, bool grouped = false);
   /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
   /// entered.
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
@@ -49,7 +53,11 @@ class Controls {
 
   /// Clickable area of full width and `height` pixels; the caller draws its content. Returns true
   /// if it was clicked.
-  bool card(const char* key, float height);
+  bool card(const char* key, float height, bool selected);
+  /// Faint text, wrapped at the width of the window.
+  void note(const char* key, const std::string& text);
+  /// Area without content, with a tooltip; the caller draws its content.
+  void area(const char* key, float width, float height, const std::string& help);
 
   /// Sets the view if it has `changed`. All changes up to the end of a drag are one undo entry.
   /// Call it in every frame.
@@ -62,18 +70,22 @@ class Controls {
   struct Moved {
     bool changed = false;  // the value changed since the last frame
     bool taken = false;    // a drag began
-    bool let_go = false;   // a drag ended with another value
+    bool let_go = false;   // a drag or the typing of a number ended
     bool reset = false;    // the reset arrow was clicked
   };
 
-  Moved draw(const Slider& slider, double& value, double usual);
-  void log_place(const char* key);
+  Moved draw(const Slider& slider, double& value, double usual, const std::string& place);
+  double limited(const Slider& slider, double value);
+  bool due();
+  void log_place(const std::string& key);
 
   Session& session_;
   ScriptLog& log_;
   double before_ = 0.0;               // value at the start of the current drag
-  double held_ = 0.0;                 // pending value of a slider that acts on release
-  std::string holding_;               // name of that slider
+  std::optional<double> typed_;       // number in the open text field, if it was edited
+  double held_ = 0.0;                 // pending value of the slider that is dragged
+  std::string holding_;               // name of that slider; empty: none
+  double set_at_ = 0.0;               // time of the last change by a drag, seconds
   std::optional<View> shown_before_;  // view before the current drag
 };
 

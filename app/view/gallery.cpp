@@ -26,7 +26,7 @@ static std::string lower(std::string text) {
 }
 
 // Draws picture, title, caption, goal and suggestion of a scene. Returns true if it was clicked.
-bool Gallery::draw_card(const Entry& entry, Controls& controls) {
+bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   const float unit = ImGui::GetFontSize(), edge = 0.4f * unit;
   const float tall = 5.4f * unit;
   const float wide = tall * Thumbnails::kSize.width / Thumbnails::kSize.height;
@@ -42,7 +42,7 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
   }
   height = std::max(height, tall + 2.0f * edge);
   ImGui::PushID(entry.name.c_str());
-  const bool clicked = controls.card(("gallery." + entry.name).c_str(), height);
+  const bool clicked = controls.card(("gallery." + entry.name).c_str(), height, selected);
   ImGui::PopID();
   const ImVec2 after = ImGui::GetCursorPos();
   if (const GLuint texture = thumbnails_.of(*entry.file)) {
@@ -69,6 +69,28 @@ bool Gallery::draw_card(const Entry& entry, Controls& controls) {
   return clicked;
 }
 
+// The scenes with the searched text.
+std::vector<const Gallery::Entry*> Gallery::matches() const {
+  const std::string wanted = lower(search_.data());
+  std::vector<const Entry*> found;
+  for (const Entry& entry : entries_) {
+    const std::string texts = entry.name + ' ' + entry.title + ' ' + entry.caption + ' ' +
+                              entry.goal + ' ' + entry.try_this;
+    if (lower(texts).find(wanted) != std::string::npos) found.push_back(&entry);
+  }
+  return found;
+}
+
+// Moves the selection by the arrow keys. Returns true if it moved.
+bool Gallery::select(int matches) {
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+  const int before = selected_;
+  if (pressed(ImGuiKey_DownArrow)) ++selected_;
+  if (pressed(ImGuiKey_UpArrow)) --selected_;
+  selected_ = std::clamp(selected_, 0, std::max(0, matches - 1));
+  return selected_ != before;
+}
+
 const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height) {
   const EmbeddedFile* chosen = nullptr;
   const float unit = ImGui::GetFontSize();
@@ -80,23 +102,33 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height)
   ImGui::Begin("Gallery", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  if (ImGui::IsWindowAppearing()) search_ = {};
-  // Not before this key, so that G closes the gallery.
+  if (ImGui::IsWindowAppearing()) {
+    search_ = {};
+    selected_ = 0;
+  }
+  // The search starts with this key, so that G closes the gallery. Enter keeps it.
   const ImGuiIO& io = ImGui::GetIO();
-  if (!io.WantTextInput && io.InputQueueCharacters.contains('/')) ImGui::SetKeyboardFocusHere();
+  const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  if (io.WantTextInput ? enter : io.InputQueueCharacters.contains('/')) {
+    ImGui::SetKeyboardFocusHere();
+  }
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool entered =
-      ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
-                               search_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
+                               search_.size())) {
+    selected_ = 0;
+  }
   ImGui::Spacing();
   ImGui::BeginChild("scenes");
-  const std::string wanted = lower(search_.data());
-  for (const Entry& entry : entries_) {
-    const std::string texts = entry.name + ' ' + entry.title + ' ' + entry.caption + ' ' +
-                              entry.goal + ' ' + entry.try_this;
-    if (lower(texts).find(wanted) == std::string::npos) continue;
-    if (entered && !chosen) chosen = entry.file;
-    if (draw_card(entry, controls)) chosen = entry.file;
+  const std::vector<const Entry*> found = matches();
+  if (found.empty()) {
+    controls.note("gallery.none", "No scene matches \"" + std::string(search_.data()) + '"');
+  }
+  const bool moved = select(static_cast<int>(found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool selected = static_cast<int>(i) == selected_;
+    if (draw_card(*found[i], selected, controls)) chosen = found[i]->file;
+    if (selected && moved) ImGui::SetScrollHereY();
+    if (selected && enter) chosen = found[i]->file;
   }
   ImGui::EndChild();
   ImGui::End();

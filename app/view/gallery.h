@@ -15,7 +15,8 @@ class Gallery {
  public:
   explicit Gallery(const Gl& gl);
 
-  /// Draws the gallery over a window of `width` x `height`. Returns the chosen scene; null: none.
+  /// Draws the gallery over a window of `width` x `height`. Arrow keys move the selection, Enter
+  /// chooses. Returns the chosen scene; null: none.
   const EmbeddedFile* draw(Controls& controls, float width, float height);
   /// The scene `step` places after the scene with this title; the list is cyclic.
   const EmbeddedFile& neighbour(const std::string& title, int step) const;
@@ -26,11 +27,14 @@ class Gallery {
     std::string name, title, caption, goal, try_this;
   };
 
-  bool draw_card(const Entry& entry, Controls& controls);
+  std::vector<const Entry*> matches() const;
+  bool select(int matches);
+  bool draw_card(const Entry& entry, bool selected, Controls& controls);
 
   Thumbnails thumbnails_;
   std::vector<Entry> entries_;
   std::array<char, 64> search_ = {};
+  int selected_ = 0;  // index into matches()
 };
 
 }  // namespace clatter

@@ -59,7 +59,9 @@ void gas_panel(Session& session, Controls& controls) {
                     .low = 1.0,
                     .high = static_cast<double>(most),
                     .logarithmic = true,
-                    .format = "%.0f"},
+                    .format = "%.0f",
+                    .limit = capacity == most ? "no more fit into the box; enlarge it first"
+                                              : "give a larger number by --set"},
                    scene.particles.count, session.opened().particles.count);
   }
   ImGui::TextDisabled(disks ? "Area fraction φ = %.3f" : "Volume fraction %.3f",

@@ -209,7 +209,8 @@ void Gui::viewport() {
   use_viewport();
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
-  if (!session_message(session_, area_) && panels_.hint && !panels_.help && !panels_.lecture)
+  message_.draw(session_, area_);
+  if (!message_.shown() && panels_.hint && !panels_.help && !panels_.lecture)
     hint_line(session_.scene().dimension(), area_);
   log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);

@@ -29,8 +29,8 @@ class Gui {
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
   /// Handles the input and draws the next picture of the window.
   void draw();
-  /// True while a film is being made: the window then redraws without input.
-  bool films() const { return film_.has_value(); }
+  /// True while the window redraws without input: a film is being made, or a message is shown.
+  bool changes() const { return film_.has_value() || message_.shown(); }
 
  private:
   void begin();
@@ -80,6 +80,7 @@ class Gui {
   std::string film_file_;  // file of the film that is made
   GuiLayer gui_;
   PanelVisibility panels_;
+  MessageNote message_;
   std::string title_;                 // title of the window; empty: name of the program
   std::uint64_t drawn_views_ = 0;     // Session::views() at the last picture
   bool told_gallery_ = false;         // the script log has the gallery as open

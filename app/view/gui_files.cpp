@@ -114,7 +114,7 @@ void Gui::film() {
     arguments.insert(arguments.end(), {"--progress", "json"});
     film_.emplace(arguments);
     film_file_ = file;
-    session_.tell("Filming into " + file);
+    session_.tell("Filming from t = 0 to now into " + file);
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }

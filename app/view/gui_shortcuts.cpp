@@ -1,6 +1,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,9 @@ void Gui::use_signs() {
 }
 
 void Gui::close_something() {
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return ImGui::ClosePopupToLevel(0, true);
+  // Dear ImGui ends the typing of a number.
+  if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;
   for (bool* open : {&panels_.gallery, &panels_.help, &panels_.plots}) {
     if (!*open) continue;
     *open = false;

@@ -37,18 +37,30 @@ void hint_line(int dimension, const Area& area) {
   end_note();
 }
 
-bool session_message(const Session& session, const Area& area) {
-  constexpr double kShown = 10.0;  // duration of a message, seconds
-  if (session.message().empty() || session.message_age() > kShown) return false;
+void MessageNote::draw(const Session& session, const Area& area) {
+  constexpr float kShortest = 4.0f, kLongest = 8.0f, kPerLetter = 0.06f;  // seconds
+  constexpr float kFade = 0.5f;
+  const std::string& text = session.message();
+  const float whole = std::clamp(kPerLetter * static_cast<float>(text.size()), kShortest, kLongest);
+  if (number_ != session.messages()) {
+    number_ = session.messages();
+    left_ = whole;
+  } else {
+    left_ -= ImGui::GetIO().DeltaTime;
+  }
+  if (!shown()) return;
   const float unit = ImGui::GetFontSize();
   const float wrap = 0.7f * (area.high.x - area.low.x);
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::min(1.0f, left_ / kFade));
   begin_note("told", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
              ImVec2(0.5f, 1.0f), wrap);
   ImGui::PushTextWrapPos(wrap - 2.0f * unit);
-  ImGui::TextUnformatted(session.message().c_str());
+  ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
+  const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  if (ImGui::IsMouseHoveringRect(low, ImVec2(low.x + size.x, low.y + size.y), false)) left_ = whole;
   end_note();
-  return true;
+  ImGui::PopStyleVar();
 }
 
 static void show_collision(const char* which, const ParticleCollision& collision, bool disks) {

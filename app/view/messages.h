@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include <optional>
+#include <cstdint>
 
 #include "app/view/session.h"
 
@@ -15,8 +15,19 @@ struct Area {
 
 /// Draws one line with hints at the lower edge of the area, for a scene of this dimension.
 void hint_line(int dimension, const Area& area);
-/// Draws the message of the session for 10 seconds. Returns true while it is shown.
-bool session_message(const Session& session, const Area& area);
+/// Shows each message of the session for some seconds, longer texts for longer. The message stays
+/// while the mouse is over it.
+class MessageNote {
+ public:
+  /// Draws the message, if any, at the lower edge of the area. Call it in every frame.
+  void draw(const Session& session, const Area& area);
+  /// True while a message is shown: the window then redraws without input.
+  bool shown() const { return left_ > 0.0f; }
+
+ private:
+  std::uint64_t number_ = 0;  // Session::messages() of the message
+  float left_ = 0.0f;         // seconds until it is gone
+};
 /// Draws the state of a particle beside its position `place` in the area.
 void particle_label(const Frame& frame, std::size_t particle, bool follows, ImVec2 place,
                     const Area& area);

@@ -174,15 +174,17 @@ double PlotScale::place(double value) const {
   return logarithmic ? std::log10(std::max(value, floor)) : value;
 }
 
-// Adds room around the data. Without data the ends are infinite, and become 0 and 1.
-static void widen(PlotScale& scale, bool from_zero) {
+// Adds room around the data: a linear axis has at least the length `span`. Without data the ends
+// are infinite, and become 0 and 1.
+static void widen(PlotScale& scale, bool from_zero, double span) {
   if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
   if (from_zero && !scale.logarithmic && scale.low > 0.0) scale.low = 0.0;
   if (from_zero) scale.high += 0.05 * (scale.high - scale.low);
-  if (!(scale.high > scale.low)) {
-    const double room = std::max(1e-12, 0.1 * std::fabs(scale.low));
-    scale.low -= room;
-    scale.high += room;
+  if (!(scale.high > scale.low) || (!scale.logarithmic && scale.high - scale.low < span)) {
+    const double middle = 0.5 * (scale.low + scale.high);
+    const double room = std::max({1e-12, 0.5 * span, 0.1 * std::fabs(middle)});
+    scale.low = middle - room;
+    scale.high = middle + room;
   }
 }
 
@@ -201,8 +203,10 @@ std::array<PlotScale, 2> scales_of(const LivePlot& plot) {
       include(y, point.y());
     }
   }
-  widen(x, false);
-  widen(y, true);
+  constexpr double kResolution = 1e-6;  // of the largest magnitude
+  widen(x, false, 0.0);
+  const double most = std::max(std::fabs(y.low), std::fabs(y.high));
+  widen(y, true, std::max(plot.span, std::isfinite(most) ? kResolution * most : 0.0));
   return {x, y};
 }
 
@@ -210,8 +214,11 @@ void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted(plot.title.c_str());
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", plot.y_label.c_str());
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit);
+  const float button = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit;
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(plot.y_label.c_str()).x < button) {
+    ImGui::TextDisabled("%s", plot.y_label.c_str());
+  }
+  ImGui::SameLine(button);
   ImGui::PushID(plot.title.c_str());
   if (ImGui::SmallButton("CSV")) ImGui::SetClipboardText(csv_of(plot).c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Copy the numbers");

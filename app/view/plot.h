@@ -29,6 +29,7 @@ struct LivePlot {
   std::vector<Curve> curves;
   std::string y_label = "";  ///< quantity and unit of the y axis
   double floor = 0.0;  ///< on a logarithmic y axis smaller values are drawn here; 0: not drawn
+  double span = 0.0;   ///< smallest length of a linear y axis, so that rounding errors are flat
 };
 
 /// Mapping from values to fractions of the length of an axis.

@@ -62,8 +62,13 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
   return plot;
 }
 
-LivePlot energy_plot(const std::vector<Sample>& samples, Colour plain) {
+LivePlot energy_plot(const std::vector<Sample>& samples, double count, Colour plain) {
   LivePlot plot{"Energy per time", "time t", false, false, {}, "m a²/t³"};
+  // Rounding errors of the energy are far below this share of it.
+  constexpr double kShare = 1e-6;
+  for (const Sample& sample : samples) {
+    plot.span = std::max(plot.span, kShare * count * sample.temperature.mean());
+  }
   const auto in = [](const Sample& s) { return s.walls_in + s.bulk_in + s.gravity_in; };
   plot.curves = {
       over_time("in", kOrange, samples, in),
@@ -193,7 +198,7 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals, dimension));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
-  plots.push_back(energy_plot(samples, theme.text));
+  plots.push_back(energy_plot(samples, static_cast<double>(frame.snapshot.count()), theme.text));
   plots.push_back(velocity_plot(history.velocities(), dimension, theme.text));
   const auto gas = vibrated_gas(*frame.scene);
   if (gas && gas->drive_speed > 0.0 && gas->wall_restitution == 1.0 && gas->restitution < 1.0) {

@@ -21,7 +21,7 @@ Recording record_panel(Controls& controls, std::optional<double> filmed) {
     if (controls.button("film", label.c_str(), "Keeps the frames filmed so far", width)) {
       asked = Recording::StopFilm;
     }
-  } else if (controls.button("film", "Film###film",
+  } else if (controls.button("film", "Film from t = 0###film",
                              "Saves the scene with all changes so far, and films it from time 0 to "
                              "now in the background",
                              width)) {

@@ -85,11 +85,15 @@ void Session::answered(const Frame& now) {
 }
 
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
-  seed_ = seed;
   plays_ = plays;
-  done_.clear();
-  undone_.clear();
-  start({scene, scene}, "open");
+  const OpenedScene now{scene, scene, seed};
+  if (frame().run > 0) {
+    if (!done_.empty() && done_.back().scenes.empty()) {
+      tell(fmt::format("Ctrl+Z returns to {} with its changes", opened_.title));
+    }
+    remember({.scenes = {{restarted(), opened_, seed_}, now}});
+  }
+  start(now, "open");
 }
 
 // Sends a scene to the engine, whose refusal restores the present one.
@@ -98,6 +102,7 @@ void Session::start(const OpenedScene& opened, const char* event) {
   wishes_ = true;
   scene_ = opened.scene;
   opened_ = opened.opened;
+  seed_ = opened.seed;
   view_ = scene_.view;
   speed_ = view_.speed;
   ++views_;
@@ -113,11 +118,8 @@ Scene Session::recorded() const {
   scene.changes = frame().scene->changes;
   scene.view = view_;
   scene.view.speed = speed_;
-  if (!scene.spins()) {
-    // Roughness was switched on later: the scene at the start has no spins to show.
-    if (scene.view.colour_by == ColourBy::Spin) scene.view.colour_by = ColourBy::Speed;
-    if (scene.view.field && of_spins(*scene.view.field)) scene.view.field.reset();
-  }
+  // Roughness may have been switched on later: the scene at the start has no spins to show.
+  if (!scene.spins()) scene.view.hide_spins();
   return scene;
 }
 
@@ -136,14 +138,14 @@ void Session::restart() {
 }
 
 void Session::switch_dimension() {
-  const OpenedScene before{restarted(), opened_};
+  const OpenedScene before{restarted(), opened_, seed_};
   try {
     const auto [scene, removed] = change_dimension(before.scene, 5 - before.scene.dimension());
     if (!removed.empty()) {
       tell(fmt::format("Without meaning for {}, and removed: {}; Ctrl+Z restores the former scene",
                        scene.dimension() == 2 ? "disks" : "spheres", fmt::join(removed, ", ")));
     }
-    remember({.scenes = {before, {scene, scene}}});
+    remember({.scenes = {before, {scene, scene, seed_}}});
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
@@ -201,6 +203,8 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
     tell(error.problem() + "; " + error.advice());
     return;
   }
+  View view = view_;
+  if (!scene_.spins() && view.hide_spins()) set_view(view);
   nlohmann::json keys;
   for (const Override& setting : settings) keys[setting.key] = setting.value;
   log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
@@ -218,13 +222,11 @@ void Session::remember(Edit edit) {
 }
 
 void Session::apply(const Edit& edit, bool again) {
-  if (edit.views) {
-    set_view((*edit.views)[again ? 1 : 0]);
-  } else if (!edit.scenes.empty()) {
-    start(edit.scenes[again ? 1 : 0], "dimension");
-  } else {
+  if (!edit.scenes.empty()) start(edit.scenes[again ? 1 : 0], "open");
+  if (!edit.after.empty()) {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
   }
+  if (edit.views) set_view((*edit.views)[again ? 1 : 0]);
 }
 
 void Session::undo() {
@@ -269,12 +271,8 @@ void Session::show_profile(Profiled what, Axis axis) {
 
 void Session::tell(const std::string& message) {
   message_ = message;
-  told_ = Clock::now();
+  ++told_;
   log_.event("message", {{"text", message}});
-}
-
-double Session::message_age() const {
-  return std::chrono::duration<double>(Clock::now() - told_).count();
 }
 
 }  // namespace clatter

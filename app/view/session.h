@@ -14,6 +14,7 @@ namespace clatter {
 struct OpenedScene {
   Scene scene;
   Scene opened;
+  std::uint64_t seed = 1;
 };
 
 /// One entry of the undo history.
@@ -22,7 +23,7 @@ struct Edit {
   std::vector<Override> after = {};   ///< keys that make the change
   VecX shift = {};  ///< shift of the particles with `after`; undo shifts them back; empty: none
   std::optional<std::array<View, 2>> views = {};  ///< view before and after; absent: unchanged
-  /// Scenes before and after a change of dimension, which start again; empty: no such change.
+  /// Scenes before and after, which start again; empty: no other scene.
   std::vector<OpenedScene> scenes = {};
 };
 
@@ -46,7 +47,8 @@ class Session {
   /// up to the newest frame. Requires a frame.
   Scene recorded() const;
 
-  /// Opens and starts a scene, and clears the undo history. Without `plays` the scene is paused.
+  /// Opens and starts a scene. Undo starts the former scene with its changes. Without `plays` the
+  /// scene is paused.
   void open(const Scene& scene, std::uint64_t seed, bool plays = true);
   /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
   /// laws it was opened with.
@@ -69,7 +71,7 @@ class Session {
 
   /// Sets keys. Laws change in the running simulation. Other keys restart it from the current
   /// particles, moved by `shift`, without those that no longer fit. An invalid setting becomes a
-  /// message.
+  /// message. If no particle spins afterwards, the view shows no spins.
   void set(const std::vector<Override>& settings, const VecX& shift = {});
   /// Adds an entry to the undo history, and clears the redo history.
   void remember(Edit edit);
@@ -91,8 +93,8 @@ class Session {
   void tell(const std::string& message);
   /// The last message; empty: none yet.
   const std::string& message() const { return message_; }
-  /// Seconds since the last message.
-  double message_age() const;
+  /// Number of messages so far.
+  std::uint64_t messages() const { return told_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -127,11 +129,11 @@ class Session {
   std::shared_ptr<const Scene> seen_;
   bool wishes_ = false;           // scene_ has settings that the engine may refuse
   std::optional<Before> before_;  // state before the scene being opened; absent: none
-  std::uint64_t messages_ = 0;
+  std::uint64_t messages_ = 0;    // Frame::messages of the last frame
   std::vector<Edit> done_;
   std::vector<Edit> undone_;
   std::string message_;
-  Clock::time_point told_;
+  std::uint64_t told_ = 0;
   Clock::time_point logged_;
 };
 

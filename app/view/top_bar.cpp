@@ -84,11 +84,15 @@ Health health_of(const Frame& frame) {
   if (frame.deepest_overlap > kDeepest || std::fabs(frame.ledger_residual) > kResidual) {
     health.colour = bad;
   }
+  if (!frame.stop.empty()) {
+    health.colour = bad;
+    health.reasons = frame.stop + "\n\n" + health.reasons;
+  }
   return health;
 }
 
 // Speed, collision rate, time and health at the right end of the bar.
-void figures(const Frame& frame) {
+void figures(const Frame& frame, Controls& controls) {
   std::string text;
   if (frame.plays && frame.held < 0.95) text += fmt::format("{:.2g}x   ", frame.held);
   if (frame.plays) text += fmt::format("{:.3g} collisions/s   ", frame.events_per_second);
@@ -99,12 +103,11 @@ void figures(const Frame& frame) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", text.c_str());
   ImGui::SameLine();
-  ImGui::InvisibleButton("health", ImVec2(unit, ImGui::GetFrameHeight()));
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const Health health = health_of(frame);
+  controls.area("health", unit, ImGui::GetFrameHeight(), health.reasons);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   ImGui::GetWindowDrawList()->AddCircleFilled(
       ImVec2(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)), 0.3f * unit, packed(health.colour));
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", health.reasons.c_str());
 }
 
 }  // namespace
@@ -136,7 +139,7 @@ void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
   }
   ImGui::SameLine();
   if (controls.button("help", "?", "Keys and mouse (F1)")) shown.toggle_help();
-  figures(frame);
+  figures(frame, controls);
 }
 
 }  // namespace clatter

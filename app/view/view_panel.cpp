@@ -62,7 +62,7 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
                          ? "The field below the disks"
                          : "The field, drawn on slices of the box or as a volume";
   if (!controls.choice("view.field", "Heatmap", help, words, chosen,
-                       place(session.opened().view.field))) {
+                       place(session.opened().view.field), true)) {
     return false;
   }
   view.field = fields[static_cast<std::size_t>(chosen)];

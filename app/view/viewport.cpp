@@ -124,21 +124,26 @@ bool Viewport::drag_or_click(const Frame& frame, View& view, const WindowMap& ma
 
 void Viewport::mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const {
   const Eye& eye = map.eye();
-  const double radius = 0.5 * frame.snapshot.diameter;
-  const auto ring = [&](std::uint32_t particle, ImU32 ink) {
-    if (particle >= frame.snapshot.count()) return;
-    const Vec3 seen = eye.seen(in_space(frame.snapshot.positions.col(particle)));
+  const Snapshot& gas = frame.snapshot;
+  const double radius = 0.5 * gas.diameter;
+  const auto ring = [&](const VecX& position, ImU32 ink) {
+    const Vec3 seen = eye.seen(in_space(position));
     if (eye.w(seen + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
     const auto [low, high] = eye.around(seen, radius);
     const float size =
         0.5f * static_cast<float>((high - low).maxCoeff() / eye.scale()) * map.units();
     list.AddCircle(map.of_pixel(0.5 * (low + high)), size + 2.0f, ink, 0, 2.5f);
   };
-  if (picked_) ring(static_cast<std::uint32_t>(*picked_), packed(accent_colour()));
-  if (!frame.partners) return;
-  for (const std::uint32_t particle : *frame.partners) {
-    ring(particle, IM_COL32(255, 214, 90, 255));
+  if (picked_ && *picked_ < gas.count()) {
+    ring(gas.positions.col(static_cast<Eigen::Index>(*picked_)), packed(accent_colour()));
   }
+  if (!frame.partners) return;
+  // The pair touches, if need be across a periodic border.
+  const auto [first, second] = *frame.partners;
+  if (std::max(first, second) >= gas.count()) return;
+  constexpr ImU32 kPair = IM_COL32(255, 214, 90, 255);
+  ring(gas.positions.col(first), kPair);
+  ring(nearest_image(gas, gas.positions.col(first), gas.positions.col(second)), kPair);
 }
 
 }  // namespace clatter

@@ -5,6 +5,8 @@
 #include <imgui.h>
 #include <imgui/backends/imgui_impl_glfw.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -59,6 +61,20 @@ class DearImGui {
   }
 };
 
+// Makes a window that is larger than the screen as large as the screen.
+void fit_to_screen(GLFWwindow* window) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return;
+  std::array<int, 4> screen{}, frame{};
+  std::array<int, 2> size{};
+  glfwGetMonitorWorkarea(monitor, &screen[0], &screen[1], &screen[2], &screen[3]);
+  glfwGetWindowFrameSize(window, &frame[0], &frame[1], &frame[2], &frame[3]);
+  glfwGetWindowSize(window, &size[0], &size[1]);
+  const int width = std::min(size[0], screen[2] - frame[0] - frame[2]);
+  const int height = std::min(size[1], screen[3] - frame[1] - frame[3]);
+  if (width < size[0] || height < size[1]) glfwSetWindowSize(window, width, height);
+}
+
 // Sleeps until an event, such as a new frame of the engine. While the panels settle it sleeps for
 // at most one refresh period. Without vertical synchronisation the sleep still limits the picture
 // rate.
@@ -78,6 +94,7 @@ static void show(const WindowOptions& options) {
   const GlfwContext context("clatter", options.size);
   const ContextGuard guard;
   GLFWwindow* window = context.window();
+  fit_to_screen(window);
   glfwSwapInterval(1);
   ScriptLog log(options.script_log);
   WindowInput input(window);
@@ -96,7 +113,7 @@ static void show(const WindowOptions& options) {
       gui.draw();
       glfwSwapBuffers(window);
       guard.check();
-      wait_for_events(left > 0 || gui.films(), began, rate);
+      wait_for_events(left > 0 || gui.changes(), began, rate);
     }
     // Hide the window first: ~Gui interrupts a film and waits for its end.
     glfwHideWindow(window);

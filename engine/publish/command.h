@@ -31,7 +31,7 @@ struct StepCollision {};
 struct SetSpeed {
   double speed = 1.0;
 };
-/// Changes laws from now on, see Schedule.
+/// Changes laws from a time on that follows within a tenth of a frame, see Schedule.
 struct SetLaws {
   std::vector<Override> laws;
 };

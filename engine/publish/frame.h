@@ -58,6 +58,7 @@ struct Frame {
   double deepest_overlap = 0.0;             ///< see RunChecks
   std::optional<std::uint64_t> state_hash;  ///< if the run is halted
   std::optional<std::array<std::uint32_t, 2>> partners;  ///< of the collision of StepCollision
+  std::string stop;            ///< why the run stopped by itself; empty: it did not
   std::string message;         ///< last message: a refused command, or why the run stopped
   std::uint64_t messages = 0;  ///< number of messages so far
 };

@@ -1,5 +1,6 @@
 #include "engine/publish/scheduled_run.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -43,18 +44,37 @@ bool ScheduledRun<D>::run_until(double time, std::uint64_t collisions, std::uint
 }
 
 template <int D>
-void ScheduledRun<D>::settle() {
-  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+void ScheduledRun<D>::halt_at(double time) {
   try {
-    run_until(simulation_->time() * (1.0 + kRoundings));
+    run_until(time);
   } catch (const PhysicalStop&) {
     // A halt needs no report of the stop, and other laws may let the run continue.
   }
 }
 
 template <int D>
-void ScheduledRun<D>::change(const std::vector<Override>& laws) {
-  settle();
+void ScheduledRun<D>::settle() {
+  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+  halt_at(simulation_->time() * (1.0 + kRoundings));
+}
+
+// The multiple of a power of ten, as large as possible, in the `span` that begins at a time.
+static double round_time(double time, double span) {
+  const double power = std::floor(std::log10(span));
+  // A quotient by a power of ten is the double next to the decimal number; a product is not.
+  const double per = std::pow(10.0, std::fabs(power));
+  const auto multiple = [&](double count) { return power < 0.0 ? count / per : count * per; };
+  const double count = std::round(power < 0.0 ? time * per : time / per);
+  return multiple(count) >= time ? multiple(count) : multiple(count + 1.0);
+}
+
+template <int D>
+void ScheduledRun<D>::change(const std::vector<Override>& laws, double delay) {
+  if (delay > 0.0) {
+    halt_at(round_time(simulation_->time(), delay));
+  } else {
+    settle();
+  }
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
   changed.advance();

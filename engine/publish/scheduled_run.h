@@ -51,8 +51,9 @@ class ScheduledRun {
   void settle();
   /// Settles, then changes laws at the simulation's time and adds the change to the scene's
   /// changes. Throws UserError or PhysicalStop if the change is impossible; the old laws then
-  /// remain.
-  void change(const std::vector<Override>& laws);
+  /// remain. First it runs for up to `delay`, to the time with the fewest digits in it, if no
+  /// physical stop prevents it.
+  void change(const std::vector<Override>& laws, double delay = 0.0);
 
   /// Adds to later snapshots the averages, flights and angles that the view needs. `exposure` >= 0
   /// is the exposure time of a picture, in simulation time.
@@ -72,6 +73,7 @@ class ScheduledRun {
   std::function<void(Simulation<D>& next)> on_change;
 
  private:
+  void halt_at(double time);
   void change_laws(Schedule changed);
   void go_on_as(std::unique_ptr<Simulation<D>> next);
 

@@ -26,7 +26,9 @@ class RunOf : public WatchedRun {
     return run_.run_until(time, collisions, steps);
   }
   void settle() override { run_.settle(); }
-  void change(const std::vector<Override>& laws) override { run_.change(laws); }
+  void change(const std::vector<Override>& laws, double delay) override {
+    run_.change(laws, delay);
+  }
   void show(const View& view) override { run_.show(view); }
   void show_profile(Profiled what, Axis axis) override;
   void pick(std::optional<std::uint32_t> particle) override;

@@ -31,7 +31,7 @@ class WatchedRun {
   /// As ScheduledRun::settle.
   virtual void settle() = 0;
   /// As ScheduledRun::change.
-  virtual void change(const std::vector<Override>& laws) = 0;
+  virtual void change(const std::vector<Override>& laws, double delay) = 0;
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;
 

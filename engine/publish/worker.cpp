@@ -103,7 +103,8 @@ class Work {
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
-    if (watched_) watched_->change(asked.laws);
+    // In a tenth of a frame there is a time with few digits, for the scene file.
+    if (watched_) watched_->change(asked.laws, 0.1 * pace_.speed() * frame_seconds_);
   }
   void obey(const command::Show& asked) {
     if (watched_) watched_->show(asked.view);
@@ -130,6 +131,7 @@ class Work {
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
     ++runs_;
+    stop_.clear();
     rate_since_ = {};
   }
 
@@ -150,7 +152,11 @@ class Work {
   // it reached `time`.
   bool advance(double time, std::uint64_t collisions, Clock::time_point due) {
     bool arrived = false;
-    if (!attempt([&] { arrived = run_slices(time, collisions, due); })) halt();
+    stop_.clear();
+    if (!attempt([&] { arrived = run_slices(time, collisions, due); })) {
+      halt();
+      stop_ = message_;
+    }
     return arrived;
   }
 
@@ -210,6 +216,7 @@ class Work {
     frame.held = pace_.held();
     frame.events_per_second = event_rate();
     frame.partners = partners_;
+    frame.stop = stop_;
     frame.message = message_;
     frame.messages = messages_;
     frames_.publish();
@@ -251,6 +258,7 @@ class Work {
   std::uint64_t slice_ = 256;  // steps per slice, adapted while running
   std::uint64_t runs_ = 0;
   std::uint64_t handled_ = 0;
+  std::string stop_;  // see Frame
   std::string message_;
   std::uint64_t messages_ = 0;
   double rate_ = 0.0;

@@ -46,9 +46,13 @@ class KeyReader {
     chosen = named<E>(key, *node, names).front();
   }
 
+  /// A choice that may be absent, also by the name "none".
   template <class E, class Names>
   void choice(std::string_view key, std::optional<E>& chosen, const Names& names) {
-    if (has(key)) choice(key, chosen.emplace(), names);
+    const toml::node* node = find(key, kOptional);
+    if (!node) return;
+    chosen.reset();
+    if (node->value<std::string_view>() != "none") choice(key, chosen.emplace(), names);
   }
 
   template <class E, class Names>

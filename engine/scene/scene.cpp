@@ -24,6 +24,14 @@ VecX Scene::clear_box() const {
   return size;
 }
 
+bool View::hide_spins() {
+  const bool colours = colour_by == ColourBy::Spin;
+  const bool maps = field && of_spins(*field);
+  if (colours) colour_by = ColourBy::Speed;
+  if (maps) field.reset();
+  return colours || maps;
+}
+
 bool Scene::spins() const {
   bool any = particles.roughness.any();
   for (const auto& wall : walls) any = any || (wall && wall->roughness.any());

@@ -169,11 +169,15 @@ Scene parse_scene(std::string_view text, const std::string& file,
   return parse_scene({std::string(text), file}, overrides, start_file);
 }
 
-// The text of a scene, with or without the keys of spins.
+// The text of a scene, with or without the keys, colours and fields of spins.
 template <class Writer>
 static std::string written(const Scene& scene, bool spins) {
   SceneInput input{
       .count = scene.particles.count, .packing_fraction = {}, .spins = spins, .scene = scene};
+  if (!spins) {
+    input.scene.view.hide_spins();
+    std::erase_if(input.scene.measure.fields, of_spins);
+  }
   Writer writer;
   visit_scene(writer, input);
   return writer.text();
@@ -186,7 +190,7 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
     for (const Override& setting : settings) apply_override(root, setting);
     return root;
   };
-  // Without spins the keys of spins are forbidden, but the scene keeps their numbers for later.
+  // Without spins the keys of spins are forbidden, but the scene keeps their values for later.
   toml::table root = document(scene.spins());
   const bool spins = read_keys(root, "", true).scene.spins();
   if (spins != scene.spins()) root = document(spins);
@@ -201,6 +205,8 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
     made.particles.start.spin_temperature = start.spin_temperature;
     if (made.bulk_drive && scene.bulk_drive)
       made.bulk_drive->kick_spin = scene.bulk_drive->kick_spin;
+    made.view = scene.view;
+    made.measure.fields = scene.measure.fields;
   }
   made.changes = scene.changes;
   return made;

@@ -99,6 +99,9 @@ struct View {
   double volume = 0.0;
   std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
+  /// Replaces colours and fields of spins: the colour by the speed, the heatmap by none. Returns
+  /// whether there were any.
+  bool hide_spins();
   /// Whether it shows time averages: a heatmap or arrows.
   bool shows_averages() const { return field || arrows; }
   /// Whether another view needs the same averages.

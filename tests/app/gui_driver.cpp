@@ -16,10 +16,12 @@ using namespace std::chrono_literals;
 // A person pauses between press, move and release. The program needs a new picture in between.
 static constexpr const char* kPause = " sleep 0.15 ";
 
-GuiDriver::GuiDriver(const std::string& arguments, const std::string& size) {
-  const Outcome outcome = shell_.run("Xvfb -displayfd 3 -screen 0 " + size +
-                                     "x24 3>display >/dev/null 2>&1 & echo $! >xvfb\n"
-                                     "until [ -s display ]; do sleep 0.05; done");
+GuiDriver::GuiDriver(const std::string& arguments, const std::string& size,
+                     const std::string& screen) {
+  const Outcome outcome =
+      shell_.run("Xvfb -displayfd 3 -screen 0 " + (screen.empty() ? size : screen) +
+                 "x24 3>display >/dev/null 2>&1 & echo $! >xvfb\n"
+                 "until [ -s display ]; do sleep 0.05; done");
   REQUIRE(outcome.code == 0);
   display_ = "export DISPLAY=:" + shell_.read("display");
   shell_.run(display_ + "\n(clatter view --size " + size + " --script-log log " + arguments +

@@ -13,9 +13,10 @@ namespace clatter {
 /// writes its state to the script log.
 class GuiDriver {
  public:
-  /// Opens `clatter view` with these arguments on a screen of this size. Waits until the gas and
-  /// all widgets are drawn.
-  explicit GuiDriver(const std::string& arguments, const std::string& size = "1280x800");
+  /// Opens `clatter view` with these arguments in a window of this size, on a screen of the same
+  /// size or of `screen`. Waits until the gas and all widgets are drawn.
+  explicit GuiDriver(const std::string& arguments, const std::string& size = "1280x800",
+                     const std::string& screen = "");
 
   /// Runs a shell line on the display.
   Outcome run(const std::string& line) const;

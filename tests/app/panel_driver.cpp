@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -60,29 +60,25 @@ std::vector<std::string> PanelDriver::lines() {
   return lines;
 }
 
-std::array<float, 4> PanelDriver::place(const std::string& widget, std::size_t number) {
-  const auto places = [&] {
-    std::vector<std::array<float, 4>> told;
-    std::istringstream log(bytes_of(folder_ / "log"));
-    for (std::string line; std::getline(log, line);) {
-      const auto event = nlohmann::json::parse(line);
-      if (event.at("event") == "widget" && event.at("name") == widget) {
-        told.push_back(event.at("place"));
-      }
-    }
-    return told;
-  };
-  const std::size_t before = places().size();
+std::vector<nlohmann::json> PanelDriver::widgets() const {
+  std::vector<nlohmann::json> widgets;
+  std::istringstream log(bytes_of(folder_ / "log"));
+  for (std::string line; std::getline(log, line);) {
+    auto event = nlohmann::json::parse(line);
+    if (event.at("event") == "widget") widgets.push_back(std::move(event));
+  }
+  return widgets;
+}
+
+std::array<float, 4> PanelDriver::place(const std::string& widget) {
   draw();
-  std::vector<std::array<float, 4>> all = places();
+  std::optional<std::array<float, 4>> place;
+  for (const nlohmann::json& event : widgets()) {
+    if (event.at("name") == widget) place = event.at("place");
+  }
   CAPTURE(widget);
-  REQUIRE_FALSE(all.empty());
-  // In an unchanged picture, only widgets that share a key are logged again.
-  if (all.size() == before) return all.back();
-  all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before));
-  std::ranges::sort(all, {}, [](const auto& place) { return place[1]; });
-  REQUIRE(number < all.size());
-  return all[number];
+  REQUIRE(place);
+  return *place;
 }
 
 void PanelDriver::point_at(float x, float y) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ class PanelDriver {
   /// The lines of the panel from top to bottom: names, symbols and values. Values of sliders and
   /// lists are in braces. A tooltip, if any, comes last.
   std::vector<std::string> lines();
-  /// The rectangle of a widget as in the script log: left, top, width, height. `number` counts
-  /// widgets with the same key from the top.
-  std::array<float, 4> place(const std::string& widget, std::size_t number = 0);
+  /// The rectangle of a widget as in the script log: left, top, width, height.
+  std::array<float, 4> place(const std::string& widget);
+  /// Number of widgets in the script log so far.
+  std::size_t widgets_told() const { return widgets().size(); }
   /// Clicks at a position, or drags the mouse from there to another.
   void click(float x, float y) { drag(x, y, x); }
   void drag(float x, float y, float to_x);
@@ -38,6 +40,7 @@ class PanelDriver {
 
  private:
   void draw();
+  std::vector<nlohmann::json> widgets() const;
 
   testing::TemporaryFolder folder_;
   Worker worker_{60.0};

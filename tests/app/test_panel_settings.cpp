@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/scene/scene_file.h"
 #include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
 
@@ -110,6 +111,16 @@ TEST_CASE("Panels: the first item of a list removes the feature") {
   CHECK(settings(driver).at("/walls/right/kind") == "static");
 }
 
+TEST_CASE("Panels: \"none\" is also a name in scenes, as in the lists") {
+  const Scene scene = parse_scene(
+      "[particles]\ncount = 5\n[view]\nfield = 'density'\narrows = 'velocity'\n"
+      "field_palette = 'none'\n",
+      "", {{"view.field", "\"none\""}, {"view.arrows", "\"none\""}});
+  CHECK_FALSE(scene.view.field);
+  CHECK_FALSE(scene.view.arrows);
+  CHECK_FALSE(scene.view.field_palette);
+}
+
 TEST_CASE("Panels: ranges are automatic, locked or given from the one number to the other") {
   struct Range {
     const char* key;
@@ -158,6 +169,79 @@ TEST_CASE("Panels: spins go with their keys, and come back with the numbers that
   tick(driver, "rough");
   CHECK(changes(before, settings(driver)) ==
         Places{"/particles/friction", "/particles/tangential_restitution"});
+}
+
+TEST_CASE("Panels: colours and fields of spins go with the spins, and come back with undo") {
+  Scene scene = uneven_disks();
+  scene.view.colour_by = ColourBy::Spin;
+  scene.view.field = Field(Quantity::Spin);
+  scene.measure.fields = {Field(Quantity::Spin)};
+  Session* session = nullptr;
+  PanelDriver driver(scene, [&](Session& of, Controls& controls) {
+    session = &of;
+    all_panels(of, controls);
+  });
+  tick(driver, "rough");
+  const auto smooth = [](const Frame& frame) { return !frame.scene->spins(); };
+  driver.wait_for([&](const Frame& frame) { return frame.run == 1 && smooth(frame); });
+  CHECK(driver.session().message().empty());
+  CHECK(driver.session().view().colour_by == ColourBy::Speed);
+  CHECK_FALSE(driver.session().view().field);
+  // The scene that would be saved is complete.
+  CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 1);
+  session->undo();
+  driver.wait_for([&](const Frame& frame) { return !smooth(frame); });
+  CHECK(driver.session().message().empty());
+  CHECK(driver.session().view().colour_by == ColourBy::Spin);
+  CHECK(driver.session().view().field == Field(Quantity::Spin));
+  CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 2);
+}
+
+TEST_CASE("Panels: undo after another scene was opened returns to the changed scene") {
+  Session* session = nullptr;
+  PanelDriver driver(uneven_disks(), [&](Session& of, Controls& controls) {
+    session = &of;
+    all_panels(of, controls);
+  });
+  const auto opened = [](std::uint64_t run) {
+    return [run](const Frame& frame) { return frame.run == run; };
+  };
+  driver.wait_for(opened(1));
+  tick(driver, "rough");
+  const json changed = settings(driver);
+  session->open(Scene{}, 7, false);
+  CHECK(says(driver.session().message(), "Ctrl+Z returns to"));
+  driver.wait_for(opened(2));
+  CHECK(driver.session().frame().seed == 7);
+  session->undo();
+  driver.wait_for(opened(3));
+  CHECK(changes(changed, settings(driver)).empty());
+  CHECK(driver.session().frame().seed == 1);
+  session->redo();
+  driver.wait_for(opened(4));
+  CHECK(driver.session().frame().seed == 7);
+}
+
+TEST_CASE("Panels: a drag changes a halted gas once, at a time with few digits") {
+  Session* session = nullptr;
+  PanelDriver driver(uneven_disks(), [&](Session& of, Controls& controls) {
+    session = &of;
+    all_panels(of, controls);
+  });
+  session->set_speed(2.0);
+  session->play_until(M_PI);
+  driver.wait_for([](const Frame& frame) { return frame.snapshot.time == M_PI; });
+  const auto [x, y, width, height] = driver.place("particles.restitution");
+  driver.drag(x + 0.8f * width, y + 0.5f * height, x + 0.3f * width);
+  driver.wait_for([](const Frame& frame) { return !frame.scene->changes.empty(); });
+  const std::vector<Change> changes = driver.session().frame().scene->changes;
+  CHECK(changes.size() == 1);
+  // A frame has 2/60 = 0.033 time units, so the times are multiples of 0.001.
+  CHECK(changes[0].time == 3.142);
+  // A change at the same time again.
+  driver.drag(x + 0.3f * width, y + 0.5f * height, x + 0.4f * width);
+  driver.wait_for([](const Frame& frame) { return frame.scene->changes.size() > 1; });
+  CHECK(driver.session().frame().scene->changes[1].time == 3.142);
 }
 
 TEST_CASE("Panels: a feature starts with its usual numbers when switched on") {

@@ -1,6 +1,8 @@
 // The texts of the window's panels: each name with the value of its own key.
 
 #include <doctest/doctest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 
@@ -8,6 +10,7 @@
 #include "app/view/panels.h"
 #include "app/view/plot.h"
 #include "app/view/top_bar.h"
+#include "engine/scene/scene_file.h"
 #include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
 
@@ -153,6 +156,103 @@ TEST_CASE("Panels: a picked sphere shows three components") {
       {"Sphere 0", "position 2.50, 5.25, 7.12", "velocity -3.000, 4.000, 12.000", "speed 13.000",
        "spin -0.625, 0.500, 0.250", "last collision t = 11.5000, front wall",
        "next collision t = 12.2500, sphere 2", "double-click to follow"});
+}
+
+TEST_CASE("Panels: the light of health is red after the run has stopped by itself") {
+  Session* session = nullptr;
+  PanelVisibility shown;
+  Scene scene = load_scene("collapse");
+  scene.contact_time.reset();
+  PanelDriver driver(scene, [&](Session& of, Controls& controls) {
+    session = &of;
+    top_bar(of, controls, shown);
+  });
+  const auto reasons = [&] {
+    const auto [x, y, width, height] = driver.place("health");
+    driver.point_at(x + 0.5f * width, y + 0.5f * height);
+    return text_of(driver);
+  };
+  CHECK_FALSE(says(reasons(), "inelastic collapse"));
+  session->set_speed(1e6);
+  session->play(true);
+  driver.wait_for([](const Frame& frame) { return !frame.stop.empty(); });
+  CHECK(says(reasons(), "inelastic collapse"));
+  session->restart();
+  driver.wait_for([](const Frame& frame) { return frame.run == 2 && frame.stop.empty(); });
+}
+
+TEST_CASE("Panels: a tooltip is beside its panel") {
+  ImVec4 tip;
+  bool on = false;
+  PanelDriver driver(Scene{}, [&](Session&, Controls& controls) {
+    ImGui::SetNextWindowPos(ImVec2(20.0f, 20.0f));
+    ImGui::SetNextWindowSize(ImVec2(200.0f, 300.0f));
+    ImGui::Begin("narrow");
+    controls.toggle("box", "Box", "Its help", on);
+    if (const ImGuiWindow* window = ImGui::FindWindowByName("##Tooltip_00")) {
+      tip = ImVec4(window->Pos.x, window->Pos.y, window->Size.x, window->Size.y);
+    }
+    ImGui::End();
+  });
+  const auto [x, y, width, height] = driver.place("box");
+  driver.point_at(x + 5.0f, y + 5.0f);
+  CHECK(says(text_of(driver), "Its help"));
+  CHECK(tip.x >= 220.0f);
+  CHECK(tip.y == y);
+}
+
+TEST_CASE("Panels: where there is little room, names and values have it") {
+  float wide = 400.0f;
+  PanelDriver driver(Scene{}, [&](Session&, Controls& controls) {
+    ImGui::SetNextWindowSize(ImVec2(wide, 300.0f));
+    ImGui::Begin("other");
+    double speed = 1.25;
+    controls.number({.key = "speed", .name = "Drive speed", .symbol = "v_dr", .unit = "a/t"}, speed,
+                    speed);
+    draw_plot({.title = "Energy per time", .x_label = "t", .curves = {}, .y_label = "m a²/t³"},
+              200.0f);
+    ImGui::End();
+  });
+  CHECK(says(text_of(driver), "Drive speed v_dr 1.250 a/t"));
+  CHECK(says(text_of(driver), "Energy per time m a²/t³ [ CSV ]"));
+  wide = 170.0f;
+  CHECK(says(text_of(driver), "Drive speed 1.250"));
+  CHECK_FALSE(says(text_of(driver), "v_dr"));
+  CHECK(says(text_of(driver), "Energy per time [ CSV ]"));
+}
+
+TEST_CASE("Panels: a message is shown for 4 to 8 seconds, and stays under the mouse") {
+  MessageNote note;
+  Session* session = nullptr;
+  PanelDriver driver(Scene{}, [&](Session& of, Controls&) {
+    session = &of;
+    ImGui::GetIO().DeltaTime = 0.5f;
+    note.draw(of, {{0.0f, 0.0f}, {400.0f, 400.0f}});
+  });
+  const auto shown = [&] { return says(text_of(driver), "Saved"); };
+  // Half a second passes at each look.
+  const auto seconds = [&] {
+    double time = 0.0;
+    for (; shown() && time < 30.0; time += 0.5) {
+    }
+    CHECK_FALSE(note.shown());
+    return time;
+  };
+  driver.point_at(0.0f, 3000.0f);
+  CHECK_FALSE(shown());
+  session->tell("Saved: a");
+  CHECK(seconds() == 4.0);
+  session->tell("Saved: " + std::string(100, 'a'));
+  const double longer = seconds();
+  CHECK(longer > 5.0);
+  CHECK(longer < 8.0);
+  session->tell("Saved: " + std::string(1000, 'a'));
+  CHECK(seconds() == 8.0);
+  session->tell("Saved: a");
+  driver.point_at(200.0f, 340.0f);
+  for (int look = 0; look < 40; ++look) CHECK(shown());
+  driver.point_at(0.0f, 3000.0f);
+  CHECK(seconds() <= 4.0);
 }
 
 TEST_CASE("Panels: a curve of theory has its meaning beside the mouse") {

@@ -113,6 +113,41 @@ void check_last(const LivePlot& plot, const std::string& name, double x, double 
 
 }  // namespace
 
+TEST_CASE("Plots: a constant quantity looks constant, in spite of rounding errors") {
+  const auto height = [](std::vector<Vec2> points, double span) {
+    LivePlot plot{.title = "", .x_label = "", .curves = {{"", {}, std::move(points)}}};
+    plot.span = span;
+    const PlotScale y = scales_of(plot)[1];
+    CHECK(y.low < y.high);
+    return y.high - y.low;
+  };
+  // Relative to the value: the rounding errors of -5 are no more than 1e-6 of the axis.
+  CHECK(height({{0.0, -5.0}, {1.0, -5.0 - 1e-13}, {2.0, -5.0 + 1e-13}}, 0.0) > 1e-7);
+  // Relative to the given length, for values around zero.
+  CHECK(height({{0.0, 0.0}, {1.0, 1e-13}, {2.0, -2e-13}}, 0.5) >= 0.5);
+  CHECK(height({{0.0, 0.0}, {1.0, 1e-3}}, 1e-6) < 2e-3);
+
+  // An elastic gas without drives: no energy is gained or lost.
+  Scene elastic;
+  elastic.particles.count = 50;
+  elastic.particles.restitution = 1.0;
+  const auto run = watched_run(elastic, 1);
+  History history;
+  Frame frame;
+  frame.run = 1;
+  for (double time = 1.0; time < 20.0; time += 1.0) {
+    run->run_until(time, kNoLimit, kNoLimit);
+    run->tell(frame, false);
+    history.add(frame);
+  }
+  for (const LivePlot& plot : plots_of(history, frame, 0, theme_of(View{}))) {
+    if (plot.title != "Energy per time") continue;
+    const PlotScale y = scales_of(plot)[1];
+    CHECK(y.high - y.low > 1e-5);
+    CHECK(y.high - y.low < 1e-2);
+  }
+}
+
 TEST_CASE("Plots: curves over time are gains since the previous frame, with their names") {
   const TwoFrames frames;
   const LivePlot temperature = frames.plot("Temperature");

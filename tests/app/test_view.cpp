@@ -280,6 +280,83 @@ TEST_CASE("Window: G opens and closes the gallery, and the list of keys takes it
   driver.wait_for("gallery", told, open(false));
 }
 
+TEST_CASE("Window: Esc closes the open list, then the panel with it") {
+  const GuiDriver driver("");
+  driver.key("p");
+  driver.click("plots.profile");
+  std::size_t told = driver.told();
+  driver.key("Escape");
+  driver.click("plots.profile.density");  // a place in the plots, if the list is closed
+  CHECK(place_of(driver, "viewport")[2] < 1000.0);
+  told = driver.told();
+  driver.key("Escape");
+  CHECK(place_of(driver, "viewport", told)[2] > 1000.0);
+}
+
+TEST_CASE("Window: a click on a number types another one, at most the largest") {
+  const GuiDriver driver("");
+  const auto type = [&](const std::string& number) {
+    const std::size_t told = driver.told();
+    driver.click("particles.count.number");
+    driver.key("ctrl+a");
+    driver.tool("type --delay 100 " + number);
+    driver.key("Return");
+    return driver.wait_for("set", told)["keys"]["particles.count"].get<std::string>();
+  };
+  CHECK(type("123") == "123");
+  const std::size_t told = driver.told();
+  const std::string most = type("5000");
+  CHECK(std::stoi(most) < 5000);
+  CHECK(std::stoi(most) > 200);
+  CHECK(says(driver.wait_for("message", told)["text"],
+             "Disks: at most " + most + "; no more fit into the box; enlarge it first"));
+  const std::size_t after = driver.told();
+  driver.click("particles.restitution.number");
+  driver.tool("type --delay 100 0.123");
+  driver.key("Escape");
+  driver.key("p");
+  place_of(driver, "viewport", after);
+  CHECK(driver.events("set").size() == 2);
+}
+
+TEST_CASE("Window: it is no larger than the screen") {
+  const GuiDriver driver("", "1280x800", "1200x720");
+  const json place = driver.wait_for("widget", 0, [](const json& event) {
+    return event["name"] == "close_lesson" && event["place"][1] < 720.0;
+  })["place"];
+  CHECK(place[0].get<double>() + place[2].get<double>() <= 1200.0);
+}
+
+TEST_CASE("Window: arrows and Enter choose a scene of the gallery") {
+  const GuiDriver driver("");
+  std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  for (const char* key : {"Down", "Down", "Down", "Up"}) driver.key(key);
+  driver.key("Return");
+  const json third = driver.wait_for("open", told);
+  // Without the keys of the list, the third scene of it.
+  std::istringstream list(driver.shell().run("clatter scenes | sed -n 3p").out);
+  std::string name;
+  list >> name;
+  driver.shell().run("clatter check " + name + " >checked");
+  CHECK(says(driver.shell().read("checked"), third["title"].get<std::string>()));
+
+  // With a search that finds no scene, Enter opens none.
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.key("slash");
+  driver.tool("type --delay 100 zzz");
+  place_of(driver, "gallery.none", told);
+  driver.key("Return");
+  for (int i = 0; i < 3; ++i) driver.key("BackSpace");
+  driver.tool("type --delay 100 cradle");
+  driver.key("Return");
+  CHECK(driver.wait_for("open", told)["title"] == "Newton's cradle");
+  CHECK(driver.events("open").size() == 3);
+}
+
 TEST_CASE("Window: the gallery has the order of the list of scenes") {
   const GuiDriver driver("");
   const std::size_t told = driver.told();

@@ -39,6 +39,17 @@ int sphere_of(const Snapshot& snapshot, const Vec3& point) {
 }  // namespace
 
 // Points every 1/500 of a diameter along the line of sight, from the viewer on.
+TEST_CASE("Picking: the nearest image of a particle is across the periodic border only") {
+  Snapshot snapshot;
+  snapshot.box = Vec2(10.0, 8.0);
+  snapshot.walls[kBottom] = snapshot.walls[kTop] = Wall{};
+  CHECK(nearest_image(snapshot, Vec2(9.7, 0.6), Vec2(0.4, 7.4)) == Vec2(10.4, 7.4));
+  CHECK(nearest_image(snapshot, Vec2(0.4, 7.4), Vec2(9.7, 0.6)).isApprox(Vec2(-0.3, 0.6)));
+  CHECK(nearest_image(snapshot, Vec2(5.0, 4.0), Vec2(5.5, 3.0)) == Vec2(5.5, 3.0));
+  CHECK(nearest_image(some_spheres(), Vec3(0.2, 1.0, 1.0), Vec3(5.8, 2.0, 3.0))
+            .isApprox(Vec3(-0.2, 2.0, 3.0)));
+}
+
 TEST_CASE("Picking: the sphere in front is the first that a line of sight meets") {
   const Snapshot snapshot = some_spheres();
   const Slab slab{.axis = Axis::Z, .from = 0.8, .to = 2.6};
