@@ -169,18 +169,34 @@ Scene parse_scene(std::string_view text, const std::string& file,
   return parse_scene({std::string(text), file}, overrides, start_file);
 }
 
+// Removes colours and fields of spins.
+static void hide_spins(Scene& scene) {
+  scene.view.hide_spins();
+  std::erase_if(scene.measure.fields, of_spins);
+}
+
 // The text of a scene, with or without the keys, colours and fields of spins.
 template <class Writer>
 static std::string written(const Scene& scene, bool spins) {
   SceneInput input{
       .count = scene.particles.count, .packing_fraction = {}, .spins = spins, .scene = scene};
-  if (!spins) {
-    input.scene.view.hide_spins();
-    std::erase_if(input.scene.measure.fields, of_spins);
-  }
+  if (!spins) hide_spins(input.scene);
   Writer writer;
   visit_scene(writer, input);
   return writer.text();
+}
+
+// Restores colours and fields of spins that hide_spins() has removed from a scene, unless settings
+// have replaced them.
+static void keep_hidden(Scene& made, const Scene& scene) {
+  Scene hidden = scene;
+  hide_spins(hidden);
+  const auto keep = [](auto& value, const auto& without, const auto& with) {
+    if (value == without) value = with;
+  };
+  keep(made.view.colour_by, hidden.view.colour_by, scene.view.colour_by);
+  keep(made.view.field, hidden.view.field, scene.view.field);
+  keep(made.measure.fields, hidden.measure.fields, scene.measure.fields);
 }
 
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
@@ -205,8 +221,7 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
     made.particles.start.spin_temperature = start.spin_temperature;
     if (made.bulk_drive && scene.bulk_drive)
       made.bulk_drive->kick_spin = scene.bulk_drive->kick_spin;
-    made.view = scene.view;
-    made.measure.fields = scene.measure.fields;
+    keep_hidden(made, scene);
   }
   made.changes = scene.changes;
   return made;

@@ -49,8 +49,8 @@ Scene parse_scene(std::string_view text, const std::string& file,
                   StartFile start_file = StartFile::Read);
 
 /// The scene with new values of some keys, and the same start state. Throws UserError if the result
-/// is invalid. If no particle spins, the scene keeps its view, its measured fields and the values
-/// of spins for later.
+/// is invalid. If no particle spins, the scene keeps the values, colours and fields of spins for
+/// later.
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings);
 
 /// The scene as a file that parses back to the same scene, every default written out.

@@ -559,3 +559,30 @@ TEST_CASE("Scene file: a zero has no sign") {
   CHECK_FALSE(std::signbit(scene.particles.start.temperature));
   CHECK_FALSE(std::signbit((*scene.gravity)[0]));
 }
+
+TEST_CASE("Scene: colours and fields of spins return with the spins, unless they are replaced") {
+  const Scene rough = parse_scene(
+      "box.size = [20, 20]\nparticles = { count = 9, tangential_restitution = 0.5 }\n"
+      "view = { colour_by = 'spin', field = 'spin' }\n"
+      "measure.fields = ['density', 'spin']\n",
+      "s.toml");
+  const std::vector<Override> smooth = {{"particles.tangential_restitution", "-1"},
+                                        {"particles.friction", "0"}};
+  const std::vector<Override> again = {{"particles.tangential_restitution", "0.5"},
+                                       {"particles.friction", "inf"}};
+  const Scene without = with_settings(rough, smooth);
+  CHECK_FALSE(without.spins());
+  const Scene back = with_settings(without, again);
+  CHECK(back.view.colour_by == ColourBy::Spin);
+  CHECK(back.view.field == Quantity::Spin);
+  CHECK(back.measure.fields == std::vector<Field>{Quantity::Density, Quantity::Spin});
+
+  const Scene replaced = with_settings(without, {{"view.colour_by", "\"none\""},
+                                                 {"view.field", "\"density\""},
+                                                 {"view.speed", "7.5"},
+                                                 {"measure.fields", "[\"temperature\"]"}});
+  CHECK(replaced.view.colour_by == ColourBy::None);
+  CHECK(replaced.view.field == Quantity::Density);
+  CHECK(replaced.view.speed == 7.5);
+  CHECK(replaced.measure.fields.front() == Quantity::Temperature);
+}
