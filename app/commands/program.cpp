@@ -41,6 +41,16 @@ static std::vector<const char*> with_commands(int argc, const char* const* argv,
   return words;
 }
 
+// An unknown flag is often the misspelt one of a missing argument, so it comes first.
+static std::string failure_text(const CLI::App& program, const CLI::Error& error) {
+  std::string text = error.what();
+  const std::vector<std::string> unknown = program.remaining(true);
+  const auto flag =
+      std::ranges::find_if(unknown, [](const std::string& word) { return word.starts_with('-'); });
+  if (flag != unknown.end()) text = "there is no flag " + *flag;
+  return "clatter: " + text + "; `clatter help COMMAND` lists the flags\n";
+}
+
 static std::string version_text() {
   const std::string commit(kCommit);
   return "clatter " CLATTER_VERSION + (commit.empty() ? "" : " (commit " + commit + ")");
@@ -61,9 +71,8 @@ int run_program(int argc, const char* const* argv) {
     program.set_help_flag("-h,--help", "Print this help.");
     program.set_version_flag("--version", version_text(), "Print the version and the commit.");
     program.require_subcommand(1);
-    program.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return std::string("clatter: ") + error.what() + "; `clatter help COMMAND` lists the flags\n";
-    });
+    program.failure_message(
+        [](const CLI::App* app, const CLI::Error& error) { return failure_text(*app, error); });
     add_view_command(program, exit_code);
     add_render_command(program, exit_code);
     add_measure_command(program, exit_code);

@@ -20,6 +20,17 @@ std::string scene(const std::string& line_4 = "count = 10",
 
 }  // namespace
 
+TEST_CASE("Wrong use: an unknown flag is named before missing arguments") {
+  const Shell shell;
+  for (const std::string line :
+       {"clatter render --frobnicate", "clatter measure --frobnicate 3",
+        "clatter render vibrated --out a.mp4 --frobnicate", "clatter sweep plot --frobnicate"}) {
+    check_refused(shell, line, {"clatter: there is no flag --frobnicate; `clatter help COMMAND`"});
+  }
+  check_refused(shell, "clatter render", {"scene is required"});
+  check_refused(shell, "clatter render vibrated --out a.mp4 word", {"not expected: word"});
+}
+
 TEST_CASE("Wrong use: mistakes in a scene are refused at their line and column") {
   const Shell shell;
   struct Mistake {
