@@ -3,11 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/app/shell.h"
 
 namespace clatter {
+
+using nlohmann::json;
 
 namespace {
 
@@ -184,6 +187,40 @@ TEST_CASE("Trajectory: the formats have the same numbers under their own names")
     CHECK(Row(in_dump[particles + 2])["id"] == "3");
     CHECK(Row(in_dump[0])["type"] == "1");
     CHECK(Row(in_xyz[0])["species"] == "X");
+  }
+}
+
+TEST_CASE("Trajectory: ASE and MDAnalysis read the states") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  for (const std::string file : {"t.csv", "t.xyz", "t.lammpstrj"}) {
+    REQUIRE(shell.run(kRun + "--every 4 --trajectory " + file).code == 0);
+  }
+  const Outcome outcome = shell.run(CLATTER_READERS "read_trajectory.py t.xyz t.lammpstrj");
+  CAPTURE(outcome.err);  // names a missing module, which ./run test installs
+  REQUIRE(outcome.code == 0);
+  const json read = json::parse(outcome.out);
+  REQUIRE(read.at("ase").size() == 6);
+  REQUIRE(read.at("mdanalysis").size() == 6);
+  const std::vector<Row> rows = rows_in(shell.read("t.csv"));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    Row row = rows[k];
+    const auto number = [&](const char* name) { return std::stod(row[name]); };
+    const std::size_t i = k % 7;
+    const json& frame = read.at("ase").at(k / 7);
+    CHECK(frame.at("time") == number("time"));
+    CHECK(frame.at("box") == json{8.0, 6.0, 1.0});
+    CHECK(frame.at("periodic") == json{true, false, false});
+    CHECK(frame.at("symbol") == "X");
+    CHECK(frame.at("positions").at(i) == json{number("x"), number("y"), 0.0});
+    CHECK(frame.at("vel").at(i) == json{number("vx"), number("vy"), 0.0});
+    CHECK(frame.at("omega").at(i) == json{0.0, 0.0, number("omega")});
+    CHECK(frame.at("image").at(i) == json{number("image_x"), number("image_y"), 0});
+    CHECK(frame.at("radius").at(i) == 0.5);
+    // MDAnalysis has single precision, and shifts the box to begin at 0.
+    const json& single = read.at("mdanalysis").at(k / 7).at(i);
+    CHECK(single.at(0) == static_cast<float>(number("x")));
+    CHECK(single.at(1) == static_cast<float>(number("y")));
   }
 }
 
