@@ -241,7 +241,8 @@ TEST_CASE("Render: without ffmpeg a film fails, names the package and leaves no 
 
 TEST_CASE("Render: on a full disk it fails with an error and keeps the usable frames") {
   const Shell shell;
-  // A private namespace, so that the mount ends with the command.
+  // A private namespace, so that the mount ends with the command. The disk has room for one
+  // picture; two threads could fill it with the halves of two.
   const std::string small_disk =
       "mkdir -p small; exec unshare --mount sh -c 'mount -t tmpfs -o size=96k none small || exit "
       "77; ";
@@ -252,7 +253,8 @@ TEST_CASE("Render: on a full disk it fails with an error and keeps the usable fr
   for (const std::string name : {"film.mp4", "picture.png", "frames"}) {
     CAPTURE(name);
     const Outcome outcome = shell.run(
-        small_disk + "clatter render vibrated --to 20 --size 1280x720 --quiet --out small/" + name +
+        small_disk +
+        "clatter render vibrated --to 20 --size 1280x720 --threads 1 --quiet --out small/" + name +
         "; code=$?; find small -type f; exit $code'");
     CAPTURE(outcome.err);
     CHECK(outcome.code == 1);
