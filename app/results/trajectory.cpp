@@ -57,7 +57,7 @@ void add_xyz(Buffer& text, const TrajectoryFrame<D>& frame) {
   const bool spins = !frame.state.spins.empty();
   fmt::format_to(std::back_inserter(text),
                  "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" pbc=\"{} {} {}\" Time={} "
-                 "Properties=species:S:1:pos:R:3:vel:R:3{}:image:I:3:radius:R:1\n",
+                 "Properties=species:S:1:pos:R:3:velo:R:3{}:map_shift:I:3:radius:R:1\n",
                  frame.state.positions.size(), lx, ly, lz, pbc(0), pbc(1), pbc(2), frame.time,
                  spins ? ":omega:R:3" : "");
   for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {

@@ -112,6 +112,12 @@ void Run<D>::record(const std::filesystem::path& file, double every) {
   run_->on_change = [this](Simulation<D>& next) { follow(next); };
   std::string saved = resumed_ ? std::move(resumed_->checkpoint.trajectory) : "";
   if (saved.empty()) {
+    std::error_code ignored;
+    if (resumed_ && std::filesystem::exists(file, ignored)) {
+      throw UserError({"--trajectory", 0, 0},
+                      file.string() + " exists, and the checkpoint has no trajectory",
+                      "give another name, because this run would not continue the file");
+    }
     recorder_.emplace(file, every, simulation());
   } else {
     recorder_.emplace(file, every, simulation(), saved, resumed_->file);

@@ -16,12 +16,13 @@ struct SavedTrajectory {
   double every = 0.0;
   std::uint64_t next = 0;
   std::uint64_t bytes = 0;
+  std::uint8_t format = 0;  // TrajectoryFormat
 };
 
 template <class Archive>
 void visit(Archive& io, SavedTrajectory& saved) {
-  auto& [every, next, bytes] = saved;
-  io(every, next, bytes);
+  auto& [every, next, bytes, format] = saved;
+  io(every, next, bytes, format);
 }
 
 }  // namespace
@@ -48,9 +49,15 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
   reader(before, *images_);
   reader.finish();
   if (before.every != every) {
-    throw UserError({"--every", 0, 0},
-                    "the trajectory of the checkpoint has " + number_text(before.every),
-                    "give this value, or omit --trajectory");
+    throw UserError(
+        {"--every", 0, 0},
+        "the trajectory of the checkpoint has the interval " + number_text(before.every),
+        "give this interval");
+  }
+  if (before.format != static_cast<std::uint8_t>(format_)) {
+    throw UserError({"--trajectory", 0, 0},
+                    path.string() + " has another format than the trajectory of the checkpoint",
+                    "name the trajectory of the interrupted run");
   }
   next_ = static_cast<long>(before.next);
   file_.emplace(path, before.bytes);
@@ -76,7 +83,8 @@ void TrajectoryRecorder<D>::follow(Simulation<D>& next) {
 template <int D>
 std::string TrajectoryRecorder<D>::save() {
   file_->sync();
-  SavedTrajectory saved{every_, static_cast<std::uint64_t>(next_), file_->bytes()};
+  SavedTrajectory saved{every_, static_cast<std::uint64_t>(next_), file_->bytes(),
+                        static_cast<std::uint8_t>(format_)};
   ArchiveWriter writer;
   writer(saved, *images_);
   return writer.written();

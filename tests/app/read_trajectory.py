@@ -9,7 +9,7 @@ warnings.simplefilter("ignore")
 import ase.io
 import MDAnalysis
 
-ARRAYS = ("positions", "vel", "omega", "image", "radius")
+ARRAYS = ("positions", "velo", "omega", "map_shift", "radius")
 xyz, dump = sys.argv[1:]
 frames = [
     {

@@ -150,7 +150,8 @@ TEST_CASE("Trajectory: the formats have the same numbers under their own names")
     const std::string lattice = disks ? "Lattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T F F\""
                                       : "Lattice=\"8 0 0 0 6 0 0 0 5\" pbc=\"T T F\"";
     CHECK(says(xyz, std::to_string(particles) + "\n" + lattice + " Time=4 "));
-    CHECK(says(xyz, " Properties=species:S:1:pos:R:3:vel:R:3:omega:R:3:image:I:3:radius:R:1\n"));
+    CHECK(
+        says(xyz, " Properties=species:S:1:pos:R:3:velo:R:3:omega:R:3:map_shift:I:3:radius:R:1\n"));
     CHECK(says(dump, "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n" + std::to_string(particles) +
                          "\nITEM: BOX BOUNDS " + (disks ? "pp ff ff" : "pp pp ff") +
                          "\n0 8\n0 6\n" + (disks ? "-0.5 0.5" : "0 5") + "\nITEM: ATOMS id type "));
@@ -213,9 +214,9 @@ TEST_CASE("Trajectory: ASE and MDAnalysis read the states") {
     CHECK(frame.at("periodic") == json{true, false, false});
     CHECK(frame.at("symbol") == "X");
     CHECK(frame.at("positions").at(i) == json{number("x"), number("y"), 0.0});
-    CHECK(frame.at("vel").at(i) == json{number("vx"), number("vy"), 0.0});
+    CHECK(frame.at("velo").at(i) == json{number("vx"), number("vy"), 0.0});
     CHECK(frame.at("omega").at(i) == json{0.0, 0.0, number("omega")});
-    CHECK(frame.at("image").at(i) == json{number("image_x"), number("image_y"), 0});
+    CHECK(frame.at("map_shift").at(i) == json{number("image_x"), number("image_y"), 0});
     CHECK(frame.at("radius").at(i) == 0.5);
     // MDAnalysis has single precision, and shifts the box to begin at 0.
     const json& single = read.at("mdanalysis").at(k / 7).at(i);
@@ -233,9 +234,11 @@ TEST_CASE("Trajectory: a resumed run continues it without a gap or a double fram
     CAPTURE(end);
     REQUIRE(shell.run(part + "--every 0.7 --checkpoint c --until " + end).code == 0);
     check_refused(shell, part + "--every 0.8 --resume c",
-                  {"--every: the trajectory of the checkpoint has 0.7"});
+                  {"--every: the trajectory of the checkpoint has the interval 0.7"});
     check_refused(shell, kRun + "--trajectory none.csv --every 0.7 --resume c",
                   {"none.csv: lacks frames that precede the checkpoint"});
+    check_refused(shell, kRun + "--trajectory s.toml.xyz --every 0.7 --resume c",
+                  {"s.toml.xyz has another format than the trajectory of the checkpoint"});
     // A killed run has written frames, and a part of one, after its last checkpoint.
     shell.run("tail -n 5 whole.csv | head -c 100 >>part.csv");
     const Outcome resumed =
@@ -246,6 +249,8 @@ TEST_CASE("Trajectory: a resumed run continues it without a gap or a double fram
   // A checkpoint without trajectory: the first frame is the next multiple of the interval.
   REQUIRE(shell.run(kRun + "--checkpoint c --until 6.9").code == 0);
   REQUIRE(shell.run(kRun + "--resume c --trajectory late.csv --every 0.7").code == 0);
+  check_refused(shell, kRun + "--resume c --trajectory whole.csv --every 0.7",
+                {"--trajectory: whole.csv exists, and the checkpoint has no trajectory"});
   const std::vector<Row> late = rows_in(shell.read("late.csv"));
   CHECK(Row(late.at(0))["time"] == "7");
   CHECK(Row(late.at(0))["image_x"] == "0");
