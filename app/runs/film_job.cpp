@@ -121,11 +121,19 @@ bool has_files(const std::filesystem::path& folder) {
   return !error && std::filesystem::is_directory(folder) && !empty;
 }
 
-// Removes the parts and checkpoints of another film.
-void remove_parts(const std::filesystem::path& folder) {
+// Whether a task writes this name: NUMBER.EXTENSION, its folder of pieces, or a checkpoint.
+bool is_of_task(const std::string& name, const std::string& extension) {
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  const std::string rest = name.substr(digits);
+  const bool checkpoint = rest == ".checkpoint" || rest == ".checkpoint.previous";
+  const bool part = !extension.empty() && (rest == extension || rest == extension + ".part");
+  return digits >= 6 && (part || checkpoint);
+}
+
+// Removes the parts and checkpoints of an earlier film.
+void remove_parts(const std::filesystem::path& folder, const std::string& extension) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name.find_first_not_of("0123456789") >= 6) std::filesystem::remove_all(entry.path());
+    if (is_of_task(entry.path().filename(), extension)) std::filesystem::remove_all(entry.path());
   }
 }
 
@@ -154,7 +162,7 @@ std::filesystem::path write_film_job(const FilmJob& job) {
     }
   }
   make_folder(array.folder, "--out");
-  if (!same_film) remove_parts(array.folder);
+  if (!same_film || job.overwrite) remove_parts(array.folder, job.out.extension());
   write_file(scene_file, scene);
   write_file(script_file, script);
   return script_file;

@@ -23,7 +23,7 @@ class TrajectoryRecorder {
                      const std::string& saved, const std::string& checkpoint);
 
   /// The simulation time of the next frame.
-  double next_time() const { return static_cast<double>(next_) * every_; }
+  double next_time() const;
   /// Appends the state of the simulation, which is at next_time(). Throws RunError.
   void add(const Simulation<D>& simulation);
   /// Observes the next simulation of the run, before the previous one ends.
@@ -34,7 +34,8 @@ class TrajectoryRecorder {
  private:
   TrajectoryFormat format_;
   double every_;
-  long next_ = 0;  // number of the next frame
+  double decimals_ = 0.0;  // a power of ten that makes `every_` a whole number; 0: none
+  long next_ = 0;          // number of the next frame
   std::optional<Images<D>> images_;
   std::optional<TrajectoryFile> file_;
 };

@@ -111,6 +111,11 @@ std::filesystem::path join_films(const PartsFolder& folder, const std::vector<Fi
 void join_parts(const std::filesystem::path& folder, long count, double fps,
                 const std::filesystem::path& path) {
   const MovieFormat& format = *find_movie_format(path.extension());
+  std::error_code ignored;
+  if (std::filesystem::equivalent(folder, target_of(path).parent_path(), ignored)) {
+    throw UserError({path.string()}, "is in the folder of the parts",
+                    "write the film to another folder");
+  }
   const FileDescriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!opened) {
     throw UserError({folder.string()}, std::strerror(errno), "name the folder of the parts");

@@ -197,6 +197,8 @@ void Movie::end_piece() {
   const auto sum = checksum_of_file(piece_path(piece_));
   if (!sum) fail("cannot read " + piece_path(piece_).string());
   checksums_.push_back(*sum);
+  // A network file system keeps a removed file, and so its folder, while it is open.
+  file_ = FileDescriptor();
 }
 
 void Movie::finish(Ending ending) {

@@ -66,7 +66,7 @@ class Movie final : public FrameSink {
   std::vector<PngText> notes_;             ///< texts of the last picture
   long next_;                              ///< number of the next picture
   long piece_ = 0;                         ///< number of the first picture of the current piece
-  FileDescriptor file_;                    ///< file of the current or previous piece
+  FileDescriptor file_;                    ///< file of the current piece
   std::unique_ptr<ChildProcess> encoder_;  ///< encoder of the current piece; null: not started
   WorkQueue queue_;                        ///< last member: its thread must end first
 };

@@ -151,8 +151,15 @@ TEST_CASE("Film job: the parts of another film are kept unless they may be repla
     CHECK(says(refused.err, "has the pictures of another film; replace them with --overwrite"));
     CHECK(std::filesystem::exists(shell.path(part)));
   }
-  CHECK(submit(shell, "film.mp4", "--slurm 3 --overwrite").code == 0);
-  CHECK(shell.run("ls film.mp4.slurm").out == "job.sh\nscene.toml\n");
+  // Files of others stay.
+  shell.run("cd film.mp4.slurm && touch 7 20261123 20261123_notes 000000.txt");
+  for (const bool same_film : {false, true}) {
+    CAPTURE(same_film);
+    shell.run("touch film.mp4.slurm/000120.mp4");
+    CHECK(submit(shell, "film.mp4", "--slurm 3 --overwrite").code == 0);
+    CHECK(shell.run("ls film.mp4.slurm | xargs").out ==
+          "000000.txt 20261123 20261123_notes 7 job.sh scene.toml\n");
+  }
 
   shell.run("mkdir frames && touch frames/frame_000000.png");
   const Outcome folder = submit(shell, "frames", "--slurm 2");
@@ -177,6 +184,7 @@ TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are name
   check_refused(shell, join + "--out film.mkv", {"parts: the parts have more frames"});
   shell.run("rm parts/000300.mkv");
   check_refused(shell, join + "--out film.mp4", {"lack frame 0; draw 000000.mp4"});
+  check_refused(shell, join + "--out parts/000000.mkv", {"is in the folder of the parts"});
   check_refused(shell, join + "--out film.png", {"only films are joined"});
   check_refused(shell, kFilm + "7 --join none --out film.mkv", {"none: No such file or directory"});
   const Outcome joined = shell.run(join + "--quiet --out film.mkv && " + kFilm +

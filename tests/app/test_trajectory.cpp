@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -101,6 +102,18 @@ TEST_CASE("Trajectory: each frame is the state that a run up to its time saves, 
       }
     }
     CHECK(next == rows.size());
+  }
+}
+
+TEST_CASE("Trajectory: the times are decimal numbers, and the last frame is at the end") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  const std::vector<std::array<std::string, 3>> runs = {
+      {"0.1", "0.3", "0 0.1 0.2 0.3"}, {"0.7", "2.1", "0 0.7 1.4 2.1"}, {"2", "5", "0 2 4"}};
+  for (const auto& [every, end, times] : runs) {
+    CAPTURE(every);
+    REQUIRE(shell.run(kRun + "--trajectory t.csv --every " + every + " --until " + end).code == 0);
+    CHECK(shell.run("tail -n +2 t.csv | cut -d, -f1 | uniq | xargs").out == times + '\n');
   }
 }
 
