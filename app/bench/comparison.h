@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/bench/run_result.h"
-#include "engine/measure/estimate.h"
+#include "engine/statistics/estimate.h"
 
 namespace clatter {
 

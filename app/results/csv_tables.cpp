@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <string>
 
@@ -78,17 +79,60 @@ static std::string maps_table(const FieldMaps& maps, const StopRequest& stop) {
   return table;
 }
 
+// The table of an observable. Columns with errors have a second column for them.
+static std::string observable_table(const ResultTable& table) {
+  std::string units = std::string("# units, ") + kUnits;
+  std::string header;
+  for (const TableColumn& column : table.columns) {
+    units += (header.empty() ? "; " : ", ") + column.name + ": " + column.unit;
+    header += (header.empty() ? "" : ",") + column.name;
+    if (!column.standard_errors.empty()) header += "," + column.name + "_error";
+  }
+  std::string text = units + "\n" + header + "\n";
+  for (std::size_t row = 0; row < table.columns.front().values.size(); ++row) {
+    for (const TableColumn& column : table.columns) {
+      if (&column != &table.columns.front()) text += ',';
+      fmt::format_to(std::back_inserter(text), "{:.17g}", column.values[row]);
+      if (column.standard_errors.empty()) continue;
+      fmt::format_to(std::back_inserter(text), ",{:.17g}", column.standard_errors[row]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+static constexpr const char* kSeriesFile = "temperature_series.csv";
+static constexpr const char* kProfileFile = "profile.csv";
+static constexpr const char* kMapsFile = "maps.csv";
+
+static std::string file_of(std::string table) {
+  std::ranges::replace(table, '.', '_');
+  return table + ".csv";
+}
+
+std::vector<std::string> table_files() {
+  std::vector<std::string> files = {kSeriesFile, kProfileFile, kMapsFile};
+  for (const std::string& table : observable_tables()) files.push_back(file_of(table));
+  return files;
+}
+
 // The tables of an earlier run that this run does not replace are removed last. A failure loses
 // none.
 void write_tables(const std::filesystem::path& folder, const Measured& measured,
                   const StopRequest& stop) {
-  const auto [series, profile, maps] = kTableNames;
-  write_file(folder / series, series_table(measured));
-  if (measured.profile) write_file(folder / profile, profile_table(*measured.profile));
-  if (measured.maps) write_file(folder / maps, maps_table(*measured.maps, stop));
+  std::vector<std::string> unused = table_files();
+  const auto write = [&](const std::string& file, const std::string& text) {
+    write_file(folder / file, text);
+    std::erase(unused, file);
+  };
+  write(kSeriesFile, series_table(measured));
+  if (measured.profile) write(kProfileFile, profile_table(*measured.profile));
+  if (measured.maps) write(kMapsFile, maps_table(*measured.maps, stop));
+  for (const ResultTable& table : measured.tables()) {
+    write(file_of(table.name), observable_table(table));
+  }
   std::error_code ignored;
-  if (!measured.profile) std::filesystem::remove(folder / profile, ignored);
-  if (!measured.maps) std::filesystem::remove(folder / maps, ignored);
+  for (const std::string& file : unused) std::filesystem::remove(folder / file, ignored);
 }
 
 }  // namespace clatter

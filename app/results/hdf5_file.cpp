@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/results/hdf5_writer.h"
+#include "app/results/result_json.h"
 #include "engine/scene/scene_keys.h"
 
 namespace clatter {
@@ -151,13 +152,34 @@ void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& part
   }
 }
 
+// Removes a table from a result. The group of its dotted name remains.
+void erase_table(Json& result, const ResultTable& table) {
+  Json& place = result.at(estimate_pointer(table.name));
+  place.erase("standard_error");
+  for (const TableColumn& column : table.columns) place.erase(column.name);
+}
+
+void write_table(const H5::Group& group, const ResultTable& table) {
+  const H5::Group errors = group.createGroup("standard_error");
+  for (const TableColumn& column : table.columns) {
+    write_dataset(group, column.name, column.unit, column.values);
+    if (column.standard_errors.empty()) continue;
+    write_dataset(errors, column.name, column.unit, column.standard_errors);
+  }
+}
+
 void write_all(const H5::H5File& file, const Json& result, const Measured& measured,
                const StopRequest& stop) {
   Json rest = result;
   rest.erase("temperature_series");
   rest.erase("profile");
+  const std::vector<ResultTable> tables = measured.tables();
+  for (const ResultTable& table : tables) erase_table(rest, table);
   write_text(file.openGroup("/"), "units", kUnits);
   write_object(file.openGroup("/"), rest);
+  for (const ResultTable& table : tables) {
+    write_table(file.openGroup(estimate_pointer(table.name).to_string()), table);
+  }
   write_series(file.createGroup("temperature_series"), measured);
   if (measured.profile) write_profile(file.createGroup("profile"), *measured.profile);
   if (!measured.maps) return;

@@ -41,6 +41,9 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
     add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
   }
   add("pressure.virial", measured.compressibility);
+  for (const ObservableResult& observable : measured.observables) {
+    for (const auto& [name, mean] : observable.means) add(name, mean);
+  }
   return estimates;
 }
 
@@ -62,6 +65,17 @@ static Json profile_json(const Profile& profile) {
   }
   json["standard_error"] = errors;
   return json;
+}
+
+// Adds the table of an observable: a list for each column, and the errors as in profile_json().
+static void add_table(Json& json, const ResultTable& table) {
+  Json& place = json[estimate_pointer(table.name)];
+  for (const TableColumn& column : table.columns) {
+    place[column.name] = column.values;
+    if (!column.standard_errors.empty()) {
+      place["standard_error"][column.name] = column.standard_errors;
+    }
+  }
 }
 
 // The largest residual of each equation (theory 9.1-9.3). For momentum, the largest of all
@@ -100,6 +114,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
   if (scene.spins()) json["temperature_series"]["spin"] = measured.series_spin_temperature;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
+  for (const ResultTable& table : measured.tables()) add_table(json, table);
   if (measured.residuals) json["balance"] = balance_json(*measured.residuals);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};

@@ -23,7 +23,7 @@ struct Performance {
 /// The means of a result, by dotted names as in the result file, for example "energy.dissipated".
 std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measured);
 
-/// The place of this mean in a result.
+/// The place of a mean or a table in a result, by its dotted name.
 nlohmann::ordered_json::json_pointer estimate_pointer(std::string name);
 
 /// The result file of `clatter measure`. Parts that do not apply to the scene are absent.

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "engine/scene/text.h"
+#include "engine/statistics/part_sums.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -144,7 +145,7 @@ std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& fol
   std::ifstream stream(folder / kSeriesFile);
   const std::string list(std::istreambuf_iterator<char>(stream), {});
   std::vector<std::filesystem::path> parts;
-  for (std::size_t k = first; k < PartSums::kMaxParts; ++k) {
+  for (std::size_t k = first; k < PartSums<CellSums>::kMaxParts; ++k) {
     if (list.find("file=\"" + part_name(k) + "\"") != std::string::npos) {
       parts.push_back(folder / part_name(k));
     }
@@ -156,7 +157,7 @@ std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& fol
 
 std::vector<std::string> vtk_names() {
   std::vector<std::string> names = {kFieldsFile, kSeriesFile};
-  for (std::size_t k = 0; k < PartSums::kMaxParts; ++k) names.push_back(part_name(k));
+  for (std::size_t k = 0; k < PartSums<CellSums>::kMaxParts; ++k) names.push_back(part_name(k));
   return names;
 }
 

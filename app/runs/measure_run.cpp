@@ -1,5 +1,7 @@
 #include "app/runs/measure_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,6 +28,7 @@
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
+#include "engine/scene/scene_keys.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 #include "engine/system/write_file.h"
@@ -93,7 +96,7 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
     if (folder.empty()) return;
     for (const auto& name : names) tables.push_back({flag, folder / name});
   };
-  add_tables("--csv", options.csv, kTableNames);
+  add_tables("--csv", options.csv, table_files());
   add_tables("--vtk", options.vtk, vtk_names());
   outputs.insert(outputs.end(), tables.begin(), tables.end());
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
@@ -103,7 +106,7 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
                     "add --set 'measure.fields=[\"density\", \"velocity\", \"temperature\"]'");
   }
   if (!(options.csv.empty() && options.hdf5.empty()) && spec.fields.empty() &&
-      !options.common.quiet) {
+      spec.observables.empty() && !options.common.quiet) {
     std::fputs("note: measure.fields is empty: no profile and no maps\n", stderr);
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
@@ -188,9 +191,16 @@ void require_bounded_samples(const Measure& spec, double end) {
         "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
         "choose at least " + number_text(end / kMaxSamples));
   }
-  if (spec.estimator == Estimator::Snapshot && (end - spec.burn_in) / spec.interval > kMaxSamples) {
-    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
+  const auto require = [&](const std::string& key, double interval) {
+    if ((end - spec.burn_in) / interval <= kMaxSamples) return;
+    throw UserError({key, 0, 0}, "there would be more than 1e7 samples",
                     "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
+  };
+  if (spec.estimator == Estimator::Snapshot) require("measure.interval", spec.interval);
+  for (const auto& [name, kind] : kObservables) {
+    const std::optional<double> interval = spec.sampling_interval(kind);
+    if (spec.observes(kind) && interval)
+      require(fmt::format("measure.{}.interval", name), *interval);
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "app/results/trajectory.h"
 #include "engine/dynamics/simulation.h"
-#include "engine/measure/images.h"
+#include "engine/observables/images.h"
 
 namespace clatter {
 

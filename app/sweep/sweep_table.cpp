@@ -9,7 +9,7 @@
 
 #include "app/results/hdf5_writer.h"
 #include "engine/error.h"
-#include "engine/measure/estimate.h"
+#include "engine/statistics/estimate.h"
 #include "engine/scene/text.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"

@@ -23,6 +23,8 @@ struct CellSums {
 
   /// Adds the sums of another window, member by member.
   CellSums& operator+=(const CellSums& other);
+  /// Memory of the rows.
+  std::size_t bytes() const { return rows.size() * sizeof(double); }
 };
 
 /// Visits all members, in order, for checkpoints.

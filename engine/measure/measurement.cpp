@@ -13,6 +13,15 @@ static constexpr double kMaxWindows = 8192.0;
 // rounding of the particles' energies would dominate.
 static constexpr std::size_t kWindowsPerBalance = 32;
 
+std::vector<ResultTable> Measured::tables() const {
+  std::vector<ResultTable> tables;
+  if (!(duration > 0.0)) return tables;
+  for (const ObservableResult& observable : observables) {
+    tables.insert(tables.end(), observable.tables.begin(), observable.tables.end());
+  }
+  return tables;
+}
+
 static double windows_in(double span, double series_interval) {
   return std::clamp(std::ceil(span / series_interval), kMinWindows, kMaxWindows);
 }
@@ -31,7 +40,7 @@ double cells_memory(const Measure& measure, bool spins) {
   if (!averages.empty()) {
     const double row = moment_layout<D>(averages, spins).size * sizeof(double);
     const auto parts =
-        static_cast<double>(PartSums::max_parts(static_cast<std::size_t>(cells * row)));
+        static_cast<double>(PartSums<CellSums>::max_parts(static_cast<std::size_t>(cells * row)));
     const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
     const int columns = measure.cells[static_cast<std::size_t>(measure.profile_axis)];
     // Besides the parts: the current window, and the closed window or the sum of the parts.
@@ -55,7 +64,8 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
       totals_(simulation),
       series_start_(std::ceil(simulation.time() / measure.series_interval) *
                     measure.series_interval),
-      averages_start_(std::max(measure.burn_in, simulation.time())) {
+      averages_start_(std::max(measure.burn_in, simulation.time())),
+      observables_(simulation, measure) {
   const double span = end - averages_start_;
   window_ = span / windows_in(span, measure.series_interval);
   observe();
@@ -66,8 +76,10 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
     : simulation_(simulation),
       measure_(measure),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
-      totals_(simulation) {
+      totals_(simulation),
+      observables_(simulation, measure) {
   visit(saved);
+  if (started_) observables_.restore(saved);
   saved.finish();
   saved.require(window_ > 0.0 && !is_overdue());
   // A change of laws may have added or removed spins: adds zeros, or removes the series.
@@ -91,6 +103,7 @@ template <int D>
 std::string Measurement<D>::save() {
   ArchiveWriter writer;
   visit(writer);
+  if (started_) observables_.save(writer);
   return writer.written();
 }
 
@@ -99,7 +112,7 @@ template <class Archive>
 void Measurement<D>::visit(Archive& io) {
   auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
          window, started, counts_at_start, windows, columns, parts, residuals, samples, series_time,
-         series_temperature, series_spin_temperature] = *this;
+         series_temperature, series_spin_temperature, observables] = *this;
   io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
      parts, residuals, samples, series_time, series_temperature, series_spin_temperature);
   if (started && !cells && !balance) open_cells();
@@ -125,6 +138,7 @@ void Measurement<D>::observe() {
         },
         samples_);
   }
+  observables_.add_timers(averages_start_);
   simulation_.every(
       averages_start_, window_, [this](double) { started_ ? close_window() : start(); },
       started_ ? windows_.size() + 1 : 0);
@@ -150,6 +164,7 @@ void Measurement<D>::start() {
   counts_at_start_ = simulation_.counts();
   open_cells();
   observe_cells();
+  observables_.start();
 }
 
 template <int D>
@@ -172,6 +187,7 @@ void Measurement<D>::observe_cells() {
 template <int D>
 void Measurement<D>::close_window() {
   windows_.push_back(totals_.close_window());
+  observables_.close_window();
   if (cells_) {
     CellSums window = cells_->close_window();
     columns_.push_back(columns_of(window, cells_->grid(), measure_.profile_axis));
@@ -253,6 +269,7 @@ Measured Measurement<D>::means() const {
   measured.axis_temperatures.resize(D);
   measured.kurtosis_excess.resize(D);
   measured.pressure.resize(2 * D);
+  measured.observables = observables_.results();
   if (count == 0.0) return measured;
   const auto estimate = [&](const auto& quantity) {
     return mean_estimate(series_of(windows_, quantity));

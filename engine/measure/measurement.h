@@ -8,12 +8,14 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
-#include "engine/measure/estimate.h"
 #include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/residuals.h"
 #include "engine/measure/totals.h"
+#include "engine/observables/observables.h"
 #include "engine/scene/scene.h"
+#include "engine/statistics/estimate.h"
+#include "engine/statistics/part_sums.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -51,6 +53,10 @@ struct Measured {
   std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
   std::vector<double> series_temperature;   ///< T at those times
   std::vector<double> series_spin_temperature;  ///< T_rot; empty without spins
+  std::vector<ObservableResult> observables;    ///< one per requested observable
+
+  /// The tables of all observables; none without averages.
+  std::vector<ResultTable> tables() const;
 };
 
 /// Upper estimate of the memory of fields and balances in a measurement, in bytes; 0 without
@@ -108,12 +114,13 @@ class Measurement {
   EventCounts counts_at_start_;
   std::vector<WindowTotals<D>> windows_;
   std::vector<CellSums> columns_;  // [windows]
-  PartSums parts_;                 // of the windows
+  PartSums<CellSums> parts_;       // of the windows
   Residuals residuals_;
   std::uint64_t samples_ = 0;  // samples of the snapshot estimator so far
   std::vector<double> series_time_;
   std::vector<double> series_temperature_;
   std::vector<double> series_spin_temperature_;
+  Observables<D> observables_;
 };
 
 extern template double cells_memory<2>(const Measure&, bool);

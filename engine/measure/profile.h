@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/measure/cell_integrals.h"
-#include "engine/measure/estimate.h"
 #include "engine/scene/scene.h"
+#include "engine/statistics/estimate.h"
 
 namespace clatter {
 

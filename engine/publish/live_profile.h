@@ -7,6 +7,7 @@
 #include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/residuals.h"
+#include "engine/statistics/part_sums.h"
 
 namespace clatter {
 
@@ -33,7 +34,7 @@ class LiveProfile {
  private:
   Axis axis_;
   CellIntegrals<D> observer_;
-  PartSums sums_;
+  PartSums<CellSums> sums_;
 };
 
 /// Residuals of the balance equations in columns along an axis.

@@ -57,9 +57,9 @@ class KeyDescriber {
   }
 
   template <class E, class Names>
-  void choice(const Key& key, std::vector<E>&, const Names& names) {
+  void choice(const Key& key, std::vector<E>& chosen, const Names& names) {
     add(key, "[]", kOptional);
-    choose(key, names, [](auto) {});
+    choose(key, names, [&](auto value) { chosen = {value}; });
   }
 
   template <class Visit>

@@ -47,4 +47,22 @@ Scene default_scene(int dimension) {
   return scene;
 }
 
+std::optional<double> Measure::sampling_interval(ObservableKind kind) const {
+  switch (kind) {
+    case ObservableKind::RadialDistribution:
+      return radial_distribution.interval;
+    case ObservableKind::VelocityDistribution:
+      return velocity_distribution.interval;
+    case ObservableKind::MeanSquaredDisplacement:
+      return mean_squared_displacement.interval;
+    case ObservableKind::VelocityAutocorrelation:
+      return velocity_autocorrelation.interval;
+    case ObservableKind::FreeFlights:
+    case ObservableKind::Collisions:
+    case ObservableKind::WallHits:
+      break;
+  }
+  return {};
+}
+
 }  // namespace clatter

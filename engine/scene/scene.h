@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "engine/physics/lattice.h"
 #include "engine/physics/state.h"
 #include "engine/scene/field.h"
+#include "engine/scene/observable_settings.h"
 #include "engine/scene/view.h"
 #include "engine/scene/wall.h"
 #include "engine/vec.h"
@@ -58,6 +60,18 @@ struct Measure {
   double interval = 1.0;  ///< between samples of the snapshot estimator, > 0
   Kernel kernel = Kernel::Box;
   double width = 1.0;  ///< standard deviation of the Gaussian per axis, > 0
+  std::vector<ObservableKind> observables = {};  ///< requested observables; empty: none
+  RadialDistributionSettings radial_distribution = {};
+  VelocityDistributionSettings velocity_distribution = {};
+  TimeCorrelationSettings mean_squared_displacement = {.interval = 1.0, .longest = 100.0};
+  TimeCorrelationSettings velocity_autocorrelation = {};
+
+  /// Whether an observable is requested.
+  bool observes(ObservableKind kind) const {
+    return std::ranges::find(observables, kind) != observables.end();
+  }
+  /// Time between the samples of an observable; absent: it follows events.
+  std::optional<double> sampling_interval(ObservableKind kind) const;
 };
 
 /// A key of the scene file and its new TOML value, from `--set` on the command line or from a

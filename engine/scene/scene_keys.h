@@ -114,6 +114,10 @@ inline constexpr Presence kNotOfBox = {Presence::Forbidden,
                                        "has no meaning for the box kernel: cells have their size",
                                        "remove it, or set measure.kernel = \"gaussian\""};
 
+inline constexpr Presence kNotObserved = {
+    Presence::Forbidden, "has no meaning without its observable",
+    "remove it, or add the name of the table to measure.observables"};
+
 inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
                                               "remove one of the two"};
 
@@ -171,6 +175,15 @@ inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
 
 inline constexpr std::array<Named<Kernel>, 2> kKernels = {
     {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
+
+inline constexpr std::array<Named<ObservableKind>, 7> kObservables = {
+    {{"radial_distribution", ObservableKind::RadialDistribution},
+     {"velocity_distribution", ObservableKind::VelocityDistribution},
+     {"free_flights", ObservableKind::FreeFlights},
+     {"collisions", ObservableKind::Collisions},
+     {"wall_hits", ObservableKind::WallHits},
+     {"mean_squared_displacement", ObservableKind::MeanSquaredDisplacement},
+     {"velocity_autocorrelation", ObservableKind::VelocityAutocorrelation}}};
 
 inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
 
@@ -330,7 +343,67 @@ inline constexpr auto kMeasureKeys = key_table(
      {"kernel", "",
       "Weight of a particle in the cells. A box counts it in its own cell. A Gaussian needs "
       "snapshots."},
-     {"width", "a", "Standard deviation of the Gaussian, per axis. At least half a cell."}});
+     {"width", "a", "Standard deviation of the Gaussian, per axis. At least half a cell."},
+     {"observables", "", "Quantities that are measured besides means and fields."}});
+
+inline constexpr auto kRadialDistributionKeys = key_table(
+    "measure",
+    {{"interval", "t", "Time between samples of the distances of all pairs."},
+     {"range", "a",
+      "Largest distance. In small boxes it is half the shortest period, or the shortest distance "
+      "between walls."},
+     {"bins", "1", "Number of equal bins between contact and `range`."}});
+
+inline constexpr auto kVelocityDistributionKeys = key_table(
+    "measure", {{"interval", "t", "Time between samples of all velocities."},
+                {"range", "1", "Largest velocity component, in units of the thermal speed."},
+                {"bins", "1", "Number of equal bins between -`range` and `range`."}});
+
+inline constexpr auto kTimeCorrelationKeys = key_table(
+    "measure", {{"interval", "t", "Shortest lag. All particles are sampled at this interval."},
+                {"longest", "t", "Longest lag."},
+                {"lags", "1",
+                 "Number of lags of equal spacing. Longer lags have a spacing larger by this "
+                 "factor, and so on."}});
+
+/// The keys of [measure.mean_squared_displacement] and [measure.velocity_autocorrelation].
+template <class Visitor>
+void visit_time_correlation(Visitor& io, TimeCorrelationSettings& settings, Presence presence) {
+  io.value(kTimeCorrelationKeys.at("interval"), settings.interval, above(0.0), presence);
+  io.value(kTimeCorrelationKeys.at("longest"), settings.longest, above(0.0), presence);
+  io.value(kTimeCorrelationKeys.at("lags"), settings.lags, between(2, 1000), presence);
+}
+
+/// The tables of the observables in [measure]. Each requires its observable.
+template <class Visitor>
+void visit_observables(Visitor& io, Measure& measure) {
+  io.choice(kMeasureKeys.at("observables"), measure.observables, kObservables);
+  const auto presence_of = [&](ObservableKind kind) {
+    return measure.observes(kind) ? kOptional : kNotObserved;
+  };
+  io.table("radial_distribution", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::RadialDistribution);
+    RadialDistributionSettings& settings = measure.radial_distribution;
+    io.value(kRadialDistributionKeys.at("interval"), settings.interval, above(0.0), presence);
+    io.value(kRadialDistributionKeys.at("range"), settings.range, above(1.0), presence);
+    io.value(kRadialDistributionKeys.at("bins"), settings.bins, between(10, 100'000), presence);
+  });
+  io.table("velocity_distribution", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::VelocityDistribution);
+    VelocityDistributionSettings& settings = measure.velocity_distribution;
+    io.value(kVelocityDistributionKeys.at("interval"), settings.interval, above(0.0), presence);
+    io.value(kVelocityDistributionKeys.at("range"), settings.range, above(0.0), presence);
+    io.value(kVelocityDistributionKeys.at("bins"), settings.bins, between(2, 100'000), presence);
+  });
+  io.table("mean_squared_displacement", [&](auto& io) {
+    visit_time_correlation(io, measure.mean_squared_displacement,
+                           presence_of(ObservableKind::MeanSquaredDisplacement));
+  });
+  io.table("velocity_autocorrelation", [&](auto& io) {
+    visit_time_correlation(io, measure.velocity_autocorrelation,
+                           presence_of(ObservableKind::VelocityAutocorrelation));
+  });
+}
 
 /// The keys of [measure] in a box of this dimension. Keys of snapshots and of the Gaussian kernel
 /// require these.
@@ -349,6 +422,7 @@ void visit_measure(Visitor& io, Measure& measure, int dimension) {
   io.choice(kMeasureKeys.at("kernel"), measure.kernel, kKernels);
   const bool box = measure.kernel == Kernel::Box;
   io.value(kMeasureKeys.at("width"), measure.width, above(0.0), box ? kNotOfBox : kRequired);
+  visit_observables(io, measure);
 }
 
 inline constexpr auto kCameraKeys = key_table(

@@ -46,7 +46,7 @@ double column_mean(const FieldMap& map, Axis axis, int column) {
 }  // namespace
 
 TEST_CASE("PartSums: windows go into equal parts, whose number stays bounded") {
-  PartSums sums;
+  PartSums<CellSums> sums;
   for (int window = 0; window < 1000; ++window) {
     sums.add(numbered(window));
     const auto count = static_cast<int>(sums.parts().size());
@@ -63,8 +63,8 @@ TEST_CASE("PartSums: windows go into equal parts, whose number stays bounded") {
 }
 
 TEST_CASE("PartSums: of large grids there are fewer parts") {
-  constexpr std::size_t kEight = PartSums::kMaxBytes / sizeof(double) / 8;
-  PartSums sums;
+  constexpr std::size_t kEight = PartSums<CellSums>::kMaxBytes / sizeof(double) / 8;
+  PartSums<CellSums> sums;
   for (int window = 0; window < 8; ++window) sums.add(numbered(window, kEight));
   CHECK(sums.parts().size() == 8);
   sums.add(numbered(8, kEight));

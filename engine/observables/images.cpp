@@ -1,4 +1,4 @@
-#include "engine/measure/images.h"
+#include "engine/observables/images.h"
 
 namespace clatter {
 

@@ -1,4 +1,4 @@
-#include "engine/measure/estimate.h"
+#include "engine/statistics/estimate.h"
 
 #include <algorithm>
 #include <cmath>

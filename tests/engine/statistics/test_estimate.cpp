@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/measure/estimate.h"
+#include "engine/statistics/estimate.h"
 #include "engine/physics/random.h"
 
 using namespace clatter;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/checkpoint/archive.h"
-#include "engine/measure/images.h"
+#include "engine/observables/images.h"
 #include "engine/publish/scheduled_run.h"
 #include "tests/support/scenes.h"
 

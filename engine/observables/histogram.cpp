@@ -1,0 +1,76 @@
+#include "engine/observables/histogram.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/observables/log_bins.h"
+
+namespace clatter {
+
+static std::string inverse(const std::string& unit) {
+  if (unit == "1") return "1";
+  return unit.find(' ') == std::string::npos && unit.find('/') == std::string::npos
+             ? "1/" + unit
+             : "1/(" + unit + ")";
+}
+
+namespace {
+
+// A table of the densities of consecutive bins.
+class DensityTable {
+ public:
+  DensityTable(std::string name, const std::string& unit, std::span<const ObservableSums> parts,
+               std::size_t total)
+      : table_{std::move(name),
+               {{"low", unit, {}}, {"high", unit, {}}, {"density", inverse(unit), {}}}},
+        parts_(parts),
+        total_(total) {}
+
+  void add(std::size_t counts, double low, double high) {
+    table_.columns[0].values.push_back(low);
+    table_.columns[1].values.push_back(high);
+    append(table_.columns[2], ratio_of(parts_, counts, total_, high - low));
+  }
+
+  ResultTable table() && { return std::move(table_); }
+
+ private:
+  ResultTable table_;
+  std::span<const ObservableSums> parts_;
+  std::size_t total_;
+};
+
+}  // namespace
+
+ResultTable log_histogram(std::string name, const std::string& unit,
+                          std::span<const ObservableSums> parts, std::size_t first,
+                          std::size_t total) {
+  std::size_t begin = LogBins::kCount, end = 0;  // of the bins with counts
+  for (std::size_t bin = 0; bin < LogBins::kCount; ++bin) {
+    const bool filled = std::ranges::any_of(
+        parts, [&](const ObservableSums& part) { return part.values[first + bin] > 0.0; });
+    if (!filled) continue;
+    begin = std::min(begin, bin);
+    end = bin + 1;
+  }
+  DensityTable densities(std::move(name), unit, parts, total);
+  for (std::size_t bin = begin; bin < end; ++bin) {
+    densities.add(first + bin, LogBins::edge(bin), LogBins::edge(bin + 1));
+  }
+  return std::move(densities).table();
+}
+
+ResultTable linear_histogram(std::string name, const std::string& unit,
+                             std::span<const ObservableSums> parts, std::size_t first,
+                             std::size_t bins, double low, double high, std::size_t total) {
+  const auto edge = [&](std::size_t bin) {
+    return low + (high - low) * static_cast<double>(bin) / static_cast<double>(bins);
+  };
+  DensityTable densities(std::move(name), unit, parts, total);
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    densities.add(first + bin, edge(bin), edge(bin + 1));
+  }
+  return std::move(densities).table();
+}
+
+}  // namespace clatter

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/observables/observable.h"
+
+namespace clatter {
+
+/// The table of a histogram with LogBins: columns `low`, `high` and `density`, the share of the
+/// counts per unit of the quantity. The counts are values[first] to values[first + kCount - 1] of
+/// the sums, and their number is values[total]. Rows end at the last bin with a count.
+ResultTable log_histogram(std::string name, const std::string& unit,
+                          std::span<const ObservableSums> parts, std::size_t first,
+                          std::size_t total);
+
+/// The same for `bins` equal bins between `low` and `high`.
+ResultTable linear_histogram(std::string name, const std::string& unit,
+                             std::span<const ObservableSums> parts, std::size_t first,
+                             std::size_t bins, double low, double high, std::size_t total);
+
+}  // namespace clatter

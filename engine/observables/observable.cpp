@@ -1,0 +1,30 @@
+#include "engine/observables/observable.h"
+
+#include <limits>
+
+namespace clatter {
+
+ObservableSums& ObservableSums::operator+=(const ObservableSums& other) {
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
+  return *this;
+}
+
+Estimate ratio_of(std::span<const ObservableSums> parts, std::size_t numerator,
+                  std::size_t denominator, double scale) {
+  std::vector<double> above, below;
+  double total = 0.0;
+  for (const ObservableSums& part : parts) {
+    above.push_back(part.values[numerator]);
+    below.push_back(scale * part.values[denominator]);
+    total += below.back();
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return total > 0.0 ? ratio_estimate(above, below) : Estimate{kNone, kNone};
+}
+
+void append(TableColumn& column, const Estimate& estimate) {
+  column.values.push_back(estimate.mean);
+  column.standard_errors.push_back(estimate.standard_error);
+}
+
+}  // namespace clatter

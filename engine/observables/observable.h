@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/checkpoint/archive.h"
+#include "engine/statistics/estimate.h"
+
+namespace clatter {
+
+/// A column of a table of results.
+struct TableColumn {
+  std::string name;
+  std::string unit;                          ///< in the letters of kUnits; "1": dimensionless
+  std::vector<double> values;                ///< [rows] NaN where there is none
+  std::vector<double> standard_errors = {};  ///< [rows]; empty: the values are exact
+};
+
+/// A table of results: bins, lags or the like, and values at them.
+struct ResultTable {
+  std::string name;  ///< dotted, for example "free_flights.time"
+  std::vector<TableColumn> columns;
+};
+
+/// The results of an observable.
+struct ObservableResult {
+  std::vector<ResultTable> tables;
+  std::vector<std::pair<std::string, Estimate>> means;  ///< with dotted names
+};
+
+/// Sums of an observable over a window of time.
+struct ObservableSums {
+  std::vector<double> values;
+
+  ObservableSums& operator+=(const ObservableSums& other);
+  /// Memory of the values.
+  std::size_t bytes() const { return values.size() * sizeof(double); }
+};
+
+/// Visits all members, for checkpoints.
+template <class Archive>
+void visit(Archive& io, ObservableSums& sums) {
+  auto& [values] = sums;
+  io(values);
+}
+
+/// A quantity that accumulates sums over windows of time. An observable of events is also an
+/// Observer of the simulation; an observable of states is sampled at equal intervals.
+class Observable {
+ public:
+  virtual ~Observable() = default;
+
+  /// Begins to accumulate, at the simulation's time.
+  virtual void start() = 0;
+  /// Adds the present state, if the observable is sampled.
+  virtual void sample() {}
+  /// The sums since the last call or the start.
+  virtual ObservableSums close_window() = 0;
+  /// The results from the sums of consecutive parts of the run.
+  virtual ObservableResult result(std::span<const ObservableSums> parts) const = 0;
+
+  /// Writes or reads the members that a checkpoint keeps. The continued simulation must be at the
+  /// same time.
+  virtual void save(ArchiveWriter& io) = 0;
+  virtual void restore(ArchiveReader& io) = 0;
+};
+
+/// Estimate of the ratio of two sums: sum(values[numerator]) / sum(scale * values[denominator]).
+Estimate ratio_of(std::span<const ObservableSums> parts, std::size_t numerator,
+                  std::size_t denominator, double scale = 1.0);
+
+/// Appends an estimate to a column.
+void append(TableColumn& column, const Estimate& estimate);
+
+}  // namespace clatter

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/observables/observable.h"
+#include "engine/scene/observable_settings.h"
+
+namespace clatter {
+
+/// g(r) of all pairs (theory 11.6): the number of pairs at distance r, relative to independent
+/// particles that are uniform in the region of centres. Table "radial_distribution"; the mean
+/// "radial_distribution.contact" is g at contact, extrapolated from bins near it. It is absent if
+/// the bins are too wide for that.
+template <int D>
+class RadialDistribution final : public Observable {
+ public:
+  RadialDistribution(const Simulation<D>& simulation, const RadialDistributionSettings& settings);
+
+  void start() override;
+  void sample() override;
+  ObservableSums close_window() override;
+  ObservableResult result(std::span<const ObservableSums> parts) const override;
+  void save(ArchiveWriter& io) override { io(samples_, counts_); }
+  void restore(ArchiveReader& io) override;
+
+ private:
+  void sort_into_cells();
+  void find_ranges(const IntVec<D>& cell);
+  void count_pairs(std::size_t particle);
+  double edge(int bin) const;
+  double expected_share(double low, double high) const;
+
+  const Simulation<D>& simulation_;
+  RadialDistributionSettings settings_;
+  // Consecutive particles in the order of the cells.
+  struct Range {
+    std::size_t begin, end;
+  };
+
+  double range_;                                       // of distances
+  IntVec<D> cells_;                                    // along each axis; x is fastest
+  Vec<D> period_;                                      // infinite along axes with walls
+  std::array<std::vector<std::vector<int>>, D> near_;  // [cells] near cells along each axis
+  std::vector<std::size_t> first_;                     // [cells + 1] first particle of each cell
+  std::array<std::vector<double>, D> coordinates_;     // [N] in the order of the cells
+  std::vector<Range> ranges_;                          // near the present cell
+  std::vector<std::uint32_t> bins_;                    // of the pairs with one range
+  double samples_ = 0.0;
+  std::vector<std::uint64_t> counts_;  // [bins + 1]; the last are pairs beyond the range
+};
+
+extern template class RadialDistribution<2>;
+extern template class RadialDistribution<3>;
+
+}  // namespace clatter

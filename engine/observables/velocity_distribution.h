@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/observables/observable.h"
+#include "engine/scene/observable_settings.h"
+
+namespace clatter {
+
+/// Distribution of the velocities relative to the mean velocity, in units of the thermal speed
+/// sqrt(T/m) of the same time (theory 11.4). Table "velocity_distribution" has a density for each
+/// axis. The means "velocity_distribution.a2" and ".a3" are the Sonine coefficients of the speed.
+template <int D>
+class VelocityDistribution final : public Observable {
+ public:
+  VelocityDistribution(const Simulation<D>& simulation,
+                       const VelocityDistributionSettings& settings)
+      : simulation_(simulation), settings_(settings) {}
+
+  void start() override;
+  void sample() override;
+  ObservableSums close_window() override;
+  ObservableResult result(std::span<const ObservableSums> parts) const override;
+  void save(ArchiveWriter& io) override { io(sums_); }
+  void restore(ArchiveReader& io) override;
+
+ private:
+  std::size_t size() const;
+
+  const Simulation<D>& simulation_;
+  VelocityDistributionSettings settings_;
+  ObservableSums sums_;
+};
+
+extern template class VelocityDistribution<2>;
+extern template class VelocityDistribution<3>;
+
+}  // namespace clatter

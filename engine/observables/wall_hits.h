@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/dynamics/simulation.h"
+#include "engine/observables/observable.h"
+
+namespace clatter {
+
+/// Statistics of the hits of each wall (theory 11.3): the normal speeds of particles before and
+/// after, and the energy gain. For each wall tables "wall_hits.SIDE.incoming" and "..outgoing", and
+/// means "..mean_energy_gain" and "..mean_incoming_speed".
+template <int D>
+class WallHits final : public Observable, private Observer<D> {
+ public:
+  explicit WallHits(Simulation<D>& simulation) : simulation_(simulation) {}
+
+  void start() override;
+  ObservableSums close_window() override;
+  ObservableResult result(std::span<const ObservableSums> parts) const override;
+  void save(ArchiveWriter& io) override { io(sums_); }
+  void restore(ArchiveReader& io) override;
+
+ private:
+  void on_wall(const WallCollision<D>& collision) override;
+
+  Simulation<D>& simulation_;
+  ObservableSums sums_;
+};
+
+extern template class WallHits<2>;
+extern template class WallHits<3>;
+
+}  // namespace clatter
