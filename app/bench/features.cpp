@@ -17,6 +17,8 @@
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
+#include "engine/observables/observables.h"
+#include "engine/physics/theory.h"
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/publish/triple_buffer.h"
@@ -40,6 +42,7 @@ struct Feature {
   double frames = 0.0;                   // published per time unit
   bool balance = false;                  // whether all balance equations are measured
   bool checkpoint = false;               // whether each round ends with a checkpoint
+  std::optional<ObservableKind> observable = {};
 };
 
 // A run of a feature. Times batches of collisions repeatedly.
@@ -53,6 +56,7 @@ class Trial {
       balance_.emplace(*simulation_, IntVec<2>(scene_.box.cast<int>()));
       simulation_->add_observer(*balance_);
     }
+    if (feature.observable) take_observable(*feature.observable);
     if (feature.frames > 0.0) {
       simulation_->every(simulation_->time(), 1.0 / feature.frames, [this](double) {
         frames_.back() = snapshot_of(*simulation_);
@@ -92,6 +96,21 @@ class Trial {
     }
   }
 
+  // Samples are taken once per mean free time.
+  void take_observable(ObservableKind kind) {
+    Measure measure;
+    measure.observables = {kind};
+    const double interval = 1.0 / enskog_rate(kAreaFraction, 1.0);
+    measure.radial_distribution.interval = measure.velocity_distribution.interval = interval;
+    for (TimeCorrelationSettings* settings :
+         {&measure.mean_squared_displacement, &measure.velocity_autocorrelation}) {
+      *settings = {.interval = interval, .longest = 100.0 * interval, .lags = 10};
+    }
+    observables_.emplace(*simulation_, measure);
+    observables_->start();
+    observables_->add_timers(simulation_->time());
+  }
+
   void put_aside() {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("clatter-bench-" + std::to_string(getpid()));
@@ -114,6 +133,7 @@ class Trial {
   std::unique_ptr<Simulation<2>> simulation_;
   std::optional<CellIntegrals<2>> integrals_;
   std::optional<Balance<2>> balance_;
+  std::optional<Observables<2>> observables_;
   TripleBuffer<Snapshot> frames_;
 };
 
@@ -180,6 +200,21 @@ std::vector<Feature> features() {
           {"checkpoint each round", nothing, {}, {}, 0.0, false, true}};
 }
 
+std::vector<Feature> with_observables(std::vector<Feature> features) {
+  const auto add = [&](const char* name, const std::function<void(Scene&)>& add_to,
+                       ObservableKind kind) {
+    features.push_back({.name = name, .add = add_to, .observable = kind});
+  };
+  const auto nothing = [](Scene&) {};
+  add("g(r)", nothing, ObservableKind::RadialDistribution);
+  add("velocity distribution", nothing, ObservableKind::VelocityDistribution);
+  add("free flights", nothing, ObservableKind::FreeFlights);
+  add("collision statistics", nothing, ObservableKind::Collisions);
+  add("mean-squared displacement", nothing, ObservableKind::MeanSquaredDisplacement);
+  add("velocity autocorrelation", nothing, ObservableKind::VelocityAutocorrelation);
+  return features;
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -200,7 +235,7 @@ int bench_features(const std::string& json, int count) {
                bare.particles.count, kAreaFraction, kRounds,
                static_cast<unsigned long long>(batch));
 
-  const std::vector<Feature> added = features();
+  const std::vector<Feature> added = with_observables(features());
   std::vector<std::unique_ptr<Trial>> trials;
   for (const Feature& feature : added) {
     Scene scene = bare;

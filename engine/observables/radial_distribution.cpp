@@ -45,16 +45,28 @@ RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
   }
 }
 
+// Number of bins up to the longest distance of particles in near cells. Separate counts of the
+// pairs beyond the range are faster than a common one.
+template <int D>
+std::size_t RadialDistribution<D>::all_bins() const {
+  const Model<D>& model = simulation_.model();
+  const Vec<D> longest =
+      (3.0 * model.box.cwiseQuotient(cells_.template cast<double>())).cwiseMin(model.box);
+  const double bin_width = edge(1) - edge(0);
+  return static_cast<std::size_t>(
+      std::max<double>(settings_.bins, std::ceil(longest.norm() / bin_width)));
+}
+
 template <int D>
 void RadialDistribution<D>::start() {
   samples_ = 0.0;
-  counts_.assign(static_cast<std::size_t>(settings_.bins) + 1, 0);
+  counts_.assign(all_bins(), 0);
 }
 
 template <int D>
 void RadialDistribution<D>::restore(ArchiveReader& io) {
   io(samples_, counts_);
-  io.require(counts_.size() == static_cast<std::size_t>(settings_.bins) + 1);
+  io.require(counts_.size() == all_bins());
 }
 
 template <int D>
@@ -123,26 +135,26 @@ template <int D>
 void RadialDistribution<D>::count_pairs(std::size_t particle) {
   const double diameter = simulation_.model().diameter;
   const double per_distance = settings_.bins / (range_ - diameter);
-  const double beyond = settings_.bins;
-  Vec<D> own;
-  for (int axis = 0; axis < D; ++axis) own[axis] = coordinates_[axis][particle];
   for (const Range& range : ranges_) {
     const std::size_t begin = std::max(range.begin, particle + 1);
     if (begin >= range.end) continue;
     const std::size_t count = range.end - begin;
     if (bins_.size() < count) bins_.resize(count);
-    std::uint32_t* const bins = bins_.data();
+    int* const bins = bins_.data();
+    std::array<const double*, D> others;
+    for (int axis = 0; axis < D; ++axis) others[axis] = &coordinates_[axis][begin];
+    const Vec<D> own = position_of(particle), period = period_;
     for (std::size_t k = 0; k < count; ++k) {
       double square = 0.0;
       for (int axis = 0; axis < D; ++axis) {
-        const double apart = std::fabs(own[axis] - coordinates_[axis][begin + k]);
-        const double nearest = std::min(apart, std::fabs(period_[axis] - apart));
+        const double apart = std::fabs(own[axis] - others[axis][k]);
+        const double nearest = std::min(apart, std::fabs(period[axis] - apart));
         square += nearest * nearest;
       }
-      const double bin = (std::sqrt(square) - diameter) * per_distance;
-      bins[k] = static_cast<std::uint32_t>(static_cast<int>(std::clamp(bin, 0.0, beyond)));
+      // Rounding may put a contact below the diameter.
+      bins[k] = static_cast<int>(std::max(0.0, (std::sqrt(square) - diameter) * per_distance));
     }
-    for (std::size_t k = 0; k < count; ++k) ++counts_[bins[k]];
+    for (std::size_t k = 0; k < count; ++k) ++counts_[static_cast<std::size_t>(bins[k])];
   }
 }
 
@@ -161,7 +173,7 @@ void RadialDistribution<D>::sample() {
 template <int D>
 ObservableSums RadialDistribution<D>::close_window() {
   ObservableSums window{{samples_}};
-  window.values.insert(window.values.end(), counts_.begin(), counts_.end() - 1);
+  window.values.insert(window.values.end(), counts_.begin(), counts_.begin() + settings_.bins);
   start();
   return window;
 }

@@ -30,6 +30,12 @@ class RadialDistribution final : public Observable {
   void sort_into_cells();
   void find_ranges(const IntVec<D>& cell);
   void count_pairs(std::size_t particle);
+  Vec<D> position_of(std::size_t place) const {
+    Vec<D> position;
+    for (int axis = 0; axis < D; ++axis) position[axis] = coordinates_[axis][place];
+    return position;
+  }
+  std::size_t all_bins() const;
   double edge(int bin) const;
   double expected_share(double low, double high) const;
 
@@ -47,9 +53,9 @@ class RadialDistribution final : public Observable {
   std::vector<std::size_t> first_;                     // [cells + 1] first particle of each cell
   std::array<std::vector<double>, D> coordinates_;     // [N] in the order of the cells
   std::vector<Range> ranges_;                          // near the present cell
-  std::vector<std::uint32_t> bins_;                    // of the pairs with one range
+  std::vector<int> bins_;                              // of the pairs with one range
   double samples_ = 0.0;
-  std::vector<std::uint64_t> counts_;  // [bins + 1]; the last are pairs beyond the range
+  std::vector<std::uint64_t> counts_;  // [all_bins()] pairs in each bin
 };
 
 extern template class RadialDistribution<2>;

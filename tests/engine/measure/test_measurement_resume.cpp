@@ -42,6 +42,19 @@ Measure measure_of(std::vector<Field> fields) {
   return measure;
 }
 
+/// All observables.
+Measure with_observables(Measure measure) {
+  measure.observables = {ObservableKind::RadialDistribution,
+                         ObservableKind::VelocityDistribution,
+                         ObservableKind::FreeFlights,
+                         ObservableKind::Collisions,
+                         ObservableKind::WallHits,
+                         ObservableKind::MeanSquaredDisplacement,
+                         ObservableKind::VelocityAutocorrelation};
+  measure.mean_squared_displacement = {.interval = 0.3, .longest = 9.0, .lags = 4};
+  return measure;
+}
+
 /// A run and its measurement.
 struct Run {
   std::unique_ptr<Simulation<2>> simulation;
@@ -115,7 +128,8 @@ void check_same(const Run& a, const Run& b) {
 TEST_CASE("Measurement: it resumes at any time, bit for bit") {
   for (const Scene& scene : {gas(9.0, 8.0, 20, 0.9), rough_mixture(20), everything(20)}) {
     for (const Measure& measure :
-         {measure_of({Quantity::Density}), measure_of({}), measure_of({Quantity::BalanceEnergy})}) {
+         {measure_of({Quantity::Density}), measure_of({}), measure_of({Quantity::BalanceEnergy}),
+          with_observables(measure_of({}))}) {
       const Run straight = started(scene, measure);
       straight.simulation->run_until(kEnd);
       Run halted = started(scene, measure);
