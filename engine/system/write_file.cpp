@@ -50,6 +50,7 @@ std::optional<int> own_descriptor(std::filesystem::path path) {
   const std::filesystem::path open_files = std::filesystem::canonical("/proc/self/fd", error);
   constexpr int kMostLinks = 40;
   for (int links = 0; !error && links < kMostLinks; ++links) {
+    path = std::filesystem::absolute(path, error);
     if (std::filesystem::canonical(path.parent_path(), error) == open_files) {
       return whole_number<int>(path.filename().string());
     }
