@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "tests/app/shell.h"
+#include "tests/app/film_scene.h"
 
 namespace clatter {
 
@@ -14,15 +14,6 @@ namespace {
 const std::string kFilm =
     "clatter render scene.toml --size 160x120 --speed 0.7 --from 2 --to 23 --shutter 0.5 "
     "--seed 5 --set particles.restitution=0.85 --backend osmesa --fps ";
-
-void write_scene(const Shell& shell) {
-  shell.write("scene.toml",
-              "title = \"Parts\"\nbox.size = [20, 15]\n"
-              "particles = { count = 100, restitution = 0.9 }\n"
-              "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
-              "walls.right = { kind = \"static\" }\n"
-              "view = { field = \"temperature\", window = 2.0, trails = 0.7 }\n");
-}
 
 // The word `name` for a shell.
 std::string word(const std::string& name) {
@@ -56,7 +47,7 @@ std::string await(const std::string& file) {
 
 TEST_CASE("Film job: tasks in any order make the film of one run, to the byte") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   for (const std::string out : {"film.mp4", "it's a %n.gif", "frames"}) {
     CAPTURE(out);
     REQUIRE(
@@ -85,7 +76,7 @@ TEST_CASE("Film job: tasks in any order make the film of one run, to the byte") 
 
 TEST_CASE("Film job: interrupted and killed tasks continue, and the film is the same") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   REQUIRE(shell.run(kFilm + "7 --quiet --out film.mp4 && mv film.mp4 whole").code == 0);
   REQUIRE(submit(shell, "film.mp4", "--slurm 1").code == 0);
   // Runs the task until a piece of the film has begun.
@@ -106,7 +97,7 @@ TEST_CASE("Film job: interrupted and killed tasks continue, and the film is the 
 
 TEST_CASE("Film job: the script has the resources, and as many tasks as the film has pieces") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   const auto script = [&](const std::string& flags) {
     const Outcome outcome = submit(shell, "film.mp4", flags + " --overwrite");
     CAPTURE(outcome.err);
@@ -141,7 +132,7 @@ TEST_CASE("Film job: the script has the resources, and as many tasks as the film
 
 TEST_CASE("Film job: the parts of another film are kept unless they may be replaced") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   REQUIRE(submit(shell, "film.mp4", "--slurm 2").code == 0);
   REQUIRE(shell.run(task("film.mp4", 1)).code == 0);
   const std::string part = "film.mp4.slurm/000000.mp4";
@@ -172,7 +163,7 @@ TEST_CASE("Film job: the parts of another film are kept unless they may be repla
 
 TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are named") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   for (const std::string range : {"000000.mkv --frames 0:60", "000120.mkv --frames 120:"}) {
     REQUIRE(shell.run("mkdir -p parts && " + kFilm + "7 --quiet --out parts/" + range).code == 0);
   }
@@ -206,7 +197,7 @@ TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are name
 
 TEST_CASE("Film job: parts with another size or frame rate are refused by name") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   const auto draw = [&](const std::string& extension, int first, const std::string& flags) {
     const std::string frames = std::to_string(first) + ':' + std::to_string(first + 60);
     const Outcome drawn = shell.run(
@@ -237,7 +228,7 @@ TEST_CASE("Film job: parts with another size or frame rate are refused by name")
 
 TEST_CASE("Film job: a join writes no files beside the parts, and follows a link to another disk") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   REQUIRE(shell.run(kFilm + "7 --quiet --out whole.mkv").code == 0);
   shell.run(
       "mkdir parts && cp whole.mkv parts/000000.mkv && cd parts && echo mine >pieces.txt && "
@@ -288,7 +279,7 @@ TEST_CASE("Film job: the tasks have the start state of the submission") {
 
 TEST_CASE("Film job: wrong flags are refused") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   check_refused(shell, kFilm + "7 --slurm 2 --out film.png", {"one picture needs no tasks"});
   check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4 --frames 0:60", {"--slurm"});
   check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4 --join d", {"--slurm"});
