@@ -330,8 +330,15 @@ int film_again(RenderOptions options, const View& view, std::uint64_t seed,
                      frames);
 }
 
+// Refuses an output that is the scene or its start state.
+void require_apart(const RenderOptions& options, const Scene& scene) {
+  const Output output{"--out", options.out};
+  require_distinct({&output, 1}, inputs_of(options.common, options.checkpoints, scene, ""));
+}
+
 // Joins the parts of the film.
-int join(const RenderOptions& options, const FilmState& film) {
+int join(const RenderOptions& options, const Scene& scene, const FilmState& film) {
+  require_apart(options, scene);
   if (!options.film()) {
     throw UserError({"--join", 0, 0}, "only films are joined",
                     "give a film such as film.mp4 as --out");
@@ -348,6 +355,7 @@ int submit(const RenderOptions& options, const Scene& scene, const FilmState& fi
     throw UserError({"--slurm", 0, 0}, "one picture needs no tasks",
                     "give a film or a folder as --out, or omit --slurm");
   }
+  require_apart(options, scene);
   const std::filesystem::path script = write_film_job({.scene = scene,
                                                        .seed = options.common.seed.value_or(1),
                                                        .film = film,
@@ -371,6 +379,9 @@ int render(const RenderOptions& options) {
   view.overlay = film.overlay;
   require_few_windows(view, film.times.last());
   require_folder_of(options.out, "--out");
+  require_format(options, film);
+  if (!options.join.empty()) return join(options, scene, film);
+  if (options.slurm > 0) return submit(options, scene, film);
   const std::filesystem::path checkpoint =
       checkpoint_path(options.common, options.checkpoints, resumed, options.out);
   std::vector<Output> outputs = {{"--checkpoint", checkpoint},
@@ -379,9 +390,6 @@ int render(const RenderOptions& options) {
   if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
   require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
   require_checkpoint_place(checkpoint, options.checkpoints);
-  require_format(options, film);
-  if (!options.join.empty()) return join(options, film);
-  if (options.slurm > 0) return submit(options, scene, film);
   catch_interrupts();
   const bool same_laws = resumed && changed_laws(*resumed).empty();
   const std::uint64_t seed = resumed ? resumed->checkpoint.seed : 0;

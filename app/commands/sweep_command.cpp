@@ -57,6 +57,13 @@ std::vector<std::pair<int, int>> ids_of(const std::vector<std::string>& words) {
   return ids;
 }
 
+void tell_omitted_points(const SweepFolder& folder, const Sweep& sweep) {
+  for (const SweepPoint& point : points_without_goal(folder, sweep)) {
+    std::fprintf(stderr, "note: the results at %s have no mean '%s'; the refinement omits them\n",
+                 settings_text(point).c_str(), sweep.accuracy.of.c_str());
+  }
+}
+
 // Measures the open runs of a sweep, and then the points of its refinement.
 int measure_sweep(const SweepFolder& folder, const SweepOptions& options) {
   const Sweep sweep = folder.sweep();
@@ -64,7 +71,10 @@ int measure_sweep(const SweepFolder& folder, const SweepOptions& options) {
     const int code = execute_sweep(folder, options.processes(), options.common.shown_progress());
     if (code == kInterrupted || !sweep.refinement) return code;
     const std::vector<SweepPoint> points = refined_points(folder, sweep);
-    if (points.empty()) return code;
+    if (points.empty()) {
+      if (!options.common.quiet) tell_omitted_points(folder, sweep);
+      return code;
+    }
     folder.add(points, sweep.seeds);
   }
 }

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -55,11 +56,13 @@ void add_xyz(Buffer& text, const TrajectoryFrame<D>& frame) {
   const auto [lx, ly, lz] = extents(model);
   const auto pbc = [&](int axis) { return is_periodic(model, axis) ? 'T' : 'F'; };
   const bool spins = !frame.state.spins.empty();
+  // Disks are in the middle of their layer.
+  const std::string origin = D == 2 ? fmt::format(" Origin=\"0 0 {}\"", -0.5 * lz) : "";
   fmt::format_to(std::back_inserter(text),
-                 "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" pbc=\"{} {} {}\" Time={} "
+                 "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\"{} pbc=\"{} {} {}\" Time={} "
                  "Properties=species:S:1:pos:R:3:velo:R:3{}:map_shift:I:3:radius:R:1\n",
-                 frame.state.positions.size(), lx, ly, lz, pbc(0), pbc(1), pbc(2), frame.time,
-                 spins ? ":omega:R:3" : "");
+                 frame.state.positions.size(), lx, ly, lz, origin, pbc(0), pbc(1), pbc(2),
+                 frame.time, spins ? ":omega:R:3" : "");
   for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
     text.push_back('X');
     add_space(text, in_space(frame.state.positions[i]));
@@ -122,6 +125,10 @@ void add_csv(Buffer& text, const TrajectoryFrame<D>& frame) {
 }  // namespace
 
 TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag) {
+  if (is_special(file)) {
+    throw UserError({flag, 0, 0}, file.string() + " is not a regular file",
+                    "give the name of a file, not of a device or a pipe");
+  }
   const std::string extension = file.extension();
   if (extension == ".xyz" || extension == ".extxyz") return TrajectoryFormat::ExtXyz;
   if (extension == ".lammpstrj" || extension == ".dump") return TrajectoryFormat::LammpsDump;
@@ -187,7 +194,14 @@ void TrajectoryFile::append(const std::string& text) {
 }
 
 void TrajectoryFile::sync() {
-  if (!file_.sync()) fail();
+  if (lost_ == 0 && !file_.sync()) lost_ = errno;
+  errno = lost_;
+  if (lost_ != 0) fail();
+}
+
+void TrajectoryFile::close() {
+  sync();
+  if (!file_.close()) fail();
 }
 
 void TrajectoryFile::fail() const {

@@ -12,13 +12,17 @@
 #include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/state_file.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
+#include "render/output/frame_sink.h"
 #include "render/output/movie.h"
 
 namespace clatter {
 
 namespace {
+
+constexpr const char* kStartState = "start.csv";
 
 // Ranges of frames such as 000120:180, of about equal length. They begin at whole pieces, so that
 // parts and whole film have the same pieces.
@@ -51,17 +55,21 @@ std::string film_command(const FilmJob& job) {
   return words;
 }
 
+// The film or folder of the job as a word for the shell.
+std::string out_word(const FilmJob& job) {
+  return shell_word(std::filesystem::absolute(job.out).string());
+}
+
 // The lines of a task that draw its part, or nothing if the part is complete.
 std::string drawing_lines(const FilmJob& job) {
   const bool film = Movie::knows(job.out.extension());
   const std::string extension = job.out.extension().string();
   std::string lines = "film=(" + film_command(job) + ")\n";
   if (film) {
-    lines += fmt::format("complete() {{ [[ -e $folder/$1{0} && ! -e $folder/$1{0}.part ]]; }}\n",
+    lines += fmt::format("is_complete() {{ [[ -e $folder/$1{0} && ! -e $folder/$1{0}.part ]]; }}\n",
                          extension);
   }
-  const std::string out =
-      film ? "$folder/$part" + extension : shell_word(std::filesystem::absolute(job.out).string());
+  const std::string out = film ? "$folder/$part" + extension : out_word(job);
   lines += fmt::format(R"(part=${{task%:*}}
 checkpoint=$folder/$part.checkpoint
 draw=("${{film[@]}}" --frames="$task" --out={} --checkpoint="$checkpoint")
@@ -72,16 +80,16 @@ else
 fi
 )",
                        film ? '"' + out + '"' : out);
-  if (film) lines += "complete $part && draw=(true)\n";
+  if (film) lines += "is_complete $part && draw=(true)\n";
   return lines + "\"${draw[@]}\"";
 }
 
 // The task that ends last joins the parts.
 std::string joining_lines(const FilmJob& job) {
   if (!Movie::knows(job.out.extension())) return "";
-  return "for word in \"${tasks[@]}\"; do complete \"${word%:*}\" || exit 0; done\n"
+  return "for word in \"${tasks[@]}\"; do is_complete \"${word%:*}\" || exit 0; done\n"
          "\"${film[@]}\" --join=\"$folder\" --out=" +
-         shell_word(std::filesystem::absolute(job.out).string()) + "\ncode=$?\n";
+         out_word(job) + "\ncode=$?\n";
 }
 
 // Megabytes of a task: the gas, the pictures on their way, and the encoder. The largest encoder,
@@ -94,14 +102,20 @@ double memory_of(const FilmJob& job) {
   return std::ceil(kPrograms + 1e-6 * (kMargin * memory_of(job.scene) + picture));
 }
 
-// The scene with a start file that a task finds from any folder.
+// The scene, with the start state in the folder of the job: the user may change the own file.
 std::string scene_text(Scene scene) {
-  std::string& file = scene.particles.start.file;
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) file = std::filesystem::absolute(file).string();
+  if (scene.particles.start.layout == Layout::File) scene.particles.start.file = kStartState;
   return scene_to_toml(scene);
 }
 
+// Empty unless the particles start from a file.
+std::string start_text(const Scene& scene) {
+  const Start& start = scene.particles.start;
+  if (start.layout != Layout::File) return "";
+  return std::visit([](const auto& state) { return state_to_csv(state); }, start.state);
+}
+
+// Empty if the file does not exist.
 std::string text_of(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return "";
@@ -137,32 +151,48 @@ void remove_parts(const std::filesystem::path& folder, const std::string& extens
   }
 }
 
+// Throws the errors of the output before tasks wait in a queue.
+void require_output(const std::filesystem::path& out) {
+  if (Movie::knows(out.extension())) return require_writable_file(out, "--out");
+  require_folder_format(out);
+  if (std::filesystem::exists(out)) make_folder(out, "--out");
+}
+
 }  // namespace
 
 std::filesystem::path write_film_job(const FilmJob& job) {
-  std::filesystem::path out = job.out.has_filename() ? job.out : job.out.parent_path();
+  require_output(job.out);
+  std::filesystem::path out = target_of(job.out.has_filename() ? job.out : job.out.parent_path());
   ArrayJob array;
   array.folder = std::filesystem::absolute(out += ".slurm");
   array.tasks = parts_of(job);
   array.body = drawing_lines(job);
   array.after = joining_lines(job);
   array.megabytes = memory_of(job);
-  array.processors = 2;  // a task draws and encodes at the same time
+  // A task draws and encodes at the same time.
+  array.processors = Movie::knows(job.out.extension()) ? 2 : std::max(2, job.threads);
   array.limits = job.limits;
-  const std::string script = batch_script(array), scene = scene_text(job.scene);
+  const std::string script = batch_script(array), scene = scene_text(job.scene),
+                    start = start_text(job.scene);
   const std::filesystem::path script_file = array.folder / "job.sh",
-                              scene_file = array.folder / "scene.toml";
+                              scene_file = array.folder / "scene.toml",
+                              start_file = array.folder / kStartState;
   const bool same_film = without_options(text_of(script_file)) == without_options(script) &&
-                         text_of(scene_file) == scene;
+                         text_of(scene_file) == scene &&
+                         (start.empty() || text_of(start_file) == start);
   if (!same_film && !job.overwrite) {
-    for (const std::filesystem::path& folder : {array.folder, job.out}) {
-      if (!has_files(folder)) continue;
-      throw UserError({folder.string()}, "has the pictures of another film",
+    if (has_files(array.folder)) {
+      throw UserError({array.folder.string()}, "has the job of another film",
+                      "replace it with --overwrite, or give another --out");
+    }
+    if (has_files(job.out)) {
+      throw UserError({job.out.string()}, "has the pictures of another film",
                       "replace them with --overwrite, or give another --out");
     }
   }
   make_folder(array.folder, "--out");
   if (!same_film || job.overwrite) remove_parts(array.folder, job.out.extension());
+  if (!start.empty()) write_file(start_file, start);
   write_file(scene_file, scene);
   write_file(script_file, script);
   return script_file;

@@ -24,10 +24,11 @@ struct FilmJob {
   bool overwrite = false;  ///< may replace pictures, or parts of another film
 };
 
-/// Writes the folder OUT.slurm with the scene and the batch script job.sh. The tasks write logs,
-/// checkpoints and parts into this folder. A folder of the same film keeps its parts, so that a
-/// second submission continues the first. Returns the path of the script. Throws UserError if other
-/// pictures or parts would be replaced, and RunError if files cannot be written.
+/// Writes the folder OUT.slurm with the scene, its start state start.csv, and the batch script
+/// job.sh. The tasks write logs, checkpoints and parts into this folder. A folder of the same film
+/// keeps its parts, so that a second submission continues the first. Returns the path of the
+/// script. Throws UserError if `out` has no known format, or if the job or the pictures of another
+/// film would be replaced. Throws RunError if files cannot be written.
 std::filesystem::path write_film_job(const FilmJob& job);
 
 }  // namespace clatter

@@ -293,7 +293,11 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
-  if (!options.trajectory.empty()) run.record(options.trajectory, options.every);
+  if (options.trajectory.empty()) {
+    run.leave_record();
+  } else {
+    run.record(options.trajectory, options.every);
+  }
   try {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
     if (options.accuracy.asked_for()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "app/system/exit_code.h"
@@ -11,6 +12,7 @@
 #include "app/system/outputs.h"
 #include "engine/dynamics/boundary.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/schedule.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -107,6 +109,15 @@ Measurement<D>& Run<D>::measure(double end) {
   return *measurement_;
 }
 
+// Whether particles spin at some time of the run.
+static bool ever_spins(const Scene& scene) {
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  Schedule schedule(scene);
+  bool spins = schedule.laws().spins();
+  for (; schedule.next() < kForever; schedule.advance()) spins |= schedule.laws().spins();
+  return spins || schedule.laws().spins();
+}
+
 template <int D>
 void Run<D>::record(const std::filesystem::path& file, double every) {
   run_->on_change = [this](Simulation<D>& next) { follow(next); };
@@ -118,10 +129,18 @@ void Run<D>::record(const std::filesystem::path& file, double every) {
                       file.string() + " exists, and the checkpoint has no trajectory",
                       "give another name, because this run would not continue the file");
     }
-    recorder_.emplace(file, every, simulation());
+    recorder_.emplace(file, every, ever_spins(scene_), simulation());
   } else {
-    recorder_.emplace(file, every, simulation(), saved, resumed_->file);
+    recorder_.emplace(file, every, ever_spins(scene_), simulation(), saved, resumed_->file);
   }
+}
+
+template <int D>
+void Run<D>::leave_record() const {
+  if (quiet_ || !resumed_ || resumed_->checkpoint.trajectory.empty()) return;
+  std::fprintf(stderr,
+               "note: the trajectory of %s does not continue without --trajectory and --every\n",
+               resumed_->file.c_str());
 }
 
 template <int D>
@@ -216,10 +235,14 @@ void Run<D>::write() {
 }
 
 template <int D>
+std::string Run<D>::how_to_resume() const {
+  return "continue with --resume " + file_.string() + (recorder_ ? ' ' + recorder_->flags() : "");
+}
+
+template <int D>
 std::string Run<D>::rescue() {
   write();
-  return failure_.empty() ? "; continue with --resume " + file_.string()
-                          : "; no checkpoint was written: " + failure_;
+  return failure_.empty() ? "; " + how_to_resume() : "; no checkpoint was written: " + failure_;
 }
 
 template <int D>
@@ -228,8 +251,8 @@ void Run<D>::put_aside() {
   if (ended_early_ && !quiet_) std::fputs("clatter: writing the checkpoint\n", stderr);
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {
-    std::fprintf(stderr, "clatter: interrupted at t = %g; continue with --resume %s\n",
-                 simulation().time(), file_.c_str());
+    std::fprintf(stderr, "clatter: interrupted at t = %g; %s\n", simulation().time(),
+                 how_to_resume().c_str());
   }
 }
 
@@ -247,12 +270,13 @@ int Run<D>::end() {
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
     throw PhysicalStop(stop_->what() + (failure_.empty()
-                                            ? "; continue with --resume " + file_.string() + remedy
+                                            ? "; " + how_to_resume() + remedy
                                             : "; no checkpoint was written: " + failure_));
   }
   require_no_overlap(simulation().checks());
   // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
+  if (recorder_) recorder_->close();
   return ended_early_ ? kInterrupted : kOk;
 }
 

@@ -57,6 +57,8 @@ class Run {
   /// Writes the states at the times 0, `every`, 2 `every` and so on into a trajectory file.
   /// Continues the trajectory of the checkpoint. Throws UserError and RunError.
   void record(const std::filesystem::path& file, double every);
+  /// Notes that the trajectory of the checkpoint, if any, does not continue.
+  void leave_record() const;
 
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
@@ -73,8 +75,8 @@ class Run {
   /// Writes the checkpoint that the end of the run requires. To be called before the results of the
   /// measurement are read, which close its last window.
   void put_aside();
-  /// Returns the exit code, or throws the error of the run. To be called after the results are
-  /// written.
+  /// Ends the trajectory. Returns the exit code, or throws the error of the run. To be called after
+  /// the results are written.
   int end();
 
  private:
@@ -86,6 +88,7 @@ class Run {
   void follow(Simulation<D>& next);
   void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
+  std::string how_to_resume() const;
 
   std::string command_;
   Scene scene_;

@@ -1,5 +1,7 @@
 #include "app/runs/trajectory_recorder.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 
@@ -17,12 +19,13 @@ struct SavedTrajectory {
   std::uint64_t next = 0;
   std::uint64_t bytes = 0;
   std::uint8_t format = 0;  // TrajectoryFormat
+  bool spins = false;
 };
 
 template <class Archive>
 void visit(Archive& io, SavedTrajectory& saved) {
-  auto& [every, next, bytes, format] = saved;
-  io(every, next, bytes, format);
+  auto& [every, next, bytes, format, spins] = saved;
+  io(every, next, bytes, format, spins);
 }
 
 // The smallest power of ten whose product with a number is whole, so that the number is the double
@@ -47,23 +50,27 @@ double TrajectoryRecorder<D>::next_time() const {
 
 template <int D>
 TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
-                                          Simulation<D>& simulation)
+                                          bool spins, Simulation<D>& simulation)
     : format_(trajectory_format(path, "--trajectory")),
+      path_(path),
       every_(every),
+      spins_(spins),
       decimals_(decimals_of(every)) {
   next_ = static_cast<long>(std::floor(simulation.time() / every));
   while (next_time() < simulation.time()) ++next_;
   images_.emplace(simulation);
   file_.emplace(path, 0);
-  file_->append(header_text<D>(format_, simulation.model().spins));
+  file_->append(header_text<D>(format_, spins));
 }
 
 template <int D>
 TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
-                                          Simulation<D>& simulation, const std::string& saved,
-                                          const std::string& checkpoint)
+                                          bool spins, Simulation<D>& simulation,
+                                          const std::string& saved, const std::string& checkpoint)
     : format_(trajectory_format(path, "--trajectory")),
+      path_(path),
       every_(every),
+      spins_(spins),
       decimals_(decimals_of(every)) {
   images_.emplace(simulation);
   ArchiveReader reader(saved, checkpoint);
@@ -81,24 +88,31 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
                     path.string() + " has another format than the trajectory of the checkpoint",
                     "name the trajectory of the interrupted run");
   }
+  if (before.spins != spins) {
+    throw UserError({"--trajectory", 0, 0},
+                    before.spins ? "the trajectory of the checkpoint has angular velocities"
+                                 : "the trajectory of the checkpoint has no angular velocities",
+                    "resume the run without changes of roughness, or without --trajectory");
+  }
   next_ = static_cast<long>(before.next);
   file_.emplace(path, before.bytes);
 }
 
 template <int D>
 void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
-  const TrajectoryFrame<D> frame{.number = next_,
-                                 .time = simulation.time(),
-                                 .model = simulation.model(),
-                                 .state = simulation.state(),
-                                 .images = images_->images()};
+  TrajectoryFrame<D> frame{.number = next_,
+                           .time = simulation.time(),
+                           .model = simulation.model(),
+                           .state = simulation.state(),
+                           .images = images_->images()};
+  frame.state.spins.resize(spins_ ? frame.state.positions.size() : 0, Spin<D>::Zero());
   file_->append(frame_text(frame, format_));
   ++next_;
 }
 
 template <int D>
 void TrajectoryRecorder<D>::follow(Simulation<D>& next) {
-  const Images<D> before = *images_;
+  const PeriodicImages<D> before = *images_;
   images_.emplace(next, before);
 }
 
@@ -106,10 +120,20 @@ template <int D>
 std::string TrajectoryRecorder<D>::save() {
   file_->sync();
   SavedTrajectory saved{every_, static_cast<std::uint64_t>(next_), file_->bytes(),
-                        static_cast<std::uint8_t>(format_)};
+                        static_cast<std::uint8_t>(format_), spins_};
   ArchiveWriter writer;
   writer(saved, *images_);
   return writer.written();
+}
+
+template <int D>
+void TrajectoryRecorder<D>::close() {
+  file_->close();
+}
+
+template <int D>
+std::string TrajectoryRecorder<D>::flags() const {
+  return fmt::format("--trajectory {} --every {}", path_.string(), every_);
 }
 
 template class TrajectoryRecorder<2>;

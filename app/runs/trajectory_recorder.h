@@ -6,21 +6,26 @@
 
 #include "app/results/trajectory.h"
 #include "engine/dynamics/simulation.h"
-#include "engine/observables/images.h"
+#include "engine/observables/periodic_images.h"
 
 namespace clatter {
 
 /// Writes the exact states of a run into a trajectory at the times 0, `every`, 2 `every` and so on.
+/// All frames have the same columns: `spins` states whether they have angular velocities, which are
+/// 0 while nothing is rough.
 template <int D>
 class TrajectoryRecorder {
  public:
   /// Begins a trajectory at the first of the times that the simulation has not passed. Throws
   /// RunError.
-  TrajectoryRecorder(const std::filesystem::path& path, double every, Simulation<D>& simulation);
+  TrajectoryRecorder(const std::filesystem::path& path, double every, bool spins,
+                     Simulation<D>& simulation);
   /// Continues a trajectory from the result of save() at this time of the run. `checkpoint` is the
-  /// name for errors. Throws UserError if `every` differs or the file lacks frames, and RunError.
-  TrajectoryRecorder(const std::filesystem::path& path, double every, Simulation<D>& simulation,
-                     const std::string& saved, const std::string& checkpoint);
+  /// name for errors. Throws UserError if `every` or `spins` differs or the file lacks frames, and
+  /// RunError.
+  TrajectoryRecorder(const std::filesystem::path& path, double every, bool spins,
+                     Simulation<D>& simulation, const std::string& saved,
+                     const std::string& checkpoint);
 
   /// The simulation time of the next frame.
   double next_time() const;
@@ -30,13 +35,19 @@ class TrajectoryRecorder {
   void follow(Simulation<D>& next);
   /// Waits until the frames are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
+  /// Ends the file with all frames on the disk. Throws RunError, also if an earlier save() failed.
+  void close();
+  /// The flags of `clatter measure` that continue this trajectory.
+  std::string flags() const;
 
  private:
   TrajectoryFormat format_;
+  std::filesystem::path path_;
   double every_;
+  bool spins_;
   double decimals_ = 0.0;  // a power of ten that makes `every_` a whole number; 0: none
   long next_ = 0;          // number of the next frame
-  std::optional<Images<D>> images_;
+  std::optional<PeriodicImages<D>> images_;
   std::optional<TrajectoryFile> file_;
 };
 

@@ -102,10 +102,7 @@ class Executor {
     wait_for_any(processes, kLongest);
   }
 
-  bool has_ended(int id) const {
-    std::error_code ignored;
-    return std::filesystem::exists(folder_.result(id), ignored) || folder_.failure(id);
-  }
+  bool has_ended(int id) const { return folder_.has_result(id) || folder_.failure(id); }
 
   void count_ended(Job& job) {
     while (job.ended < job.ids.size() && has_ended(job.ids[job.ended])) {

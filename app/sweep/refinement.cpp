@@ -43,10 +43,7 @@ std::map<std::string, std::vector<CurvePoint>> curves_of(const SweepTable& table
   std::map<std::string, std::vector<CurvePoint>> curves;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto& values = table.rows[row];
-    if (!values.contains(of)) {
-      throw UserError({"accuracy_of", 0, 0}, "the results have no mean '" + of + "'",
-                      "name a mean of the result file");
-    }
+    if (!values.contains(of)) continue;
     SweepPoint settings = table.points[row];
     const auto at = std::ranges::find(settings, axis, &Override::key);
     const double x = values.at(axis).get<double>();
@@ -55,6 +52,10 @@ std::map<std::string, std::vector<CurvePoint>> curves_of(const SweepTable& table
                            static_cast<std::size_t>(at - settings.begin())};
     settings.erase(at);
     curves[settings_text(settings)].push_back(point);
+  }
+  if (curves.empty() && !table.rows.empty()) {
+    throw UserError({"accuracy_of", 0, 0}, "the results have no mean '" + of + "'",
+                    "name a mean of the result file");
   }
   for (auto& [name, curve] : curves) std::ranges::sort(curve, {}, &CurvePoint::x);
   return curves;
@@ -117,6 +118,15 @@ std::vector<SweepPoint> refined_points(const SweepFolder& folder, const Sweep& s
   for (const Interval& interval : intervals) {
     if (points.size() == std::min(kAtOnce, budget - known.size())) break;
     if (!known.contains(settings_text(interval.middle))) points.push_back(interval.middle);
+  }
+  return points;
+}
+
+std::vector<SweepPoint> points_without_goal(const SweepFolder& folder, const Sweep& sweep) {
+  const SweepTable table = read_table(folder);
+  std::vector<SweepPoint> points;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (!table.rows[row].contains(sweep.accuracy.of)) points.push_back(table.points[row]);
   }
   return points;
 }

@@ -80,7 +80,7 @@ int measure_run(SweepFolder& folder, int id, ProgressStyle progress) {
   catch_interrupts();
   if (!wait_for_lock(folder, id)) return kInterrupted;
   SweepFailure outcome;
-  if (!is_present(folder.result(id))) {
+  if (!folder.has_result(id)) {
     outcome = attempt(options_of(folder, id, progress));
     if (outcome.code == kOk) {
       folder.publish(id);

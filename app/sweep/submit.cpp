@@ -57,8 +57,12 @@ double memory_of(const SweepFolder& folder) {
 std::string parallel_line(const SweepFolder& folder, int chunk) {
   const auto chunks = chunks_of(folder, static_cast<std::size_t>(std::max(1, chunk)));
   if (chunks.empty()) return "";
-  std::string line =
-      "parallel clatter sweep run " + shell_word(shell_word(folder.path().string())) + " :::";
+  const std::string name = folder.path().string();
+  if (name.find_first_of("{}") != name.npos) {
+    throw UserError({name}, "GNU parallel replaces braces in the name of this folder",
+                    "rename it without braces");
+  }
+  std::string line = "parallel clatter sweep run " + shell_word(shell_word(name)) + " :::";
   for (const std::string& word : chunks) line += ' ' + word;
   return line + '\n';
 }

@@ -211,7 +211,7 @@ std::vector<SweepRun> SweepFolder::runs() const {
   const std::string manifest = folder_ / "manifest.jsonl";
   // Before the manifest is read, because another process may add runs.
   int last = 0;
-  for (const auto& ids : {done(), failed(), ids_in("runs", ".checkpoint")}) {
+  for (const auto& ids : {ids_in("results", ".json"), failed(), ids_in("runs", ".checkpoint")}) {
     if (!ids.empty()) last = std::max(last, ids.back());
   }
   std::vector<SweepRun> runs;
@@ -236,6 +236,17 @@ SweepRun SweepFolder::run(int id) const {
                     fmt::format("give a number from 1 to {}", k));
   }
   return run_in(line, id, manifest);
+}
+
+bool SweepFolder::has_result(int id) const {
+  std::error_code error;
+  return std::filesystem::file_size(result(id), error) > 0 && !error;
+}
+
+std::vector<int> SweepFolder::done() const {
+  std::vector<int> ids = ids_in("results", ".json");
+  std::erase_if(ids, [this](int id) { return !has_result(id); });
+  return ids;
 }
 
 std::optional<SweepFailure> SweepFolder::failure(int id) const {

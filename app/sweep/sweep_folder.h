@@ -63,8 +63,10 @@ class SweepFolder {
   std::vector<SweepRun> runs() const;
   /// The run of this number. Throws UserError if the manifest does not have it.
   SweepRun run(int id) const;
+  /// Whether a run has a result. An empty file, as after a full disk, is none.
+  bool has_result(int id) const;
   /// The numbers of the runs with a result, in order.
-  std::vector<int> done() const { return ids_in("results", ".json"); }
+  std::vector<int> done() const;
   /// The numbers of the failed runs, in order.
   std::vector<int> failed() const { return ids_in("failed", ".json"); }
   /// The failure of a run. Absent if it has not failed.

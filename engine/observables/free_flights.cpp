@@ -26,8 +26,8 @@ struct FlightSums {
 // from the top of the parabola.
 template <int D>
 double arc_length(const Vec<D>& velocity, const Vec<D>& acceleration, double duration) {
+  if ((acceleration.array() == 0.0).all()) return velocity.norm() * duration;
   const double g = acceleration.norm();
-  if (g == 0.0) return velocity.norm() * duration;
   const double along = velocity.dot(acceleration) / g;
   const double across = std::sqrt(std::fmax(0.0, velocity.squaredNorm() - along * along));
   // Twice the integral of the speed over the velocity u along the acceleration.

@@ -34,13 +34,22 @@ RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
     const int cells = static_cast<int>(std::clamp(most, 1.0, double{kMaxCells}));
     cells_[axis] = cells;
     for (int cell = 0; cell < cells; ++cell) {
-      std::vector<int>& near = near_[axis].emplace_back();
+      std::vector<int> near;
       for (int other = cell - 2; other <= cell + 2; ++other) {
         if (!model.periodic(axis) && (other < 0 || other >= cells)) continue;
         const int wrapped = (other % cells + cells) % cells;
         if (std::ranges::find(near, wrapped) == near.end()) near.push_back(wrapped);
       }
       std::ranges::sort(near);
+      std::vector<Range>& spans = near_[axis].emplace_back();
+      for (const int number : near) {
+        const auto next = static_cast<std::size_t>(number);
+        if (!spans.empty() && spans.back().end + 1 == next) {
+          spans.back().end = next;
+        } else {
+          spans.push_back({next, next});
+        }
+      }
     }
   }
 }
@@ -105,68 +114,86 @@ void RadialDistribution<D>::sort_into_cells() {
 template <int D>
 void RadialDistribution<D>::find_ranges(const IntVec<D>& cell) {
   ranges_.clear();
-  std::vector<std::size_t> rows = {0};  // numbers of near rows along y and z
-  for (int axis = D - 1; axis > 0; --axis) {
-    std::vector<std::size_t> extended;
-    for (const int near : near_[axis][static_cast<std::size_t>(cell[axis])]) {
-      for (const std::size_t row : rows) {
-        extended.push_back(row * static_cast<std::size_t>(cells_[axis]) +
-                           static_cast<std::size_t>(near));
-      }
-    }
-    rows = std::move(extended);
-  }
-  for (const std::size_t row : rows) {
+  const auto add_row = [&](std::size_t row) {
     const std::size_t start = row * static_cast<std::size_t>(cells_[0]);
-    for (const int near : near_[0][static_cast<std::size_t>(cell[0])]) {
-      const std::size_t number = start + static_cast<std::size_t>(near);
-      if (!ranges_.empty() && ranges_.back().end == first_[number]) {
-        ranges_.back().end = first_[number + 1];
-      } else {
-        ranges_.push_back({first_[number], first_[number + 1]});
-      }
+    for (const auto& [first, last] : near_[0][static_cast<std::size_t>(cell[0])]) {
+      ranges_.push_back({first_[start + first], first_[start + last + 1]});
     }
+  };
+  const auto each_near = [&](int axis, const auto& visit) {
+    for (const auto& [first, last] : near_[axis][static_cast<std::size_t>(cell[axis])]) {
+      for (std::size_t near = first; near <= last; ++near) visit(near);
+    }
+  };
+  if constexpr (D == 2) {
+    each_near(1, add_row);
+  } else {
+    each_near(2, [&](std::size_t z) {
+      each_near(1, [&](std::size_t y) { add_row(z * static_cast<std::size_t>(cells_[1]) + y); });
+    });
   }
 }
 
-// Pairs of a particle and a later one in the ranges. The first loop has no branches, so that the
-// compiler uses vectors.
+// Bins of the distances of particles from `own`: [count] coordinates along each axis. Rounding may
+// put a contact below the diameter.
 template <int D>
-void RadialDistribution<D>::count_pairs(std::size_t particle) {
+[[gnu::always_inline]] static inline void find_bins(const Vec<D>& own, const Vec<D>& period,
+                                                    const std::array<const double*, D>& others,
+                                                    double diameter, double per_distance,
+                                                    std::size_t count, int* bins) {
+  for (std::size_t k = 0; k < count; ++k) {
+    double square = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+      const double apart = std::fabs(own[axis] - others[axis][k]);
+      const double nearest = std::min(apart, std::fabs(period[axis] - apart));
+      square += nearest * nearest;
+    }
+    bins[k] = static_cast<int>(std::max(0.0, (std::sqrt(square) - diameter) * per_distance));
+  }
+}
+
+// Pairs of a particle and a later one in the ranges.
+template <int D>
+[[gnu::always_inline]] inline void RadialDistribution<D>::count_pairs(std::size_t particle) {
   const double diameter = simulation_.model().diameter;
   const double per_distance = settings_.bins / (range_ - diameter);
+  const Vec<D> own = position_of(particle);
   for (const Range& range : ranges_) {
     const std::size_t begin = std::max(range.begin, particle + 1);
     if (begin >= range.end) continue;
     const std::size_t count = range.end - begin;
     if (bins_.size() < count) bins_.resize(count);
-    int* const bins = bins_.data();
     std::array<const double*, D> others;
     for (int axis = 0; axis < D; ++axis) others[axis] = &coordinates_[axis][begin];
-    const Vec<D> own = position_of(particle), period = period_;
-    for (std::size_t k = 0; k < count; ++k) {
-      double square = 0.0;
-      for (int axis = 0; axis < D; ++axis) {
-        const double apart = std::fabs(own[axis] - others[axis][k]);
-        const double nearest = std::min(apart, std::fabs(period[axis] - apart));
-        square += nearest * nearest;
-      }
-      // Rounding may put a contact below the diameter.
-      bins[k] = static_cast<int>(std::max(0.0, (std::sqrt(square) - diameter) * per_distance));
-    }
-    for (std::size_t k = 0; k < count; ++k) ++counts_[static_cast<std::size_t>(bins[k])];
+    find_bins<D>(own, period_, others, diameter, per_distance, count, bins_.data());
+    for (std::size_t k = 0; k < count; ++k) ++counts_[static_cast<std::size_t>(bins_[k])];
   }
+}
+
+template <int D>
+[[gnu::always_inline]] inline void RadialDistribution<D>::count_all() {
+  IntVec<D> at = IntVec<D>::Zero();
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+    if (first_[cell] < first_[cell + 1]) find_ranges(at);
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) count_pairs(i);
+    for (int axis = 0; axis < D && ++at[axis] == cells_[axis]; ++axis) at[axis] = 0;
+  }
+}
+
+// The same with wider vectors, with equal results.
+template <int D>
+[[gnu::target("avx2")]] void RadialDistribution<D>::count_all_avx2() {
+  count_all();
 }
 
 template <int D>
 void RadialDistribution<D>::sample() {
   sort_into_cells();
   samples_ += 1.0;
-  IntVec<D> at = IntVec<D>::Zero();
-  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
-    if (first_[cell] < first_[cell + 1]) find_ranges(at);
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) count_pairs(i);
-    for (int axis = 0; axis < D && ++at[axis] == cells_[axis]; ++axis) at[axis] = 0;
+  if (__builtin_cpu_supports("avx2")) {
+    count_all_avx2();
+  } else {
+    count_all();
   }
 }
 

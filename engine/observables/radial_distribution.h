@@ -27,9 +27,16 @@ class RadialDistribution final : public Observable {
   void restore(ArchiveReader& io) override;
 
  private:
+  // Consecutive particles in the order of the cells, or consecutive cells.
+  struct Range {
+    std::size_t begin, end;
+  };
+
   void sort_into_cells();
   void find_ranges(const IntVec<D>& cell);
   void count_pairs(std::size_t particle);
+  void count_all();
+  void count_all_avx2();
   Vec<D> position_of(std::size_t place) const {
     Vec<D> position;
     for (int axis = 0; axis < D; ++axis) position[axis] = coordinates_[axis][place];
@@ -41,19 +48,14 @@ class RadialDistribution final : public Observable {
 
   const Simulation<D>& simulation_;
   RadialDistributionSettings settings_;
-  // Consecutive particles in the order of the cells.
-  struct Range {
-    std::size_t begin, end;
-  };
-
-  double range_;                                       // of distances
-  IntVec<D> cells_;                                    // along each axis; x is fastest
-  Vec<D> period_;                                      // infinite along axes with walls
-  std::array<std::vector<std::vector<int>>, D> near_;  // [cells] near cells along each axis
-  std::vector<std::size_t> first_;                     // [cells + 1] first particle of each cell
-  std::array<std::vector<double>, D> coordinates_;     // [N] in the order of the cells
-  std::vector<Range> ranges_;                          // near the present cell
-  std::vector<int> bins_;                              // of the pairs with one range
+  double range_;                                         // of distances
+  IntVec<D> cells_;                                      // along each axis; x is fastest
+  Vec<D> period_;                                        // infinite along axes with walls
+  std::array<std::vector<std::vector<Range>>, D> near_;  // [cells] near cells, first and last
+  std::vector<std::size_t> first_;                       // [cells + 1] first particle of each cell
+  std::array<std::vector<double>, D> coordinates_;       // [N] in the order of the cells
+  std::vector<Range> ranges_;                            // near the present cell
+  std::vector<int> bins_;                                // of the pairs with one range
   double samples_ = 0.0;
   std::vector<std::uint64_t> counts_;  // [all_bins()] pairs in each bin
 };

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/observables/images.h"
+#include "engine/observables/periodic_images.h"
 #include "engine/observables/lag_history.h"
 #include "engine/observables/observable.h"
 
@@ -29,7 +29,7 @@ class MeanSquaredDisplacement final : public Observable {
  private:
   Simulation<D>& simulation_;
   TimeCorrelationSettings settings_;
-  std::optional<Images<D>> images_;  // present after the start
+  std::optional<PeriodicImages<D>> images_;  // present after the start
   LagHistory<D> history_;
   ObservableSums sums_;  // [lags][1 + 2 D] samples, then displacements and their squares
 };

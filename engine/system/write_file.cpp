@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "engine/error.h"
-#include "engine/system/file_descriptor.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
@@ -51,6 +50,7 @@ std::optional<int> own_descriptor(std::filesystem::path path) {
   const std::filesystem::path open_files = std::filesystem::canonical("/proc/self/fd", error);
   constexpr int kMostLinks = 40;
   for (int links = 0; !error && links < kMostLinks; ++links) {
+    path = std::filesystem::absolute(path, error);
     if (std::filesystem::canonical(path.parent_path(), error) == open_files) {
       return whole_number<int>(path.filename().string());
     }
@@ -74,11 +74,7 @@ void require_replaceable(const std::filesystem::path& path, const std::filesyste
   }
 }
 
-// A new file in the folder of `target`. Its name is not in use by any other file.
-struct NewFile {
-  std::filesystem::path path;
-  FileDescriptor file;  // negative: not created, with errno
-};
+}  // namespace
 
 NewFile new_file_beside(const std::filesystem::path& target) {
   constexpr int kMostBytes = 200;  // of the name: a longer one may leave no room for the rest
@@ -90,8 +86,6 @@ NewFile new_file_beside(const std::filesystem::path& target) {
     if (file || errno != EEXIST) return {path, std::move(file)};
   }
 }
-
-}  // namespace
 
 bool is_special(const std::filesystem::path& path) {
   std::error_code ignored;

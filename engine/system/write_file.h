@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "engine/system/file_descriptor.h"
+
 namespace clatter {
 
 /// Whether a path is a device, a pipe, or an open file of this process such as /dev/stdout. These
@@ -11,6 +13,16 @@ bool is_special(const std::filesystem::path& path);
 
 /// The path behind a chain of links. A link stays where a chain has no end.
 std::filesystem::path target_of(std::filesystem::path path);
+
+/// A file that did not exist before.
+struct NewFile {
+  std::filesystem::path path;
+  FileDescriptor file;  ///< open for writing
+};
+
+/// Creates the empty file .FILE.NUMBER in the folder of `target`. No other file has this name.
+/// Without a file, `errno` has the reason.
+NewFile new_file_beside(const std::filesystem::path& target);
 
 /// Throws the error that write_file() would throw for this path, except for a full disk. Creates
 /// and removes a temporary file.

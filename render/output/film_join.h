@@ -6,12 +6,13 @@
 
 #include "engine/system/child_process.h"
 #include "engine/system/file_descriptor.h"
+#include "engine/system/write_file.h"
 #include "render/output/movie_format.h"
 
 namespace clatter {
 
-/// Input of ffmpeg in a folder of film parts.
-inline constexpr const char* kPartList = "pieces.txt";
+/// Fix to append to the error of an encoder that cannot start.
+inline constexpr const char* kInstallEncoder = "; films need ffmpeg (apt install ffmpeg)";
 
 /// A film file that is a part of a film.
 struct FilmPart {
@@ -35,16 +36,18 @@ struct PartsFolder {
   std::filesystem::path safe_name(const std::string& file) const;
 };
 
-/// Joins films in a folder to one, without encoding them again. `texts` is a file with its texts, a
-/// metadata file or a film. Returns the new file in the folder, with the pictures of all parts.
-/// Throws RunError with the reason.
-std::filesystem::path join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts,
-                                 double fps, const std::filesystem::path& texts,
-                                 const MovieFormat& format, const std::string& encoder = "ffmpeg");
+/// Joins films in a folder to one in the file `joined`, without encoding them again. `texts` is a
+/// file with its texts, a metadata file or a film. The input of the encoder is written to `list`.
+/// Throws RunError with the reason, also if the film lacks pictures, and then removes `joined`.
+void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
+                const std::filesystem::path& texts, const MovieFormat& format,
+                const std::filesystem::path& list, const NewFile& joined,
+                const std::string& encoder = "ffmpeg");
 
 /// Joins the films FIRST.EXTENSION in a folder to the film `path` of `count` pictures. FIRST is the
-/// number of the first picture of a part. Throws UserError if pictures are missing, and RunError if
-/// the film cannot be written.
+/// number of the first picture of a part. Only reads the folder: temporary files are beside the
+/// film. Throws UserError if pictures are missing, or if parts differ in their size or frame rate.
+/// Throws RunError if the film cannot be written.
 void join_parts(const std::filesystem::path& folder, long count, double fps,
                 const std::filesystem::path& path);
 

@@ -6,17 +6,21 @@
 
 namespace clatter {
 
+void require_folder_format(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::string extension = path.extension();
+  if (extension.empty() || std::filesystem::is_directory(path, ignored)) return;
+  throw UserError({path.string()}, "the format " + extension + " is not supported",
+                  "use .mp4, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
+}
+
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path,
                                      const SinkOptions& options) {
   const std::string extension = path.extension();
   if (extension == ".png") return std::make_unique<PngFile>(path, options);
   if (Movie::knows(extension)) return std::make_unique<Movie>(path, options);
-  std::error_code ignored;
-  if (extension.empty() || std::filesystem::is_directory(path, ignored)) {
-    return std::make_unique<PngSequence>(path, options);
-  }
-  throw UserError({path.string()}, "the format " + extension + " is not supported",
-                  "use .mp4, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
+  require_folder_format(path);
+  return std::make_unique<PngSequence>(path, options);
 }
 
 }  // namespace clatter

@@ -63,6 +63,10 @@ class DamagedPiece : public UserError {
   using UserError::UserError;
 };
 
+/// Throws UserError unless a path without a format of films and pictures can be a folder: it is
+/// one, or its name has no extension.
+void require_folder_format(const std::filesystem::path& path);
+
 /// Opens the sink for a path: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or a folder for
 /// a sequence of pictures. Throws UserError for another extension, if earlier pictures are missing,
 /// or if existing pictures would be replaced. Throws DamagedPiece for a film or a folder.

@@ -18,8 +18,9 @@ namespace clatter {
 
 namespace {
 
-// Input of ffmpeg in the folder of the pieces.
+// Inputs of ffmpeg in the folder of the pieces.
 constexpr const char* kTexts = "texts.txt";
+constexpr const char* kPartList = "pieces.txt";
 
 // Thrown on the writing thread. The calling thread then reads the error of the encoder.
 struct EncoderStopped {};
@@ -165,7 +166,7 @@ void Movie::start_piece() {
         Interrupts::Shielded, options_.stop);
   } catch (const RunError& error) {
     unlink(piece.c_str());
-    fail(std::string(error.what()) + "; films need ffmpeg (apt install ffmpeg)");
+    fail(std::string(error.what()) + kInstallEncoder);
   }
 }
 
@@ -226,15 +227,17 @@ void Movie::join() {
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
   write_file(folder_ / kTexts, metadata_file(texts));
   require_unchanged(pieces);
-  std::filesystem::path joined;
+  const std::filesystem::path path = folder_ / ("joined" + format_->extension);
+  const NewFile joined{path, open_new(path)};
+  if (!joined.file) fail(std::strerror(errno));
   try {
-    joined =
-        join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, *format_, program_);
+    join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, *format_,
+               folder_ / kPartList, joined, program_);
   } catch (const RunError& error) {
     fail(error.what());
   }
   try {
-    rename_synced(joined, path_);
+    rename_synced(joined.path, path_);
   } catch (const RunError& error) {
     throw RunError(error.what() + place_of_pieces());
   }

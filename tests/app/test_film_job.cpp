@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "tests/app/shell.h"
+#include "tests/app/film_scene.h"
 
 namespace clatter {
 
@@ -14,15 +14,6 @@ namespace {
 const std::string kFilm =
     "clatter render scene.toml --size 160x120 --speed 0.7 --from 2 --to 23 --shutter 0.5 "
     "--seed 5 --set particles.restitution=0.85 --backend osmesa --fps ";
-
-void write_scene(const Shell& shell) {
-  shell.write("scene.toml",
-              "title = \"Parts\"\nbox.size = [20, 15]\n"
-              "particles = { count = 100, restitution = 0.9 }\n"
-              "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
-              "walls.right = { kind = \"static\" }\n"
-              "view = { field = \"temperature\", window = 2.0, trails = 0.7 }\n");
-}
 
 // The word `name` for a shell.
 std::string word(const std::string& name) {
@@ -56,7 +47,7 @@ std::string await(const std::string& file) {
 
 TEST_CASE("Film job: tasks in any order make the film of one run, to the byte") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   for (const std::string out : {"film.mp4", "it's a %n.gif", "frames"}) {
     CAPTURE(out);
     REQUIRE(
@@ -85,7 +76,7 @@ TEST_CASE("Film job: tasks in any order make the film of one run, to the byte") 
 
 TEST_CASE("Film job: interrupted and killed tasks continue, and the film is the same") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   REQUIRE(shell.run(kFilm + "7 --quiet --out film.mp4 && mv film.mp4 whole").code == 0);
   REQUIRE(submit(shell, "film.mp4", "--slurm 1").code == 0);
   // Runs the task until a piece of the film has begun.
@@ -106,7 +97,7 @@ TEST_CASE("Film job: interrupted and killed tasks continue, and the film is the 
 
 TEST_CASE("Film job: the script has the resources, and as many tasks as the film has pieces") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   const auto script = [&](const std::string& flags) {
     const Outcome outcome = submit(shell, "film.mp4", flags + " --overwrite");
     CAPTURE(outcome.err);
@@ -128,6 +119,9 @@ TEST_CASE("Film job: the script has the resources, and as many tasks as the film
     }
     return 0.0;
   };
+  CHECK(has_line(script("--slurm 2 --threads 5"), "#SBATCH --cpus-per-task=2"));
+  REQUIRE(submit(shell, "frames", "--slurm 2 --threads 5").code == 0);
+  CHECK(has_line(script_of(shell, "frames"), "#SBATCH --cpus-per-task=5"));
   const double small = megabytes("--slurm 1");
   CHECK(small >= 200.0);
   // A large picture needs at least 4 bytes per pixel and sample, and a disk 48 bytes.
@@ -138,7 +132,7 @@ TEST_CASE("Film job: the script has the resources, and as many tasks as the film
 
 TEST_CASE("Film job: the parts of another film are kept unless they may be replaced") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   REQUIRE(submit(shell, "film.mp4", "--slurm 2").code == 0);
   REQUIRE(shell.run(task("film.mp4", 1)).code == 0);
   const std::string part = "film.mp4.slurm/000000.mp4";
@@ -148,7 +142,7 @@ TEST_CASE("Film job: the parts of another film are kept unless they may be repla
     CAPTURE(other);
     const Outcome refused = submit(shell, "film.mp4", other);
     CHECK(refused.code == 2);
-    CHECK(says(refused.err, "has the pictures of another film; replace them with --overwrite"));
+    CHECK(says(refused.err, "has the job of another film; replace it with --overwrite"));
     CHECK(std::filesystem::exists(shell.path(part)));
   }
   // Files of others stay.
@@ -169,7 +163,7 @@ TEST_CASE("Film job: the parts of another film are kept unless they may be repla
 
 TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are named") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   for (const std::string range : {"000000.mkv --frames 0:60", "000120.mkv --frames 120:"}) {
     REQUIRE(shell.run("mkdir -p parts && " + kFilm + "7 --quiet --out parts/" + range).code == 0);
   }
@@ -182,26 +176,128 @@ TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are name
   check_refused(shell, kFilm + "3 --join parts --out film.mkv", {"the parts have more frames"});
   shell.run("cp parts/000060.mkv parts/000300.mkv");
   check_refused(shell, join + "--out film.mkv", {"parts: the parts have more frames"});
-  shell.run("rm parts/000300.mkv");
+  shell.run("mv parts/000300.mkv parts/60.mkv");
+  check_refused(shell, join + "--out film.mkv",
+                {"parts: 000060.mkv and 60.mkv begin at the same frame; remove one of them"});
+  shell.run("rm parts/60.mkv");
   check_refused(shell, join + "--out film.mp4", {"lack frame 0; draw 000000.mp4"});
   check_refused(shell, join + "--out parts/000000.mkv", {"is in the folder of the parts"});
   check_refused(shell, join + "--out film.png", {"only films are joined"});
   check_refused(shell, kFilm + "7 --join none --out film.mkv", {"none: No such file or directory"});
+  const Outcome without = shell.run(
+      "c=$(command -v clatter); PATH=/none $c render scene.toml --to 21 --speed 0.7 --fps 7 "
+      "--join parts --out film.mkv");
+  CHECK(without.code == 1);
+  CHECK(says(without.err, "cannot start ffmpeg: No such file or directory; films need ffmpeg"));
   const Outcome joined = shell.run(join + "--quiet --out film.mkv && " + kFilm +
                                    "7 --quiet --out whole.mkv && cmp film.mkv whole.mkv");
   CAPTURE(joined.err);
   CHECK(joined.code == 0);
 }
 
+TEST_CASE("Film job: parts with another size or frame rate are refused by name") {
+  const Shell shell;
+  write_film_scene(shell);
+  const auto draw = [&](const std::string& extension, int first, const std::string& flags) {
+    const std::string frames = std::to_string(first) + ':' + std::to_string(first + 60);
+    const Outcome drawn = shell.run(
+        "mkdir -p parts && clatter render scene.toml --to 12 --speed 1 --seed 5 --quiet --backend "
+        "osmesa --overwrite --frames " +
+        frames + " --out parts/" + std::to_string(first) + extension + ' ' + flags);
+    CAPTURE(drawn.err);
+    REQUIRE(drawn.code == 0);
+  };
+  for (const std::string extension : {".mp4", ".webm", ".mkv", ".gif"}) {
+    CAPTURE(extension);
+    const std::string join =
+        "clatter render scene.toml --to 12 --speed 1 --fps 10 --join parts --out film" + extension;
+    draw(extension, 0, "--size 64x48 --fps 10");
+    draw(extension, 60, "--size 64x50 --fps 10");
+    check_refused(shell, join,
+                  {"parts/60" + extension + ": its size is 64x50, and the size of 0" + extension +
+                   " is 64x48; draw all parts with one --size"});
+    draw(extension, 60, "--size 64x48 --fps 11");
+    check_refused(shell, join,
+                  {"parts/60" + extension + ": its frame rate is not 10; give the --fps of the"});
+    draw(extension, 60, "--size 64x48 --fps 10");
+    const Outcome joined = shell.run(join);
+    CAPTURE(joined.err);
+    CHECK(joined.code == 0);
+  }
+}
+
+TEST_CASE("Film job: a join writes no files beside the parts, and follows a link to another disk") {
+  const Shell shell;
+  write_film_scene(shell);
+  REQUIRE(shell.run(kFilm + "7 --quiet --out whole.mkv").code == 0);
+  shell.run(
+      "mkdir parts && cp whole.mkv parts/000000.mkv && cd parts && echo mine >pieces.txt && "
+      "echo mine >joined.mkv && touch -d @0 .");
+  // /dev/shm is another file system on most machines.
+  const Outcome joined = shell.run(
+      "disk=$(mktemp -d -p /dev/shm || mktemp -d)\nln -s $disk/film.mkv link.mkv\n" + kFilm +
+      "7 --quiet --join parts --out link.mkv; code=$?\n"
+      "cmp whole.mkv $disk/film.mkv && ls -A $disk\nrm -r $disk\nexit $code");
+  CAPTURE(joined.err);
+  CHECK(joined.code == 0);
+  CHECK(joined.out == "film.mkv\n");
+  CHECK(shell.run("cd parts; ls -A | xargs; stat -c %Y .; cat joined.mkv pieces.txt").out ==
+        "000000.mkv joined.mkv pieces.txt\n0\nmine\nmine\n");
+}
+
+TEST_CASE("Film job: the tasks have the start state of the submission") {
+  const Shell shell;
+  const std::string film = "clatter render --to 1 --fps 10 --size 64x48 --backend osmesa --quiet ";
+  const std::string submit = " --slurm 1 --dry-run --out ";
+  const auto same_pictures = [](const std::string& one, const std::string& two) {
+    return "for f in " + one + ' ' + two +
+           "; do ffmpeg -v error -y -i $f -f framemd5 $f.sums; done && cmp " + one + ".sums " +
+           two + ".sums";
+  };
+  // The gallery has its own cradle.csv.
+  shell.write("cradle.csv", "nonsense\n");
+  const Outcome cradle =
+      shell.run(film + "cradle --out a.mkv && " + film + "cradle" + submit + "b.mkv && " +
+                task("b.mkv", 1) + " && " + same_pictures("a.mkv", "b.mkv"));
+  CAPTURE(cradle.err);
+  CHECK(cradle.code == 0);
+
+  shell.write("two.csv", "x,y,vx,vy\n3,3,1,0\n6,3,0,1\n");
+  shell.write("two.toml",
+              "title = \"Two\"\nbox.size = [20, 15]\n"
+              "particles.start = { layout = \"file\", file = \"two.csv\" }\n");
+  const std::string job = film + "two.toml" + submit + "d.mkv";
+  REQUIRE(shell.run(film + "two.toml --out c.mkv && " + job).code == 0);
+  shell.write("two.csv", "x,y,vx,vy\n9,9,1,0\n6,3,0,1\n");
+  const Outcome other = shell.run(job);
+  CHECK(other.code == 2);
+  CHECK(says(other.err, "has the job of another film"));
+  const Outcome two = shell.run(task("d.mkv", 1) + " && " + same_pictures("c.mkv", "d.mkv"));
+  CAPTURE(two.err);
+  CHECK(two.code == 0);
+}
+
 TEST_CASE("Film job: wrong flags are refused") {
   const Shell shell;
-  write_scene(shell);
+  write_film_scene(shell);
   check_refused(shell, kFilm + "7 --slurm 2 --out film.png", {"one picture needs no tasks"});
   check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4 --frames 0:60", {"--slurm"});
   check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4 --join d", {"--slurm"});
   check_refused(shell, kFilm + "7 --slurm 0 --out film.mp4", {"--slurm: '0' is wrong"});
   check_refused(shell, kFilm + "7 --time 1:00 --out film.mp4", {"--time requires --slurm"});
   check_refused(shell, kFilm + "7 --slurm 2 --out none/film.mp4", {"there is no folder none"});
+  check_refused(shell, kFilm + "7 --slurm 2 --out film.avi", {"the format .avi is not supported"});
+  shell.run(
+      "mkdir film.mp4 && touch film.webm && chmod a-w film.webm && touch frames film.checkpoint");
+  check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4", {"film.mp4 is a folder"});
+  const Outcome locked = shell.run(kFilm + "7 --slurm 2 --out film.webm");
+  CHECK(locked.code == 1);
+  CHECK(says(locked.err, "cannot write film.webm: it is write-protected"));
+  CHECK(shell.run(kFilm + "7 --slurm 2 --out frames").code == 1);
+  CHECK_FALSE(std::filesystem::exists(shell.path("frames.slurm")));
+  // Checkpoints of other runs do not matter: the tasks have their own.
+  CHECK(shell.run("rm -r film.mp4; " + kFilm + "7 --slurm 2 --dry-run --out film.mp4").code == 0);
+  shell.run("rm -r film.mp4.slurm");
   const Outcome none = shell.run(
       "c=$(command -v clatter); PATH=/none $c render scene.toml --slurm 2 --out film.mp4");
   CHECK(none.code == 1);

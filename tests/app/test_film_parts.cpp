@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/app/shell.h"
+#include "tests/app/film_scene.h"
 
 namespace clatter {
 
@@ -17,14 +17,10 @@ const std::string kFilm =
     "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --shutter 0.7 --to 15 ";
 
 void write_scene(const Shell& shell) {
-  shell.write("scene.toml",
-              "title = \"Parts\"\nbox.size = [20, 15]\n"
-              "particles = { count = 100, restitution = 0.9 }\n"
-              "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
-              "walls.right = { kind = \"static\" }\n"
-              "view = { field = \"temperature\", window = 2.0, arrows = \"velocity\", trails = 0.7,"
-              " camera = [{ time = 5.0 }, { time = 9.0, follow = 3, width = 8.0 }] }\n"
-              "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
+  write_film_scene(shell,
+                   ", arrows = \"velocity\", camera = [{ time = 5.0 }, { time = 9.0, follow = 3, "
+                   "width = 8.0 }]",
+                   "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }
 
 // One line per frame of a film, or per picture of a folder, with a hash of its pixels.

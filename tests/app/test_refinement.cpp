@@ -252,6 +252,26 @@ TEST_CASE("Refinement: the first axis of the file is refined, in any order of th
   CHECK(setting(points[0], "particles.restitution") == 0.3);
 }
 
+TEST_CASE("Refinement: a point without the mean of the goal is omitted and listed") {
+  const MadeSweep sweep(R"(scene = "vibrated"
+refine = true
+budget = 9
+[axes]
+"particles.restitution" = [0.1, 0.2, 0.3, 0.4]
+)");
+  sweep.measure([](const SweepPoint&) { return Mean{1.0, 0.1}; });
+  // As a result of a cooled gas, without a temperature.
+  const auto file = sweep.folder().result(2);
+  json result = json::parse(testing::bytes_of(file));
+  result.erase("temperature");
+  testing::write_bytes(file, result.dump());
+  // The middle of 0.1 and 0.3 is the omitted point.
+  CHECK(sweep.next() == std::vector<std::string>{"particles.restitution=0.35"});
+  const auto omitted = points_without_goal(sweep.folder(), sweep.folder().sweep());
+  REQUIRE(omitted.size() == 1);
+  CHECK(settings_text(omitted[0]) == "particles.restitution=0.2");
+}
+
 TEST_CASE("Refinement: results without the mean of the goal are refused") {
   const MadeSweep sweep(R"(scene = "vibrated"
 accuracy = "5%"

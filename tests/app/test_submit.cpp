@@ -225,6 +225,9 @@ TEST_CASE("Submit: wrong flags are refused") {
                 {"--chunk: '0' is wrong; give a whole number between 1 and 100000"});
   check_refused(shell, "clatter sweep submit none --parallel",
                 {"none: this is not the folder of a sweep"});
+  REQUIRE(shell.run("clatter sweep s.toml --out 'a{}b' --prepare").code == 0);
+  check_refused(shell, "clatter sweep submit 'a{}b' --parallel",
+                {"a{}b: GNU parallel replaces braces in the name of this folder; rename it"});
   // sbatch is not installed.
   const Outcome none = shell.run("c=$(command -v clatter); PATH=/none $c sweep submit d --slurm");
   CHECK(none.code == 1);

@@ -557,7 +557,7 @@ TEST_CASE("Sweep: damaged and foreign files are named, and never counted") {
   CHECK(unreadable.code == 1);
   CHECK(says(unreadable.err, "cannot read d/results: Not a directory"));
   // Results.
-  for (const char* damage : {": > d/results/3.json", "echo '{\"state_hash\":1}' > d/results/3.json",
+  for (const char* damage : {"echo '{\"state_hash\":1}' > d/results/3.json",
                              "sed -i 's/\"profile\": *{/\"profile\":4, \"x\": {/' d/results/3.json",
                              "cp d/results/2.json d/results/3.json"}) {
     CAPTURE(std::string(damage));
@@ -567,6 +567,19 @@ TEST_CASE("Sweep: damaged and foreign files are named, and never counted") {
     CHECK_MESSAGE(says(outcome.err, "is damaged; remove it, and start the sweep again"),
                   outcome.err);
   }
+}
+
+TEST_CASE("Sweep: an empty result is measured again") {
+  const Shell shell;
+  write_sweep(shell);
+  REQUIRE(shell.run("clatter sweep s.toml --out d --quiet && cp d/results/2.json whole").code == 0);
+  shell.run(": >d/results/2.json");
+  CHECK(says(shell.run("clatter sweep status d").err, " 0 failed, 1 open"));
+  CHECK(shell.run("clatter sweep s.toml --out d --quiet").code == 0);
+  CHECK(shell
+            .run("for f in whole d/results/2.json; do sed '/performance/,$d' $f >$f.kept; done; "
+                 "cmp whole.kept d/results/2.json.kept")
+            .code == 0);
 }
 
 TEST_CASE("Sweep: a single run is measured by hand, once") {

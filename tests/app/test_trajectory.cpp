@@ -160,8 +160,9 @@ TEST_CASE("Trajectory: the formats have the same numbers under their own names")
     REQUIRE(rows.size() == 6 * particles);
 
     const std::string xyz = shell.read("t.xyz"), dump = shell.read("t.lammpstrj");
-    const std::string lattice = disks ? "Lattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T F F\""
-                                      : "Lattice=\"8 0 0 0 6 0 0 0 5\" pbc=\"T T F\"";
+    const std::string lattice =
+        disks ? "Lattice=\"8 0 0 0 6 0 0 0 1\" Origin=\"0 0 -0.5\" pbc=\"T F F\""
+              : "Lattice=\"8 0 0 0 6 0 0 0 5\" pbc=\"T T F\"";
     CHECK(says(xyz, std::to_string(particles) + "\n" + lattice + " Time=4 "));
     CHECK(
         says(xyz, " Properties=species:S:1:pos:R:3:velo:R:3:omega:R:3:map_shift:I:3:radius:R:1\n"));
@@ -269,18 +270,68 @@ TEST_CASE("Trajectory: a resumed run continues it without a gap or a double fram
   CHECK(Row(late.at(0))["image_x"] == "0");
 }
 
+TEST_CASE("Trajectory: the columns stay where spins appear or disappear") {
+  const Shell shell;
+  for (const bool first : {true, false}) {  // whether particles spin before the change, or after
+    CAPTURE(first);
+    const std::string before = first ? "0.3" : "-1.0", after = first ? "-1.0" : "0.3";
+    shell.write("s.toml",
+                "title = \"T\"\nbox.size = [8, 6]\n"
+                "particles = { count = 7, restitution = 0.9, tangential_restitution = " +
+                    before +
+                    " }\nmeasure = { burn_in = 1.0, duration = 20.0 }\n[[change]]\ntime = 5.0\n"
+                    "set = { \"particles.tangential_restitution\" = " +
+                    after + " }\n");
+    const Outcome run = shell.run(kRun + "--trajectory t.csv --every 2");
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    std::map<bool, bool> spin;  // by whether the time is after the change
+    for (Row row : rows_in(shell.read("t.csv"))) {
+      REQUIRE(row.contains("omega"));
+      if (row["omega"] != "0") spin[std::stod(row["time"]) > 5.0] = true;
+    }
+    CHECK(spin[!first]);
+  }
+}
+
+TEST_CASE("Trajectory: a lost frame is an error, although the system reports it once") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  const std::string run = "env LD_PRELOAD=" CLATTER_FAILED_SYNC " " + kRun + "--every 1 ";
+  const std::string lost = "cannot write t.csv: Input/output error";
+  const Outcome at_end = shell.run(run + "--trajectory t.csv");
+  CHECK(at_end.code == 1);
+  CHECK(says(at_end.err, lost));
+  CHECK(says(shell.read("r.json"), "state_hash"));
+  // The first checkpoint reports the error, and the last one too.
+  const Outcome at_checkpoint =
+      shell.run(run + "--trajectory t.csv --checkpoint c --checkpoint-every 1e-9");
+  CHECK(at_checkpoint.code == 1);
+  CHECK(says(at_checkpoint.err, "no checkpoint was written: " + lost));
+}
+
 TEST_CASE("Trajectory: a failed write leaves a checkpoint, and wrong use is refused") {
   const Shell shell;
   shell.write("s.toml", kDisks);
   const Outcome full =
       shell.run("ulimit -f 100; " + kRun + "--trajectory t.xyz --every 0.1 --checkpoint c");
   CHECK(full.code == 1);
-  CHECK(says(full.err, "cannot write t.xyz: File too large; continue with --resume c"));
+  CHECK(says(full.err,
+             "cannot write t.xyz: File too large; continue with --resume c "
+             "--trajectory t.xyz --every 0.1\n"));
+  const Outcome without = shell.run("clatter measure s.toml --out r.json --resume c");
+  CHECK(without.code == 0);
+  CHECK(says(without.err, "note: the trajectory of c does not continue without --trajectory"));
   REQUIRE(shell.run(kRun + "--trajectory t.xyz --every 0.1 --resume c").code == 0);
   CHECK(shell.run(kRun + "--trajectory u.xyz --every 0.1 && cmp t.xyz u.xyz").code == 0);
 
   check_refused(shell, kRun + "--trajectory t.foo --every 1",
                 {"--trajectory: t.foo has no extension of a trajectory; give a name that ends in"});
+  shell.run("mkfifo pipe.csv; ln -s /dev/stdout out.csv");
+  for (const std::string file : {"pipe.csv", "out.csv"}) {
+    check_refused(shell, "timeout 10 " + kRun + "--every 1 --trajectory " + file,
+                  {"--trajectory: " + file + " is not a regular file; give the name of a file"});
+  }
   check_refused(shell, kRun + "--trajectory v.xyz", {"--trajectory requires --every"});
   check_refused(shell, kRun + "--every 1", {"--every requires --trajectory"});
   check_refused(shell, kRun + "--trajectory v.xyz --every 0", {"--every"});

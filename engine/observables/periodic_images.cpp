@@ -1,45 +1,46 @@
-#include "engine/observables/images.h"
+#include "engine/observables/periodic_images.h"
 
 namespace clatter {
 
 template <int D>
-Images<D>::Images(Simulation<D>& simulation)
+PeriodicImages<D>::PeriodicImages(Simulation<D>& simulation)
     : simulation_(simulation), of_flights_(simulation.particles().size()) {
   for (std::size_t i = 0; i < of_flights_.size(); ++i) of_flights_[i] = -image_in_flight(i);
   simulation.add_observer(*this);
 }
 
 template <int D>
-Images<D>::Images(Simulation<D>& simulation, const Images& before) : Images(simulation) {
+PeriodicImages<D>::PeriodicImages(Simulation<D>& simulation, const PeriodicImages& before)
+    : PeriodicImages(simulation) {
   const std::vector<IntVec<D>> images = before.images();
   for (std::size_t i = 0; i < of_flights_.size(); ++i) of_flights_[i] += images[i];
 }
 
 // The next flight begins inside the box.
 template <int D>
-void Images<D>::move(const ParticleChange<D>& change) {
+void PeriodicImages<D>::move(const ParticleChange<D>& change) {
   of_flights_[change.particle] +=
       simulation_.model().image_index(change.position).template cast<int>();
 }
 
 template <int D>
-void Images<D>::on_collision(const PairCollision<D>& collision) {
+void PeriodicImages<D>::on_collision(const PairCollision<D>& collision) {
   for (const ParticleChange<D>& change : collision.particles) move(change);
 }
 
 template <int D>
-void Images<D>::on_wall(const WallCollision<D>& collision) {
+void PeriodicImages<D>::on_wall(const WallCollision<D>& collision) {
   move(collision.particle);
 }
 
 template <int D>
-void Images<D>::on_kick(const Kick<D>& kick) {
+void PeriodicImages<D>::on_kick(const Kick<D>& kick) {
   move(kick.particle);
 }
 
 // The image of the position in state(), relative to the box in which the flight began.
 template <int D>
-IntVec<D> Images<D>::image_in_flight(std::size_t particle) const {
+IntVec<D> PeriodicImages<D>::image_in_flight(std::size_t particle) const {
   const Model<D>& model = simulation_.model();
   const Vec<D> r =
       simulation_.particles()[particle].flight.at(simulation_.base_time(), model.gravity);
@@ -55,13 +56,13 @@ IntVec<D> Images<D>::image_in_flight(std::size_t particle) const {
 }
 
 template <int D>
-std::vector<IntVec<D>> Images<D>::images() const {
+std::vector<IntVec<D>> PeriodicImages<D>::images() const {
   std::vector<IntVec<D>> images = of_flights_;
   for (std::size_t i = 0; i < images.size(); ++i) images[i] += image_in_flight(i);
   return images;
 }
 
-template class Images<2>;
-template class Images<3>;
+template class PeriodicImages<2>;
+template class PeriodicImages<3>;
 
 }  // namespace clatter

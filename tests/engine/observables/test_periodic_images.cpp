@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/checkpoint/archive.h"
-#include "engine/observables/images.h"
+#include "engine/observables/periodic_images.h"
 #include "engine/publish/scheduled_run.h"
 #include "tests/support/scenes.h"
 
@@ -25,7 +25,7 @@ Scene falling_gas() {
 
 // Sum of the unwrapped positions.
 template <int D>
-Vec<D> centre(const Simulation<D>& simulation, const Images<D>& images) {
+Vec<D> centre(const Simulation<D>& simulation, const PeriodicImages<D>& images) {
   const State<D> state = simulation.state();
   const std::vector<IntVec<D>> boxes = images.images();
   Vec<D> sum = Vec<D>::Zero();
@@ -47,11 +47,12 @@ Vec<D> momentum(const Simulation<D>& simulation) {
 
 // Collisions conserve momentum. So the unwrapped centre of mass falls freely, although particles
 // cross the sides of the box many times, in collisions too. A lost image is an error of at least 6.
-TEST_CASE_TEMPLATE("Images: the unwrapped centre of mass falls freely", Dimension, Plane, Space) {
+TEST_CASE_TEMPLATE("Periodic images: the unwrapped centre of mass falls freely", Dimension, Plane,
+                   Space) {
   constexpr int D = Dimension::value;
   const Scene scene = falling_gas<D>();
   const auto simulation = simulation_of<D>(scene, 5);
-  Images<D> images(*simulation);
+  PeriodicImages<D> images(*simulation);
   const Vec<D> start = centre(*simulation, images), speed = momentum(*simulation);
   const Vec<D> force = 20.0 * Vec<D>(*scene.gravity);
   for (const double time : {0.0, 1.0, 20.0, 100.0}) {
@@ -66,18 +67,18 @@ TEST_CASE_TEMPLATE("Images: the unwrapped centre of mass falls freely", Dimensio
   CHECK(simulation->counts().pair_collisions > 200);
 }
 
-TEST_CASE_TEMPLATE("Images: a resumed run has them, also under other laws", Dimension, Plane,
-                   Space) {
+TEST_CASE_TEMPLATE("Periodic images: a resumed run has them, also under other laws", Dimension,
+                   Plane, Space) {
   constexpr int D = Dimension::value;
   Scene scene = falling_gas<D>();
   const auto simulation = simulation_of<D>(scene, 6);
-  Images<D> images(*simulation);
+  PeriodicImages<D> images(*simulation);
   simulation->run_until(30.0);
   ArchiveWriter writer;
   writer(images);
 
   Simulation<D> resumed(model_of<D>(scene, 6), simulation->save());
-  Images<D> read(resumed);
+  PeriodicImages<D> read(resumed);
   ArchiveReader reader(writer.written(), "");
   reader(read);
   reader.finish();
@@ -86,7 +87,7 @@ TEST_CASE_TEMPLATE("Images: a resumed run has them, also under other laws", Dime
   const Vec<D> start = centre(*simulation, images), speed = momentum(*simulation);
   scene.gravity = VecX::LinSpaced(D, -0.3, 0.2);
   Simulation<D> changed(model_of<D>(scene, 6), simulation->save());
-  Images<D> handed(changed, images);
+  PeriodicImages<D> handed(changed, images);
   CHECK(handed.images() == images.images());
   simulation->run_until(60.0);
   resumed.run_until(60.0);

@@ -10,13 +10,13 @@ namespace clatter {
 /// Periodic images of the particles: the whole box lengths that each has moved along periodic axes
 /// since this observer was made. Position + image * box is the unwrapped position.
 template <int D>
-class Images : public Observer<D> {
+class PeriodicImages : public Observer<D> {
  public:
   /// Watches a simulation from now on. All images are 0.
-  explicit Images(Simulation<D>& simulation);
+  explicit PeriodicImages(Simulation<D>& simulation);
   /// Continues the images of `before`. The new simulation has the same particles at the same time,
   /// and the one of `before` still exists.
-  Images(Simulation<D>& simulation, const Images& before);
+  PeriodicImages(Simulation<D>& simulation, const PeriodicImages& before);
 
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
@@ -39,7 +39,7 @@ class Images : public Observer<D> {
   std::vector<IntVec<D>> of_flights_;  // [N] image of the box in which the current flight began
 };
 
-extern template class Images<2>;
-extern template class Images<3>;
+extern template class PeriodicImages<2>;
+extern template class PeriodicImages<3>;
 
 }  // namespace clatter
