@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/dimension.h"
 #include "engine/dynamics/memory.h"
 #include "engine/measure/measurement.h"
+#include "engine/observables/observables.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/scene_keys.h"
 
@@ -46,6 +48,37 @@ FeatureCost fields_of(const Scene& scene) {
           price};
 }
 
+// Price of an observable, minus 1. Samples are priced at one sample per mean free time.
+struct ObservablePrice {
+  ObservableKind kind;
+  double surcharge;
+};
+constexpr std::array<ObservablePrice, 7> kObservablePrices = {
+    {{ObservableKind::RadialDistribution, 0.7},
+     {ObservableKind::VelocityDistribution, 0.05},
+     {ObservableKind::FreeFlights, 0.17},
+     {ObservableKind::Collisions, 0.22},
+     {ObservableKind::WallHits, 0.05},
+     {ObservableKind::MeanSquaredDisplacement, 0.3},
+     {ObservableKind::VelocityAutocorrelation, 0.1}}};
+
+FeatureCost observables_of(const Scene& scene) {
+  const Measure& measure = scene.measure;
+  if (measure.observables.empty()) return {"observables", "no", 0.0, std::nan("")};
+  const double rate =
+      enskog_rate(scene.packing_fraction(), scene.particles.start.temperature, scene.dimension());
+  std::string names;
+  double price = 1.0;
+  for (const auto& [kind, surcharge] : kObservablePrices) {
+    if (!measure.observes(kind)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(kind, kObservables));
+    const std::optional<double> interval = measure.sampling_interval(kind);
+    price += interval ? surcharge / (*interval * rate) : surcharge;
+  }
+  return {"observables", names,
+          observables_memory(measure, scene.dimension(), scene.particles.count), price};
+}
+
 // A kick of one disk costs about half a collision of two disks. Valid at the temperature of the
 // start.
 double kick_cost(const Scene& scene) {
@@ -78,7 +111,8 @@ std::vector<FeatureCost> feature_costs(const Scene& scene) {
           {"bulk drive", yes(scene.bulk_drive.has_value()), 0.0,
            scene.bulk_drive ? kick_cost(scene) : std::nan("")},
           {"t_c", yes(scene.contact_time.has_value()), memory.last_collisions, kContactTimeCost},
-          fields_of(scene)};
+          fields_of(scene),
+          observables_of(scene)};
 }
 
 double memory_of(const Scene& scene) {
