@@ -181,19 +181,6 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
   if (!failure.empty()) throw RunError(failure + run.rescue());
 }
 
-void require_bounded_samples(const Measure& spec, double end) {
-  if (end / spec.series_interval > kMaxSamples) {
-    throw UserError(
-        {"measure.series_interval", 0, 0},
-        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
-        "choose at least " + number_text(end / kMaxSamples));
-  }
-  if (spec.estimator == Estimator::Snapshot && (end - spec.burn_in) / spec.interval > kMaxSamples) {
-    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
-                    "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
-  }
-}
-
 // Replicas have no checkpoint. A result that cannot be written goes to stdout; if stdout fails, it
 // goes to the new file `spare`.
 void write_or_rescue(const std::string& out, const std::string& spare,
@@ -326,6 +313,19 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
 }
 
 }  // namespace
+
+void require_bounded_samples(const Measure& spec, double end) {
+  if (end / spec.series_interval > kMaxSamples) {
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMaxSamples));
+  }
+  if (spec.estimator == Estimator::Snapshot && (end - spec.burn_in) / spec.interval > kMaxSamples) {
+    throw UserError({"measure.interval", 0, 0}, "there would be more than 1e7 snapshots",
+                    "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
+  }
+}
 
 int measure(const MeasureOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());

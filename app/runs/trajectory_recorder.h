@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/results/trajectory.h"
+#include "app/runs/regular_times.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/images.h"
 
@@ -23,7 +24,7 @@ class TrajectoryRecorder {
                      const std::string& saved, const std::string& checkpoint);
 
   /// The simulation time of the next frame.
-  double next_time() const;
+  double next_time() const { return times_.of(next_); }
   /// Appends the state of the simulation, which is at next_time(). Throws RunError.
   void add(const Simulation<D>& simulation);
   /// Observes the next simulation of the run, before the previous one ends.
@@ -34,8 +35,8 @@ class TrajectoryRecorder {
  private:
   TrajectoryFormat format_;
   double every_;
-  double decimals_ = 0.0;  // a power of ten that makes `every_` a whole number; 0: none
-  long next_ = 0;          // number of the next frame
+  RegularTimes times_;
+  long next_ = 0;  // number of the next frame
   std::optional<Images<D>> images_;
   std::optional<TrajectoryFile> file_;
 };
