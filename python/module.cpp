@@ -177,15 +177,9 @@ PYBIND11_MODULE(clatter, module) {
       "A physical reason ends the run, for example inelastic collapse. The gas keeps its state, "
       "and may continue under other laws.";
 
-  module.def("load", load_gas, "scene"_a, "seed"_a = 1, "set"_a = py::none(),
-             "The gas of a scene, at time 0.\n\n"
-             "scene: path of a scene file or of a picture by clatter, name in the gallery, or a "
-             "nested dict with the keys of a scene file. Files that a dict names are relative to "
-             "the current folder.\n"
-             "seed: seed of all random numbers, a whole number >= 0.\n"
-             "set: dict of keys and values as in --set, {\"particles.count\": 500}. The keyword "
-             "particles__count=500 is the same.\n\n"
-             "Raises SceneError.");
+  py::class_<Frames>(module, "Frames", "Iterator of Gas.frames().")
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__", next_frame);
 
   py::class_<Gas>(module, "Gas",
                   "A gas of disks or spheres. clatter.load() makes one. Only one thread at a time "
@@ -201,9 +195,8 @@ PYBIND11_MODULE(clatter, module) {
       .def_property_readonly("seed", &Gas::seed, "Seed of all random numbers of the run.")
       .def_property_readonly(
           "scene", [](Gas& gas) { return from_json(gas.scene_json()); },
-          "The scene at the start as a dict, with every default and all changes of laws so far: "
-          "the "
-          "key scene of a result. Lengths are in diameters.")
+          "The scene at the start as a dict, with every default and all changes of laws so far, as "
+          "the key scene of a result. Lengths are in diameters.")
       .def_property_readonly("positions", positions,
                              "Centres now, in diameters: a copy, (N, D) float64, wrapped into the "
                              "box.")
@@ -245,9 +238,15 @@ PYBIND11_MODULE(clatter, module) {
            "Averages, trails and angles of the scene's view are observed from time 0. Raises "
            "SceneError, and RunError without OpenGL.");
 
-  py::class_<Frames>(module, "Frames", "Iterator of Gas.frames().")
-      .def("__iter__", [](py::object self) { return self; })
-      .def("__next__", next_frame);
+  module.def("load", load_gas, "scene"_a, "seed"_a = 1, "set"_a = py::none(),
+             "The gas of a scene, at time 0.\n\n"
+             "scene: path of a scene file or of a picture by clatter, name in the gallery, or a "
+             "nested dict with the keys of a scene file. Files that a dict names are relative to "
+             "the current folder.\n"
+             "seed: seed of all random numbers, a whole number >= 0.\n"
+             "set: dict of keys and values as in --set, {\"particles.count\": 500}. The keyword "
+             "particles__count=500 is the same.\n\n"
+             "Raises SceneError.");
 }
 
 }  // namespace clatter
