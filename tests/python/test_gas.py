@@ -51,6 +51,7 @@ class Runs(unittest.TestCase):
             self.assertEqual(len(omegas), {2: 1, 3: 3}[dimension])
             gas = clatter.load(path, seed=4)
             count = len(gas.positions)
+            self.assertEqual(gas.spins.shape, {2: (count,), 3: (count, 3)}[dimension])
             frames = 0
             for frame in gas.frames(every=0.1, until=6.0):
                 self.assertIs(frame, gas)
