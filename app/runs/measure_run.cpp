@@ -184,26 +184,6 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
   if (!failure.empty()) throw RunError(failure + run.rescue());
 }
 
-void require_bounded_samples(const Measure& spec, double end) {
-  if (end / spec.series_interval > kMaxSamples) {
-    throw UserError(
-        {"measure.series_interval", 0, 0},
-        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
-        "choose at least " + number_text(end / kMaxSamples));
-  }
-  const auto require = [&](const std::string& key, double interval) {
-    if ((end - spec.burn_in) / interval <= kMaxSamples) return;
-    throw UserError({key, 0, 0}, "there would be more than 1e7 samples",
-                    "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
-  };
-  if (spec.estimator == Estimator::Snapshot) require("measure.interval", spec.interval);
-  for (const auto& [name, kind] : kObservables) {
-    const std::optional<double> interval = spec.sampling_interval(kind);
-    if (spec.observes(kind) && interval)
-      require(fmt::format("measure.{}.interval", name), *interval);
-  }
-}
-
 // Replicas have no checkpoint. A result that cannot be written goes to stdout; if stdout fails, it
 // goes to the new file `spare`.
 void write_or_rescue(const std::string& out, const std::string& spare,
@@ -340,6 +320,26 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
 }
 
 }  // namespace
+
+void require_bounded_samples(const Measure& spec, double end) {
+  if (end / spec.series_interval > kMaxSamples) {
+    throw UserError(
+        {"measure.series_interval", 0, 0},
+        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
+        "choose at least " + number_text(end / kMaxSamples));
+  }
+  const auto require = [&](const std::string& key, double interval) {
+    if ((end - spec.burn_in) / interval <= kMaxSamples) return;
+    throw UserError({key, 0, 0}, "there would be more than 1e7 samples",
+                    "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
+  };
+  if (spec.estimator == Estimator::Snapshot) require("measure.interval", spec.interval);
+  for (const auto& [name, kind] : kObservables) {
+    const std::optional<double> interval = spec.sampling_interval(kind);
+    if (!spec.observes(kind) || !interval) continue;
+    require(fmt::format("measure.{}.interval", name), *interval);
+  }
+}
 
 int measure(const MeasureOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());

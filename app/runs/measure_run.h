@@ -5,6 +5,7 @@
 
 #include "app/runs/accuracy_goal.h"
 #include "app/runs/options.h"
+#include "engine/scene/scene.h"
 
 namespace clatter {
 
@@ -23,6 +24,10 @@ struct MeasureOptions {
   double every = 0.0;          ///< interval of the trajectory, in simulation time
   std::string save_state;      ///< file for the state at the end; empty: none
 };
+
+/// Throws UserError if a measurement up to the simulation time `end` would have more than 1e7
+/// samples.
+void require_bounded_samples(const Measure& measure, double end);
 
 /// Measures a scene and writes the results. Returns the exit code. Throws UserError, RunError,
 /// PhysicalStop, and Interrupted before the run begins.

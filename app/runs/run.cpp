@@ -7,28 +7,15 @@
 #include <limits>
 #include <utility>
 
+#include "app/runs/measurement_hand_over.h"
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
-#include "engine/dynamics/boundary.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/schedule.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
-
-// Whether averages can continue under a new model. They cannot under another gravity: a flight is
-// booked at its end, with the gravity of that time. They cannot under another wall motion, which
-// restarts flights. They cannot if spins appear, disappear or change their inertia: the fields need
-// other sums, and the energy of cells changes.
-template <int D>
-static bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>& model,
-                           const Measure& measure) {
-  const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
-  const bool same_sums = measure.fields.empty() || same_spins;
-  return same_sums && saved.gravity == model.gravity &&
-         saved.wall_motions == wall_motions<D>(model);
-}
 
 static std::uint64_t seed_of(const CommonOptions& options, const std::optional<Resumed>& resumed) {
   return options.seed.value_or(resumed ? resumed->checkpoint.seed : 1);
@@ -151,12 +138,7 @@ void Run<D>::follow(Simulation<D>& next) {
 
 template <int D>
 void Run<D>::measure_on(Simulation<D>& next) {
-  const bool same_inertia = simulation().model().inertia == next.model().inertia;
-  if (averages_go_on(simulation().save(), same_inertia, next.model(), scene_.measure)) {
-    const std::string saved = measurement_->save();
-    measurement_.emplace(next, scene_.measure, ArchiveReader(saved, command_));
-  } else {
-    measurement_.emplace(next, scene_.measure, measure_end_);
+  if (!hand_over(measurement_, simulation(), next, scene_.measure, measure_end_)) {
     tell_new_averages();
   }
 }

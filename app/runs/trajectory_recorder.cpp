@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 
 #include "engine/checkpoint/archive.h"
@@ -28,25 +27,7 @@ void visit(Archive& io, SavedTrajectory& saved) {
   io(every, next, bytes, format, spins);
 }
 
-// The smallest power of ten whose product with a number is whole, so that the number is the double
-// next to their quotient. 0: none.
-double decimals_of(double number) {
-  constexpr double kMost = 1e15;
-  for (double power = 1.0; power <= kMost; power *= 10.0) {
-    if (std::round(number * power) / power == number) return power;
-  }
-  return 0.0;
-}
-
 }  // namespace
-
-// The double next to the decimal number: 3 intervals of 0.1 are 0.3, and 3 * 0.1 is not.
-template <int D>
-double TrajectoryRecorder<D>::next_time() const {
-  const auto count = static_cast<double>(next_);
-  if (decimals_ == 0.0) return count * every_;
-  return count * std::round(every_ * decimals_) / decimals_;
-}
 
 template <int D>
 TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
@@ -55,9 +36,8 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
       path_(path),
       every_(every),
       spins_(spins),
-      decimals_(decimals_of(every)) {
-  next_ = static_cast<long>(std::floor(simulation.time() / every));
-  while (next_time() < simulation.time()) ++next_;
+      times_(every),
+      next_(times_.first_from(simulation.time())) {
   images_.emplace(simulation);
   file_.emplace(path, 0);
   file_->append(header_text<D>(format_, spins));
@@ -71,7 +51,7 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
       path_(path),
       every_(every),
       spins_(spins),
-      decimals_(decimals_of(every)) {
+      times_(every) {
   images_.emplace(simulation);
   ArchiveReader reader(saved, checkpoint);
   SavedTrajectory before;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/results/trajectory.h"
+#include "app/runs/regular_times.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/periodic_images.h"
 
@@ -28,7 +29,7 @@ class TrajectoryRecorder {
                      const std::string& checkpoint);
 
   /// The simulation time of the next frame.
-  double next_time() const;
+  double next_time() const { return times_.of(next_); }
   /// Appends the state of the simulation, which is at next_time(). Throws RunError.
   void add(const Simulation<D>& simulation);
   /// Observes the next simulation of the run, before the previous one ends.
@@ -45,8 +46,8 @@ class TrajectoryRecorder {
   std::filesystem::path path_;
   double every_;
   bool spins_;
-  double decimals_ = 0.0;  // a power of ten that makes `every_` a whole number; 0: none
-  long next_ = 0;          // number of the next frame
+  RegularTimes times_;
+  long next_ = 0;  // number of the next frame
   std::optional<PeriodicImages<D>> images_;
   std::optional<TrajectoryFile> file_;
 };

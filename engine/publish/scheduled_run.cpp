@@ -75,6 +75,11 @@ void ScheduledRun<D>::change(const std::vector<Override>& laws, double delay) {
   } else {
     settle();
   }
+  change_here(laws);
+}
+
+template <int D>
+void ScheduledRun<D>::change_here(const std::vector<Override>& laws) {
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
   changed.advance();

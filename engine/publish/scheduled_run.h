@@ -54,6 +54,9 @@ class ScheduledRun {
   /// remain. First it runs for up to `delay`, to the time with the fewest digits in it, if no
   /// physical stop prevents it.
   void change(const std::vector<Override>& laws, double delay = 0.0);
+  /// The same where the run is, as by a [[change]] of the scene. To be called after run_until() has
+  /// returned true or after settle().
+  void change_here(const std::vector<Override>& laws);
 
   /// Adds to later snapshots the averages, flights and angles that the view needs. `exposure` >= 0
   /// is the exposure time of a picture, in simulation time.

@@ -1,0 +1,40 @@
+#include "app/runs/measurement_hand_over.h"
+
+#include <string>
+
+#include "engine/dynamics/boundary.h"
+
+namespace clatter {
+
+// A flight is booked at its end, with the gravity of that time. Another wall motion restarts
+// flights. With other spins the fields need other sums, and the energy of cells changes.
+template <int D>
+bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>& model,
+                    const Measure& measure) {
+  const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
+  const bool same_sums = measure.fields.empty() || same_spins;
+  return same_sums && saved.gravity == model.gravity &&
+         saved.wall_motions == wall_motions<D>(model);
+}
+
+template <int D>
+bool hand_over(std::optional<Measurement<D>>& measurement, const Simulation<D>& before,
+               Simulation<D>& next, const Measure& measure, double end) {
+  const bool same_inertia = before.model().inertia == next.model().inertia;
+  if (!averages_go_on(before.save(), same_inertia, next.model(), measure)) {
+    measurement.emplace(next, measure, end);
+    return false;
+  }
+  const std::string saved = measurement->save();
+  measurement.emplace(next, measure, ArchiveReader(saved, "the measurement"));
+  return true;
+}
+
+template bool averages_go_on(const RunState<2>&, bool, const Model<2>&, const Measure&);
+template bool averages_go_on(const RunState<3>&, bool, const Model<3>&, const Measure&);
+template bool hand_over(std::optional<Measurement<2>>&, const Simulation<2>&, Simulation<2>&,
+                        const Measure&, double);
+template bool hand_over(std::optional<Measurement<3>>&, const Simulation<3>&, Simulation<3>&,
+                        const Measure&, double);
+
+}  // namespace clatter

@@ -1,0 +1,252 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "app/runs/picture_scene.h"
+#include "app/runs/regular_times.h"
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
+#include "python/gas.h"
+#include "python/toml_text.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace clatter {
+
+namespace {
+
+/// Asks Python some 20 times a second whether a signal handler has raised an exception. Python
+/// handles signals on its main thread only.
+class Signals {
+ public:
+  bool raised() {
+    if (std::this_thread::get_id() != thread_ || raised_) return raised_;
+    const auto now = Clock::now();
+    if (now < due_) return false;
+    due_ = now + std::chrono::milliseconds(50);
+    const py::gil_scoped_acquire acquired;
+    raised_ = PyErr_CheckSignals() != 0;
+    return raised_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::thread::id thread_ = std::this_thread::get_id();
+  Clock::time_point due_ = Clock::now();
+  std::atomic_bool raised_ = false;
+};
+
+/// Returns work(stop), which other threads of Python run beside. `stop` is made if a signal handler
+/// raises an exception, which is then thrown.
+template <class Work>
+auto without_gil(const Work& work) {
+  Signals signals;
+  try {
+    const py::gil_scoped_release released;
+    return work(StopRequest([&signals] { return signals.raised(); }));
+  } catch (const Interrupted&) {
+    throw py::error_already_set();
+  }
+}
+
+py::object from_json(const std::string& json) {
+  return py::module_::import("json").attr("loads")(json);
+}
+
+template <class Vector>
+py::array_t<double> array_of(const std::vector<Vector>& vectors) {
+  constexpr py::ssize_t kSize = Vector::RowsAtCompileTime;
+  static_assert(sizeof(Vector) == kSize * sizeof(double));
+  const double* const first = vectors.empty() ? nullptr : vectors.front().data();
+  return py::array_t<double>({static_cast<py::ssize_t>(vectors.size()), kSize}, first);
+}
+
+py::array_t<double> positions(Gas& gas) {
+  return std::visit([](const auto& state) { return array_of(state.positions); }, gas.state());
+}
+
+py::array_t<double> velocities(Gas& gas) {
+  return std::visit([](const auto& state) { return array_of(state.velocities); }, gas.state());
+}
+
+py::object spins(Gas& gas) {
+  return std::visit(
+      [](const auto& state) -> py::object {
+        if (state.spins.empty()) return py::none();
+        py::array_t<double> array = array_of(state.spins);
+        if (array.shape(1) == 1) return array.attr("reshape")(-1);
+        return array;
+      },
+      gas.state());
+}
+
+Scene scene_of(const py::object& source, const std::vector<Override>& settings) {
+  if (py::isinstance<py::dict>(source)) {
+    return parse_scene(scene_text(source.cast<py::dict>()), "scene", settings);
+  }
+  return load_any_scene(py::module_::import("os").attr("fspath")(source).cast<std::string>(),
+                        settings);
+}
+
+// particles__count=500 is the key particles.count.
+py::dict with_keywords(const py::object& set, const py::kwargs& keywords) {
+  py::dict all;
+  if (!set.is_none()) all = py::dict(set);
+  for (const auto& [name, value] : keywords) {
+    all[py::str(name).attr("replace")("__", ".")] = value;
+  }
+  return all;
+}
+
+std::unique_ptr<Gas> load_gas(const py::object& source, std::uint64_t seed, const py::object& set,
+                              const py::kwargs& keywords) {
+  const Scene scene = scene_of(source, overrides_of(with_keywords(set, keywords)));
+  return without_gil(
+      [&](const StopRequest& stop) { return std::make_unique<Gas>(scene, seed, stop); });
+}
+
+void run_until(Gas& gas, double time) {
+  without_gil([&](const StopRequest& stop) { gas.run_until(time, stop); });
+}
+
+py::object measure_gas(Gas& gas, const std::optional<double>& duration) {
+  return from_json(
+      without_gil([&](const StopRequest& stop) { return gas.measure(duration, stop); }));
+}
+
+py::array_t<unsigned char> draw_gas(Gas& gas, int width) {
+  const Image image = without_gil([&](const StopRequest& stop) { return gas.draw(width, stop); });
+  return py::array_t<unsigned char>({image.size.height, image.size.width, 4}, image.rgba.data());
+}
+
+/// The gas at regular times, see RegularTimes.
+struct Frames {
+  py::object gas;
+  RegularTimes times;
+  long next = 0;
+  double until = 0.0;
+};
+
+Frames frames(const py::object& gas, double every, double until) {
+  constexpr double kMost = 1e15;
+  const double last = std::max(until, gas.cast<Gas&>().time());
+  if (!(every > 0.0) || !(last / every < kMost)) {
+    throw UserError({"frames"}, "there would be no end of frames",
+                    "give an interval > 0 and a finite time");
+  }
+  return {gas, RegularTimes(every), 0, until};
+}
+
+py::object next_frame(Frames& frames) {
+  Gas& gas = frames.gas.cast<Gas&>();
+  frames.next = std::max(frames.next, frames.times.first_from(gas.time()));
+  const double time = frames.times.of(frames.next);
+  if (time > frames.until) throw py::stop_iteration();
+  run_until(gas, time);
+  ++frames.next;
+  return frames.gas;
+}
+
+std::string description(Gas& gas) {
+  return py::str("<clatter.Gas of {} particles at t = {}>")
+      .format(particle_count(gas.state()), gas.time());
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE
+PYBIND11_MODULE(clatter, module) {
+  module.doc() =
+      "Event-driven simulation of driven granular gases.\n\n"
+      "Lengths are in particle diameters and masses in particle masses, as in the scene file. "
+      "Time, speeds and temperatures follow from the scene.";
+  module.attr("__version__") = CLATTER_VERSION;
+  py::register_exception<UserError>(module, "SceneError", PyExc_ValueError).doc() =
+      "An error in a scene, a key or an argument: place, problem and fix.";
+  py::register_exception<RunError>(module, "RunError", PyExc_RuntimeError).doc() =
+      "A task cannot continue although the input is correct.";
+  py::register_exception<PhysicalStop>(module, "PhysicalStop", PyExc_RuntimeError).doc() =
+      "A physical reason ends the run, for example inelastic collapse. The gas keeps its state, "
+      "and may continue under other laws.";
+
+  py::class_<Frames>(module, "Frames", "Iterator of Gas.frames().")
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__", next_frame);
+
+  py::class_<Gas>(module, "Gas",
+                  "A gas of disks or spheres. clatter.load() makes one. Only one thread at a time "
+                  "may use a gas; different gases run in parallel.")
+      .def("__repr__", description)
+      .def_property_readonly("time", &Gas::time, "Simulation time, in units of time.")
+      .def_property_readonly("temperature", &Gas::temperature,
+                             "Granular temperature T = (m/DN) sum v^2 now, in units of energy, "
+                             "with the particle mass m = 1.")
+      .def_property_readonly("hash", &Gas::hash,
+                             "Hash of the state now, 16 hexadecimal digits: state_hash in the "
+                             "result of clatter measure. Equal runs have equal hashes.")
+      .def_property_readonly("seed", &Gas::seed, "Seed of all random numbers of the run.")
+      .def_property_readonly(
+          "scene", [](Gas& gas) { return from_json(gas.scene_json()); },
+          "The scene at the start as a dict, with every default and all changes of laws so far, as "
+          "the key scene of a result. Lengths are in diameters.")
+      .def_property_readonly("positions", positions,
+                             "Centres now, in diameters: a copy, (N, D) float64, wrapped into the "
+                             "box.")
+      .def_property_readonly("velocities", velocities,
+                             "Velocities now, in diameters per unit of time: a copy, (N, D) "
+                             "float64.")
+      .def_property_readonly("spins", spins,
+                             "Angular velocities now, in radians per unit of time: a copy, (N,) "
+                             "float64 for disks and (N, 3) for spheres. None if particles do not "
+                             "spin.")
+      .def("run_until", run_until, "time"_a,
+           "Runs to a simulation time, with the [[change]] tables of the scene.\n\n"
+           "Ctrl-C halts it within about 0.1 s with KeyboardInterrupt. The gas then is at a time "
+           "before, and can continue. Other threads of Python run meanwhile. Raises SceneError "
+           "for an earlier time, and PhysicalStop.")
+      .def("frames", frames, "every"_a, "until"_a,
+           "Iterates over the gas at the times 0, every, 2 every and so on up to `until`, in "
+           "simulation time. It begins at the first of these times that is not before gas.time. "
+           "These are the times of clatter measure --trajectory.")
+      .def("measure", measure_gas, "duration"_a = py::none(),
+           "Runs the gas on and measures it. Returns a dict with the keys and values of the JSON "
+           "result of clatter measure.\n\n"
+           "Means are averages over the simulation times from `start` to `start + duration`. "
+           "start is the key measure.burn_in, or gas.time if that is later. duration is in "
+           "simulation time, by default the key measure.duration. Afterwards the gas is at the "
+           "end of this time. On a gas at time 0 the result is the one of clatter measure. The "
+           "series of temperatures begins at gas.time and includes the burn-in. Collisions "
+           "(key events) are those of the averaging time. docs/results.md describes the keys.\n\n"
+           "The key performance has the CPU time of the whole process. Raises SceneError, RunError "
+           "and PhysicalStop. These, and Ctrl-C, lose the averages and keep the gas.")
+      .def(
+          "set", [](Gas& gas, const py::dict& laws) { gas.change(overrides_of(laws)); }, "laws"_a,
+          "Changes laws now, with the rules of [[change]] in the scene: a dict of keys and values, "
+          "{\"particles.restitution\": 0.8}. All values change at once. Raises SceneError or "
+          "PhysicalStop if the change is impossible; the old laws then remain.")
+      .def("draw", draw_gas, "width"_a = 640,
+           "The picture of the gas now, as by clatter render: (H, W, 4) uint8, RGBA, top row "
+           "first. W is `width` in pixels; H follows the box.\n\n"
+           "Averages, trails and angles of the scene's view are observed from time 0. Raises "
+           "SceneError, and RunError without OpenGL.");
+
+  module.def("load", load_gas, "scene"_a, "seed"_a = 1, "set"_a = py::none(),
+             "The gas of a scene, at time 0.\n\n"
+             "scene: path of a scene file or of a picture by clatter, name in the gallery, or a "
+             "nested dict with the keys of a scene file. Files that a dict names are relative to "
+             "the current folder.\n"
+             "seed: seed of all random numbers, a whole number >= 0.\n"
+             "set: dict of keys and values as in --set, {\"particles.count\": 500}. The keyword "
+             "particles__count=500 is the same.\n\n"
+             "Raises SceneError.");
+}
+
+}  // namespace clatter

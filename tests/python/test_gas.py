@@ -1,0 +1,156 @@
+"""The states of a gas: the bits of the program, changes of laws, errors."""
+
+import csv
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import clatter
+from program import DISKS, DISKS_TOML, SPHERES_TOML, Folder
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.folder = Folder()
+        self.addCleanup(self.folder.cleanup)
+
+    def test_a_gallery_scene_has_the_hash_of_the_program(self):
+        gas = clatter.load("vibrated", seed=3, set={"particles.count": 50})
+        gas.run_until(30.0)
+        result = self.folder.measure(
+            "vibrated", "--seed", 3, "--set", "particles.count=50", "--until", 30
+        )
+        self.assertEqual(gas.hash, result["state_hash"])
+        self.assertEqual(gas.time, 30.0)
+        self.assertEqual(gas.seed, 3)
+
+    def test_a_path_a_dict_and_keywords_describe_the_same_gas(self):
+        path = self.folder.write("s.toml", DISKS_TOML)
+        hashes = set()
+        for gas in (
+            clatter.load(path, particles__restitution=0.7),
+            clatter.load(Path(path), seed=1, set={"particles.restitution": np.float64(0.7)}),
+            clatter.load(DISKS, set={"particles": {**DISKS["particles"], "restitution": 0.7}}),
+        ):
+            gas.run_until(10.0)
+            hashes.add(gas.hash)
+        result = self.folder.measure(path, "--set", "particles.restitution=0.7", "--until", 10)
+        self.assertEqual(hashes, {result["state_hash"]})
+
+    def test_frames_have_the_numbers_of_the_trajectory(self):
+        for text, dimension in ((DISKS_TOML, 2), (SPHERES_TOML, 3)):
+            path = self.folder.write("s.toml", text)
+            self.folder.measure(
+                path, "--seed", 4, "--until", 6, "--trajectory", "t.csv", "--every", 0.1
+            )
+            with open(Path(self.folder.name, "t.csv"), encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            axes = "xyz"[:dimension]
+            omegas = [name for name in rows[0] if name.startswith("omega")]
+            self.assertEqual(len(omegas), {2: 1, 3: 3}[dimension])
+            gas = clatter.load(path, seed=4)
+            count = len(gas.positions)
+            self.assertEqual(gas.spins.shape, {2: (count,), 3: (count, 3)}[dimension])
+            frames = 0
+            for frame in gas.frames(every=0.1, until=6.0):
+                self.assertIs(frame, gas)
+                part = rows[frames * count : (frames + 1) * count]
+                read = lambda names: np.array([[float(row[n]) for n in names] for row in part])
+                np.testing.assert_array_equal(gas.positions, read(axes))
+                np.testing.assert_array_equal(gas.velocities, read(["v" + a for a in axes]))
+                np.testing.assert_array_equal(gas.spins.reshape(count, -1), read(omegas))
+                self.assertEqual(gas.time, float(part[0]["time"]))
+                frames += 1
+            self.assertEqual(frames, 61)
+            self.assertEqual(frames * count, len(rows))
+
+    def test_frames_begin_at_the_time_of_the_gas(self):
+        gas = clatter.load("cooling")
+        gas.run_until(0.25)
+        self.assertEqual([frame.time for frame in gas.frames(0.1, 0.55)], [0.3, 0.4, 0.5])
+
+    def test_arrays_are_copies(self):
+        gas = clatter.load("cooling")
+        positions = gas.positions
+        self.assertEqual((positions.dtype, positions.ndim), (np.dtype("float64"), 2))
+        positions[:] = 0.0
+        self.assertTrue(gas.positions.any())
+        self.assertIsNone(gas.spins)
+
+    def test_the_temperature_is_the_mean_square_speed(self):
+        gas = clatter.load("vibrated")
+        gas.run_until(5.0)
+        self.assertAlmostEqual(gas.temperature, np.mean(gas.velocities**2), places=12)
+
+
+class Changes(unittest.TestCase):
+    def test_set_is_a_change_of_the_scene(self):
+        for laws in ({"gravity.acceleration": [0.3, 0.1]}, {"particles.restitution": 0.5}):
+            planned = clatter.load({**DISKS, "change": [{"time": 7.3, "set": laws}]})
+            planned.run_until(20.0)
+            by_hand = clatter.load({**DISKS, "change": []})
+            by_hand.run_until(7.3)
+            by_hand.set(laws)
+            by_hand.run_until(20.0)
+            self.assertEqual(by_hand.hash, planned.hash)
+            self.assertEqual(by_hand.scene, planned.scene)
+
+    def test_a_refused_change_keeps_the_laws(self):
+        gas, other = clatter.load("vibrated"), clatter.load("vibrated")
+        for laws in ({"box.size": [30, 30]}, {"particles.restitution": 2.0}, {"walls.top": 1}):
+            with self.assertRaises(clatter.SceneError):
+                gas.set(laws)
+        gas.run_until(3.0)
+        other.run_until(3.0)
+        self.assertEqual(gas.hash, other.hash)
+        self.assertEqual(gas.scene, other.scene)
+
+
+class Errors(unittest.TestCase):
+    def words(self, kind, action, *arguments, **keywords):
+        with self.assertRaises(kind) as raised:
+            action(*arguments, **keywords)
+        return str(raised.exception)
+
+    def test_errors_of_the_user_have_the_words_of_the_program(self):
+        self.assertTrue(issubclass(clatter.SceneError, ValueError))
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        bad = folder.write("bad.toml", DISKS_TOML.replace("0.9", "9.0"))
+        for scene, settings in (("nowhere", {}), (bad, {}), ("vibrated", {"particles.cuont": 3})):
+            flags = [f"--set={key}={value}" for key, value in settings.items()]
+            words = self.words(clatter.SceneError, clatter.load, scene, set=settings)
+            self.assertEqual("clatter: " + words, folder.clatter("check", scene, *flags))
+
+    def test_a_value_has_a_type_of_the_scene(self):
+        words = self.words(TypeError, clatter.load, "vibrated", particles__count=None)
+        self.assertIn("NoneType", words)
+
+    def test_time_runs_forward(self):
+        gas = clatter.load("cooling")
+        gas.run_until(2.0)
+        self.assertIn("already at t = 2;", self.words(clatter.SceneError, gas.run_until, 1.0))
+        self.words(clatter.SceneError, gas.run_until, float("nan"))
+        self.words(clatter.SceneError, gas.run_until, float("inf"))
+        self.words(clatter.SceneError, gas.frames, 0.0, 5.0)
+        gas.run_until(2.0)
+
+    def test_a_collapsed_gas_continues_under_other_laws(self):
+        self.assertTrue(issubclass(clatter.PhysicalStop, RuntimeError))
+        scene = {
+            "title": "T", "box": {"size": [20, 20]},
+            "particles": {"count": 150, "restitution": 0.1}, "walls": {},
+        }
+        gas = clatter.load(scene)
+        words = self.words(clatter.PhysicalStop, gas.run_until, 1e6)
+        self.assertIn("inelastic collapse", words)
+        at = gas.time
+        self.assertTrue(0.0 < at < 1e6)
+        gas.set({"particles.restitution": 1.0})
+        gas.run_until(at + 0.01)
+        self.assertEqual(gas.time, at + 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
