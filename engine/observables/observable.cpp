@@ -1,6 +1,7 @@
 #include "engine/observables/observable.h"
 
 #include <limits>
+#include <numeric>
 
 namespace clatter {
 
@@ -9,17 +10,20 @@ ObservableSums& ObservableSums::operator+=(const ObservableSums& other) {
   return *this;
 }
 
+Estimate ratio_of(std::span<const double> numerator, std::span<const double> denominator) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const double total = std::accumulate(denominator.begin(), denominator.end(), 0.0);
+  return total > 0.0 ? ratio_estimate(numerator, denominator) : Estimate{kNone, kNone};
+}
+
 Estimate ratio_of(std::span<const ObservableSums> parts, std::size_t numerator,
                   std::size_t denominator, double scale) {
   std::vector<double> above, below;
-  double total = 0.0;
   for (const ObservableSums& part : parts) {
     above.push_back(part.values[numerator]);
     below.push_back(scale * part.values[denominator]);
-    total += below.back();
   }
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return total > 0.0 ? ratio_estimate(above, below) : Estimate{kNone, kNone};
+  return ratio_of(above, below);
 }
 
 void append(TableColumn& column, const Estimate& estimate) {

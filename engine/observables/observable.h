@@ -68,6 +68,9 @@ class Observable {
   virtual void restore(ArchiveReader& io) = 0;
 };
 
+/// sum(numerator)/sum(denominator) over the parts of a run; NaN if the denominator is 0.
+Estimate ratio_of(std::span<const double> numerator, std::span<const double> denominator);
+
 /// Estimate of the ratio of two sums: sum(values[numerator]) / sum(scale * values[denominator]).
 Estimate ratio_of(std::span<const ObservableSums> parts, std::size_t numerator,
                   std::size_t denominator, double scale = 1.0);

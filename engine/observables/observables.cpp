@@ -105,21 +105,38 @@ std::vector<std::string> observable_tables() {
   return names;
 }
 
-// The sums of events have fixed sizes, bounded by those of collisions.
 double observables_memory(const Measure& measure, int dimension, double particles) {
-  constexpr double kEventSums = 64.0 * 4096.0 * sizeof(double);
+  constexpr double kParts = PartSums<ObservableSums>::kMaxParts + 1.0;
+  constexpr double kEventSums = 8192.0;  // more than any observable of events has
+  const auto sums = [&](double count) { return kParts * count * sizeof(double); };
   const auto history = [&](const TimeCorrelationSettings& settings) {
     const double levels =
         1.0 + std::floor(std::log(std::fmax(1.0, settings.longest / settings.interval)) /
                          std::log(settings.lags));
-    return levels * settings.lags * dimension * particles * sizeof(double);
+    const double lags = levels * settings.lags;
+    return lags * dimension * particles * sizeof(double) + sums(lags * (1.0 + 2.0 * dimension));
   };
-  double bytes = kEventSums * static_cast<double>(measure.observables.size());
-  if (measure.observes(ObservableKind::MeanSquaredDisplacement)) {
-    bytes += history(measure.mean_squared_displacement);
-  }
-  if (measure.observes(ObservableKind::VelocityAutocorrelation)) {
-    bytes += history(measure.velocity_autocorrelation);
+  double bytes = 0.0;
+  for (const ObservableKind kind : measure.observables) {
+    switch (kind) {
+      case ObservableKind::RadialDistribution:
+        bytes += sums(measure.radial_distribution.bins);
+        break;
+      case ObservableKind::VelocityDistribution:
+        bytes += sums(dimension * measure.velocity_distribution.bins);
+        break;
+      case ObservableKind::FreeFlights:
+      case ObservableKind::Collisions:
+      case ObservableKind::WallHits:
+        bytes += sums(kEventSums);
+        break;
+      case ObservableKind::MeanSquaredDisplacement:
+        bytes += history(measure.mean_squared_displacement);
+        break;
+      case ObservableKind::VelocityAutocorrelation:
+        bytes += history(measure.velocity_autocorrelation);
+        break;
+    }
   }
   return bytes;
 }

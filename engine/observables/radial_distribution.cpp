@@ -19,7 +19,9 @@ template <int D>
 RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
                                           const RadialDistributionSettings& settings)
     : simulation_(simulation), settings_(settings), range_(settings.range) {
-  constexpr int kMaxCells = D == 2 ? 1024 : 128;  // along an axis
+  // A dilute gas has about one particle per cell.
+  const double most_cells =
+      1.0 + 2.0 * std::pow(static_cast<double>(simulation.particles().size()), 1.0 / D);
   const Model<D>& model = simulation.model();
   // Beyond these distances expected_share() would need other terms.
   for (int axis = 0; axis < D; ++axis) {
@@ -27,11 +29,10 @@ RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
     period_[axis] =
         model.periodic(axis) ? model.box[axis] : std::numeric_limits<double>::infinity();
   }
-  range_ = std::max(range_, model.diameter);
   // A pair within the range is in cells whose numbers differ by at most 2.
   for (int axis = 0; axis < D; ++axis) {
-    const double most = std::floor(2.0 * model.box[axis] / range_);
-    const int cells = static_cast<int>(std::clamp(most, 1.0, double{kMaxCells}));
+    const double finest = std::floor(2.0 * model.box[axis] / range_);
+    const int cells = static_cast<int>(std::clamp(finest, 1.0, std::floor(most_cells)));
     cells_[axis] = cells;
     for (int cell = 0; cell < cells; ++cell) {
       std::vector<int> near;
@@ -54,28 +55,16 @@ RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
   }
 }
 
-// Number of bins up to the longest distance of particles in near cells. Separate counts of the
-// pairs beyond the range are faster than a common one.
-template <int D>
-std::size_t RadialDistribution<D>::all_bins() const {
-  const Model<D>& model = simulation_.model();
-  const Vec<D> longest =
-      (3.0 * model.box.cwiseQuotient(cells_.template cast<double>())).cwiseMin(model.box);
-  const double bin_width = edge(1) - edge(0);
-  return static_cast<std::size_t>(
-      std::max<double>(settings_.bins, std::ceil(longest.norm() / bin_width)));
-}
-
 template <int D>
 void RadialDistribution<D>::start() {
   samples_ = 0.0;
-  counts_.assign(all_bins(), 0);
+  counts_.assign(static_cast<std::size_t>(kBinShare * settings_.bins) + 1, 0);
 }
 
 template <int D>
 void RadialDistribution<D>::restore(ArchiveReader& io) {
   io(samples_, counts_);
-  io.require(counts_.size() == all_bins());
+  io.require(counts_.size() == static_cast<std::size_t>(kBinShare * settings_.bins) + 1);
 }
 
 template <int D>
@@ -140,7 +129,7 @@ template <int D>
 [[gnu::always_inline]] static inline void find_bins(const Vec<D>& own, const Vec<D>& period,
                                                     const std::array<const double*, D>& others,
                                                     double diameter, double per_distance,
-                                                    std::size_t count, int* bins) {
+                                                    double last, std::size_t count, int* bins) {
   for (std::size_t k = 0; k < count; ++k) {
     double square = 0.0;
     for (int axis = 0; axis < D; ++axis) {
@@ -148,7 +137,8 @@ template <int D>
       const double nearest = std::min(apart, std::fabs(period[axis] - apart));
       square += nearest * nearest;
     }
-    bins[k] = static_cast<int>(std::max(0.0, (std::sqrt(square) - diameter) * per_distance));
+    const double bin = (std::sqrt(square) - diameter) * per_distance;
+    bins[k] = static_cast<int>(std::min(last, std::max(0.0, bin)));
   }
 }
 
@@ -157,6 +147,7 @@ template <int D>
 [[gnu::always_inline]] inline void RadialDistribution<D>::count_pairs(std::size_t particle) {
   const double diameter = simulation_.model().diameter;
   const double per_distance = settings_.bins / (range_ - diameter);
+  const double last = kBinShare * settings_.bins;
   const Vec<D> own = position_of(particle);
   for (const Range& range : ranges_) {
     const std::size_t begin = std::max(range.begin, particle + 1);
@@ -165,7 +156,7 @@ template <int D>
     if (bins_.size() < count) bins_.resize(count);
     std::array<const double*, D> others;
     for (int axis = 0; axis < D; ++axis) others[axis] = &coordinates_[axis][begin];
-    find_bins<D>(own, period_, others, diameter, per_distance, count, bins_.data());
+    find_bins<D>(own, period_, others, diameter, per_distance, last, count, bins_.data());
     for (std::size_t k = 0; k < count; ++k) ++counts_[static_cast<std::size_t>(bins_[k])];
   }
 }
@@ -275,7 +266,7 @@ ObservableResult RadialDistribution<D>::result(std::span<const ObservableSums> p
     extrapolated.push_back(sum);
     samples.push_back(part.values[0]);
   }
-  result.means.emplace_back("radial_distribution.contact", ratio_estimate(extrapolated, samples));
+  result.means.emplace_back("radial_distribution.contact", ratio_of(extrapolated, samples));
   return result;
 }
 

@@ -27,6 +27,9 @@ class RadialDistribution final : public Observable {
   void restore(ArchiveReader& io) override;
 
  private:
+  // Pairs beyond the range are counted too, in further bins. One counter for all would be slower.
+  static constexpr int kBinShare = 4;
+
   // Consecutive particles in the order of the cells, or consecutive cells.
   struct Range {
     std::size_t begin, end;
@@ -42,7 +45,6 @@ class RadialDistribution final : public Observable {
     for (int axis = 0; axis < D; ++axis) position[axis] = coordinates_[axis][place];
     return position;
   }
-  std::size_t all_bins() const;
   double edge(int bin) const;
   double expected_share(double low, double high) const;
 
@@ -57,7 +59,7 @@ class RadialDistribution final : public Observable {
   std::vector<Range> ranges_;                            // near the present cell
   std::vector<int> bins_;                                // of the pairs with one range
   double samples_ = 0.0;
-  std::vector<std::uint64_t> counts_;  // [all_bins()] pairs in each bin
+  std::vector<std::uint64_t> counts_;  // [kBinShare bins + 1] pairs; the last beyond all
 };
 
 extern template class RadialDistribution<2>;

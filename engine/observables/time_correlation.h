@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/observables/periodic_images.h"
 #include "engine/observables/lag_history.h"
 #include "engine/observables/observable.h"
+#include "engine/observables/periodic_images.h"
 
 namespace clatter {
 

@@ -95,7 +95,7 @@ ObservableResult VelocityDistribution<D>::result(std::span<const ObservableSums>
                         sums[VelocitySums::kSixth] / sixth_gauss);
     denominator.push_back(sums[VelocitySums::kCount]);
   }
-  Estimate a3 = ratio_estimate(numerator, denominator);
+  Estimate a3 = ratio_of(numerator, denominator);
   a3.mean -= 2.0;
 
   ResultTable table{"velocity_distribution", {{"low", "1", {}}, {"high", "1", {}}}};

@@ -104,6 +104,29 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
   }
 }
 
+/// Throws if the box is too small for the observables, or a longest lag is shorter than its
+/// interval.
+static void check_observables(const Scene& scene, const toml::table& root,
+                              const std::string& file) {
+  const Measure& measure = scene.measure;
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
+    const double longest = scene.periodic(axis) ? 0.5 * scene.box[axis] : scene.box[axis] - 1.0;
+    if (!measure.observes(ObservableKind::RadialDistribution) || longest > 1.0) continue;
+    throw UserError(place_of(root, "measure.observables", file),
+                    "the box is too small for the distances of \"radial_distribution\"",
+                    "remove it, or choose sides above 2");
+  }
+  const auto check_lags = [&](const std::string& name, const TimeCorrelationSettings& settings) {
+    if (settings.longest >= settings.interval) return;
+    throw UserError(
+        place_of(root, "measure." + name + ".longest", file),
+        "the longest lag is shorter than the interval " + number_text(settings.interval),
+        "choose a longer lag, or a shorter interval");
+  };
+  check_lags("mean_squared_displacement", measure.mean_squared_displacement);
+  check_lags("velocity_autocorrelation", measure.velocity_autocorrelation);
+}
+
 /// Throws unless the camera's times increase, and its positions have the dimension of the box.
 static void check_camera(const Scene& scene, const toml::table& root, const std::string& file) {
   const std::vector<CameraKey>& keys = scene.view.camera;
@@ -139,6 +162,7 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_axis(scene, root, file);
   check_fields(scene, root, file);
   check_kernel(scene, root, file);
+  check_observables(scene, root, file);
   check_camera(scene, root, file);
 }
 

@@ -77,6 +77,22 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.estimator == b.view.estimator);
   CHECK(a.view.interval == b.view.interval);
   CHECK(a.view.speed == b.view.speed);
+  CHECK(a.measure.observables == b.measure.observables);
+  const auto& [radial_interval, radial_range, radial_bins] = a.measure.radial_distribution;
+  CHECK(radial_interval == b.measure.radial_distribution.interval);
+  CHECK(radial_range == b.measure.radial_distribution.range);
+  CHECK(radial_bins == b.measure.radial_distribution.bins);
+  const auto& [velocity_interval, velocity_range, velocity_bins] = a.measure.velocity_distribution;
+  CHECK(velocity_interval == b.measure.velocity_distribution.interval);
+  CHECK(velocity_range == b.measure.velocity_distribution.range);
+  CHECK(velocity_bins == b.measure.velocity_distribution.bins);
+  for (const auto lags :
+       {&Measure::mean_squared_displacement, &Measure::velocity_autocorrelation}) {
+    const auto& [interval, longest, count] = a.measure.*lags;
+    CHECK(interval == (b.measure.*lags).interval);
+    CHECK(longest == (b.measure.*lags).longest);
+    CHECK(count == (b.measure.*lags).lags);
+  }
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
   CHECK(a.view.field_palette == b.view.field_palette);
@@ -104,7 +120,7 @@ Scene unusual_scene() {
   scene.caption = "\x1b[31m #not a comment = {}";
   scene.goal = "to see";
   scene.try_this = "to do";
-  scene.box = Vec2(123456.7, 0.1 + 0.2 + 1.0);
+  scene.box = Vec2(123456.7, 0.1 + 0.2 + 2.0);
   scene.particles.count = 17;
   scene.particles.restitution = 1.0 / 3.0;
   scene.particles.roughness = {.friction = std::numeric_limits<double>::infinity(),
@@ -137,6 +153,14 @@ Scene unusual_scene() {
   scene.measure.interval = 0.3;
   scene.measure.kernel = Kernel::Gaussian;
   scene.measure.width = 123456.7;
+  scene.measure.observables = {ObservableKind::VelocityAutocorrelation,
+                               ObservableKind::RadialDistribution,
+                               ObservableKind::MeanSquaredDisplacement,
+                               ObservableKind::VelocityDistribution, ObservableKind::WallHits};
+  scene.measure.radial_distribution = {.interval = 0.7, .range = 1.1, .bins = 17};
+  scene.measure.velocity_distribution = {.interval = 1e-3, .range = 0.1, .bins = 3};
+  scene.measure.mean_squared_displacement = {.interval = 0.3, .longest = 1e308, .lags = 2};
+  scene.measure.velocity_autocorrelation = {.interval = 0.2, .longest = 0.2, .lags = 999};
   scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field(Quantity::Temperature, 0),
                 .window = 0.125,
@@ -441,7 +465,8 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("top": {"kind": "thermal", "temperature": 2.0}}, )"
       R"("measure": {"burn_in": 100.0, "duration": 1000.0, "series_interval": 1.0, )"
       R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
-      R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box"}, )"
+      R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box", )"
+      R"("observables": []}, )"
       R"("view": {"colour_by": "speed", "window": 5.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
       R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");

@@ -1,0 +1,207 @@
+// The tables of observables in all files. tests/engine/observables compares their values with
+// theory.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/app/shell.h"
+#include "tests/app/tables.h"
+
+namespace clatter {
+
+using nlohmann::json;
+using testing::Table;
+using testing::table_in;
+
+namespace {
+
+const char* const kAll =
+    "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
+    "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\"]";
+
+// A gas without any symmetry, of disks or spheres.
+std::string scene(int dimension, const std::string& observables) {
+  const bool disks = dimension == 2;
+  return "schema = 1\ntitle = \"all\"\n[box]\nsize = " +
+         std::string(disks ? "[11.0, 9.0]" : "[6.0, 7.0, 5.0]") +
+         R"(
+[particles]
+count = 25
+restitution = 0.9
+friction = 0.3
+[walls.left]
+kind = "thermal"
+temperature = 0.5
+[walls.right]
+kind = "thermal"
+temperature = 2.0
+[measure]
+burn_in = 2.0
+duration = 40.0
+observables = )" +
+         observables + "\n";
+}
+
+std::string file_of(std::string table) {
+  std::ranges::replace(table, '.', '_');
+  return table + ".csv";
+}
+
+json at(const json& result, const std::string& name) {
+  std::string path = "/" + name;
+  std::ranges::replace(path, '.', '/');
+  return result.at(json::json_pointer(path));
+}
+
+struct Expected {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> columns;  // with units
+  std::vector<std::string> without_errors;
+};
+
+// Independent of the program: the tables of docs/results.md.
+std::vector<Expected> expected_tables(int dimension) {
+  const auto histogram = [](const std::string& name, const std::string& unit,
+                            const std::string& inverse) {
+    return Expected{name, {{"low", unit}, {"high", unit}, {"density", inverse}}, {"low", "high"}};
+  };
+  const std::string energy = "m a^2/t^2";
+  std::vector<Expected> tables = {
+      {"radial_distribution", {{"r", "a"}, {"g", "1"}}, {"r"}},
+      {"velocity_distribution", {{"low", "1"}, {"high", "1"}}, {"low", "high"}},
+      histogram("free_flights.time", "t", "1/t"),
+      histogram("free_flights.path", "a", "1/a"),
+      histogram("collisions.impact_parameter", "a", "1/a"),
+      histogram("collisions.normal_speed", "a/t", "1/(a/t)"),
+      histogram("collisions.tangential_speed", "a/t", "1/(a/t)"),
+      histogram("collisions.energy_loss", energy, "1/(" + energy + ")"),
+      histogram("wall_hits.left.incoming", "a/t", "1/(a/t)"),
+      histogram("wall_hits.left.outgoing", "a/t", "1/(a/t)"),
+      histogram("wall_hits.right.incoming", "a/t", "1/(a/t)"),
+      histogram("wall_hits.right.outgoing", "a/t", "1/(a/t)"),
+      {"mean_squared_displacement", {{"time", "t"}, {"total", "a^2"}}, {"time"}},
+      {"velocity_autocorrelation", {{"time", "t"}, {"mean", "a^2/t^2"}}, {"time"}}};
+  for (int axis = 0; axis < dimension; ++axis) {
+    const std::string name(1, "xyz"[axis]);
+    tables[1].columns.emplace_back(name, "1");
+    tables[12].columns.emplace_back(name, "a^2");
+    tables[12].columns.emplace_back("drift_" + name, "a");
+    tables[13].columns.emplace_back(name, "a^2/t^2");
+  }
+  return tables;
+}
+
+}  // namespace
+
+TEST_CASE("Observables: JSON, CSV and HDF5 have the same tables") {
+  for (const int dimension : {2, 3}) {
+    CAPTURE(dimension);
+    const Shell shell;
+    shell.write("s.toml", scene(dimension, kAll));
+    const Outcome outcome =
+        shell.run("clatter measure s.toml --quiet --out r.json --csv t --hdf5 r.h5");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json result = json::parse(shell.read("r.json"));
+    const Outcome read = shell.run(CLATTER_READERS "read_hdf5.py r.h5");
+    CAPTURE(read.err);
+    const json file = json::parse(read.out);
+    const std::vector<Expected> tables = expected_tables(dimension);
+    for (const Expected& table : tables) {
+      CAPTURE(table.name);
+      const json found = at(result, table.name);
+      const json datasets = at(file, table.name);
+      const Table csv = table_in(shell.read("t/" + file_of(table.name)));
+      CHECK(csv.units.size() == table.columns.size());
+      std::size_t columns = 0, errors = 0;
+      for (const auto& [name, unit] : table.columns) {
+        CAPTURE(name);
+        ++columns;
+        CHECK(found.at(name).size() > 5);
+        CHECK(csv.columns.at(name) == found.at(name));
+        CHECK(csv.units.at(name) == unit);
+        CHECK(datasets.at(name).at("values") == found.at(name));
+        CHECK(datasets.at(name).at("units") == unit);
+        const bool exact =
+            std::ranges::find(table.without_errors, name) != table.without_errors.end();
+        CHECK(csv.columns.contains(name + "_error") == !exact);
+        if (exact) continue;
+        ++errors;
+        const json error = found.at("standard_error").at(name);
+        CHECK(csv.columns.at(name + "_error") == error);
+        CHECK(datasets.at("standard_error").at(name).at("values") == error);
+        CHECK(datasets.at("standard_error").at(name).at("units") == unit);
+      }
+      CHECK(csv.columns.size() == columns + errors);
+      CHECK(found.at("standard_error").size() == errors);
+    }
+    // Means are attributes of the groups, and there are no other tables.
+    CHECK(at(file, "free_flights.mean_time.mean") == at(result, "free_flights.mean_time.mean"));
+    CHECK(shell.run("ls t | wc -l").out == std::to_string(tables.size() + 1) + "\n");
+    CHECK(file.at("wall_hits").size() == 2);
+
+    // Another run in this folder removes the tables that it does not have.
+    shell.write("s.toml", scene(dimension, "[\"free_flights\"]"));
+    REQUIRE(shell.run("clatter measure s.toml --quiet --out r.json --csv t").code == 0);
+    CHECK(shell.run("ls t | xargs").out ==
+          "free_flights_path.csv free_flights_time.csv temperature_series.csv\n");
+  }
+}
+
+TEST_CASE("Observables: a resumed run has the same results") {
+  const Shell shell;
+  shell.write("s.toml", scene(2, kAll));
+  const std::string line = "clatter measure s.toml --quiet --set measure.duration=40000 ";
+  REQUIRE(shell.run(line + "--out whole.json").code == 0);
+  REQUIRE(shell
+              .run(line + "--checkpoint c --out part.json & pid=$!; sleep 0.2; kill -INT $pid; "
+                          "wait $pid")
+              .code == 130);
+  REQUIRE(shell.run(line + "--resume c --out resumed.json").code == 0);
+  json whole = json::parse(shell.read("whole.json"));
+  json resumed = json::parse(shell.read("resumed.json"));
+  for (json* result : {&whole, &resumed}) result->erase("performance");
+  CHECK(whole == resumed);
+}
+
+TEST_CASE("Observables: their means take part in goals, replicas and sweeps") {
+  const Shell shell;
+  shell.write("s.toml", scene(2, "[\"free_flights\"]"));
+  const Outcome goal = shell.run(
+      "clatter measure s.toml --accuracy 5% --accuracy-of free_flights.mean_path --out g.json");
+  CAPTURE(goal.err);
+  CHECK(goal.code == 0);
+  CHECK(json::parse(shell.read("g.json")).at("accuracy").at("of") == "free_flights.mean_path");
+  REQUIRE(shell.run("clatter measure s.toml --replicas 2 --quiet --out r.json").code == 0);
+  const json replicas = json::parse(shell.read("r.json"));
+  const double first = at(replicas.at("results")[0], "free_flights.mean_time.mean").get<double>();
+  const double second = at(replicas.at("results")[1], "free_flights.mean_time.mean").get<double>();
+  CHECK(at(replicas, "free_flights.mean_time.mean").get<double>() ==
+        doctest::Approx(0.5 * (first + second)).epsilon(1e-12));
+  shell.write("w.toml",
+              "scene = \"s.toml\"\nreplicas = 1\n[axes]\n\"particles.restitution\" = [0.8, 0.9]\n");
+  REQUIRE(shell.run("clatter sweep w.toml --quiet --out d && clatter sweep collect d").code == 0);
+  const std::string header = shell.run("grep -v '^#' d/table.csv | head -1").out;
+  CHECK(says(header, "free_flights.mean_time,free_flights.mean_time_standard_error"));
+}
+
+TEST_CASE("Observables: settings without their observable are refused") {
+  const Shell shell;
+  shell.write("s.toml", scene(2, "[\"free_flights\"]"));
+  const std::string line = "clatter measure s.toml --set ";
+  check_refused(shell, line + "measure.radial_distribution.bins=50",
+                {"has no meaning without its observable", "measure.observables"});
+  check_refused(shell, line + "'measure.observables=[\"radial\"]'", {"\"radial_distribution\""});
+  check_refused(shell,
+                line +
+                    "'measure.observables=[\"velocity_autocorrelation\"]' --set "
+                    "measure.velocity_autocorrelation.interval=1e-9",
+                {"measure.velocity_autocorrelation.interval", "more than 1e7 samples"});
+}
+
+}  // namespace clatter
