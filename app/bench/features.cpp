@@ -122,7 +122,8 @@ class Trial {
                           .saved = simulation_->save(),
                           .measurement = {},
                           .film = {},
-                          .trajectory = {}};
+                          .trajectory = {},
+                          .events = {}};
     write_checkpoint(file, checkpoint);
     std::filesystem::remove(file);
     std::filesystem::remove(previous_checkpoint(file));

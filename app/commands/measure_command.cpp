@@ -58,6 +58,31 @@ void add_measure_command(CLI::App& program, int& exit_code) {
                            ->check(positive_number())
                            ->needs(trajectory);
   trajectory->needs(every);
+  CLI::Option* events =
+      command
+          ->add_option("--events", options->events,
+                       "File for all collisions, between particles and with walls. The extension "
+                       "selects the format: .h5 (HDF5) or .csv.")
+          ->check(named_file())
+          ->type_name("FILE");
+  command
+      ->add_option("--events-of", options->selection.particles,
+                   "Log only collisions of these particles, numbered from 0.")
+      ->delimiter(',')
+      ->needs(events)
+      ->type_name("N,N...");
+  command
+      ->add_option("--events-in", options->selection.region,
+                   "Log only collisions in this region: the lower and upper limit of x, then of y, "
+                   "and of z for spheres.")
+      ->delimiter(',')
+      ->needs(events)
+      ->type_name("X0,X1,Y0,Y1...");
+  command
+      ->add_option("--events-share", options->selection.share,
+                   "Log this share of the collisions, evenly spaced. Default: 1.")
+      ->check(CLI::Range(1e-12, 1.0))
+      ->needs(events);
   CLI::Option* replicas =
       command
           ->add_option("--replicas", options->replicas,
@@ -69,7 +94,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
                    "Number of replicas that run at once. Default: the number of processors.")
       ->check(whole_number_between(1, 256));
   for (const char* other : {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5",
-                            "--save-state", "--trajectory"}) {
+                            "--save-state", "--trajectory", "--events"}) {
     replicas->excludes(command->get_option(other));
   }
   command->callback([options, &exit_code] { exit_code = measure(*options); });

@@ -1,13 +1,9 @@
 #include "app/results/trajectory.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
+#include <iterator>
 #include <span>
 
 #include "engine/error.h"
@@ -167,45 +163,5 @@ std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format)
 
 template std::string frame_text(const TrajectoryFrame<2>&, TrajectoryFormat);
 template std::string frame_text(const TrajectoryFrame<3>&, TrajectoryFormat);
-
-TrajectoryFile::TrajectoryFile(std::filesystem::path path, std::uint64_t bytes)
-    : path_(std::move(path)),
-      file_(open(path_.c_str(), O_WRONLY | O_CLOEXEC | (bytes > 0 ? 0 : O_CREAT | O_TRUNC), 0666)),
-      bytes_(bytes) {
-  const bool missing = !file_ && errno == ENOENT && bytes > 0;
-  if (!file_ && !missing) fail();
-  if (bytes == 0) return;
-  struct stat status;
-  if (missing || fstat(file_.get(), &status) != 0 ||
-      static_cast<std::uint64_t>(status.st_size) < bytes) {
-    throw UserError({path_.string()}, "lacks frames that precede the checkpoint",
-                    "name the trajectory of the interrupted run");
-  }
-  // Frames after the checkpoint are written again.
-  if (ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0 ||
-      lseek(file_.get(), 0, SEEK_END) < 0) {
-    fail();
-  }
-}
-
-void TrajectoryFile::append(const std::string& text) {
-  if (!file_.write_all(std::as_bytes(std::span(text)))) fail();
-  bytes_ += text.size();
-}
-
-void TrajectoryFile::sync() {
-  if (lost_ == 0 && !file_.sync()) lost_ = errno;
-  errno = lost_;
-  if (lost_ != 0) fail();
-}
-
-void TrajectoryFile::close() {
-  sync();
-  if (!file_.close()) fail();
-}
-
-void TrajectoryFile::fail() const {
-  throw RunError("cannot write " + path_.string() + ": " + std::strerror(errno));
-}
 
 }  // namespace clatter

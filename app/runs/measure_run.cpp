@@ -78,6 +78,21 @@ void require_replaceable(const std::filesystem::path& file, const char* flag) {
   if (std::filesystem::exists(file, ignored)) require_writable(file);
 }
 
+// Throws if the selection of events names no particle or region of the scene.
+void require_selectable(const EventSelection& selection, const Scene& scene) {
+  const auto count = static_cast<std::uint32_t>(scene.particles.count);
+  for (const std::uint32_t particle : selection.particles) {
+    if (particle < count) continue;
+    throw UserError({"--events-of", 0, 0}, "there is no particle " + std::to_string(particle),
+                    "particles are numbered from 0 to " + std::to_string(count - 1));
+  }
+  const auto sides = static_cast<std::size_t>(2 * scene.dimension());
+  if (selection.region.empty() || selection.region.size() == sides) return;
+  throw UserError({"--events-in", 0, 0},
+                  std::to_string(selection.region.size()) + " numbers are given",
+                  "give " + std::to_string(sides) + ": the lower and upper limit of each axis");
+}
+
 // Throws before a long run if its results cannot be written.
 void prepare_outputs(const MeasureOptions& options, const Scene& scene,
                      const std::filesystem::path& checkpoint) {
@@ -89,6 +104,7 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
                                  {"--vtk", options.vtk},
                                  {"--hdf5", options.hdf5},
                                  {"--trajectory", options.trajectory},
+                                 {"--events", options.events},
                                  {"--save-state", options.save_state}};
   std::vector<Output> tables;
   const auto add_tables = [&](const char* flag, const std::filesystem::path& folder,
@@ -115,6 +131,11 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
   if (!options.trajectory.empty()) {
     trajectory_format(options.trajectory, "--trajectory");
     require_writable_file(options.trajectory, "--trajectory");
+  }
+  if (!options.events.empty()) {
+    event_log_format(options.events, "--events");
+    require_writable_file(options.events, "--events");
+    require_selectable(options.selection, scene);
   }
   for (const Output& table : tables) require_replaceable(table.path, table.flag);
   if (!options.csv.empty()) make_folder(options.csv, "--csv");
@@ -278,6 +299,7 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   } else {
     run.record(options.trajectory, options.every);
   }
+  if (!options.events.empty()) run.log_events(options.events, options.selection);
   try {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
     if (options.accuracy.asked_for()) {

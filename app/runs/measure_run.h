@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/runs/accuracy_goal.h"
+#include "app/runs/event_recorder.h"
 #include "app/runs/options.h"
 #include "engine/scene/scene.h"
 
@@ -22,6 +23,8 @@ struct MeasureOptions {
   std::string hdf5;            ///< file for all results; empty: none
   std::string trajectory;      ///< file for the states at equal intervals; empty: none
   double every = 0.0;          ///< interval of the trajectory, in simulation time
+  std::string events;          ///< file for the collisions; empty: none
+  EventSelection selection;    ///< of the collisions in the file
   std::string save_state;      ///< file for the state at the end; empty: none
 };
 

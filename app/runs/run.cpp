@@ -123,6 +123,23 @@ void Run<D>::record(const std::filesystem::path& file, double every) {
 }
 
 template <int D>
+void Run<D>::log_events(const std::filesystem::path& file, const EventSelection& selection) {
+  run_->on_change = [this](Simulation<D>& next) { follow(next); };
+  const std::string saved = resumed_ ? std::move(resumed_->checkpoint.events) : "";
+  if (!saved.empty()) {
+    events_.emplace(file, selection, ever_spins(scene_), simulation(), saved, resumed_->file);
+    return;
+  }
+  std::error_code ignored;
+  if (resumed_ && std::filesystem::exists(file, ignored)) {
+    throw UserError({"--events", 0, 0},
+                    file.string() + " exists, and the checkpoint has no event log",
+                    "give another name, because this run would not continue the file");
+  }
+  events_.emplace(file, selection, ever_spins(scene_), simulation());
+}
+
+template <int D>
 void Run<D>::leave_record() const {
   if (quiet_ || !resumed_ || resumed_->checkpoint.trajectory.empty()) return;
   std::fprintf(stderr,
@@ -134,6 +151,7 @@ template <int D>
 void Run<D>::follow(Simulation<D>& next) {
   if (measurement_) measure_on(next);
   if (recorder_) recorder_->follow(next);
+  if (events_) events_->follow(next);
 }
 
 template <int D>
@@ -169,6 +187,7 @@ bool Run<D>::advance(double time, Progress& progress) {
       const auto due = Clock::now() + kSlice;
       arrived = run_->run_until(time, kNoLimit, kNoLimit,
                                 [due] { return interrupted() || Clock::now() >= due; });
+      if (events_) events_->flush();
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();
     }
@@ -191,7 +210,8 @@ Checkpoint Run<D>::checkpoint() {
           .saved = simulation().save(),
           .measurement = measurement_ ? measurement_->save() : "",
           .film = film_state ? film_state() : "",
-          .trajectory = recorder_ ? recorder_->save() : ""};
+          .trajectory = recorder_ ? recorder_->save() : "",
+          .events = events_ ? events_->save() : ""};
 }
 
 template <int D>
@@ -218,7 +238,8 @@ void Run<D>::write() {
 
 template <int D>
 std::string Run<D>::how_to_resume() const {
-  return "continue with --resume " + file_.string() + (recorder_ ? ' ' + recorder_->flags() : "");
+  return "continue with --resume " + file_.string() + (recorder_ ? ' ' + recorder_->flags() : "") +
+         (events_ ? ' ' + events_->flags() : "");
 }
 
 template <int D>
@@ -259,6 +280,7 @@ int Run<D>::end() {
   // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
   if (recorder_) recorder_->close();
+  if (events_ && !ended_early_) events_->finish();
   return ended_early_ ? kInterrupted : kOk;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/runs/event_recorder.h"
 #include "app/runs/options.h"
 #include "app/runs/resume.h"
 #include "app/runs/trajectory_recorder.h"
@@ -60,9 +61,13 @@ class Run {
   /// Notes that the trajectory of the checkpoint, if any, does not continue.
   void leave_record() const;
 
+  /// Writes the selected collisions into an event log. Continues the log of the checkpoint. Throws
+  /// UserError and RunError.
+  void log_events(const std::filesystem::path& file, const EventSelection& selection);
+
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
-  /// Throws RunError if the trajectory cannot be written.
+  /// Throws RunError if the trajectory or the event log cannot be written.
   bool until(double time, Progress& progress);
   /// Whether the last until() had an early end.
   bool ended_early() const { return ended_early_; }
@@ -102,6 +107,7 @@ class Run {
   double measure_end_ = 0.0;
   std::optional<Measurement<D>> measurement_;
   std::optional<TrajectoryRecorder<D>> recorder_;
+  std::optional<EventRecorder<D>> events_;
   std::optional<Checkpoint> marked_;
   Clock::time_point last_written_ = Clock::now();
   std::string failure_;  // failure of the last checkpoint

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/results/growing_file.h"
 #include "app/results/trajectory.h"
 #include "app/runs/regular_times.h"
 #include "engine/dynamics/simulation.h"
@@ -49,7 +50,7 @@ class TrajectoryRecorder {
   RegularTimes times_;
   long next_ = 0;  // number of the next frame
   std::optional<PeriodicImages<D>> images_;
-  std::optional<TrajectoryFile> file_;
+  std::optional<GrowingFile> file_;
 };
 
 extern template class TrajectoryRecorder<2>;

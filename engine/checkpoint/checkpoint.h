@@ -19,6 +19,7 @@ struct Checkpoint {
   std::string measurement;         ///< result of Measurement::save(); empty: no measurement
   std::string film;                ///< state of a film; empty: no film
   std::string trajectory;          ///< state of a trajectory; empty: no trajectory
+  std::string events;              ///< state of an event log; empty: no log
 };
 
 /// Writes a checkpoint. A whole checkpoint exists at every moment, even if the machine stops. The

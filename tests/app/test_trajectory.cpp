@@ -250,7 +250,7 @@ TEST_CASE("Trajectory: a resumed run continues it without a gap or a double fram
     check_refused(shell, part + "--every 0.8 --resume c",
                   {"--every: the trajectory of the checkpoint has the interval 0.7"});
     check_refused(shell, kRun + "--trajectory none.csv --every 0.7 --resume c",
-                  {"none.csv: lacks frames that precede the checkpoint"});
+                  {"none.csv: lacks records that precede the checkpoint"});
     check_refused(shell, kRun + "--trajectory s.toml.xyz --every 0.7 --resume c",
                   {"s.toml.xyz has another format than the trajectory of the checkpoint"});
     // A killed run has written frames, and a part of one, after its last checkpoint.

@@ -76,7 +76,8 @@ const std::string& whole_checkpoint() {
                           .saved = run.simulation().save(),
                           .measurement = measurement.save(),
                           .film = "",
-                          .trajectory = ""};
+                          .trajectory = "",
+                          .events = ""};
     write_checkpoint(file_name(), checkpoint);
     return read_file(file_name(), 1'000'000, "");
   }();

@@ -14,10 +14,11 @@ using namespace clatter::testing;
 namespace {
 
 std::string archived(Checkpoint& checkpoint) {
-  auto& [program, command, scene, start_temperature, seed, saved, measurement, film, trajectory] =
-      checkpoint;
+  auto& [program, command, scene, start_temperature, seed, saved, measurement, film, trajectory,
+         events] = checkpoint;
   ArchiveWriter writer;
-  writer(program, command, scene, start_temperature, seed, saved, measurement, film, trajectory);
+  writer(program, command, scene, start_temperature, seed, saved, measurement, film, trajectory,
+         events);
   return writer.written();
 }
 
@@ -40,8 +41,8 @@ Checkpoint example() {
   saved.kicks_since_origin = 13;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
-  return {"clatter 9.8", "measure",   "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6),
-          "film",        "trajectory"};
+  return {"clatter 9.8", "measure",    "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6),
+          "film",        "trajectory", "events"};
 }
 
 RunState<2>& disks(Checkpoint& checkpoint) {

@@ -1,0 +1,242 @@
+#include "app/results/event_log.h"
+
+#include <H5Cpp.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "app/results/hdf5_writer.h"
+#include "engine/error.h"
+#include "engine/scene/scene_keys.h"
+#include "engine/system/write_file.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+template <class Vector>
+void add(std::vector<double>& records, const Vector& vector) {
+  records.insert(records.end(), vector.data(), vector.data() + vector.size());
+}
+
+template <int D>
+Vec<D> wrapped(const Model<D>& model, const Vec<D>& position) {
+  return position - model.image_index(position).cwiseProduct(model.box);
+}
+
+template <int D>
+void add_spins(std::vector<double>& records, const ParticleChange<D>& change) {
+  add(records, change.spin);
+  add(records, Spin<D>(change.spin + change.gain.spin));
+}
+
+}  // namespace
+
+EventLogFormat event_log_format(const std::filesystem::path& file, const char* flag) {
+  if (is_special(file)) {
+    throw UserError({flag, 0, 0}, file.string() + " is not a regular file",
+                    "give the name of a file, not of a device or a pipe");
+  }
+  if (file.extension() == ".csv") return EventLogFormat::Csv;
+  if (file.extension() == ".h5") return EventLogFormat::Hdf5;
+  throw UserError({flag, 0, 0}, file.string() + " has no extension of an event log",
+                  "give a name that ends in .h5 or .csv");
+}
+
+std::vector<EventQuantity> event_quantities(int dimension, bool spins) {
+  std::vector<std::string> axes, spin_axes = {""};
+  for (int axis = 0; axis < dimension; ++axis) axes.push_back(std::string("_") + "xyz"[axis]);
+  if (dimension == 3) spin_axes = axes;
+  std::vector<EventQuantity> quantities = {{"time", "t", {""}},
+                                           {"kind", "1", {""}, true},
+                                           {"particle", "1", {""}, true},
+                                           {"partner", "1", {""}, true},
+                                           {"position", "a", axes},
+                                           {"partner_position", "a", axes},
+                                           {"velocity_before", "a/t", axes},
+                                           {"velocity_after", "a/t", axes},
+                                           {"partner_velocity_before", "a/t", axes},
+                                           {"partner_velocity_after", "a/t", axes},
+                                           {"impulse", "m a/t", axes}};
+  if (!spins) return quantities;
+  for (const char* name :
+       {"spin_before", "spin_after", "partner_spin_before", "partner_spin_after"}) {
+    quantities.push_back({name, "1/t", spin_axes});
+  }
+  return quantities;
+}
+
+std::size_t record_size(const std::vector<EventQuantity>& quantities) {
+  std::size_t size = 0;
+  for (const EventQuantity& quantity : quantities) size += quantity.components.size();
+  return size;
+}
+
+template <int D>
+void append_record(std::vector<double>& records, const Model<D>& model, double time,
+                   const PairCollision<D>& collision, bool spins) {
+  const auto& [first, second] = collision.particles;
+  records.insert(records.end(), {time, 0.0, static_cast<double>(first.particle),
+                                 static_cast<double>(second.particle)});
+  add(records, wrapped<D>(model, first.position));
+  add(records, wrapped<D>(model, second.position));
+  add(records, first.velocity);
+  add(records, Vec<D>(first.velocity + first.gain.momentum));
+  add(records, second.velocity);
+  add(records, Vec<D>(second.velocity + second.gain.momentum));
+  add(records, first.gain.momentum);
+  if (!spins) return;
+  add_spins(records, first);
+  add_spins(records, second);
+}
+
+template <int D>
+void append_record(std::vector<double>& records, const Model<D>& model, double time,
+                   const WallCollision<D>& collision, bool spins) {
+  const ParticleChange<D>& change = collision.particle;
+  records.insert(records.end(),
+                 {time, 1.0 + collision.side, static_cast<double>(change.particle), -1.0});
+  const Vec<D> none = Vec<D>::Constant(kNone);
+  add(records, wrapped<D>(model, change.position));
+  add(records, none);
+  add(records, change.velocity);
+  add(records, Vec<D>(change.velocity + change.gain.momentum));
+  add(records, none);
+  add(records, none);
+  add(records, change.gain.momentum);
+  if (!spins) return;
+  add_spins(records, change);
+  const Spin<D> no_spin = Spin<D>::Constant(kNone);
+  add(records, no_spin);
+  add(records, no_spin);
+}
+
+std::string csv_header(const std::vector<EventQuantity>& quantities) {
+  std::string units = std::string("# units, ") + kUnits, header;
+  for (const EventQuantity& quantity : quantities) {
+    for (const std::string& component : quantity.components) {
+      units += (header.empty() ? "; " : ", ") + quantity.name + component + ": " + quantity.unit;
+      header += (header.empty() ? "" : ",") + quantity.name + component;
+    }
+  }
+  return units + "\n" + header + "\n";
+}
+
+std::string csv_lines(const std::vector<double>& records, std::size_t size) {
+  fmt::memory_buffer text;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{}{}", records[k], (k + 1) % size == 0 ? '\n' : ',');
+  }
+  return fmt::to_string(text);
+}
+
+namespace {
+
+// A growing dataset of one quantity. Each chunk holds kChunk events.
+class QuantityDataset {
+ public:
+  static constexpr hsize_t kChunk = 16384;
+
+  QuantityDataset(const H5::H5File& file, const EventQuantity& quantity)
+      : components_(quantity.components.size()), whole_(quantity.whole) {
+    Hdf5Shape shape = {0}, most = {H5S_UNLIMITED}, chunk = {kChunk};
+    if (components_ > 1 || quantity.components.front() != "") {
+      for (Hdf5Shape* each : {&shape, &most, &chunk}) each->push_back(components_);
+    }
+    H5::DSetCreatPropList list;
+    list.setChunk(static_cast<int>(chunk.size()), chunk.data());
+    list.setShuffle();
+    list.setDeflate(1);
+    const H5::DataSpace space(static_cast<int>(shape.size()), shape.data(), most.data());
+    dataset_ = file.createDataSet(
+        quantity.name, whole_ ? H5::PredType::STD_I64LE : H5::PredType::IEEE_F64LE, space, list);
+    write_text(dataset_, "units", quantity.unit);
+    shape_ = shape;
+  }
+
+  // Appends the numbers of `count` records, from the given place in each record of `size` numbers.
+  void append(const std::vector<double>& records, std::size_t count, std::size_t size,
+              std::size_t place) {
+    std::vector<double> values(count * components_);
+    for (std::size_t k = 0; k < count; ++k) {
+      std::copy_n(&records[k * size + place], components_, &values[k * components_]);
+    }
+    Hdf5Shape offset(shape_.size(), 0), added = shape_;
+    offset[0] = shape_[0];
+    added[0] = count;
+    shape_[0] += count;
+    dataset_.extend(shape_.data());
+    const H5::DataSpace memory(static_cast<int>(added.size()), added.data());
+    const H5::DataSpace file = dataset_.getSpace();
+    file.selectHyperslab(H5S_SELECT_SET, added.data(), offset.data());
+    dataset_.write(values.data(), H5::PredType::NATIVE_DOUBLE, memory, file);
+  }
+
+ private:
+  std::size_t components_;
+  bool whole_;
+  Hdf5Shape shape_;  // events so far, and components of a vector
+  H5::DataSet dataset_;
+};
+
+void fill(const H5::H5File& file, std::ifstream& records,
+          const std::vector<EventQuantity>& quantities) {
+  write_text(file.openGroup("/"), "units", kUnits);
+  write_text(file.openGroup("/"), "kinds",
+             "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall");
+  std::vector<QuantityDataset> datasets;
+  for (const EventQuantity& quantity : quantities) datasets.emplace_back(file, quantity);
+  const std::size_t size = record_size(quantities);
+  std::vector<double> chunk(size * QuantityDataset::kChunk);
+  const auto bytes = static_cast<std::streamsize>(chunk.size() * sizeof(double));
+  while (records) {
+    records.read(reinterpret_cast<char*>(chunk.data()), bytes);
+    const auto count = static_cast<std::size_t>(records.gcount()) / (size * sizeof(double));
+    if (count == 0) break;
+    std::size_t place = 0;
+    for (std::size_t k = 0; k < datasets.size(); ++k) {
+      datasets[k].append(chunk, count, size, place);
+      place += quantities[k].components.size();
+    }
+  }
+}
+
+}  // namespace
+
+void write_event_file(const std::filesystem::path& path, const std::filesystem::path& records,
+                      const std::vector<EventQuantity>& quantities) {
+  std::ifstream input(records, std::ios::binary);
+  if (!input) throw RunError("cannot read " + records.string());
+  const std::filesystem::path target = target_of(path);
+  const std::filesystem::path made = target.string() + ".new";
+  try {
+    H5::Exception::dontPrint();
+    {
+      const H5::H5File file(made.string(), H5F_ACC_TRUNC);
+      fill(file, input, quantities);
+    }
+    std::filesystem::rename(made, target);
+  } catch (const H5::Exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(made, ignored);
+    throw RunError("cannot write " + path.string() + ": " + error.getDetailMsg());
+  }
+}
+
+template void append_record<2>(std::vector<double>&, const Model<2>&, double,
+                               const PairCollision<2>&, bool);
+template void append_record<3>(std::vector<double>&, const Model<3>&, double,
+                               const PairCollision<3>&, bool);
+template void append_record<2>(std::vector<double>&, const Model<2>&, double,
+                               const WallCollision<2>&, bool);
+template void append_record<3>(std::vector<double>&, const Model<3>&, double,
+                               const WallCollision<3>&, bool);
+
+}  // namespace clatter

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/dynamics/model.h"
+#include "engine/dynamics/observer.h"
+
+namespace clatter {
+
+/// Format of an event log.
+enum class EventLogFormat {
+  Csv,  ///< one line per event: .csv
+  Hdf5  ///< one dataset per quantity: .h5
+};
+
+/// The format of a file extension. Throws UserError that names `flag` for other extensions.
+EventLogFormat event_log_format(const std::filesystem::path& file, const char* flag);
+
+/// A quantity of an event log: a number or a vector per event.
+struct EventQuantity {
+  std::string name;
+  std::string unit;                     ///< "1": dimensionless
+  std::vector<std::string> components;  ///< suffixes of the columns, such as "_x"; {""}: a number
+  bool whole = false;                   ///< whether the numbers are whole
+};
+
+/// The quantities of each event, in the order of a record. `spins`: whether particles may spin.
+std::vector<EventQuantity> event_quantities(int dimension, bool spins);
+
+/// Number of numbers in a record.
+std::size_t record_size(const std::vector<EventQuantity>& quantities);
+
+/// Appends the record of a collision of two particles, at a simulation time. Positions are wrapped
+/// into the box.
+template <int D>
+void append_record(std::vector<double>& records, const Model<D>& model, double time,
+                   const PairCollision<D>& collision, bool spins);
+/// Appends the record of a hit of a wall. Quantities of the partner are NaN.
+template <int D>
+void append_record(std::vector<double>& records, const Model<D>& model, double time,
+                   const WallCollision<D>& collision, bool spins);
+
+/// The first line of a CSV.
+std::string csv_header(const std::vector<EventQuantity>& quantities);
+/// Lines of a CSV. Their numbers read back to exactly the same bits.
+std::string csv_lines(const std::vector<double>& records, std::size_t size);
+
+/// Turns a file of records, as bytes of doubles, into compressed HDF5. The file `path` is replaced
+/// as a whole. Throws RunError.
+void write_event_file(const std::filesystem::path& path, const std::filesystem::path& records,
+                      const std::vector<EventQuantity>& quantities);
+
+}  // namespace clatter

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "engine/system/file_descriptor.h"
+
+namespace clatter {
+
+/// An open file that grows with a run. It is written in place: it has the complete records so far
+/// during the run.
+class GrowingFile {
+ public:
+  /// Opens a file with the first `bytes` bytes of its content. Throws UserError if it has fewer,
+  /// and RunError if it cannot be written.
+  GrowingFile(std::filesystem::path path, std::uint64_t bytes);
+
+  /// Size of the complete records.
+  std::uint64_t bytes() const { return bytes_; }
+  /// Appends records. Throws RunError.
+  void append(const std::string& records);
+  /// Waits until the records are on the disk. Throws RunError. After a failure every later call
+  /// throws, because the system reports a lost record once.
+  void sync();
+  /// Ends the file with the records on the disk. Throws RunError.
+  void close();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path path_;
+  FileDescriptor file_;
+  std::uint64_t bytes_;
+  int lost_ = 0;  // error of a failed sync; 0: none
+};
+
+}  // namespace clatter

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/results/event_log.h"
+#include "app/results/growing_file.h"
+#include "engine/dynamics/simulation.h"
+
+namespace clatter {
+
+/// The events of an event log.
+struct EventSelection {
+  std::vector<std::uint32_t> particles;  ///< only events of these; empty: of all
+  std::vector<double> region;  ///< only events in lower and upper x, then y (, z); empty: the box
+  double share = 1.0;          ///< share of these events, evenly spaced, 0 < share <= 1
+};
+
+/// Logs the collisions of a run, between particles and with walls. Records of a log in HDF5 are
+/// collected in FILE.records until the run ends.
+template <int D>
+class EventRecorder final : private Observer<D> {
+ public:
+  /// Begins a log. `spins`: whether particles spin at some time of the run. Throws RunError.
+  EventRecorder(const std::filesystem::path& path, EventSelection selection, bool spins,
+                Simulation<D>& simulation);
+  /// Continues a log from the result of save() at this time of the run. `checkpoint` is the name
+  /// for errors. Throws UserError if the selection or the format differs, and RunError.
+  EventRecorder(const std::filesystem::path& path, EventSelection selection, bool spins,
+                Simulation<D>& simulation, const std::string& saved, const std::string& checkpoint);
+
+  /// Writes the events so far. To be called between steps of the run, because an event cannot fail.
+  /// Throws RunError.
+  void flush();
+  /// Observes the next simulation of the run.
+  void follow(Simulation<D>& next);
+  /// Waits until the events are on the disk. Returns the state for a checkpoint. Throws RunError.
+  std::string save();
+  /// Ends a complete log. Throws RunError.
+  void finish();
+  /// The flags of `clatter measure` that continue this log.
+  std::string flags() const;
+
+ private:
+  void on_collision(const PairCollision<D>& collision) override;
+  void on_wall(const WallCollision<D>& collision) override;
+  bool selects(const ParticleChange<D>& first, const ParticleChange<D>* second);
+  std::filesystem::path records_path() const;
+
+  EventLogFormat format_;
+  std::filesystem::path path_;
+  EventSelection selection_;
+  bool spins_;
+  std::vector<EventQuantity> quantities_;
+  const Simulation<D>* simulation_;
+  std::uint64_t candidates_ = 0;  // events before the share was taken
+  std::vector<double> records_;   // not yet written
+  std::optional<GrowingFile> file_;
+};
+
+extern template class EventRecorder<2>;
+extern template class EventRecorder<3>;
+
+}  // namespace clatter
