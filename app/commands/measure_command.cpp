@@ -81,7 +81,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--events-share", options->selection.share,
                    "Log this share of the collisions, evenly spaced. Default: 1.")
-      ->check(CLI::Range(1e-12, 1.0))
+      ->check(number_between(1e-12, 1.0))
       ->needs(events);
   CLI::Option* replicas =
       command

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -154,6 +154,8 @@ class QuantityDataset {
     list.setChunk(static_cast<int>(chunk.size()), chunk.data());
     list.setShuffle();
     list.setDeflate(1);
+    // Without the time of the writing, equal logs have equal bytes.
+    H5Pset_obj_track_times(list.getId(), false);
     const H5::DataSpace space(static_cast<int>(shape.size()), shape.data(), most.data());
     dataset_ = file.createDataSet(
         quantity.name, whole_ ? H5::PredType::STD_I64LE : H5::PredType::IEEE_F64LE, space, list);
@@ -215,17 +217,18 @@ void write_event_file(const std::filesystem::path& path, const std::filesystem::
   std::ifstream input(records, std::ios::binary);
   if (!input) throw RunError("cannot read " + records.string());
   const std::filesystem::path target = target_of(path);
-  const std::filesystem::path made = target.string() + ".new";
+  const NewFile made = new_file_beside(target);
+  if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
   try {
     H5::Exception::dontPrint();
     {
-      const H5::H5File file(made.string(), H5F_ACC_TRUNC);
+      const H5::H5File file(made.path.string(), H5F_ACC_TRUNC);
       fill(file, input, quantities);
     }
-    std::filesystem::rename(made, target);
+    rename_synced(made.path, target);
   } catch (const H5::Exception& error) {
     std::error_code ignored;
-    std::filesystem::remove(made, ignored);
+    std::filesystem::remove(made.path, ignored);
     throw RunError("cannot write " + path.string() + ": " + error.getDetailMsg());
   }
 }

@@ -157,9 +157,10 @@ std::string EventRecorder<D>::save() {
 template <int D>
 void EventRecorder<D>::finish() {
   flush();
+  file_->sync();
+  if (format_ == EventLogFormat::Hdf5) write_event_file(path_, records_path(), quantities_);
   file_->close();
   if (format_ == EventLogFormat::Csv) return;
-  write_event_file(path_, records_path(), quantities_);
   std::error_code ignored;
   std::filesystem::remove(records_path(), ignored);
 }

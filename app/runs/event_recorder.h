@@ -39,7 +39,7 @@ class EventRecorder final : private Observer<D> {
   void follow(Simulation<D>& next);
   /// Waits until the events are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
-  /// Ends a complete log. Throws RunError.
+  /// Ends a complete log. Throws RunError; save() is then still possible.
   void finish();
   /// The flags of `clatter measure` that continue this log.
   std::string flags() const;

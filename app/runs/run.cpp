@@ -280,7 +280,11 @@ int Run<D>::end() {
   // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
   if (recorder_) recorder_->close();
-  if (events_ && !ended_early_) events_->finish();
+  try {
+    if (events_ && !ended_early_) events_->finish();
+  } catch (const RunError& error) {
+    throw RunError(error.what() + rescue());
+  }
   return ended_early_ ? kInterrupted : kOk;
 }
 

@@ -197,7 +197,7 @@ TEST_CASE("Event log: an interrupted and resumed run has the same log") {
     CAPTURE(file);
     const Shell shell;
     shell.write("s.toml", scene(2));
-    const std::string line = kRun + "--set measure.duration=3000 --events-share 0.3 ";
+    const std::string line = kRun + "--set measure.duration=40000 --events-share 0.1 ";
     REQUIRE(shell.run(line + "--events whole_" + file + " --out r.json").code == 0);
     REQUIRE(shell
                 .run(line + "--checkpoint c --events " + file +

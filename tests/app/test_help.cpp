@@ -73,7 +73,7 @@ TEST_CASE("Help: a page has the usage, the summaries of its commands and the rel
   const std::string measure = shell.run("clatter help measure").out;
   CHECK(says(measure, " Print errors only on stderr.\n"));
   CHECK(says(measure, " Default: 600. Needs --checkpoint.\n"));
-  CHECK(says(measure, " Excludes --accuracy, --checkpoint, --csv, --hdf5, --resume,\n"));
+  CHECK(says(measure, " Excludes --accuracy, --checkpoint, --csv, --events, --hdf5,\n"));
 }
 
 TEST_CASE("Help: a misspelt key or command is refused with a suggestion") {
