@@ -32,6 +32,7 @@ struct CheckpointOptions {
   std::string resume;    ///< checkpoint to resume; empty: the run starts at time 0
   std::string file;      ///< checkpoint that is kept up to date; empty: none
   double every = 600.0;  ///< interval in seconds of wall time
+  bool of_end = true;    ///< whether a complete run writes its end to `file`
 
   /// A resumed run does not read the file of its start state.
   StartFile start_file() const { return resume.empty() ? StartFile::Read : StartFile::Skip; }

@@ -250,7 +250,7 @@ std::string Run<D>::rescue() {
 
 template <int D>
 void Run<D>::put_aside() {
-  if (!ended_early_ && options_.file.empty()) return;
+  if (!ended_early_ && (options_.file.empty() || !options_.of_end)) return;
   if (ended_early_ && !quiet_) std::fputs("clatter: writing the checkpoint\n", stderr);
   write();
   if (ended_early_ && !stop_ && failure_.empty() && !quiet_) {

@@ -33,6 +33,7 @@ static MeasureOptions options_of(const SweepFolder& folder, int id, ProgressStyl
   options.common.progress = progress;
   options.checkpoints.file = folder.checkpoint(id);
   options.checkpoints.every = kCheckpointInterval;
+  options.checkpoints.of_end = false;  // the result follows, or an error with a checkpoint
   if (is_present(options.checkpoints.file)) options.checkpoints.resume = options.checkpoints.file;
   options.accuracy = sweep.accuracy;
   options.out = folder.part(id);

@@ -4,7 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/runs/measure_run.h"
+#include "app/system/exit_code.h"
 #include "engine/checkpoint/checkpoint.h"
+#include "engine/error.h"
 #include "tests/app/shell.h"
 
 namespace clatter {
@@ -101,6 +104,22 @@ TEST_CASE("Resume: an interrupt ends a large picture while it is drawn") {
              "clatter: writing the checkpoint\nclatter: interrupted at t = 0.1; "
              "continue with --resume a.checkpoint\n"));
   CHECK(shell.files() == std::vector<std::string>{"a.checkpoint"});
+}
+
+TEST_CASE("Resume: only the end of a complete run can go without a checkpoint") {
+  const Shell shell;
+  MeasureOptions options;
+  options.common.scene = "vibrated";
+  options.common.until = 1.0;
+  options.common.quiet = true;
+  options.out = shell.path("r.json");
+  options.checkpoints.file = shell.path("c");
+  options.checkpoints.of_end = false;
+  CHECK(measure(options) == kOk);
+  CHECK(shell.files() == std::vector<std::string>{"r.json"});
+  options.out = "/dev/full";
+  CHECK_THROWS_WITH_AS(measure(options), doctest::Contains("continue with --resume"), RunError);
+  CHECK(shell.files() == std::vector<std::string>{"c", "r.json"});
 }
 
 TEST_CASE("Resume: an interrupt before the run began leaves nothing, and is said") {
