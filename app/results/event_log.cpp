@@ -150,12 +150,10 @@ class QuantityDataset {
     if (components_ > 1 || quantity.components.front() != "") {
       for (Hdf5Shape* each : {&shape, &most, &chunk}) each->push_back(components_);
     }
-    H5::DSetCreatPropList list;
+    H5::DSetCreatPropList list = dataset_properties();
     list.setChunk(static_cast<int>(chunk.size()), chunk.data());
     list.setShuffle();
     list.setDeflate(1);
-    // Without the time of the writing, equal logs have equal bytes.
-    H5Pset_obj_track_times(list.getId(), false);
     const H5::DataSpace space(static_cast<int>(shape.size()), shape.data(), most.data());
     dataset_ = file.createDataSet(
         quantity.name, whole_ ? H5::PredType::STD_I64LE : H5::PredType::IEEE_F64LE, space, list);

@@ -17,6 +17,12 @@ H5::DataSpace space_of(const Hdf5Shape& shape) {
   return H5::DataSpace(static_cast<int>(shape.size()), shape.data());
 }
 
+H5::DSetCreatPropList dataset_properties() {
+  H5::DSetCreatPropList list;
+  H5Pset_obj_track_times(list.getId(), false);
+  return list;
+}
+
 void write_text(const H5::H5Object& object, const std::string& name, const std::string& text) {
   const char* bytes = text.c_str();
   object.createAttribute(name, text_type(), H5::DataSpace()).write(text_type(), &bytes);
@@ -25,7 +31,7 @@ void write_text(const H5::H5Object& object, const std::string& name, const std::
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values, const Hdf5Shape& shape) {
   const H5::DataSet dataset =
-      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape));
+      group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of(shape), dataset_properties());
   if (!values.empty()) dataset.write(values.data(), H5::PredType::NATIVE_DOUBLE);
   if (!unit.empty()) write_text(dataset, "units", unit);
 }

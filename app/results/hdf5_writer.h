@@ -17,6 +17,9 @@ H5::StrType text_type();
 /// A data space of this shape.
 H5::DataSpace space_of(const Hdf5Shape& shape);
 
+/// The properties of a dataset without the time of the writing: equal results have equal bytes.
+H5::DSetCreatPropList dataset_properties();
+
 /// Writes a text as an attribute.
 void write_text(const H5::H5Object& object, const std::string& name, const std::string& text);
 

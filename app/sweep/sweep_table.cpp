@@ -9,8 +9,8 @@
 
 #include "app/results/hdf5_writer.h"
 #include "engine/error.h"
-#include "engine/statistics/estimate.h"
 #include "engine/scene/text.h"
+#include "engine/statistics/estimate.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
 
@@ -213,7 +213,8 @@ void write_texts(const H5::Group& group, const std::string& name,
                  const std::vector<std::string>& texts) {
   std::vector<const char*> bytes;
   for (const std::string& text : texts) bytes.push_back(text.c_str());
-  const H5::DataSet dataset = group.createDataSet(name, text_type(), space_of({texts.size()}));
+  const H5::DataSet dataset =
+      group.createDataSet(name, text_type(), space_of({texts.size()}), dataset_properties());
   if (!texts.empty()) dataset.write(bytes.data(), text_type());
 }
 
@@ -230,9 +231,7 @@ void write_column(const H5::Group& group, const SweepTable& table, const std::st
   if (is_text) {
     write_texts(group, name, texts);
   } else {
-    const H5::DataSet dataset =
-        group.createDataSet(name, H5::PredType::NATIVE_DOUBLE, space_of({numbers.size()}));
-    if (!numbers.empty()) dataset.write(numbers.data(), H5::PredType::NATIVE_DOUBLE);
+    write_dataset(group, name, "", numbers);
   }
 }
 
