@@ -27,11 +27,6 @@ void add(std::vector<double>& records, const Vector& vector) {
 }
 
 template <int D>
-Vec<D> wrapped(const Model<D>& model, const Vec<D>& position) {
-  return position - model.image_index(position).cwiseProduct(model.box);
-}
-
-template <int D>
 void add_spins(std::vector<double>& records, const ParticleChange<D>& change) {
   add(records, change.spin);
   add(records, Spin<D>(change.spin + change.gain.spin));
@@ -85,8 +80,8 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   const auto& [first, second] = collision.particles;
   records.insert(records.end(), {time, 0.0, static_cast<double>(first.particle),
                                  static_cast<double>(second.particle)});
-  add(records, wrapped<D>(model, first.position));
-  add(records, wrapped<D>(model, second.position));
+  add(records, model.wrapped(first.position));
+  add(records, model.wrapped(second.position));
   add(records, first.velocity);
   add(records, Vec<D>(first.velocity + first.gain.momentum));
   add(records, second.velocity);
@@ -104,7 +99,7 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   records.insert(records.end(),
                  {time, 1.0 + collision.side, static_cast<double>(change.particle), -1.0});
   const Vec<D> none = Vec<D>::Constant(kNone);
-  add(records, wrapped<D>(model, change.position));
+  add(records, model.wrapped(change.position));
   add(records, none);
   add(records, change.velocity);
   add(records, Vec<D>(change.velocity + change.gain.momentum));
@@ -186,8 +181,10 @@ class QuantityDataset {
   H5::DataSet dataset_;
 };
 
-void fill(const H5::H5File& file, std::ifstream& records,
+// Throws RunError if not all records can be read.
+void fill(const H5::H5File& file, const std::filesystem::path& records_path,
           const std::vector<EventQuantity>& quantities) {
+  std::ifstream records(records_path, std::ios::binary);
   write_text(file.openGroup("/"), "units", kUnits);
   write_text(file.openGroup("/"), "kinds",
              "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall");
@@ -206,28 +203,31 @@ void fill(const H5::H5File& file, std::ifstream& records,
       place += quantities[k].components.size();
     }
   }
+  if (!records.eof()) throw RunError("cannot read " + records_path.string());
+  file.flush(H5F_SCOPE_GLOBAL);  // the destructors would hide errors
 }
 
 }  // namespace
 
 void write_event_file(const std::filesystem::path& path, const std::filesystem::path& records,
                       const std::vector<EventQuantity>& quantities) {
-  std::ifstream input(records, std::ios::binary);
-  if (!input) throw RunError("cannot read " + records.string());
   const std::filesystem::path target = target_of(path);
   const NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+  std::error_code ignored;
   try {
     H5::Exception::dontPrint();
     {
       const H5::H5File file(made.path.string(), H5F_ACC_TRUNC);
-      fill(file, input, quantities);
+      fill(file, records, quantities);
     }
     rename_synced(made.path, target);
   } catch (const H5::Exception& error) {
-    std::error_code ignored;
     std::filesystem::remove(made.path, ignored);
     throw RunError("cannot write " + path.string() + ": " + error.getDetailMsg());
+  } catch (const RunError&) {
+    std::filesystem::remove(made.path, ignored);
+    throw;
   }
 }
 

@@ -43,7 +43,7 @@ template <int D>
 void append_record(std::vector<double>& records, const Model<D>& model, double time,
                    const WallCollision<D>& collision, bool spins);
 
-/// The first line of a CSV.
+/// The lines of a CSV before the events: units, then names of the columns.
 std::string csv_header(const std::vector<EventQuantity>& quantities);
 /// Lines of a CSV. Their numbers read back to exactly the same bits.
 std::string csv_lines(const std::vector<double>& records, std::size_t size);

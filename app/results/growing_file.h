@@ -9,16 +9,16 @@
 namespace clatter {
 
 /// An open file that grows with a run. It is written in place: it has the complete records so far
-/// during the run.
+/// during the run. Other processes cannot open it as a growing file.
 class GrowingFile {
  public:
   /// Opens a file with the first `bytes` bytes of its content. Throws UserError if it has fewer,
-  /// and RunError if it cannot be written.
+  /// or if another process has opened it, and RunError if it cannot be written.
   GrowingFile(std::filesystem::path path, std::uint64_t bytes);
 
   /// Size of the complete records.
   std::uint64_t bytes() const { return bytes_; }
-  /// Appends records. Throws RunError.
+  /// Appends records. Throws RunError; the file then ends with the previous records.
   void append(const std::string& records);
   /// Waits until the records are on the disk. Throws RunError. After a failure every later call
   /// throws, because the system reports a lost record once.
@@ -27,12 +27,14 @@ class GrowingFile {
   void close();
 
  private:
+  bool keep_complete_records();
+  void require_no_loss() const;
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   FileDescriptor file_;
   std::uint64_t bytes_;
-  int lost_ = 0;  // error of a failed sync; 0: none
+  int lost_ = 0;  // error after which the content is unknown; 0: none
 };
 
 }  // namespace clatter

@@ -40,6 +40,11 @@ std::string bytes_of(const std::vector<double>& numbers) {
 
 }  // namespace
 
+std::filesystem::path records_path(const std::filesystem::path& log) {
+  if (event_log_format(log, "--events") == EventLogFormat::Csv) return log;
+  return log.string() + ".records";
+}
+
 template <int D>
 EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelection selection,
                                 bool spins, Simulation<D>& simulation)
@@ -48,7 +53,7 @@ EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelectio
       selection_(std::move(selection)),
       spins_(spins),
       quantities_(event_quantities(D, spins)) {
-  file_.emplace(records_path(), 0);
+  file_.emplace(records_path(path_), 0);
   if (format_ == EventLogFormat::Csv) file_->append(csv_header(quantities_));
   follow(simulation);
 }
@@ -81,13 +86,8 @@ EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelectio
                     "resume the run without changes of roughness, or without --events");
   }
   candidates_ = before.candidates;
-  file_.emplace(records_path(), before.bytes);
+  file_.emplace(records_path(path_), before.bytes);
   follow(simulation);
-}
-
-template <int D>
-std::filesystem::path EventRecorder<D>::records_path() const {
-  return format_ == EventLogFormat::Csv ? path_.string() : path_.string() + ".records";
 }
 
 template <int D>
@@ -102,17 +102,18 @@ bool EventRecorder<D>::selects(const ParticleChange<D>& first, const ParticleCha
   const auto listed = [&](const ParticleChange<D>& change) {
     return std::ranges::find(selection_.particles, change.particle) != selection_.particles.end();
   };
-  if (!selection_.particles.empty() && !listed(first) && !(second && listed(*second))) return false;
-  if (!selection_.region.empty()) {
-    const Model<D>& model = simulation_->model();
-    const Vec<D> place = first.position - model.image_index(first.position).cwiseProduct(model.box);
+  const auto inside = [&](const ParticleChange<D>& change) {
+    const Vec<D> place = simulation_->model().wrapped(change.position);
     for (int axis = 0; axis < D; ++axis) {
       const auto low = static_cast<std::size_t>(2 * axis);
       if (place[axis] < selection_.region[low] || place[axis] > selection_.region[low + 1]) {
         return false;
       }
     }
-  }
+    return true;
+  };
+  if (!selection_.particles.empty() && !listed(first) && !(second && listed(*second))) return false;
+  if (!selection_.region.empty() && !inside(first) && !(second && inside(*second))) return false;
   const auto number = static_cast<double>(candidates_++);
   return std::floor((number + 1.0) * selection_.share) > std::floor(number * selection_.share);
 }
@@ -155,14 +156,14 @@ std::string EventRecorder<D>::save() {
 }
 
 template <int D>
-void EventRecorder<D>::finish() {
+void EventRecorder<D>::finish(bool resumable) {
   flush();
   file_->sync();
-  if (format_ == EventLogFormat::Hdf5) write_event_file(path_, records_path(), quantities_);
+  if (format_ == EventLogFormat::Hdf5) write_event_file(path_, records_path(path_), quantities_);
   file_->close();
-  if (format_ == EventLogFormat::Csv) return;
+  if (format_ == EventLogFormat::Csv || resumable) return;
   std::error_code ignored;
-  std::filesystem::remove(records_path(), ignored);
+  std::filesystem::remove(records_path(path_), ignored);
 }
 
 template <int D>

@@ -15,12 +15,15 @@ namespace clatter {
 /// The events of an event log.
 struct EventSelection {
   std::vector<std::uint32_t> particles;  ///< only events of these; empty: of all
-  std::vector<double> region;  ///< only events in lower and upper x, then y (, z); empty: the box
-  double share = 1.0;          ///< share of these events, evenly spaced, 0 < share <= 1
+  /// Only events with the centre of a particle in lower and upper x, then y (, z); empty: the box.
+  std::vector<double> region;
+  double share = 1.0;  ///< share of these events, evenly spaced, 0 < share <= 1
 };
 
-/// Logs the collisions of a run, between particles and with walls. Records of a log in HDF5 are
-/// collected in FILE.records until the run ends.
+/// The file that collects the records of a log during the run: FILE.h5.records, or the CSV itself.
+std::filesystem::path records_path(const std::filesystem::path& log);
+
+/// Logs the collisions of a run, between particles and with walls.
 template <int D>
 class EventRecorder final : private Observer<D> {
  public:
@@ -39,8 +42,9 @@ class EventRecorder final : private Observer<D> {
   void follow(Simulation<D>& next);
   /// Waits until the events are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
-  /// Ends a complete log. Throws RunError; save() is then still possible.
-  void finish();
+  /// Ends a log. `resumable`: whether a checkpoint of this time exists, which needs the records.
+  /// Throws RunError; save() is then still possible.
+  void finish(bool resumable);
   /// The flags of `clatter measure` that continue this log.
   std::string flags() const;
 
@@ -48,7 +52,6 @@ class EventRecorder final : private Observer<D> {
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   bool selects(const ParticleChange<D>& first, const ParticleChange<D>* second);
-  std::filesystem::path records_path() const;
 
   EventLogFormat format_;
   std::filesystem::path path_;

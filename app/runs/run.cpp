@@ -131,20 +131,27 @@ void Run<D>::log_events(const std::filesystem::path& file, const EventSelection&
     return;
   }
   std::error_code ignored;
-  if (resumed_ && std::filesystem::exists(file, ignored)) {
+  for (const std::filesystem::path& existing : {file, records_path(file)}) {
+    if (!resumed_ || !std::filesystem::exists(existing, ignored)) continue;
     throw UserError({"--events", 0, 0},
-                    file.string() + " exists, and the checkpoint has no event log",
+                    existing.string() + " exists, and the checkpoint has no event log",
                     "give another name, because this run would not continue the file");
   }
   events_.emplace(file, selection, ever_spins(scene_), simulation());
 }
 
 template <int D>
-void Run<D>::leave_record() const {
-  if (quiet_ || !resumed_ || resumed_->checkpoint.trajectory.empty()) return;
-  std::fprintf(stderr,
-               "note: the trajectory of %s does not continue without --trajectory and --every\n",
-               resumed_->file.c_str());
+void Run<D>::tell_left_files() const {
+  if (quiet_ || !resumed_) return;
+  if (!recorder_ && !resumed_->checkpoint.trajectory.empty()) {
+    std::fprintf(stderr,
+                 "note: the trajectory of %s does not continue without --trajectory and --every\n",
+                 resumed_->file.c_str());
+  }
+  if (!events_ && !resumed_->checkpoint.events.empty()) {
+    std::fprintf(stderr, "note: the event log of %s does not continue without --events\n",
+                 resumed_->file.c_str());
+  }
 }
 
 template <int D>
@@ -270,21 +277,25 @@ void require_no_overlap(const RunChecks& checks) {
 
 template <int D>
 int Run<D>::end() {
+  std::string log_failure;
+  try {
+    // The log of an interrupted run is completed by its continuation.
+    if (events_ && (stop_ || !ended_early_)) events_->finish(stop_ || !options_.file.empty());
+  } catch (const RunError& error) {
+    log_failure = error.what();
+  }
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
-    throw PhysicalStop(stop_->what() + (failure_.empty()
-                                            ? "; " + how_to_resume() + remedy
-                                            : "; no checkpoint was written: " + failure_));
+    throw PhysicalStop(stop_->what() +
+                       (failure_.empty() ? "; " + how_to_resume() + remedy
+                                         : "; no checkpoint was written: " + failure_) +
+                       (log_failure.empty() ? "" : "; " + log_failure));
   }
   require_no_overlap(simulation().checks());
   // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
   if (recorder_) recorder_->close();
-  try {
-    if (events_ && !ended_early_) events_->finish();
-  } catch (const RunError& error) {
-    throw RunError(error.what() + rescue());
-  }
+  if (!log_failure.empty()) throw RunError(log_failure + rescue());
   return ended_early_ ? kInterrupted : kOk;
 }
 

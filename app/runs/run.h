@@ -58,12 +58,11 @@ class Run {
   /// Writes the states at the times 0, `every`, 2 `every` and so on into a trajectory file.
   /// Continues the trajectory of the checkpoint. Throws UserError and RunError.
   void record(const std::filesystem::path& file, double every);
-  /// Notes that the trajectory of the checkpoint, if any, does not continue.
-  void leave_record() const;
-
   /// Writes the selected collisions into an event log. Continues the log of the checkpoint. Throws
   /// UserError and RunError.
   void log_events(const std::filesystem::path& file, const EventSelection& selection);
+  /// Notes which files of the checkpoint's run do not continue: its trajectory and its event log.
+  void tell_left_files() const;
 
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
@@ -80,7 +79,7 @@ class Run {
   /// Writes the checkpoint that the end of the run requires. To be called before the results of the
   /// measurement are read, which close its last window.
   void put_aside();
-  /// Ends the trajectory. Returns the exit code, or throws the error of the run. To be called after
+  /// Ends the trajectory and the event log. Returns the exit code, or throws the error of the run. To be called after
   /// the results are written.
   int end();
 

@@ -43,6 +43,10 @@ struct Model {
     }
     return boxes;
   }
+  /// The position in the box: whole box lengths are subtracted along periodic axes.
+  Vec<D> wrapped(const Vec<D>& position) const {
+    return position - image_index(position).cwiseProduct(box);
+  }
   /// Coordinate of the centre of a particle that touches a wall at its rest position. `end` is 0
   /// for the near wall of the axis and 1 for the far wall.
   double wall_plane(int axis, int end) const {

@@ -43,6 +43,14 @@ std::vector<std::string> Shell::files() const {
   return names;
 }
 
+Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal) {
+  return shell.run(line +
+                   " --checkpoint c --checkpoint-every 0.02 & pid=$!\n"
+                   "while [ ! -e c ] && kill -0 $pid; do sleep 0.02; done\n"
+                   "kill -" +
+                   signal + " $pid; wait $pid");
+}
+
 void check_refused(const Shell& shell, const std::string& line,
                    const std::vector<std::string>& parts) {
   CAPTURE(line);

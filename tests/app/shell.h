@@ -40,6 +40,10 @@ class Shell {
   testing::TemporaryFolder folder_;
 };
 
+/// Starts a line with `--checkpoint c` in the background. A signal ends it as soon as a checkpoint
+/// exists, on any machine.
+Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal);
+
 /// Runs a line that must fail as wrong use: exit code 2, a message with all of `parts`, an empty
 /// stdout and no file.
 void check_refused(const Shell& shell, const std::string& line,

@@ -1,13 +1,20 @@
 // Event logs.
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "app/results/event_log.h"
+#include "app/results/growing_file.h"
+#include "engine/error.h"
+#include "engine/physics/random.h"
 #include "tests/app/shell.h"
 #include "tests/app/tables.h"
 
@@ -186,7 +193,10 @@ TEST_CASE("Event log: particles, a region and a share") {
   CHECK(lines("--events-of 3,7") ==
         shell.run(awk + "'$3 == 3 || $3 == 7 || $4 == 3 || $4 == 7'").out);
   CHECK(lines("--events-in 2,5.5,1,8") ==
-        shell.run(awk + "'$5 >= 2 && $5 <= 5.5 && $6 >= 1 && $6 <= 8'").out);
+        shell
+            .run(awk + "'($5 >= 2 && $5 <= 5.5 && $6 >= 1 && $6 <= 8) || "
+                       "($7 >= 2 && $7 <= 5.5 && $8 >= 1 && $8 <= 8)'")
+            .out);
   CHECK(lines("--events-share 0.25") == shell.run(awk + "'NR % 4 == 0'").out);
   CHECK(lines("--events-share 0.5 --events-of 3") ==
         shell.run(awk + "'($3 == 3 || $4 == 3) && ++n % 2 == 0'").out);
@@ -199,10 +209,7 @@ TEST_CASE("Event log: an interrupted and resumed run has the same log") {
     shell.write("s.toml", scene(2));
     const std::string line = kRun + "--set measure.duration=40000 --events-share 0.1 ";
     REQUIRE(shell.run(line + "--events whole_" + file + " --out r.json").code == 0);
-    REQUIRE(shell
-                .run(line + "--checkpoint c --events " + file +
-                     " --out r.json & pid=$!; sleep 0.2; kill -INT $pid; wait $pid")
-                .code == 130);
+    REQUIRE(cut_off(shell, line + "--events " + file + " --out r.json", "INT").code == 130);
     CHECK(shell.run("test -e e.h5").code != 0);
     // Events after the checkpoint are written again.
     shell.run(
@@ -216,6 +223,102 @@ TEST_CASE("Event log: an interrupted and resumed run has the same log") {
   }
 }
 
+TEST_CASE("Event log: a complete run can be continued with its log") {
+  for (const std::string file : {"e.csv", "e.h5"}) {
+    CAPTURE(file);
+    const Shell shell;
+    shell.write("s.toml", scene(2));
+    REQUIRE(shell.run(kRun + "--events whole_" + file + " --out r.json").code == 0);
+    REQUIRE(shell.run(kRun + "--until 10 --checkpoint c --out r.json --events " + file).code == 0);
+    CHECK(std::filesystem::exists(shell.path(file)));
+    const Outcome resumed = shell.run(kRun + "--until 30 --resume c --out r.json --events " + file);
+    CAPTURE(resumed.err);
+    CHECK(resumed.code == 0);
+    CHECK(shell.run("cmp " + file + " whole_" + file).code == 0);
+    CHECK_FALSE(std::filesystem::exists(shell.path("e.h5.records")));
+    const Outcome without = shell.run("clatter measure s.toml --resume c --until 11 --out r.json");
+    CHECK(says(without.err, "note: the event log of c does not continue without --events"));
+  }
+}
+
+TEST_CASE("Event log: a run that stops by itself has its last events") {
+  const Shell shell;
+  shell.write("s.toml",
+              "schema = 1\ntitle = \"collapse\"\n[box]\nsize = [10.0, 10.0]\n[particles]\n"
+              "count = 40\nrestitution = 0.05\n");
+  const Outcome outcome =
+      shell.run("clatter measure s.toml --until 1e4 --out r.json --events e.h5");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 3);
+  REQUIRE(std::filesystem::exists(shell.path("e.h5")));
+  CHECK(std::filesystem::exists(shell.path("e.h5.records")));
+  const Outcome read = shell.run(CLATTER_READERS "read_events.py e.h5 | wc -l");
+  CHECK(std::stoi(read.out) > 100);
+}
+
+namespace {
+
+// Limits the size of files, as a full disk does.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(std::uint64_t bytes) : ignored_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, ignored_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*ignored_)(int);
+};
+
+}  // namespace
+
+TEST_CASE("Event log: a full disk leaves complete records, and no damaged log") {
+  const Shell shell;
+  const std::string thousand(1000, 'x');
+  {
+    GrowingFile file(shell.path("e.csv"), 0);
+    file.append("first\n");
+    {
+      const FileSizeLimit full(500);
+      CHECK_THROWS_WITH_AS(file.append(thousand), doctest::Contains("File too large"), RunError);
+    }
+    CHECK(shell.read("e.csv") == "first\n");
+    file.append("second\n");
+    CHECK_THROWS_WITH_AS(GrowingFile(shell.path("e.csv"), 0),
+                         doctest::Contains("another run writes this file"), UserError);
+    file.close();
+  }
+  CHECK(shell.read("e.csv") == "first\nsecond\n");
+
+  const std::vector<EventQuantity> quantities = event_quantities(2, false);
+  std::string records;
+  Random random(1, Stream::Placement, 0, 0);
+  for (std::size_t k = 0; k < 20000 * record_size(quantities); ++k) {
+    const double number = random.uniform();
+    records.append(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+  shell.write("e.h5.records", records);
+  const auto write = [&] {
+    write_event_file(shell.path("e.h5"), shell.path("e.h5.records"), quantities);
+  };
+  for (const std::uint64_t bytes : {1000u, 100'000u, 1'000'000u, 2'000'000u}) {
+    CAPTURE(bytes);
+    const FileSizeLimit full(bytes);
+    CHECK_THROWS_AS(write(), RunError);
+    CHECK(shell.files() == std::vector<std::string>{"e.csv", "e.h5.records"});
+  }
+  write();
+  CHECK(std::filesystem::file_size(shell.path("e.h5")) > 2'000'000);
+}
+
 TEST_CASE("Event log: wrong use is refused") {
   const Shell shell;
   shell.write("s.toml", scene(2));
@@ -223,7 +326,16 @@ TEST_CASE("Event log: wrong use is refused") {
   check_refused(shell, kRun + "--events e.csv --events-of 12", {"there is no particle 12"});
   check_refused(shell, kRun + "--events e.csv --events-in 1,2,3",
                 {"3 numbers are given", "give 4"});
+  check_refused(shell, kRun + "--events e.csv --events-in 5,0,2,8",
+                {"no place of the box is between 5 and 0 along x"});
+  check_refused(shell, kRun + "--events e.csv --events-in 0,5,9,12",
+                {"no place of the box is between 9 and 12 along y"});
   check_refused(shell, kRun + "--events e.csv --events-share 2", {"--events-share"});
+  check_refused(shell, kRun + "--events e.h5 --out e.h5.records", {"e.h5.records"});
+  REQUIRE(shell.run(kRun + "--until 5 --checkpoint c --out r.json").code == 0);
+  shell.write("e.h5.records", "records of another run");
+  check_refused(shell, kRun + "--resume c --out r.json --events e.h5",
+                {"e.h5.records exists, and the checkpoint has no event log"});
   check_refused(shell, kRun + "--events-of 1", {"--events"});
   check_refused(shell, kRun + "--events e.csv --trajectory e.csv --every 1", {"--events"});
 }

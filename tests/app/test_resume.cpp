@@ -22,16 +22,6 @@ json result_of(const Shell& shell, const std::string& name) {
   return result;
 }
 
-// Starts a line with `--checkpoint c` in the background. A signal ends it as soon as a checkpoint
-// exists, on any machine.
-Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal) {
-  return shell.run(line +
-                   " --checkpoint c --checkpoint-every 0.02 & pid=$!\n"
-                   "while [ ! -e c ] && kill -0 $pid; do sleep 0.02; done\n"
-                   "kill -" +
-                   signal + " $pid; wait $pid");
-}
-
 // Most of a second of CPU time.
 const std::string kRun = "clatter measure vibrated --set measure.burn_in=20 --until 6000 --quiet ";
 
