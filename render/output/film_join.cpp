@@ -69,7 +69,7 @@ std::map<long, std::filesystem::path> parts_in(const std::filesystem::path& fold
     const auto [other, alone] = parts.emplace(*first, entry.path());
     if (alone) continue;
     const auto [before, after] =
-        std::minmax(other->second.filename().string(), entry.path().filename().string());
+        std::minmax({other->second.filename().string(), entry.path().filename().string()});
     throw UserError({folder.string()},
                     fmt::format("{} and {} begin at the same frame", before, after),
                     "remove one of them");
