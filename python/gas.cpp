@@ -119,24 +119,31 @@ template <int D>
 class MeasurementOf {
  public:
   MeasurementOf(ScheduledRun<D>& run, const Measure& measure, double end) : run_(run) {
-    measurement_.emplace(run.simulation(), measure, end);
+    measurement_->emplace(run.simulation(), measure, end);
     run.on_change = [this, &measure, end](Simulation<D>& next) {
-      hand_over(measurement_, run_.simulation(), next, measure, end);
+      hand_over(*measurement_, run_.simulation(), next, measure, end);
     };
   }
   MeasurementOf(const MeasurementOf&) = delete;
   MeasurementOf& operator=(const MeasurementOf&) = delete;
-  // Only another simulation has no observers. It has the same bits.
+  // Only another simulation has no observers. It has the same bits. If the memory is too small for
+  // it, the present simulation continues and needs its observer.
   ~MeasurementOf() {
     run_.on_change = nullptr;
-    run_.renew();
+    try {
+      run_.renew();
+    } catch (...) {
+      static_cast<void>(measurement_.release());
+    }
   }
 
-  Measured result(const StopRequest& stop) { return measurement_->result(stop); }
+  Measured result(const StopRequest& stop) { return (*measurement_)->result(stop); }
 
  private:
+  using Measuring = std::optional<Measurement<D>>;
+
   ScheduledRun<D>& run_;
-  std::optional<Measurement<D>> measurement_;
+  std::unique_ptr<Measuring> measurement_ = std::make_unique<Measuring>();
 };
 
 template <int D>
@@ -190,7 +197,7 @@ std::string Gas::measure(const std::optional<double>& duration, const StopReques
       [&](auto& run) {
         const double now = run.simulation().time();
         const double end = std::max(now, scene.measure.burn_in) + scene.measure.duration;
-        require_bounded_samples(scene.measure, end);
+        require_bounded_samples(scene.measure, now, end);
         arrived_ = false;
         std::string result = measured(run, scene, end, stop);
         arrived_ = true;

@@ -99,7 +99,7 @@ Scene scene_of(const py::object& source, const std::vector<Override>& settings) 
 // particles__count=500 is the key particles.count.
 py::dict with_keywords(const py::object& set, const py::kwargs& keywords) {
   py::dict all;
-  if (!set.is_none()) all = py::dict(set);
+  if (!set.is_none()) all.attr("update")(set);
   for (const auto& [name, value] : keywords) {
     all[py::str(name).attr("replace")("__", ".")] = value;
   }

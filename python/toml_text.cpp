@@ -15,6 +15,20 @@ static std::string quoted(const std::string& text) {
   return quoted;
 }
 
+namespace {
+
+// A nested value. Python limits the depth.
+struct Nesting {
+  Nesting() {
+    if (Py_EnterRecursiveCall(" in a value of the scene") != 0) throw py::error_already_set();
+  }
+  Nesting(const Nesting&) = delete;
+  Nesting& operator=(const Nesting&) = delete;
+  ~Nesting() { Py_LeaveRecursiveCall(); }
+};
+
+}  // namespace
+
 static std::string assignment(const py::handle& key, const py::handle& value) {
   return quoted(py::str(key)) + " = " + toml_text(value);
 }
@@ -26,6 +40,7 @@ std::string toml_text(const py::handle& value) {
   if (py::isinstance<py::float_>(value)) return py::repr(py::float_(value.cast<double>()));
   if (py::isinstance<py::str>(value)) return quoted(value.cast<std::string>());
   if (py::hasattr(value, "tolist")) return toml_text(value.attr("tolist")());
+  const Nesting nesting;
   std::string text;
   const auto add = [&](const std::string& item) { text += (text.empty() ? "" : ", ") + item; };
   if (py::isinstance<py::dict>(value)) {

@@ -101,9 +101,14 @@ class Trial {
     Measure measure;
     measure.observables = {kind};
     const double interval = 1.0 / enskog_rate(kAreaFraction, 1.0);
-    measure.radial_distribution.interval = measure.velocity_distribution.interval = interval;
+    for (double* each :
+         {&measure.radial_distribution.interval, &measure.velocity_distribution.interval,
+          &measure.structure_factor.interval, &measure.clusters.interval}) {
+      *each = interval;
+    }
     for (TimeCorrelationSettings* settings :
-         {&measure.mean_squared_displacement, &measure.velocity_autocorrelation}) {
+         {&measure.mean_squared_displacement, &measure.velocity_autocorrelation,
+          &measure.bond_order.lags_in_time}) {
       *settings = {.interval = interval, .longest = 100.0 * interval, .lags = 10};
     }
     observables_.emplace(*simulation_, measure);
@@ -152,6 +157,11 @@ void shake(Scene& scene) {
   add_walls(scene, kLeft, {.kind = WallKind::Driven, .drive_speed = 1.0});
 }
 
+void close_box(Scene& scene) {
+  add_walls(scene, kLeft, {});
+  add_walls(scene, kBottom, {});
+}
+
 std::vector<Feature> features() {
   const auto nothing = [](Scene&) {};
   const std::vector<Field> temperature = {Quantity::Temperature};
@@ -173,11 +183,7 @@ std::vector<Feature> features() {
              scene.particles.restitution = 0.9;
              scene.bulk_drive = BulkDrive{.interval = 0.05, .kick_speed = 0.12};
            }},
-          {"walls on four sides",
-           [](Scene& scene) {
-             add_walls(scene, kLeft, {});
-             add_walls(scene, kBottom, {});
-           }},
+          {"walls on four sides", close_box},
           {"gravity",
            [](Scene& scene) {
              add_walls(scene, kBottom, {});
@@ -211,8 +217,12 @@ std::vector<Feature> with_observables(std::vector<Feature> features) {
   add("velocity distribution", nothing, ObservableKind::VelocityDistribution);
   add("free flights", nothing, ObservableKind::FreeFlights);
   add("collision statistics", nothing, ObservableKind::Collisions);
+  add("wall hits, walls on four sides", close_box, ObservableKind::WallHits);
   add("mean-squared displacement", nothing, ObservableKind::MeanSquaredDisplacement);
   add("velocity autocorrelation", nothing, ObservableKind::VelocityAutocorrelation);
+  add("structure factor", nothing, ObservableKind::StructureFactor);
+  add("clusters", nothing, ObservableKind::Clusters);
+  add("bond order", nothing, ObservableKind::BondOrder);
   return features;
 }
 

@@ -53,14 +53,17 @@ struct ObservablePrice {
   ObservableKind kind;
   double surcharge;
 };
-constexpr std::array<ObservablePrice, 7> kObservablePrices = {
+constexpr std::array<ObservablePrice, 10> kObservablePrices = {
     {{ObservableKind::RadialDistribution, 0.7},
      {ObservableKind::VelocityDistribution, 0.05},
      {ObservableKind::FreeFlights, 0.17},
      {ObservableKind::Collisions, 0.22},
      {ObservableKind::WallHits, 0.05},
      {ObservableKind::MeanSquaredDisplacement, 0.3},
-     {ObservableKind::VelocityAutocorrelation, 0.1}}};
+     {ObservableKind::VelocityAutocorrelation, 0.1},
+     {ObservableKind::StructureFactor, 1.0},
+     {ObservableKind::Clusters, 0.3},
+     {ObservableKind::BondOrder, 0.5}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;

@@ -86,11 +86,22 @@ void require_selectable(const EventSelection& selection, const Scene& scene) {
     throw UserError({"--events-of", 0, 0}, "there is no particle " + std::to_string(particle),
                     "particles are numbered from 0 to " + std::to_string(count - 1));
   }
+  if (selection.region.empty()) return;
   const auto sides = static_cast<std::size_t>(2 * scene.dimension());
-  if (selection.region.empty() || selection.region.size() == sides) return;
-  throw UserError({"--events-in", 0, 0},
-                  std::to_string(selection.region.size()) + " numbers are given",
-                  "give " + std::to_string(sides) + ": the lower and upper limit of each axis");
+  if (selection.region.size() != sides) {
+    throw UserError({"--events-in", 0, 0},
+                    std::to_string(selection.region.size()) + " numbers are given",
+                    "give " + std::to_string(sides) + ": the lower and upper limit of each axis");
+  }
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
+    const auto index = static_cast<std::size_t>(2 * axis);
+    const double low = selection.region[index], high = selection.region[index + 1];
+    if (low < high && low < scene.box[axis] && high > 0.0) continue;
+    throw UserError({"--events-in", 0, 0},
+                    fmt::format("no place of the box is between {} and {} along {}", low, high,
+                                kAxes[static_cast<std::size_t>(axis)].name),
+                    "give the lower and upper limit of each axis, within the box");
+  }
 }
 
 // Throws before a long run if its results cannot be written.
@@ -106,6 +117,9 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
                                  {"--trajectory", options.trajectory},
                                  {"--events", options.events},
                                  {"--save-state", options.save_state}};
+  if (!options.events.empty() && records_path(options.events) != options.events) {
+    outputs.push_back({"--events", records_path(options.events)});
+  }
   std::vector<Output> tables;
   const auto add_tables = [&](const char* flag, const std::filesystem::path& folder,
                               const auto& names) {
@@ -294,12 +308,9 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
-  if (options.trajectory.empty()) {
-    run.leave_record();
-  } else {
-    run.record(options.trajectory, options.every);
-  }
+  if (!options.trajectory.empty()) run.record(options.trajectory, options.every);
   if (!options.events.empty()) run.log_events(options.events, options.selection);
+  run.tell_left_files();
   try {
     Progress progress(options.common.shown_progress(), "measuring", run.simulation().time(), end);
     if (options.accuracy.asked_for()) {
@@ -343,17 +354,18 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
 
 }  // namespace
 
-void require_bounded_samples(const Measure& spec, double end) {
-  if (end / spec.series_interval > kMaxSamples) {
-    throw UserError(
-        {"measure.series_interval", 0, 0},
-        "the series would have " + number_text(std::floor(end / spec.series_interval)) + " samples",
-        "choose at least " + number_text(end / kMaxSamples));
+void require_bounded_samples(const Measure& spec, double begin, double end) {
+  const double span = end - begin, averaged = end - std::max(begin, spec.burn_in);
+  if (span / spec.series_interval > kMaxSamples) {
+    throw UserError({"measure.series_interval", 0, 0},
+                    "the series would have " +
+                        number_text(std::floor(span / spec.series_interval)) + " samples",
+                    "choose at least " + number_text(span / kMaxSamples));
   }
   const auto require = [&](const std::string& key, double interval) {
-    if ((end - spec.burn_in) / interval <= kMaxSamples) return;
+    if (averaged / interval <= kMaxSamples) return;
     throw UserError({key, 0, 0}, "there would be more than 1e7 samples",
-                    "choose at least " + number_text((end - spec.burn_in) / kMaxSamples));
+                    "choose at least " + number_text(averaged / kMaxSamples));
   };
   if (spec.estimator == Estimator::Snapshot) require("measure.interval", spec.interval);
   for (const auto& [name, kind] : kObservables) {
@@ -374,7 +386,7 @@ int measure(const MeasureOptions& options) {
                         ", and the run ends at " + number_text(end),
                     "give a time after the checkpoint");
   }
-  require_bounded_samples(scene.measure, end);
+  require_bounded_samples(scene.measure, 0.0, end);
   if (!options.trajectory.empty() && end / options.every > kMaxSamples) {
     throw UserError({"--every", 0, 0}, "the trajectory would have more than 1e7 frames",
                     "choose at least " + number_text(end / kMaxSamples));

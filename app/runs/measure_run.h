@@ -28,9 +28,8 @@ struct MeasureOptions {
   std::string save_state;      ///< file for the state at the end; empty: none
 };
 
-/// Throws UserError if a measurement up to the simulation time `end` would have more than 1e7
-/// samples.
-void require_bounded_samples(const Measure& measure, double end);
+/// Throws UserError if a measurement between two simulation times would have more than 1e7 samples.
+void require_bounded_samples(const Measure& measure, double begin, double end);
 
 /// Measures a scene and writes the results. Returns the exit code. Throws UserError, RunError,
 /// PhysicalStop, and Interrupted before the run begins.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "engine/observables/histogram.h"
 #include "engine/observables/log_bins.h"
@@ -18,8 +18,10 @@ struct CollisionSums {
   static constexpr std::size_t kNormalSpeed = 2;
   static constexpr std::size_t kTangentialSpeed = 3;
   static constexpr std::size_t kEnergyLoss = 4;
-  static constexpr std::size_t kSliding = 5;
-  static constexpr std::size_t kImpactBins = 6;
+  static constexpr std::size_t kDissipative = 5;  // collisions that dissipate
+  static constexpr std::size_t kFrictional = 6;   // collisions with finite friction
+  static constexpr std::size_t kSliding = 7;
+  static constexpr std::size_t kImpactBins = 8;
   static constexpr std::size_t kImpactBinCount = 50;
   static constexpr std::size_t kNormalBins = kImpactBins + kImpactBinCount;
   static constexpr std::size_t kTangentialBins = kNormalBins + LogBins::kCount;
@@ -27,24 +29,53 @@ struct CollisionSums {
   static constexpr std::size_t kSize = kLossBins + LogBins::kCount;
 };
 
-// The coefficient of friction between particles, if it is finite.
-std::optional<double> finite_friction(const Roughness& roughness) {
-  const double friction = roughness.friction_in_force();
-  return roughness.any() && std::isfinite(friction) ? std::optional(friction) : std::nullopt;
+// Kinetic energy of a particle before a collision.
+template <int D>
+double energy_before(const ParticleChange<D>& change, double inertia) {
+  return 0.5 * change.velocity.squaredNorm() + 0.125 * inertia * change.spin.squaredNorm();
+}
+
+// Energy that a collision dissipates. A difference by rounding is 0.
+template <int D>
+double dissipated(const PairCollision<D>& collision, const Model<D>& model) {
+  constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const auto& [first, second] = collision.particles;
+  const double loss = -(first.energy + second.energy);
+  const double energy = energy_before(first, model.inertia) + energy_before(second, model.inertia);
+  return collision.elasticised || loss < kRounding * energy ? 0.0 : loss;
+}
+
+// Whether the tangential impulse reaches the Coulomb limit, up to rounding.
+template <int D>
+bool slides(const Vec<D>& impulse, const Vec<D>& normal, double friction) {
+  constexpr double kAtLimit = 1.0 - 1e-9;
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double along = impulse.dot(normal);
+  const double across = (impulse - along * normal).norm();
+  return std::fabs(along) > 0.0 && across >= (kAtLimit * friction - kRounding) * std::fabs(along);
 }
 
 }  // namespace
 
 template <int D>
+std::size_t CollisionStatistics<D>::size() const {
+  return CollisionSums::kSize;
+}
+
+template <int D>
+std::size_t CollisionStatistics<D>::mean_size() const {
+  return CollisionSums::kImpactBins;
+}
+
+template <int D>
 void CollisionStatistics<D>::start() {
-  sums_.values.assign(CollisionSums::kSize, 0.0);
+  Observable::start();
   simulation_.add_observer(*this);
 }
 
 template <int D>
 void CollisionStatistics<D>::restore(ArchiveReader& io) {
-  io(sums_);
-  io.require(sums_.values.size() == CollisionSums::kSize);
+  Observable::restore(io);
   simulation_.add_observer(*this);
 }
 
@@ -53,10 +84,12 @@ void CollisionStatistics<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [first, second] = collision.particles;
   const Vec<D> relative = first.velocity - second.velocity;
   const Vec<D> normal = collision.separation.normalized();
-  const double normal_speed = -relative.dot(normal);
-  const double tangential_speed = (relative + normal_speed * normal).norm();
-  const double impact_parameter = tangential_speed / relative.norm();
-  const double loss = -(first.energy + second.energy);
+  // Grazing particles may recede by rounding.
+  const double normal_speed = std::max(0.0, -relative.dot(normal));
+  const double tangential_speed = (relative - relative.dot(normal) * normal).norm();
+  const double speed = relative.norm();
+  const double impact_parameter = speed > 0.0 ? tangential_speed / speed : 0.0;
+  const double loss = dissipated(collision, simulation_.model());
   std::vector<double>& sums = sums_.values;
   const auto bin =
       static_cast<std::size_t>(impact_parameter * double{CollisionSums::kImpactBinCount});
@@ -64,50 +97,51 @@ void CollisionStatistics<D>::on_collision(const PairCollision<D>& collision) {
   sums[CollisionSums::kImpactParameter] += impact_parameter;
   sums[CollisionSums::kNormalSpeed] += normal_speed;
   sums[CollisionSums::kTangentialSpeed] += tangential_speed;
-  sums[CollisionSums::kEnergyLoss] += loss;
   sums[CollisionSums::kImpactBins + std::min(bin, CollisionSums::kImpactBinCount - 1)] += 1.0;
   sums[CollisionSums::kNormalBins + LogBins::of(normal_speed)] += 1.0;
   sums[CollisionSums::kTangentialBins + LogBins::of(tangential_speed)] += 1.0;
-  if (loss > 0.0) sums[CollisionSums::kLossBins + LogBins::of(loss)] += 1.0;
-  const std::optional<double> friction = finite_friction(simulation_.model().roughness);
-  if (!friction) return;
-  const double normal_impulse = std::fabs(first.gain.momentum.dot(normal));
-  const double tangential_impulse =
-      (first.gain.momentum - first.gain.momentum.dot(normal) * normal).norm();
-  // The limit is reached up to the rounding of the impulse.
-  constexpr double kAtLimit = 1.0 - 1e-9;
-  if (tangential_impulse >= kAtLimit * *friction * normal_impulse)
-    sums[CollisionSums::kSliding] += 1.0;
+  if (loss > 0.0) {
+    sums[CollisionSums::kEnergyLoss] += loss;
+    sums[CollisionSums::kDissipative] += 1.0;
+    sums[CollisionSums::kLossBins + LogBins::of(loss)] += 1.0;
+  }
+  const Roughness& roughness = simulation_.model().roughness;
+  const double friction = roughness.friction_in_force();
+  if (!roughness.any() || !std::isfinite(friction)) return;
+  sums[CollisionSums::kFrictional] += 1.0;
+  if (slides<D>(first.gain.momentum, normal, friction)) sums[CollisionSums::kSliding] += 1.0;
 }
 
 template <int D>
-ObservableSums CollisionStatistics<D>::close_window() {
-  ObservableSums window = sums_;
-  sums_.values.assign(CollisionSums::kSize, 0.0);
-  return window;
-}
-
-template <int D>
-ObservableResult CollisionStatistics<D>::result(std::span<const ObservableSums> parts) const {
-  const Model<D>& model = simulation_.model();
-  const auto mean = [&](std::size_t sum) { return ratio_of(parts, sum, CollisionSums::kCount); };
+ObservableResult CollisionStatistics<D>::result(const ObservableParts& parts) const {
+  const auto mean = [&](std::size_t sum) {
+    return ratio_of(parts.fine, sum, CollisionSums::kCount);
+  };
+  // A law of collisions may have applied during a part of the run only.
+  const auto occurred = [&](std::size_t sum) {
+    return std::ranges::any_of(parts.fine,
+                               [&](const ObservableSums& part) { return part.values[sum] > 0.0; });
+  };
   ObservableResult result{
-      {linear_histogram("collisions.impact_parameter", "a", parts, CollisionSums::kImpactBins,
-                        CollisionSums::kImpactBinCount, 0.0, 1.0, CollisionSums::kCount),
-       log_histogram("collisions.normal_speed", "a/t", parts, CollisionSums::kNormalBins,
+      {linear_histogram("collisions.impact_parameter", "a", parts.coarse,
+                        CollisionSums::kImpactBins, CollisionSums::kImpactBinCount, 0.0, 1.0,
+                        CollisionSums::kCount),
+       log_histogram("collisions.normal_speed", "a/t", parts.coarse, CollisionSums::kNormalBins,
                      CollisionSums::kCount),
-       log_histogram("collisions.tangential_speed", "a/t", parts, CollisionSums::kTangentialBins,
-                     CollisionSums::kCount)},
+       log_histogram("collisions.tangential_speed", "a/t", parts.coarse,
+                     CollisionSums::kTangentialBins, CollisionSums::kCount)},
       {{"collisions.mean_impact_parameter", mean(CollisionSums::kImpactParameter)},
        {"collisions.mean_normal_speed", mean(CollisionSums::kNormalSpeed)},
        {"collisions.mean_tangential_speed", mean(CollisionSums::kTangentialSpeed)}}};
-  if (model.dissipates()) {
-    result.tables.push_back(log_histogram("collisions.energy_loss", "m a^2/t^2", parts,
+  if (occurred(CollisionSums::kDissipative)) {
+    result.tables.push_back(log_histogram("collisions.energy_loss", "m a^2/t^2", parts.coarse,
                                           CollisionSums::kLossBins, CollisionSums::kCount));
     result.means.emplace_back("collisions.mean_energy_loss", mean(CollisionSums::kEnergyLoss));
   }
-  if (finite_friction(model.roughness)) {
-    result.means.emplace_back("collisions.sliding_share", mean(CollisionSums::kSliding));
+  if (occurred(CollisionSums::kFrictional)) {
+    result.means.emplace_back(
+        "collisions.sliding_share",
+        ratio_of(parts.fine, CollisionSums::kSliding, CollisionSums::kFrictional));
   }
   return result;
 }

@@ -7,25 +7,24 @@ namespace clatter {
 
 /// Statistics of all collisions of particles (theory 11.2): impact parameter, normal and tangential
 /// impact speed of the centres, and dissipated energy. Tables "collisions.impact_parameter",
-/// "..normal_speed", "..tangential_speed" and, where collisions dissipate, "..energy_loss"; their
-/// means have the same names with "mean_" before the last word. With finite friction
-/// "collisions.sliding_share" is the share of collisions that reach the Coulomb limit.
+/// "..normal_speed", "..tangential_speed" and, if collisions dissipated, "..energy_loss"; their
+/// means have the same names with "mean_" before the last word. "collisions.sliding_share" is the
+/// share of the collisions with finite friction that reach the Coulomb limit.
 template <int D>
 class CollisionStatistics final : public Observable, private Observer<D> {
  public:
   explicit CollisionStatistics(Simulation<D>& simulation) : simulation_(simulation) {}
 
+  std::size_t size() const override;
+  std::size_t mean_size() const override;
   void start() override;
-  ObservableSums close_window() override;
-  ObservableResult result(std::span<const ObservableSums> parts) const override;
-  void save(ArchiveWriter& io) override { io(sums_); }
+  ObservableResult result(const ObservableParts& parts) const override;
   void restore(ArchiveReader& io) override;
 
  private:
   void on_collision(const PairCollision<D>& collision) override;
 
   Simulation<D>& simulation_;
-  ObservableSums sums_;
 };
 
 extern template class CollisionStatistics<2>;

@@ -47,18 +47,34 @@ double arc_length(const Vec<D>& velocity, const Vec<D>& acceleration, double dur
 }
 
 template <int D>
+std::size_t FreeFlights<D>::size() const {
+  return FlightSums::kSize;
+}
+
+template <int D>
+std::size_t FreeFlights<D>::mean_size() const {
+  return FlightSums::kTimeBins;
+}
+
+template <int D>
 void FreeFlights<D>::start() {
+  Observable::start();
   const std::size_t count = simulation_.particles().size();
   paths_.assign(count, {std::numeric_limits<double>::quiet_NaN()});
-  sums_.values.assign(FlightSums::kSize, 0.0);
   simulation_.add_observer(*this);
 }
 
 template <int D>
+void FreeFlights<D>::save(ArchiveWriter& io) {
+  Observable::save(io);
+  io(paths_);
+}
+
+template <int D>
 void FreeFlights<D>::restore(ArchiveReader& io) {
-  io(paths_, sums_);
-  io.require(paths_.size() == simulation_.particles().size() &&
-             sums_.values.size() == FlightSums::kSize);
+  Observable::restore(io);
+  io(paths_);
+  io.require(paths_.size() == simulation_.particles().size());
   simulation_.add_observer(*this);
 }
 
@@ -104,19 +120,14 @@ void FreeFlights<D>::on_base_moved(double shift) {
 }
 
 template <int D>
-ObservableSums FreeFlights<D>::close_window() {
-  ObservableSums window = sums_;
-  sums_.values.assign(FlightSums::kSize, 0.0);
-  return window;
-}
-
-template <int D>
-ObservableResult FreeFlights<D>::result(std::span<const ObservableSums> parts) const {
+ObservableResult FreeFlights<D>::result(const ObservableParts& parts) const {
   return {
-      {log_histogram("free_flights.time", "t", parts, FlightSums::kTimeBins, FlightSums::kCount),
-       log_histogram("free_flights.path", "a", parts, FlightSums::kLengthBins, FlightSums::kCount)},
-      {{"free_flights.mean_time", ratio_of(parts, FlightSums::kTimes, FlightSums::kCount)},
-       {"free_flights.mean_path", ratio_of(parts, FlightSums::kLengths, FlightSums::kCount)}}};
+      {log_histogram("free_flights.time", "t", parts.coarse, FlightSums::kTimeBins,
+                     FlightSums::kCount),
+       log_histogram("free_flights.path", "a", parts.coarse, FlightSums::kLengthBins,
+                     FlightSums::kCount)},
+      {{"free_flights.mean_time", ratio_of(parts.fine, FlightSums::kTimes, FlightSums::kCount)},
+       {"free_flights.mean_path", ratio_of(parts.fine, FlightSums::kLengths, FlightSums::kCount)}}};
 }
 
 template class FreeFlights<2>;

@@ -15,10 +15,11 @@ class FreeFlights final : public Observable, private Observer<D> {
  public:
   explicit FreeFlights(Simulation<D>& simulation) : simulation_(simulation) {}
 
+  std::size_t size() const override;
+  std::size_t mean_size() const override;
   void start() override;
-  ObservableSums close_window() override;
-  ObservableResult result(std::span<const ObservableSums> parts) const override;
-  void save(ArchiveWriter& io) override { io(paths_, sums_); }
+  ObservableResult result(const ObservableParts& parts) const override;
+  void save(ArchiveWriter& io) override;
   void restore(ArchiveReader& io) override;
 
  private:
@@ -41,7 +42,6 @@ class FreeFlights final : public Observable, private Observer<D> {
 
   Simulation<D>& simulation_;
   std::vector<Path> paths_;  // [N]
-  ObservableSums sums_;
 };
 
 /// Length of a flight of constant acceleration: the integral of |v + g t| from 0 to `duration`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/observables/count_bins.h"
 #include "engine/observables/log_bins.h"
 
 namespace clatter {
@@ -40,13 +41,13 @@ class DensityTable {
   std::size_t total_;
 };
 
-}  // namespace
-
-ResultTable log_histogram(std::string name, const std::string& unit,
-                          std::span<const ObservableSums> parts, std::size_t first,
-                          std::size_t total) {
-  std::size_t begin = LogBins::kCount, end = 0;  // of the bins with counts
-  for (std::size_t bin = 0; bin < LogBins::kCount; ++bin) {
+// The table of all bins between the first and the last with counts.
+template <class Bins>
+ResultTable filled_bins(std::string name, const std::string& unit,
+                        std::span<const ObservableSums> parts, std::size_t first,
+                        std::size_t total) {
+  std::size_t begin = Bins::kCount, end = 0;
+  for (std::size_t bin = 0; bin < Bins::kCount; ++bin) {
     const bool filled = std::ranges::any_of(
         parts, [&](const ObservableSums& part) { return part.values[first + bin] > 0.0; });
     if (!filled) continue;
@@ -55,9 +56,22 @@ ResultTable log_histogram(std::string name, const std::string& unit,
   }
   DensityTable densities(std::move(name), unit, parts, total);
   for (std::size_t bin = begin; bin < end; ++bin) {
-    densities.add(first + bin, LogBins::edge(bin), LogBins::edge(bin + 1));
+    densities.add(first + bin, Bins::edge(bin), Bins::edge(bin + 1));
   }
   return std::move(densities).table();
+}
+
+}  // namespace
+
+ResultTable log_histogram(std::string name, const std::string& unit,
+                          std::span<const ObservableSums> parts, std::size_t first,
+                          std::size_t total) {
+  return filled_bins<LogBins>(std::move(name), unit, parts, first, total);
+}
+
+ResultTable count_histogram(std::string name, std::span<const ObservableSums> parts,
+                            std::size_t first, std::size_t total) {
+  return filled_bins<CountBins>(std::move(name), "1", parts, first, total);
 }
 
 ResultTable linear_histogram(std::string name, const std::string& unit,

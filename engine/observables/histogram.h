@@ -14,6 +14,11 @@ ResultTable log_histogram(std::string name, const std::string& unit,
                           std::span<const ObservableSums> parts, std::size_t first,
                           std::size_t total);
 
+/// The same with CountBins: `density` is the mean count per whole number, and `high` the first
+/// number of the next bin.
+ResultTable count_histogram(std::string name, std::span<const ObservableSums> parts,
+                            std::size_t first, std::size_t total);
+
 /// The same for `bins` equal bins between `low` and `high`.
 ResultTable linear_histogram(std::string name, const std::string& unit,
                              std::span<const ObservableSums> parts, std::size_t first,

@@ -19,6 +19,8 @@ class LagHistory {
 
   /// The lags in units of the interval, in increasing order. The first is 0.
   const std::vector<std::uint64_t>& lags() const { return lags_; }
+  /// Number of samples that are stored at most.
+  std::size_t capacity() const;
 
   /// Adds the next sample [N]. Calls visit(index, earlier) for each lag whose earlier sample
   /// exists, with the index of the lag, lag 0 included.
@@ -37,6 +39,9 @@ class LagHistory {
     }
     ++samples_;
   }
+
+  /// Whether all samples that later lags need are present, with `count` vectors each.
+  bool is_complete(std::size_t count) const;
 
   /// Visits the members that a checkpoint keeps.
   template <class Archive>

@@ -12,16 +12,16 @@ namespace clatter {
 /// The first and the last bin also count smaller and larger numbers.
 struct LogBins {
   static constexpr int kPerOctave = 8;
-  static constexpr int kMinExponent = -40;  ///< of the lower edge of the first bin, as power of 2
-  static constexpr int kMaxExponent = 40;   ///< of the upper edge of the last bin
+  static constexpr int kMinExponent = -64;  ///< of the lower edge of the first bin, as power of 2
+  static constexpr int kMaxExponent = 32;   ///< of the upper edge of the last bin
   static constexpr std::size_t kCount = kPerOctave * (kMaxExponent - kMinExponent);
 
   /// The bin of a number >= 0: its exponent and the first three bits of its mantissa.
   static std::size_t of(double number) {
     constexpr int kMantissa = 52, kOctaveBits = std::countr_zero(unsigned{kPerOctave});
-    constexpr auto kFirst = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(0x1p-40) >>
+    constexpr auto kFirst = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(0x1p-64) >>
                                                       (kMantissa - kOctaveBits));
-    static_assert(kMinExponent == -40);
+    static_assert(kMinExponent == -64);
     const auto bits = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(number) >>
                                                 (kMantissa - kOctaveBits));
     return static_cast<std::size_t>(

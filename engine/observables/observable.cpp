@@ -1,5 +1,6 @@
 #include "engine/observables/observable.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -8,6 +9,25 @@ namespace clatter {
 ObservableSums& ObservableSums::operator+=(const ObservableSums& other) {
   for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
   return *this;
+}
+
+void Observable::start() {
+  sums_.values.assign(size(), 0.0);
+}
+
+ObservableSums Observable::close_window() {
+  ObservableSums window = sums_;
+  std::ranges::fill(sums_.values, 0.0);
+  return window;
+}
+
+void Observable::save(ArchiveWriter& io) {
+  io(sums_);
+}
+
+void Observable::restore(ArchiveReader& io) {
+  io(sums_);
+  io.require(sums_.values.size() == size());
 }
 
 Estimate ratio_of(std::span<const double> numerator, std::span<const double> denominator) {

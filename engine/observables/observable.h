@@ -47,25 +47,39 @@ void visit(Archive& io, ObservableSums& sums) {
   io(values);
 }
 
+/// The sums of an observable in consecutive parts of a run. Standard errors come from their
+/// scatter.
+struct ObservableParts {
+  std::span<const ObservableSums> fine;    ///< for means; only the first sums, in up to 1024 parts
+  std::span<const ObservableSums> coarse;  ///< for tables; all sums, in up to 64 parts
+};
+
 /// A quantity that accumulates sums over windows of time. An observable of events is also an
 /// Observer of the simulation; an observable of states is sampled at equal intervals.
 class Observable {
  public:
   virtual ~Observable() = default;
 
+  /// Number of sums.
+  virtual std::size_t size() const = 0;
+  /// Number of sums, from the first, that the means need.
+  virtual std::size_t mean_size() const = 0;
   /// Begins to accumulate, at the simulation's time.
-  virtual void start() = 0;
+  virtual void start();
   /// Adds the present state, if the observable is sampled.
   virtual void sample() {}
   /// The sums since the last call or the start.
-  virtual ObservableSums close_window() = 0;
-  /// The results from the sums of consecutive parts of the run.
-  virtual ObservableResult result(std::span<const ObservableSums> parts) const = 0;
+  virtual ObservableSums close_window();
+  /// The results of a run.
+  virtual ObservableResult result(const ObservableParts& parts) const = 0;
 
   /// Writes or reads the members that a checkpoint keeps. The continued simulation must be at the
   /// same time.
-  virtual void save(ArchiveWriter& io) = 0;
-  virtual void restore(ArchiveReader& io) = 0;
+  virtual void save(ArchiveWriter& io);
+  virtual void restore(ArchiveReader& io);
+
+ protected:
+  ObservableSums sums_;  // of the present window
 };
 
 /// sum(numerator)/sum(denominator) over the parts of a run; NaN if the denominator is 0.

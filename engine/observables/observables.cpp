@@ -1,15 +1,28 @@
 #include "engine/observables/observables.h"
 
-#include <cmath>
-
+#include "engine/observables/bond_order.h"
+#include "engine/observables/clusters.h"
 #include "engine/observables/collision_statistics.h"
+#include "engine/observables/count_bins.h"
 #include "engine/observables/free_flights.h"
+#include "engine/observables/log_bins.h"
 #include "engine/observables/radial_distribution.h"
+#include "engine/observables/structure_factor.h"
 #include "engine/observables/time_correlation.h"
 #include "engine/observables/velocity_distribution.h"
 #include "engine/observables/wall_hits.h"
 
 namespace clatter {
+
+template <int D>
+static std::unique_ptr<Observable> make_bond_order(Simulation<D>& simulation,
+                                                   const BondOrderSettings& settings) {
+  if constexpr (D == 2) {
+    return std::make_unique<BondOrder>(simulation, settings);
+  } else {
+    throw std::logic_error("bond order of spheres");
+  }
+}
 
 template <int D>
 static std::unique_ptr<Observable> make_observable(ObservableKind kind, Simulation<D>& simulation,
@@ -31,6 +44,12 @@ static std::unique_ptr<Observable> make_observable(ObservableKind kind, Simulati
     case ObservableKind::VelocityAutocorrelation:
       return std::make_unique<VelocityAutocorrelation<D>>(simulation,
                                                           measure.velocity_autocorrelation);
+    case ObservableKind::StructureFactor:
+      return std::make_unique<StructureFactor<D>>(simulation, measure.structure_factor);
+    case ObservableKind::Clusters:
+      return std::make_unique<Clusters<D>>(simulation, measure.clusters);
+    case ObservableKind::BondOrder:
+      return make_bond_order(simulation, measure.bond_order);
   }
   return nullptr;
 }
@@ -40,12 +59,13 @@ Observables<D>::Observables(Simulation<D>& simulation, const Measure& measure)
     : simulation_(simulation) {
   for (const ObservableKind kind : measure.observables) {
     parts_.push_back(
-        {make_observable(kind, simulation, measure), measure.sampling_interval(kind), {}});
+        {make_observable(kind, simulation, measure), measure.sampling_interval(kind), {}, {}});
   }
 }
 
 template <int D>
 void Observables<D>::start() {
+  started_ = true;
   for (Part& part : parts_) part.observable->start();
 }
 
@@ -55,9 +75,10 @@ void Observables<D>::add_timers(double begin) {
     if (!part.interval) continue;
     simulation_.every(
         begin + *part.interval, *part.interval,
-        [&part](double) {
+        [this, &part](double) {
           ++part.samples;
-          part.observable->sample();
+          // An interval below the rounding of `begin` has its first samples at `begin`.
+          if (started_) part.observable->sample();
         },
         part.samples);
   }
@@ -65,38 +86,61 @@ void Observables<D>::add_timers(double begin) {
 
 template <int D>
 void Observables<D>::close_window() {
-  for (Part& part : parts_) part.sums.add(part.observable->close_window());
+  for (Part& part : parts_) {
+    ObservableSums window = part.observable->close_window();
+    const auto means = window.values.begin() + static_cast<long>(part.observable->mean_size());
+    part.fine.add({{window.values.begin(), means}});
+    part.coarse.add(std::move(window));
+  }
 }
 
 template <int D>
 std::vector<ObservableResult> Observables<D>::results() const {
   std::vector<ObservableResult> results;
-  for (const Part& part : parts_) results.push_back(part.observable->result(part.sums.parts()));
+  for (const Part& part : parts_) {
+    results.push_back(part.observable->result({part.fine.parts(), part.coarse.parts()}));
+  }
   return results;
 }
 
 template <int D>
 void Observables<D>::save(ArchiveWriter& io) {
   for (Part& part : parts_) {
-    io(part.sums, part.samples);
+    io(part.fine, part.coarse, part.samples);
     part.observable->save(io);
   }
 }
 
 template <int D>
 void Observables<D>::restore(ArchiveReader& io) {
+  started_ = true;
   for (Part& part : parts_) {
-    io(part.sums, part.samples);
+    io(part.fine, part.coarse, part.samples);
+    for (const ObservableSums& sums : part.fine.parts()) {
+      io.require(sums.values.size() == part.observable->mean_size());
+    }
+    for (const ObservableSums& sums : part.coarse.parts()) {
+      io.require(sums.values.size() == part.observable->size());
+    }
     part.observable->restore(io);
   }
 }
 
 std::vector<std::string> observable_tables() {
-  std::vector<std::string> names = {"radial_distribution",         "velocity_distribution",
-                                    "free_flights.time",           "free_flights.path",
-                                    "collisions.impact_parameter", "collisions.normal_speed",
-                                    "collisions.tangential_speed", "collisions.energy_loss",
-                                    "mean_squared_displacement",   "velocity_autocorrelation"};
+  std::vector<std::string> names = {"radial_distribution",
+                                    "velocity_distribution",
+                                    "free_flights.time",
+                                    "free_flights.path",
+                                    "collisions.impact_parameter",
+                                    "collisions.normal_speed",
+                                    "collisions.tangential_speed",
+                                    "collisions.energy_loss",
+                                    "mean_squared_displacement",
+                                    "velocity_autocorrelation",
+                                    "structure_factor",
+                                    "clusters.size",
+                                    "clusters.growth",
+                                    "bond_order"};
   for (const char* side : kSideNames) {
     for (const char* speeds : {".incoming", ".outgoing"}) {
       names.push_back(std::string("wall_hits.") + side + speeds);
@@ -106,35 +150,52 @@ std::vector<std::string> observable_tables() {
 }
 
 double observables_memory(const Measure& measure, int dimension, double particles) {
-  constexpr double kParts = PartSums<ObservableSums>::kMaxParts + 1.0;
-  constexpr double kEventSums = 8192.0;  // more than any observable of events has
-  const auto sums = [&](double count) { return kParts * count * sizeof(double); };
-  const auto history = [&](const TimeCorrelationSettings& settings) {
-    const double levels =
-        1.0 + std::floor(std::log(std::fmax(1.0, settings.longest / settings.interval)) /
-                         std::log(settings.lags));
-    const double lags = levels * settings.lags;
-    return lags * dimension * particles * sizeof(double) + sums(lags * (1.0 + 2.0 * dimension));
+  constexpr double kFine = PartSums<ObservableSums, 1024>::kMaxParts + 1.0;
+  constexpr double kCoarse = PartSums<ObservableSums>::kMaxParts + 1.0;
+  constexpr double kBins = LogBins::kCount + 64.0;  // and the sums of means
+  const auto sums = [&](double size, double mean_size) {
+    return (kCoarse * size + kFine * mean_size) * sizeof(double);
+  };
+  // A copy of the state, and the working memory of a sample.
+  const double sample = (4.0 * dimension + 4.0) * sizeof(double) * particles;
+  const auto history = [&](const TimeCorrelationSettings& settings, double row) {
+    const LagHistory<2> lags(settings);
+    const auto stored = static_cast<double>(lags.capacity());
+    return stored * dimension * sizeof(double) * particles +
+           sums(static_cast<double>(lags.lags().size()) * row, 0.0) + sample;
   };
   double bytes = 0.0;
   for (const ObservableKind kind : measure.observables) {
     switch (kind) {
       case ObservableKind::RadialDistribution:
-        bytes += sums(measure.radial_distribution.bins);
+        bytes += sums(measure.radial_distribution.bins + 2.0, 2.0) + sample;
         break;
       case ObservableKind::VelocityDistribution:
-        bytes += sums(dimension * measure.velocity_distribution.bins);
+        bytes += sums(dimension * measure.velocity_distribution.bins + 3.0, 3.0);
         break;
       case ObservableKind::FreeFlights:
+        bytes += sums(2.0 * kBins, 3.0) + 2.0 * sizeof(double) * particles;
+        break;
       case ObservableKind::Collisions:
+        bytes += sums(3.0 * kBins, 8.0);
+        break;
       case ObservableKind::WallHits:
-        bytes += sums(kEventSums);
+        bytes += 2.0 * dimension * sums(2.0 * kBins, 3.0);
         break;
       case ObservableKind::MeanSquaredDisplacement:
-        bytes += history(measure.mean_squared_displacement);
+        bytes += history(measure.mean_squared_displacement, 1.0 + 2.0 * dimension);
         break;
       case ObservableKind::VelocityAutocorrelation:
-        bytes += history(measure.velocity_autocorrelation);
+        bytes += history(measure.velocity_autocorrelation, 1.0 + dimension);
+        break;
+      case ObservableKind::StructureFactor:
+        bytes += sums(measure.structure_factor.bins + 1.0, 0.0) + sample;
+        break;
+      case ObservableKind::Clusters:
+        bytes += sums(CountBins::kCount + 5.0, 5.0) + 2.0 * sample;
+        break;
+      case ObservableKind::BondOrder:
+        bytes += history(measure.bond_order.lags_in_time, 2.0) + sums(3.0, 3.0) + sample;
         break;
     }
   }

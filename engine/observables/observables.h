@@ -38,13 +38,15 @@ class Observables {
  private:
   struct Part {
     std::unique_ptr<Observable> observable;
-    std::optional<double> interval;  // between samples; absent: it follows events
-    PartSums<ObservableSums> sums;
+    std::optional<double> interval;       // between samples; absent: it follows events
+    PartSums<ObservableSums, 1024> fine;  // of the sums that the means need
+    PartSums<ObservableSums> coarse;      // of all sums
     std::uint64_t samples = 0;
   };
 
   Simulation<D>& simulation_;
   std::vector<Part> parts_;
+  bool started_ = false;
 };
 
 /// The names of all tables that observables may have.

@@ -12,18 +12,20 @@ namespace clatter {
 
 /// Mean-squared displacement and mean drift of the unwrapped positions (theory 11.8), at the lags
 /// of LagHistory, averaged over particles and origins. Table "mean_squared_displacement" with
-/// columns for each axis and their sum.
+/// columns for each axis and their sum. The sums are [lags][1 + 2 D]: samples, displacements and
+/// their squares.
 template <int D>
 class MeanSquaredDisplacement final : public Observable {
  public:
   MeanSquaredDisplacement(Simulation<D>& simulation, const TimeCorrelationSettings& settings)
       : simulation_(simulation), settings_(settings), history_(settings) {}
 
+  std::size_t size() const override { return history_.lags().size() * (1 + 2 * D); }
+  std::size_t mean_size() const override { return 0; }
   void start() override;
   void sample() override;
-  ObservableSums close_window() override;
-  ObservableResult result(std::span<const ObservableSums> parts) const override;
-  void save(ArchiveWriter& io) override { io(history_, *images_, sums_); }
+  ObservableResult result(const ObservableParts& parts) const override;
+  void save(ArchiveWriter& io) override;
   void restore(ArchiveReader& io) override;
 
  private:
@@ -31,30 +33,28 @@ class MeanSquaredDisplacement final : public Observable {
   TimeCorrelationSettings settings_;
   std::optional<PeriodicImages<D>> images_;  // present after the start
   LagHistory<D> history_;
-  ObservableSums sums_;  // [lags][1 + 2 D] samples, then displacements and their squares
 };
 
 /// Autocorrelation <v_k(0) v_k(t)> of the velocities (theory 11.9), at the lags of LagHistory,
 /// averaged over particles and origins. Table "velocity_autocorrelation" with columns for each axis
-/// and their mean.
+/// and their mean. The sums are [lags][1 + D]: samples and products.
 template <int D>
 class VelocityAutocorrelation final : public Observable {
  public:
   VelocityAutocorrelation(const Simulation<D>& simulation, const TimeCorrelationSettings& settings)
       : simulation_(simulation), settings_(settings), history_(settings) {}
 
-  void start() override;
+  std::size_t size() const override { return history_.lags().size() * (1 + D); }
+  std::size_t mean_size() const override { return 0; }
   void sample() override;
-  ObservableSums close_window() override;
-  ObservableResult result(std::span<const ObservableSums> parts) const override;
-  void save(ArchiveWriter& io) override { io(history_, sums_); }
+  ObservableResult result(const ObservableParts& parts) const override;
+  void save(ArchiveWriter& io) override;
   void restore(ArchiveReader& io) override;
 
  private:
   const Simulation<D>& simulation_;
   TimeCorrelationSettings settings_;
   LagHistory<D> history_;
-  ObservableSums sums_;  // [lags][1 + D] samples, then products
 };
 
 extern template class MeanSquaredDisplacement<2>;

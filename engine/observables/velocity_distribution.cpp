@@ -25,14 +25,8 @@ std::size_t VelocityDistribution<D>::size() const {
 }
 
 template <int D>
-void VelocityDistribution<D>::start() {
-  sums_.values.assign(size(), 0.0);
-}
-
-template <int D>
-void VelocityDistribution<D>::restore(ArchiveReader& io) {
-  io(sums_);
-  io.require(sums_.values.size() == size());
+std::size_t VelocityDistribution<D>::mean_size() const {
+  return VelocitySums::kBins;
 }
 
 template <int D>
@@ -68,28 +62,21 @@ void VelocityDistribution<D>::sample() {
   sums[VelocitySums::kCount] += count;
 }
 
-template <int D>
-ObservableSums VelocityDistribution<D>::close_window() {
-  ObservableSums window = sums_;
-  start();
-  return window;
-}
-
 // (theory 11.5). The sample's own T and mean velocity are used, so the velocities are on a sphere
 // in n dimensions. The factors make a2 and a3 of a uniform distribution on it 0.
 template <int D>
-ObservableResult VelocityDistribution<D>::result(std::span<const ObservableSums> parts) const {
+ObservableResult VelocityDistribution<D>::result(const ObservableParts& parts) const {
   const double count = static_cast<double>(simulation_.particles().size());
   const double n = D * (count - 1.0);
   const double own = count / (count - 1.0);  // n over the mean square of all particles
   const double fourth_gauss = D * (D + 2) / 4.0 * n / (n + 2.0) / (own * own);
   const double sixth_gauss =
       D * (D + 2) * (D + 4) / 8.0 * n * n / ((n + 2.0) * (n + 4.0)) / (own * own * own);
-  Estimate a2 = ratio_of(parts, VelocitySums::kFourth, VelocitySums::kCount, fourth_gauss);
+  Estimate a2 = ratio_of(parts.fine, VelocitySums::kFourth, VelocitySums::kCount, fourth_gauss);
   a2.mean -= 1.0;
   // <c^6> = <c^6>_Gauss (1 + 3 a2 - a3)
   std::vector<double> numerator, denominator;
-  for (const ObservableSums& part : parts) {
+  for (const ObservableSums& part : parts.fine) {
     const std::vector<double>& sums = part.values;
     numerator.push_back(3.0 * sums[VelocitySums::kFourth] / fourth_gauss -
                         sums[VelocitySums::kSixth] / sixth_gauss);
@@ -110,7 +97,7 @@ ObservableResult VelocityDistribution<D>::result(std::span<const ObservableSums>
       const auto index =
           VelocitySums::kBins + static_cast<std::size_t>(axis * settings_.bins + bin);
       append(table.columns[static_cast<std::size_t>(2 + axis)],
-             ratio_of(parts, index, VelocitySums::kCount, width));
+             ratio_of(parts.coarse, index, VelocitySums::kCount, width));
     }
   }
   return {{std::move(table)}, {{"velocity_distribution.a2", a2}, {"velocity_distribution.a3", a3}}};

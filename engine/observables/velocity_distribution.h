@@ -18,19 +18,14 @@ class VelocityDistribution final : public Observable {
                        const VelocityDistributionSettings& settings)
       : simulation_(simulation), settings_(settings) {}
 
-  void start() override;
+  std::size_t size() const override;
+  std::size_t mean_size() const override;
   void sample() override;
-  ObservableSums close_window() override;
-  ObservableResult result(std::span<const ObservableSums> parts) const override;
-  void save(ArchiveWriter& io) override { io(sums_); }
-  void restore(ArchiveReader& io) override;
+  ObservableResult result(const ObservableParts& parts) const override;
 
  private:
-  std::size_t size() const;
-
   const Simulation<D>& simulation_;
   VelocityDistributionSettings settings_;
-  ObservableSums sums_;
 };
 
 extern template class VelocityDistribution<2>;

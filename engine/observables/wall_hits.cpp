@@ -11,32 +11,46 @@ namespace clatter {
 
 namespace {
 
-// Layout of the sums of each wall.
+// Layout of the sums: those of the means of each wall, then the bins of each wall.
+template <int D>
 struct HitSums {
   static constexpr std::size_t kCount = 0;
   static constexpr std::size_t kIncomingSpeed = 1;
   static constexpr std::size_t kEnergyGain = 2;
-  static constexpr std::size_t kIncomingBins = 3;
-  static constexpr std::size_t kOutgoingBins = kIncomingBins + LogBins::kCount;
-  static constexpr std::size_t kPerWall = kOutgoingBins + LogBins::kCount;
+  static constexpr std::size_t kMeans = 3;
+  static constexpr std::size_t kOfMeans = 2 * D * kMeans;
+  static constexpr std::size_t kSize = kOfMeans + 2 * D * 2 * LogBins::kCount;
 
-  static constexpr std::size_t first_of(int side) {
-    return kPerWall * static_cast<std::size_t>(side);
+  static constexpr std::size_t means_of(int side) {
+    return kMeans * static_cast<std::size_t>(side);
   }
+  static constexpr std::size_t incoming_of(int side) {
+    return kOfMeans + 2 * LogBins::kCount * static_cast<std::size_t>(side);
+  }
+  static constexpr std::size_t outgoing_of(int side) { return incoming_of(side) + LogBins::kCount; }
 };
 
 }  // namespace
 
 template <int D>
+std::size_t WallHits<D>::size() const {
+  return HitSums<D>::kSize;
+}
+
+template <int D>
+std::size_t WallHits<D>::mean_size() const {
+  return HitSums<D>::kOfMeans;
+}
+
+template <int D>
 void WallHits<D>::start() {
-  sums_.values.assign(HitSums::first_of(2 * D), 0.0);
+  Observable::start();
   simulation_.add_observer(*this);
 }
 
 template <int D>
 void WallHits<D>::restore(ArchiveReader& io) {
-  io(sums_);
-  io.require(sums_.values.size() == HitSums::first_of(2 * D));
+  Observable::restore(io);
   simulation_.add_observer(*this);
 }
 
@@ -46,37 +60,30 @@ void WallHits<D>::on_wall(const WallCollision<D>& collision) {
   const ParticleChange<D>& change = collision.particle;
   const double before = change.velocity[axis];
   const double after = before + change.gain.momentum[axis];
-  const std::size_t first = HitSums::first_of(collision.side);
+  const std::size_t first = HitSums<D>::means_of(collision.side);
   std::vector<double>& sums = sums_.values;
-  sums[first + HitSums::kCount] += 1.0;
-  sums[first + HitSums::kIncomingSpeed] += std::fabs(before);
-  sums[first + HitSums::kEnergyGain] += change.energy;
-  sums[first + HitSums::kIncomingBins + LogBins::of(std::fabs(before))] += 1.0;
-  sums[first + HitSums::kOutgoingBins + LogBins::of(std::fabs(after))] += 1.0;
+  sums[first + HitSums<D>::kCount] += 1.0;
+  sums[first + HitSums<D>::kIncomingSpeed] += std::fabs(before);
+  sums[first + HitSums<D>::kEnergyGain] += change.energy;
+  sums[HitSums<D>::incoming_of(collision.side) + LogBins::of(std::fabs(before))] += 1.0;
+  sums[HitSums<D>::outgoing_of(collision.side) + LogBins::of(std::fabs(after))] += 1.0;
 }
 
 template <int D>
-ObservableSums WallHits<D>::close_window() {
-  ObservableSums window = sums_;
-  sums_.values.assign(HitSums::first_of(2 * D), 0.0);
-  return window;
-}
-
-template <int D>
-ObservableResult WallHits<D>::result(std::span<const ObservableSums> parts) const {
+ObservableResult WallHits<D>::result(const ObservableParts& parts) const {
   ObservableResult result;
   for (int side = 0; side < 2 * D; ++side) {
     if (!simulation_.model().walls[side]) continue;
     const std::string wall = std::string("wall_hits.") + kSideNames[side];
-    const std::size_t first = HitSums::first_of(side), hits = first + HitSums::kCount;
-    result.tables.push_back(
-        log_histogram(wall + ".incoming", "a/t", parts, first + HitSums::kIncomingBins, hits));
-    result.tables.push_back(
-        log_histogram(wall + ".outgoing", "a/t", parts, first + HitSums::kOutgoingBins, hits));
+    const std::size_t first = HitSums<D>::means_of(side), hits = first + HitSums<D>::kCount;
+    result.tables.push_back(log_histogram(wall + ".incoming", "a/t", parts.coarse,
+                                          HitSums<D>::incoming_of(side), hits));
+    result.tables.push_back(log_histogram(wall + ".outgoing", "a/t", parts.coarse,
+                                          HitSums<D>::outgoing_of(side), hits));
     result.means.emplace_back(wall + ".mean_incoming_speed",
-                              ratio_of(parts, first + HitSums::kIncomingSpeed, hits));
+                              ratio_of(parts.fine, first + HitSums<D>::kIncomingSpeed, hits));
     result.means.emplace_back(wall + ".mean_energy_gain",
-                              ratio_of(parts, first + HitSums::kEnergyGain, hits));
+                              ratio_of(parts.fine, first + HitSums<D>::kEnergyGain, hits));
   }
   return result;
 }

@@ -13,17 +13,16 @@ class WallHits final : public Observable, private Observer<D> {
  public:
   explicit WallHits(Simulation<D>& simulation) : simulation_(simulation) {}
 
+  std::size_t size() const override;
+  std::size_t mean_size() const override;
   void start() override;
-  ObservableSums close_window() override;
-  ObservableResult result(std::span<const ObservableSums> parts) const override;
-  void save(ArchiveWriter& io) override { io(sums_); }
+  ObservableResult result(const ObservableParts& parts) const override;
   void restore(ArchiveReader& io) override;
 
  private:
   void on_wall(const WallCollision<D>& collision) override;
 
   Simulation<D>& simulation_;
-  ObservableSums sums_;
 };
 
 extern template class WallHits<2>;

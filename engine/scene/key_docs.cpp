@@ -59,7 +59,8 @@ class KeyDescriber {
   template <class E, class Names>
   void choice(const Key& key, std::vector<E>& chosen, const Names& names) {
     add(key, "[]", kOptional);
-    choose(key, names, [&](auto value) { chosen = {value}; });
+    choose(
+        key, names, [&](auto value) { chosen = {value}; }, true);
   }
 
   template <class Visit>
@@ -97,9 +98,13 @@ class KeyDescriber {
     return docs.back();
   }
 
-  void offer(const Key& key, std::optional<std::size_t> choice, const std::string& name) {
-    const std::string quoted = name.empty() ? "" : " = " + in_quotes(name);
-    offers.push_back({docs.back().path(), choice, "`" + std::string(key.name) + quoted + "`"});
+  void offer(const Key& key, std::optional<std::size_t> choice, const std::string& name,
+             bool in_list = false) {
+    const std::string owner(key.name), quoted = in_quotes(name);
+    const std::string text = in_list        ? quoted + "` in `" + owner
+                             : name.empty() ? owner
+                                            : owner + " = " + quoted;
+    offers.push_back({docs.back().path(), choice, '`' + text + '`'});
   }
 
   /// The state in `setting_`, if it is of the key that was added last.
@@ -108,12 +113,12 @@ class KeyDescriber {
   }
 
   template <class Names, class Choose>
-  void choose(const Key& key, const Names& names, Choose choose) {
+  void choose(const Key& key, const Names& names, Choose choose, bool in_list = false) {
     std::vector<std::string>& choices = docs.back().choices;
     std::size_t k = 0;
     for (const auto& [name, value] : names) {
       if (setting() == k) choose(value);
-      offer(key, k++, std::string(name));
+      offer(key, k++, std::string(name), in_list);
       if (choices.empty() || choices.back() != name) choices.emplace_back(name);
     }
   }

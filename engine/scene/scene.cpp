@@ -57,6 +57,12 @@ std::optional<double> Measure::sampling_interval(ObservableKind kind) const {
       return mean_squared_displacement.interval;
     case ObservableKind::VelocityAutocorrelation:
       return velocity_autocorrelation.interval;
+    case ObservableKind::StructureFactor:
+      return structure_factor.interval;
+    case ObservableKind::Clusters:
+      return clusters.interval;
+    case ObservableKind::BondOrder:
+      return bond_order.lags_in_time.interval;
     case ObservableKind::FreeFlights:
     case ObservableKind::Collisions:
     case ObservableKind::WallHits:

@@ -65,6 +65,9 @@ struct Measure {
   VelocityDistributionSettings velocity_distribution = {};
   TimeCorrelationSettings mean_squared_displacement = {.interval = 1.0, .longest = 100.0};
   TimeCorrelationSettings velocity_autocorrelation = {};
+  StructureFactorSettings structure_factor = {};
+  ClusterSettings clusters = {};
+  BondOrderSettings bond_order = {};
 
   /// Whether an observable is requested.
   bool observes(ObservableKind kind) const {

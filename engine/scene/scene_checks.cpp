@@ -104,6 +104,26 @@ static void check_kernel(const Scene& scene, const toml::table& root, const std:
   }
 }
 
+/// Throws if the box has no wave vectors, or too many.
+static void check_wave_vectors(const Scene& scene, const toml::table& root,
+                               const std::string& file) {
+  constexpr double kMostWaves = 1e4;  // along the longest axis
+  double longest = 0.0;
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
+    if (scene.periodic(axis)) longest = std::max(longest, scene.box[axis]);
+  }
+  if (longest == 0.0) {
+    throw UserError(place_of(root, "measure.observables", file),
+                    "\"structure_factor\" needs a periodic axis",
+                    "remove it, or two opposite walls");
+  }
+  const double largest = 2.0 * std::numbers::pi * kMostWaves / longest;
+  if (scene.measure.structure_factor.range <= largest) return;
+  throw UserError(place_of(root, "measure.structure_factor.range", file),
+                  "there would be more than 1e4 waves along the box",
+                  "choose at most " + number_text(largest));
+}
+
 /// Throws if the box is too small for the observables, or a longest lag is shorter than its
 /// interval.
 static void check_observables(const Scene& scene, const toml::table& root,
@@ -117,14 +137,26 @@ static void check_observables(const Scene& scene, const toml::table& root,
                     "remove it, or choose sides above 2");
   }
   const auto check_lags = [&](const std::string& name, const TimeCorrelationSettings& settings) {
-    if (settings.longest >= settings.interval) return;
-    throw UserError(
-        place_of(root, "measure." + name + ".longest", file),
-        "the longest lag is shorter than the interval " + number_text(settings.interval),
-        "choose a longer lag, or a shorter interval");
+    constexpr double kMostIntervals = 1e7;
+    const Place place = place_of(root, "measure." + name + ".longest", file);
+    if (settings.longest < settings.interval) {
+      throw UserError(
+          place, "the longest lag is shorter than the interval " + number_text(settings.interval),
+          "choose a longer lag, or a shorter interval");
+    }
+    if (settings.longest > kMostIntervals * settings.interval) {
+      throw UserError(place, "the longest lag has more than 1e7 intervals",
+                      "choose at most " + number_text(kMostIntervals * settings.interval));
+    }
   };
   check_lags("mean_squared_displacement", measure.mean_squared_displacement);
   check_lags("velocity_autocorrelation", measure.velocity_autocorrelation);
+  check_lags("bond_order", measure.bond_order.lags_in_time);
+  if (measure.observes(ObservableKind::BondOrder) && scene.dimension() == 3) {
+    throw UserError(place_of(root, "measure.observables", file), "\"bond_order\" is for disks only",
+                    "remove it");
+  }
+  if (measure.observes(ObservableKind::StructureFactor)) check_wave_vectors(scene, root, file);
 }
 
 /// Throws unless the camera's times increase, and its positions have the dimension of the box.

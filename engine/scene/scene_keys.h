@@ -176,14 +176,17 @@ inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
 inline constexpr std::array<Named<Kernel>, 2> kKernels = {
     {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
 
-inline constexpr std::array<Named<ObservableKind>, 7> kObservables = {
+inline constexpr std::array<Named<ObservableKind>, 10> kObservables = {
     {{"radial_distribution", ObservableKind::RadialDistribution},
      {"velocity_distribution", ObservableKind::VelocityDistribution},
      {"free_flights", ObservableKind::FreeFlights},
      {"collisions", ObservableKind::Collisions},
      {"wall_hits", ObservableKind::WallHits},
      {"mean_squared_displacement", ObservableKind::MeanSquaredDisplacement},
-     {"velocity_autocorrelation", ObservableKind::VelocityAutocorrelation}}};
+     {"velocity_autocorrelation", ObservableKind::VelocityAutocorrelation},
+     {"structure_factor", ObservableKind::StructureFactor},
+     {"clusters", ObservableKind::Clusters},
+     {"bond_order", ObservableKind::BondOrder}}};
 
 inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
 
@@ -359,6 +362,20 @@ inline constexpr auto kVelocityDistributionKeys = key_table(
                 {"range", "1", "Largest velocity component, in units of the thermal speed."},
                 {"bins", "1", "Number of equal bins between -`range` and `range`."}});
 
+inline constexpr auto kStructureFactorKeys = key_table(
+    "measure",
+    {{"interval", "t", "Time between samples."},
+     {"range", "1/a", "Largest wave number."},
+     {"bins", "1", "Number of shells of equal width between 0 and `range`."},
+     {"vectors", "1", "Largest number of wave vectors in a shell, in spread directions."}});
+
+inline constexpr auto kClusterKeys = key_table(
+    "measure", {{"interval", "t", "Time between samples."},
+                {"range", "a", "Largest distance of the centres of connected particles."}});
+
+inline constexpr auto kBondOrderKeys =
+    key_table("measure", {{"range", "a", "Largest distance of the centres of neighbours."}});
+
 inline constexpr auto kTimeCorrelationKeys = key_table(
     "measure", {{"interval", "t", "Shortest lag. All particles are sampled at this interval."},
                 {"longest", "t", "Longest lag."},
@@ -366,7 +383,7 @@ inline constexpr auto kTimeCorrelationKeys = key_table(
                  "Number of lags of equal spacing. Longer lags have a spacing larger by this "
                  "factor, and so on."}});
 
-/// The keys of [measure.mean_squared_displacement] and [measure.velocity_autocorrelation].
+/// The keys of a correlation in time.
 template <class Visitor>
 void visit_time_correlation(Visitor& io, TimeCorrelationSettings& settings, Presence presence) {
   io.value(kTimeCorrelationKeys.at("interval"), settings.interval, above(0.0), presence);
@@ -402,6 +419,24 @@ void visit_observables(Visitor& io, Measure& measure) {
   io.table("velocity_autocorrelation", [&](auto& io) {
     visit_time_correlation(io, measure.velocity_autocorrelation,
                            presence_of(ObservableKind::VelocityAutocorrelation));
+  });
+  io.table("structure_factor", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::StructureFactor);
+    StructureFactorSettings& settings = measure.structure_factor;
+    io.value(kStructureFactorKeys.at("interval"), settings.interval, above(0.0), presence);
+    io.value(kStructureFactorKeys.at("range"), settings.range, above(0.0), presence);
+    io.value(kStructureFactorKeys.at("bins"), settings.bins, between(1, 10'000), presence);
+    io.value(kStructureFactorKeys.at("vectors"), settings.vectors, between(1, 100), presence);
+  });
+  io.table("clusters", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::Clusters);
+    io.value(kClusterKeys.at("interval"), measure.clusters.interval, above(0.0), presence);
+    io.value(kClusterKeys.at("range"), measure.clusters.range, above(1.0), presence);
+  });
+  io.table("bond_order", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::BondOrder);
+    visit_time_correlation(io, measure.bond_order.lags_in_time, presence);
+    io.value(kBondOrderKeys.at("range"), measure.bond_order.range, above(1.0), presence);
   });
 }
 

@@ -11,12 +11,12 @@ namespace clatter {
 /// A run's sums as a series of parts in time. The number of parts stays bounded for any length of
 /// the run: when it reaches the maximum, neighbouring parts are merged in pairs, and later parts
 /// are twice as long. `Sums` has bytes() and +=.
-template <class Sums>
+template <class Sums, std::size_t Max = 64>
 class PartSums {
  public:
-  /// Maximum number of parts. If these took more than kMaxBytes, the maximum is lower, but at least
-  /// 2.
-  static constexpr std::size_t kMaxParts = 64;
+  /// Maximum number of parts, even. If these took more than kMaxBytes, the maximum is lower, but at
+  /// least 2.
+  static constexpr std::size_t kMaxParts = Max;
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
   /// Maximum number of parts of `bytes` each. It is even, so that each part has a neighbour.

@@ -157,8 +157,8 @@ TEST_CASE("Bench: the table of features has a rate for each") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   const json table = json::parse(shell.read("t.json"));
-  REQUIRE(table.size() == 22);
-  CHECK(std::ranges::count(outcome.out, '\n') == 23);
+  REQUIRE(table.size() == 26);
+  CHECK(std::ranges::count(outcome.out, '\n') == 27);
   CHECK(table[0].at("feature") == "bare");
   for (const json& row : table) {
     CAPTURE(row.dump());
@@ -191,18 +191,20 @@ TEST_CASE("Bench: the table of render has the cost of each stage, for pictures o
 }
 
 TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {
+  // The memory of so few disks is within the noise of the program. A sanitizer adds memory.
+  const bool sanitized = !std::string(CLATTER_SANITIZE).empty();
+  const std::regex cell(std::string(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +)") +
+                        (sanitized ? "[-\\d]+" : "-") + "\n$");
   const Shell shell;
   for (const std::string name : {"", " engine"}) {
     CAPTURE(name);
     const Outcome outcome =
         shell.run("clatter bench" + name + " --count 100 --area-fraction 0.3 --json cell.json");
     CHECK(outcome.code == 0);
-    const std::regex cell(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +-\n$)");
     CHECK(std::regex_search(outcome.out, cell));
     const json row = json::parse(shell.read("cell.json"))[0];
     CHECK(row["count"] == 100);
-    // So few disks have no memory that could be told from that of the program.
-    CHECK(row["bytes_per_disk"].is_null());
+    CHECK((sanitized || row["bytes_per_disk"].is_null()));
   }
 }
 

@@ -25,6 +25,23 @@ class Runs(unittest.TestCase):
         self.assertEqual(gas.time, 30.0)
         self.assertEqual(gas.seed, 3)
 
+    def test_settings_of_the_caller_stay_the_same(self):
+        laws = {"particles.restitution": 0.7}
+        clatter.load("vibrated", set=laws, particles__count=20)
+        self.assertEqual(laws, {"particles.restitution": 0.7})
+
+    def test_a_list_that_contains_itself_is_an_error(self):
+        size = []
+        size.append(size)
+        with self.assertRaises(RecursionError):
+            clatter.load("vibrated", set={"box.size": size})
+
+    def test_a_late_measurement_has_only_its_own_samples(self):
+        gas = clatter.load("cradle", measure__series_interval=1e-4, measure__burn_in=0.0)
+        gas.run_until(2000.0)
+        result = gas.measure(duration=0.125)
+        self.assertEqual(result["time"]["measured"], 0.125)
+
     def test_a_path_a_dict_and_keywords_describe_the_same_gas(self):
         path = self.folder.write("s.toml", DISKS_TOML)
         hashes = set()

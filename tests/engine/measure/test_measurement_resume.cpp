@@ -50,7 +50,10 @@ Measure with_observables(Measure measure) {
                          ObservableKind::Collisions,
                          ObservableKind::WallHits,
                          ObservableKind::MeanSquaredDisplacement,
-                         ObservableKind::VelocityAutocorrelation};
+                         ObservableKind::VelocityAutocorrelation,
+                         ObservableKind::StructureFactor,
+                         ObservableKind::Clusters,
+                         ObservableKind::BondOrder};
   measure.mean_squared_displacement = {.interval = 0.3, .longest = 9.0, .lags = 4};
   return measure;
 }

@@ -16,6 +16,7 @@ template <int D>
 Measured observed(const Scene& scene, Measure measure, ObservableKind kind, double duration,
                   std::uint64_t seed) {
   measure.burn_in = 0.0;
+  measure.cells.resize(D, 1);
   measure.observables = {kind};
   const auto simulation = simulation_of<D>(scene, seed);
   Measurement<D> measurement(*simulation, measure, duration);

@@ -111,6 +111,29 @@ TEST_CASE_TEMPLATE("Radial distribution: a dilute gas between walls has g = 1", 
 
 // Henderson 1975, at phi = 0.3: chi = 1.7731, accurate to 0.3 %. Carnahan & Starling 1969 for
 // spheres at 0.2: 1.7578. Relative standard error 0.15 %.
+// A fit of billions of bins would not fit into the memory.
+TEST_CASE("Radial distribution: very narrow bins have no value at contact") {
+  Measure measure;
+  measure.radial_distribution.bins = 100;
+  const Scene scene = gas(2.0000001, 50.0, 20, 1.0);
+  const Measured measured = observed<2>(scene, measure, ObservableKind::RadialDistribution, 3.0, 1);
+  CHECK(column_of(table_of(measured, "radial_distribution"), "g").values.size() == 100);
+  CHECK_THROWS(mean_of(measured, "radial_distribution.contact"));
+}
+
+TEST_CASE("Observables: samples at the rounding of the start of the averages are no error") {
+  Measure measure;
+  measure.burn_in = 1e5;
+  measure.observables = {ObservableKind::MeanSquaredDisplacement,
+                         ObservableKind::RadialDistribution};
+  measure.mean_squared_displacement = {.interval = 1e-12, .longest = 1e-11, .lags = 4};
+  measure.radial_distribution.interval = 1e-12;
+  const auto simulation = simulation_of<2>(gas(9.0, 7.0, 2, 1.0), 1);
+  Measurement<2> measurement(*simulation, measure, 1e5 + 1e-10);
+  CHECK(simulation->run_until(1e5 + 1e-10));
+  CHECK(measurement.result().tables().size() == 2);
+}
+
 TEST_CASE("Radial distribution: g at contact is the theory's, within 0.5 %" *
           doctest::test_suite("slow")) {
   Measure measure;

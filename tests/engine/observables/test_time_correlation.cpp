@@ -28,6 +28,10 @@ TEST_CASE("Lag history: each lag compares with the sample of that age") {
       ++visits[lag];
     });
   }
+  // The longest level keeps the samples that its lags need.
+  CHECK(history.capacity() == 3 * 4);
+  CHECK(history.is_complete(1));
+  CHECK_FALSE(history.is_complete(2));
   // Lags of level k have an origin every 4^k samples.
   CHECK(visits == std::vector<int>{500, 499, 498, 497, 496, 123, 122, 121, 30, 29, 28});
 }
@@ -37,6 +41,42 @@ TEST_CASE("Lag history: the longest lag may be a rounding error away") {
   CHECK(LagHistory<2>({.interval = 1.0, .longest = 0.5, .lags = 10}).lags().size() == 1);
 }
 
+TEST_CASE("Lag history: a level exists only if it has lags") {
+  CHECK(LagHistory<2>({.interval = 1.0, .longest = 100.0, .lags = 10}).capacity() == 20);
+  CHECK(LagHistory<2>({.interval = 1.0, .longest = 200.0, .lags = 10}).capacity() == 30);
+}
+
+// Displacements over long lags overlap in time. The scatter of 32 runs gives their true errors,
+// with a relative uncertainty of 12 %.
+TEST_CASE("Mean-squared displacement: standard errors are the scatter between runs") {
+  constexpr int kRuns = 32;
+  Measure measure;
+  measure.mean_squared_displacement = {.interval = 1.0, .longest = 100.0, .lags = 10};
+  const Scene scene = gas(25.0, 25.0, 50, 1.0);
+  std::vector<std::vector<double>> values, errors;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    const TableColumn total = column_of(
+        table_of(observed<2>(scene, measure, ObservableKind::MeanSquaredDisplacement, 1000.0, seed),
+                 "mean_squared_displacement"),
+        "total");
+    values.push_back(total.values);
+    errors.push_back(total.standard_errors);
+  }
+  for (const std::size_t lag : {1u, 5u, 10u, 13u}) {
+    CAPTURE(lag);
+    double mean = 0.0, squares = 0.0, reported = 0.0;
+    for (std::size_t run = 0; run < kRuns; ++run) mean += values[run][lag] / kRuns;
+    for (std::size_t run = 0; run < kRuns; ++run) {
+      squares += std::pow(values[run][lag] - mean, 2) / (kRuns - 1);
+      reported += std::pow(errors[run][lag], 2) / kRuns;
+    }
+    CHECK(std::sqrt(reported / squares) > 0.6);
+    CHECK(std::sqrt(reported / squares) < 1.6);
+  }
+  // A lag of a tenth of the run has fewer than 8 independent parts.
+  CHECK(std::isnan(errors[0].back()));
+}
+
 // A lone particle crosses the periodic box many times: its displacement is v t on each axis.
 TEST_CASE_TEMPLATE("Mean-squared displacement: of one particle it is (v t)^2", Dimension, Plane,
                    Space) {
@@ -44,7 +84,7 @@ TEST_CASE_TEMPLATE("Mean-squared displacement: of one particle it is (v t)^2", D
   const Scene scene = gas(VecX::LinSpaced(D, 3.0, 4.0), 1, 1.0);
   const Vec<D> v = Vec<D>::LinSpaced(0.3, -1.1);
   Simulation<D> simulation(model_of<D>(scene, 1), {{Vec<D>::Constant(1.0)}, {v}});
-  Measure measure;
+  Measure measure = scene.measure;
   measure.burn_in = 5.0;
   measure.observables = {ObservableKind::MeanSquaredDisplacement,
                          ObservableKind::VelocityAutocorrelation};

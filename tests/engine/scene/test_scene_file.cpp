@@ -86,13 +86,21 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(velocity_interval == b.measure.velocity_distribution.interval);
   CHECK(velocity_range == b.measure.velocity_distribution.range);
   CHECK(velocity_bins == b.measure.velocity_distribution.bins);
-  for (const auto lags :
-       {&Measure::mean_squared_displacement, &Measure::velocity_autocorrelation}) {
-    const auto& [interval, longest, count] = a.measure.*lags;
-    CHECK(interval == (b.measure.*lags).interval);
-    CHECK(longest == (b.measure.*lags).longest);
-    CHECK(count == (b.measure.*lags).lags);
-  }
+  const auto check_lags = [](const TimeCorrelationSettings& first,
+                             const TimeCorrelationSettings& second) {
+    const auto& [interval, longest, count] = first;
+    CHECK(interval == second.interval);
+    CHECK(longest == second.longest);
+    CHECK(count == second.lags);
+  };
+  check_lags(a.measure.mean_squared_displacement, b.measure.mean_squared_displacement);
+  check_lags(a.measure.velocity_autocorrelation, b.measure.velocity_autocorrelation);
+  const auto& [cluster_interval, cluster_range] = a.measure.clusters;
+  CHECK(cluster_interval == b.measure.clusters.interval);
+  CHECK(cluster_range == b.measure.clusters.range);
+  const auto& [bond_lags, bond_range] = a.measure.bond_order;
+  check_lags(bond_lags, b.measure.bond_order.lags_in_time);
+  CHECK(bond_range == b.measure.bond_order.range);
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
   CHECK(a.view.field_palette == b.view.field_palette);
@@ -156,11 +164,16 @@ Scene unusual_scene() {
   scene.measure.observables = {ObservableKind::VelocityAutocorrelation,
                                ObservableKind::RadialDistribution,
                                ObservableKind::MeanSquaredDisplacement,
-                               ObservableKind::VelocityDistribution, ObservableKind::WallHits};
+                               ObservableKind::VelocityDistribution,
+                               ObservableKind::WallHits,
+                               ObservableKind::Clusters,
+                               ObservableKind::BondOrder};
   scene.measure.radial_distribution = {.interval = 0.7, .range = 1.1, .bins = 17};
   scene.measure.velocity_distribution = {.interval = 1e-3, .range = 0.1, .bins = 3};
-  scene.measure.mean_squared_displacement = {.interval = 0.3, .longest = 1e308, .lags = 2};
+  scene.measure.mean_squared_displacement = {.interval = 0.3, .longest = 2e6, .lags = 2};
   scene.measure.velocity_autocorrelation = {.interval = 0.2, .longest = 0.2, .lags = 999};
+  scene.measure.clusters = {.interval = 8.0, .range = 1.01};
+  scene.measure.bond_order = {{.interval = 2.5, .longest = 9.0, .lags = 3}, 1.6};
   scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field(Quantity::Temperature, 0),
                 .window = 0.125,

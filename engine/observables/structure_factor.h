@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/dynamics/simulation.h"
+#include "engine/observables/observable.h"
+#include "engine/scene/observable_settings.h"
+
+namespace clatter {
+
+/// Static structure factor S(k) (theory 11.10) at wave vectors of the box, averaged over shells of
+/// equal width in |k|. Wave vectors have components along periodic axes only. Table
+/// "structure_factor".
+template <int D>
+class StructureFactor final : public Observable {
+ public:
+  StructureFactor(const Simulation<D>& simulation, const StructureFactorSettings& settings);
+
+  std::size_t size() const override { return 1 + shells_.size(); }
+  std::size_t mean_size() const override { return 0; }
+  void sample() override;
+  ObservableResult result(const ObservableParts& parts) const override;
+
+ private:
+  // Wave vectors of about the same length.
+  struct Shell {
+    std::vector<IntVec<D>> vectors;  // in units of 2 pi / L along each axis; of k and -k only one
+    double wave_number = 0.0;        // mean of |k|
+  };
+
+  void add_shell(double low, double high, int most);
+  Vec<D> unit() const;
+
+  const Simulation<D>& simulation_;
+  std::vector<Shell> shells_;
+  IntVec<D> most_ = IntVec<D>::Zero();  // largest component along each axis
+};
+
+extern template class StructureFactor<2>;
+extern template class StructureFactor<3>;
+
+}  // namespace clatter

@@ -1,0 +1,80 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+#include "engine/observables/near_cells.h"
+#include "engine/physics/random.h"
+#include "tests/support/scenes.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+using Plane = std::integral_constant<int, 2>;
+using Space = std::integral_constant<int, 3>;
+
+template <int D>
+std::vector<Vec<D>> random_positions(const Model<D>& model, std::uint32_t count) {
+  std::vector<Vec<D>> positions;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Random random(1, Stream::Placement, i, 0);
+    Vec<D> position;
+    for (int axis = 0; axis < D; ++axis) position[axis] = random.uniform() * model.box[axis];
+    positions.push_back(position);
+  }
+  return positions;
+}
+
+}  // namespace
+
+// Boxes with many cells along some axes and few along others, with periodic axes and walls.
+TEST_CASE_TEMPLATE("Near cells: each pair within the range is visited once", Dimension, Plane,
+                   Space) {
+  constexpr int D = Dimension::value;
+  for (const double width : {3.1, 9.0, 400.0}) {
+    for (const bool walls : {false, true}) {
+      CAPTURE(width);
+      CAPTURE(walls);
+      VecX box = VecX::Constant(D, 7.0);
+      box[0] = width;
+      Scene scene = gas(box, 8, 1.0);
+      if (walls) wall_in(scene, 1, {.kind = WallKind::Static});
+      const Model<D> model = model_of<D>(scene, 1);
+      const std::vector<Vec<D>> positions = random_positions<D>(model, 90);
+      NearCells<D> cells(model, positions.size(), 2.3);
+      const double range = std::min(2.3, 0.5 * width);
+      CHECK(cells.range() == range);
+      cells.sort(positions);
+      CHECK(cells.cells() <= 4 * positions.size() + 1);
+
+      using Pair = std::tuple<std::uint32_t, std::uint32_t>;
+      std::vector<Pair> expected, visited;
+      for (std::uint32_t i = 0; i < positions.size(); ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+          Vec<D> apart = positions[i] - positions[j];
+          for (int axis = 0; axis < D; ++axis) {
+            if (model.periodic(axis)) {
+              apart[axis] -= model.box[axis] * std::round(apart[axis] / model.box[axis]);
+            }
+          }
+          if (apart.norm() <= range) expected.emplace_back(j, i);
+        }
+      }
+      cells.each_pair([&](std::uint32_t first, std::uint32_t second, const Vec<D>& separation) {
+        visited.emplace_back(std::minmax(first, second));
+        Vec<D> apart = positions[first] - positions[second] - separation;
+        for (int axis = 0; axis < D; ++axis) {
+          const double periods = apart[axis] / model.box[axis];
+          CHECK(periods == doctest::Approx(std::round(periods)));
+        }
+      });
+      std::ranges::sort(expected);
+      std::ranges::sort(visited);
+      CHECK(expected.size() > 5);
+      CHECK(visited == expected);
+    }
+  }
+}
