@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <span>
 #include <utility>
 
 #include "engine/error.h"
@@ -27,15 +26,23 @@ GrowingFile::GrowingFile(std::filesystem::path path, std::uint64_t bytes)
                     "name the file of the interrupted run");
   }
   // Records after the checkpoint are written again.
-  if (ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0 ||
-      lseek(file_.get(), 0, SEEK_END) < 0) {
-    fail();
-  }
+  if (ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) fail();
 }
 
-void GrowingFile::append(const std::string& records) {
-  if (!file_.write_all(std::as_bytes(std::span(records)))) fail();
+void GrowingFile::append(std::string_view records) {
+  write(bytes_, records);
   bytes_ += records.size();
+}
+
+void GrowingFile::write(std::uint64_t place, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written =
+        pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (written < 0 && errno != EINTR) fail();
+    if (written <= 0) continue;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    place += static_cast<std::uint64_t>(written);
+  }
 }
 
 void GrowingFile::sync() {
