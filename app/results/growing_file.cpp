@@ -46,7 +46,7 @@ void GrowingFile::write(std::uint64_t place, std::string_view bytes) {
 }
 
 void GrowingFile::sync() {
-  if (lost_ == 0 && !file_.sync()) lost_ = errno;
+  if (lost_ == 0 && file_ && !file_.sync()) lost_ = errno;
   errno = lost_;
   if (lost_ != 0) fail();
 }

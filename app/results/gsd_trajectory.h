@@ -17,7 +17,7 @@ class GsdTrajectory final : public TrajectoryFile<D> {
   void add(const TrajectoryFrame<D>& frame) override;
   std::uint64_t bytes() const override { return file_.bytes(); }
   void sync() override { file_.sync(); }
-  void close() override { file_.close(); }
+  void finish() override { file_.close(); }
 
  private:
   bool spins_;

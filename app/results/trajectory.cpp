@@ -111,8 +111,9 @@ TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char
   if (extension == ".lammpstrj" || extension == ".dump") return TrajectoryFormat::LammpsDump;
   if (extension == ".csv") return TrajectoryFormat::Csv;
   if (extension == ".gsd") return TrajectoryFormat::Gsd;
+  if (extension == ".h5md") return TrajectoryFormat::H5md;
   throw UserError({flag, 0, 0}, file.string() + " has no extension of a trajectory",
-                  "give a name that ends in .xyz, .lammpstrj, .csv or .gsd");
+                  "give a name that ends in .xyz, .lammpstrj, .csv, .gsd or .h5md");
 }
 
 template <int D>
@@ -140,6 +141,7 @@ std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format)
       add_csv(text, frame);
       break;
     case TrajectoryFormat::Gsd:
+    case TrajectoryFormat::H5md:
       break;
   }
   return fmt::to_string(text);

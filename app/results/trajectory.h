@@ -14,7 +14,8 @@ enum class TrajectoryFormat {
   ExtXyz,      ///< extended XYZ: .xyz and .extxyz
   LammpsDump,  ///< text dump of LAMMPS: .lammpstrj and .dump
   Csv,         ///< one line per particle and frame: .csv
-  Gsd          ///< binary file of HOOMD-blue: .gsd
+  Gsd,         ///< binary file of HOOMD-blue: .gsd
+  H5md         ///< HDF5 file in the H5MD structure: .h5md
 };
 
 /// The format of a file extension. Throws UserError that names `flag` for other extensions, and for

@@ -2,6 +2,7 @@
 
 #include "app/results/growing_file.h"
 #include "app/results/gsd_trajectory.h"
+#include "app/results/h5md_trajectory.h"
 
 namespace clatter {
 
@@ -19,7 +20,7 @@ class TextTrajectory final : public TrajectoryFile<D> {
   void add(const TrajectoryFrame<D>& frame) override { file_.append(frame_text(frame, format_)); }
   std::uint64_t bytes() const override { return file_.bytes(); }
   void sync() override { file_.sync(); }
-  void close() override { file_.close(); }
+  void finish() override { file_.close(); }
 
  private:
   TrajectoryFormat format_;
@@ -35,6 +36,9 @@ std::unique_ptr<TrajectoryFile<D>> open_trajectory(const std::filesystem::path& 
                                                    std::uint64_t bytes) {
   if (format == TrajectoryFormat::Gsd) {
     return std::make_unique<GsdTrajectory<D>>(path, particles, spins, bytes);
+  }
+  if (format == TrajectoryFormat::H5md) {
+    return std::make_unique<H5mdTrajectory<D>>(path, model, particles, spins, bytes);
   }
   return std::make_unique<TextTrajectory<D>>(path, format, spins, bytes);
 }

@@ -21,8 +21,9 @@ class TrajectoryFile {
   virtual std::uint64_t bytes() const = 0;
   /// Waits until the frames are on the disk. Throws RunError, see GrowingFile.
   virtual void sync() = 0;
-  /// Ends the file with all frames on the disk. Throws RunError.
-  virtual void close() = 0;
+  /// Completes the file, with all frames on the disk. Throws RunError; sync() is then still
+  /// possible.
+  virtual void finish() = 0;
 };
 
 /// Opens a trajectory of `particles` particles in the box of the model, with the first `bytes`

@@ -268,24 +268,39 @@ void require_no_overlap(const RunChecks& checks) {
       checks.deepest_overlap));
 }
 
+// Completes the trajectory of a run that a physical reason has ended. Returns the failure as an
+// addition to the message.
+template <int D>
+std::string Run<D>::finish_trajectory() {
+  try {
+    if (recorder_) recorder_->finish();
+  } catch (const RunError& error) {
+    return std::string("; ") + error.what();
+  }
+  return "";
+}
+
 template <int D>
 int Run<D>::end() {
   if (stop_) {
+    const std::string lost = finish_trajectory();
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
-    throw PhysicalStop(stop_->what() + (failure_.empty()
-                                            ? "; " + how_to_resume() + remedy
-                                            : "; no checkpoint was written: " + failure_));
+    throw PhysicalStop(stop_->what() +
+                       (failure_.empty() ? "; " + how_to_resume() + remedy
+                                         : "; no checkpoint was written: " + failure_) +
+                       lost);
   }
   require_no_overlap(simulation().checks());
   // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
-  if (recorder_) recorder_->close();
+  if (ended_early_) return kInterrupted;
   try {
-    if (events_ && !ended_early_) events_->finish();
+    if (recorder_) recorder_->finish();
+    if (events_) events_->finish();
   } catch (const RunError& error) {
     throw RunError(error.what() + rescue());
   }
-  return ended_early_ ? kInterrupted : kOk;
+  return kOk;
 }
 
 template class Run<2>;

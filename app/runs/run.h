@@ -94,6 +94,7 @@ class Run {
   void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
   std::string how_to_resume() const;
+  std::string finish_trajectory();
 
   std::string command_;
   Scene scene_;

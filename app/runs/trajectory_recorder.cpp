@@ -112,8 +112,8 @@ std::string TrajectoryRecorder<D>::save() {
 }
 
 template <int D>
-void TrajectoryRecorder<D>::close() {
-  file_->close();
+void TrajectoryRecorder<D>::finish() {
+  file_->finish();
 }
 
 template <int D>

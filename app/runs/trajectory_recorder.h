@@ -38,8 +38,9 @@ class TrajectoryRecorder {
   void follow(Simulation<D>& next);
   /// Waits until the frames are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
-  /// Ends the file with all frames on the disk. Throws RunError, also if an earlier save() failed.
-  void close();
+  /// Completes the file, with all frames on the disk. Throws RunError, also if an earlier save()
+  /// failed.
+  void finish();
   /// The flags of `clatter measure` that continue this trajectory.
   std::string flags() const;
 

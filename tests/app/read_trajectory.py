@@ -1,5 +1,5 @@
 """Prints the frames of trajectories, read by independent programs: extended XYZ by ASE, LAMMPS dumps
-by MDAnalysis, GSD by the package gsd and by MDAnalysis."""
+by MDAnalysis, GSD by the package gsd and by MDAnalysis, H5MD by h5py and by MDAnalysis."""
 
 import json
 import sys
@@ -11,6 +11,7 @@ import ase.io
 import gsd.fl
 import gsd.hoomd
 import gsd.pygsd
+import h5py
 import MDAnalysis
 import numpy
 
@@ -80,5 +81,45 @@ def read_gsd(file):
     return frames
 
 
-READERS = {"xyz": read_xyz, "lammpstrj": read_dump, "gsd": read_gsd}
+def read_h5md(file):
+    """The frames, after a check that MDAnalysis reads the same."""
+    with h5py.File(file) as h5md:
+        assert h5md["h5md"].attrs["version"].tolist() == [1, 1]
+        assert h5md["h5md/author"].attrs["name"]
+        assert h5md["h5md/creator"].attrs["name"] == "clatter"
+        assert h5md["h5md/creator"].attrs["version"] and h5md.attrs["units"]
+        particles = h5md["particles/all"]
+        box = particles["box"]
+        constant = {
+            "boundary": list(box.attrs["boundary"]),
+            "mass": particles["mass"][()].tolist(),
+            "diameter": particles["diameter"][()].tolist(),
+        }
+        assert box.attrs["dimension"] == 3
+        elements = {"edges": box["edges"]}
+        elements |= {name: item for name, item in particles.items() if "value" in item}
+        for element in elements.values():
+            assert element["step"].dtype == "int64" and element["time"].dtype == "float64"
+            assert element["step"] == particles["position/step"]
+            assert element["value"].compression == "gzip"
+        frames = [
+            {
+                "step": int(step),
+                "time": float(particles["position/time"][k]),
+                **{name: element["value"][k].tolist() for name, element in elements.items()},
+                **constant,
+            }
+            for k, step in enumerate(particles["position/step"])
+        ]
+    universe = MDAnalysis.Universe(file, convert_units=False, n_atoms=len(frames[0]["position"]))
+    assert [step.time for step in universe.trajectory] == [frame["time"] for frame in frames]
+    for step, frame in zip(universe.trajectory, frames):
+        for single, name in ((step.positions, "position"), (step.velocities, "velocity")):
+            exact = numpy.array(frame[name]).astype(numpy.float32)
+            numpy.testing.assert_array_equal(single, exact)
+        assert step.dimensions[:3].tolist() == numpy.diag(frame["edges"]).tolist()
+    return frames
+
+
+READERS = {"xyz": read_xyz, "lammpstrj": read_dump, "gsd": read_gsd, "h5md": read_h5md}
 print(json.dumps({file: READERS[file.rsplit(".", 1)[1]](file) for file in sys.argv[1:]}))

@@ -216,6 +216,19 @@ TEST_CASE("Event log: an interrupted and resumed run has the same log") {
   }
 }
 
+TEST_CASE("Event log: if the HDF5 file cannot be written, the run can be resumed") {
+  const Shell shell;
+  shell.write("s.toml", scene(2));
+  const std::string line = kRun + "--events e.h5 --out r.json";
+  const Outcome full = shell.run("ulimit -f 800; " + line);
+  CAPTURE(full.err);
+  CHECK(full.code == 1);
+  CHECK(says(full.err,
+             "cannot write e.h5: File too large; continue with --resume r.checkpoint --events"));
+  REQUIRE(shell.run(line + " --resume r.checkpoint && mv e.h5 resumed.h5").code == 0);
+  CHECK(shell.run(line + " && cmp e.h5 resumed.h5").code == 0);
+}
+
 TEST_CASE("Event log: wrong use is refused") {
   const Shell shell;
   shell.write("s.toml", scene(2));

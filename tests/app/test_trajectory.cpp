@@ -221,6 +221,25 @@ TEST_CASE("Trajectory: a resumed run continues it without a gap or a double fram
   CHECK(Row(late.at(0))["image_x"] == "0");
 }
 
+TEST_CASE("Trajectory: a run that was killed and resumed has the bytes of an undisturbed run") {
+  for (const std::string file : {"t.csv", "t.gsd", "t.h5md"}) {
+    CAPTURE(file);
+    const Shell shell;
+    shell.write("s.toml", kDisks);
+    const std::string run = kRun + "--until 4000 --every 2 --trajectory ";
+    REQUIRE(shell.run(run + "whole_" + file).code == 0);
+    const Outcome killed = shell.run(run + file +
+                                     " --checkpoint c --checkpoint-every 1e-9 & pid=$!; "
+                                     "while test ! -e c.previous; do sleep 0.01; done; "
+                                     "kill -9 $pid; wait $pid");
+    REQUIRE(killed.code == 137);
+    const Outcome resumed = shell.run(run + file + " --resume c");
+    CAPTURE(resumed.err);
+    REQUIRE(resumed.code == 0);
+    CHECK(shell.run("cmp " + file + " whole_" + file).code == 0);
+  }
+}
+
 TEST_CASE("Trajectory: the columns stay where spins appear or disappear") {
   const Shell shell;
   for (const bool first : {true, false}) {  // whether particles spin before the change, or after
