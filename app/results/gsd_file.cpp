@@ -6,41 +6,14 @@
 #include <type_traits>
 #include <utility>
 
+#include "app/results/gsd_layout.h"
+
 namespace clatter {
 
 namespace {
 
-constexpr std::uint64_t kGsdMagic = 0x65DF65DF65DF65DF;
-constexpr std::uint32_t kSchemaVersion = 1 << 16 | 4;
-constexpr std::uint32_t kGsdVersion = 2 << 16;
-constexpr std::size_t kNameUnit = 64;          // the list of names is a multiple of it
 constexpr std::uint64_t kFirstCapacity = 256;  // entries
 constexpr std::uint64_t kGsdPiece = 1 << 20;   // bytes that are written at once
-
-struct GsdHeader {
-  std::uint64_t magic = kGsdMagic;
-  std::uint64_t index = 0;
-  std::uint64_t index_entries = 0;
-  std::uint64_t names = 0;
-  std::uint64_t names_units = 0;
-  std::uint32_t schema_version = kSchemaVersion;
-  std::uint32_t file_version = kGsdVersion;
-  std::array<char, 64> application = {"clatter " CLATTER_VERSION};
-  std::array<char, 64> schema = {"hoomd"};
-  std::array<char, 80> reserved = {};
-};
-static_assert(sizeof(GsdHeader) == 256);
-
-struct GsdEntry {
-  std::uint64_t frame;
-  std::uint64_t rows;
-  std::int64_t place;
-  std::uint32_t columns;
-  std::uint16_t name;
-  std::uint8_t type;
-  std::uint8_t flags = 0;
-};
-static_assert(sizeof(GsdEntry) == 32);
 
 template <class T>
 std::string plain_bytes(const T& value) {
@@ -50,21 +23,6 @@ std::string plain_bytes(const T& value) {
   return bytes;
 }
 
-std::uint64_t gsd_number_size(GsdType type) {
-  switch (type) {
-    case GsdType::UInt8:
-      return 1;
-    case GsdType::UInt32:
-    case GsdType::Int32:
-    case GsdType::Float:
-      return 4;
-    case GsdType::UInt64:
-    case GsdType::Double:
-      return 8;
-  }
-  return 0;
-}
-
 std::uint64_t gsd_chunk_size(const GsdChunk& chunk) {
   return chunk.rows * chunk.columns * gsd_number_size(chunk.type);
 }
@@ -72,7 +30,7 @@ std::uint64_t gsd_chunk_size(const GsdChunk& chunk) {
 std::string gsd_names(const std::vector<GsdChunk>& chunks) {
   std::string names;
   for (const GsdChunk& chunk : chunks) names += chunk.name + '\0';
-  names.resize((names.size() / kNameUnit + 1) * kNameUnit, '\0');
+  names.resize((names.size() / kGsdNameUnit + 1) * kGsdNameUnit, '\0');
   return names;
 }
 
@@ -121,7 +79,7 @@ std::string GsdFile::header_of(const Layout& layout) const {
   return plain_bytes(GsdHeader{.index = layout.index,
                                .index_entries = layout.capacity,
                                .names = sizeof(GsdHeader),
-                               .names_units = names_.size() / kNameUnit});
+                               .names_units = names_.size() / kGsdNameUnit});
 }
 
 // The data of a frame end where the file ends. Entries are in the order of the names, because

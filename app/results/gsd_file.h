@@ -7,18 +7,9 @@
 #include <vector>
 
 #include "app/results/growing_file.h"
+#include "app/results/gsd_layout.h"
 
 namespace clatter {
-
-/// Type of the numbers in a chunk, as the GSD file layer numbers them.
-enum class GsdType : std::uint8_t {
-  UInt8 = 1,
-  UInt32 = 3,
-  UInt64 = 4,
-  Int32 = 7,
-  Float = 9,
-  Double = 10
-};
 
 /// A chunk of a GSD file: an array of numbers.
 struct GsdChunk {
