@@ -1,7 +1,6 @@
 #include "app/results/h5md_reader.h"
 
-#include <functional>
-#include <numeric>
+#include <algorithm>
 
 #include "engine/error.h"
 #include "engine/physics/state.h"
@@ -85,10 +84,13 @@ std::vector<double> H5mdReader::row_of(const std::string& element, std::size_t f
       count[0] = 1;
       shape.erase(shape.begin());
     }
-    constexpr hsize_t kMost = hsize_t{3} * kMaxParticles<2>;
+    // Deflate makes no data smaller than a thousandth.
+    constexpr hsize_t kDeflate = 1032;
+    const hsize_t most = std::min<hsize_t>(kDeflate * std::filesystem::file_size(path_),
+                                           hsize_t{3} * kMaxParticles<2>);
     hsize_t size = 1;
-    for (const hsize_t length : shape) size = length > kMost ? kMost + 1 : size * length;
-    if (size > kMost) refuse("the quantity \"" + element + "\" is too large", "give another file");
+    for (const hsize_t length : shape) size = length > most ? most + 1 : size * length;
+    if (size > most) refuse("the quantity \"" + element + "\" is too large", "give another file");
     std::vector<double> numbers(size);
     if (numbers.empty()) return numbers;
     const H5::DataSpace file = dataset.getSpace();

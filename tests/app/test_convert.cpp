@@ -121,7 +121,7 @@ TEST_CASE("Convert: files of other programs with the same columns") {
   CHECK(says(shell.read("a.xyz"), "pbc=\"T F F\" Time=2.5 "));
   CHECK(says(shell.read("a.xyz"), "\nX 0.5 4 0 0.5 0.25 0 1 0 0 0.5\n"));
   // HOOMD-blue and H5MD without the exact numbers, by other writers.
-  const Outcome written = shell.run(CLATTER_READERS "write_trajectories.py o.gsd o.h5md");
+  const Outcome written = shell.run(CLATTER_READERS "write_trajectories.py o.gsd o.h5md huge.h5md");
   CAPTURE(written.err);
   REQUIRE(written.code == 0);
   const std::string want = "x,y,z,vx,vy,vz\n0.5,3.5,2.25,1,0,0.5\n5,1.5,2.5,0,2,0\n";
@@ -134,6 +134,8 @@ TEST_CASE("Convert: files of other programs with the same columns") {
     REQUIRE(shell.run("clatter convert " + file + " o.xyz").code == 0);
     CHECK(says(shell.read("o.xyz"), file == "o.gsd" ? "pbc=\"T T T\"" : "pbc=\"T F F\" Time=0.5"));
   }
+  check_refused(shell, "clatter convert huge.h5md o.csv",
+                {"huge.h5md: the quantity \"position\" is too large"});
 }
 
 TEST_CASE("Convert: malformed text files are refused with the line") {

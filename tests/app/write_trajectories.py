@@ -1,4 +1,5 @@
-"""Writes two spheres as a GSD file, by the package gsd, and as H5MD, by h5py."""
+"""Writes two spheres as a GSD file, by the package gsd, and as H5MD, by h5py. A second H5MD
+file claims more spheres than it has."""
 
 import sys
 
@@ -9,7 +10,7 @@ import numpy
 position = numpy.array([[0.5, 3.5, 2.25], [5, 1.5, 2.5]])
 velocity = numpy.array([[1, 0, 0.5], [0, 2, 0]])
 box = numpy.array([6.0, 5.0, 4.0])
-gsd_file, h5md_file = sys.argv[1:]
+gsd_file, h5md_file, huge_file = sys.argv[1:]
 
 frame = gsd.hoomd.Snapshot()
 frame.configuration.box = [*box, 0, 0, 0]
@@ -31,3 +32,6 @@ with h5py.File(h5md_file, "w") as file:
         element["value"] = numpy.array([vectors, vectors])
         element["step"] = 10
         element["time"] = 0.5
+
+with h5py.File(huge_file, "w") as file:
+    file.create_dataset("particles/gas/position/value", (1, 200_000_000, 3))
