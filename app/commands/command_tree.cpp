@@ -22,7 +22,7 @@ std::vector<std::string> split_words(const std::string& text) {
 
 Expects expected(const std::string& label) {
   if (label.empty()) return Expects::Nothing;
-  if (label.starts_with("FILE")) return Expects::File;
+  if (label.starts_with("FILE") || label == "IN" || label == "OUT") return Expects::File;
   if (label.find('|') != std::string::npos) return Expects::Word;
   if (label == "DIR") return Expects::Folder;
   if (label == "SCENE") return Expects::Scene;

@@ -11,6 +11,7 @@ void add_view_command(CLI::App& program, int& exit_code);
 void add_measure_command(CLI::App& program, int& exit_code);
 void add_render_command(CLI::App& program, int& exit_code);
 void add_sweep_command(CLI::App& program, int& exit_code);
+void add_convert_command(CLI::App& program, int& exit_code);
 void add_check_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program, int& exit_code);
 void add_bench_command(CLI::App& program, int& exit_code);

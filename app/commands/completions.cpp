@@ -159,8 +159,10 @@ std::string zsh_function(const CommandInfo& command) {
     }
   }
   if (command.commands.empty()) {
-    for (const FlagInfo& argument : command.arguments) {
-      specifications += " \\\n    " + quoted("*" + zsh_value(argument));
+    const std::size_t count = command.arguments.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::string place = count == 1 ? "*" : std::to_string(k + 1);
+      specifications += " \\\n    " + quoted(place + zsh_value(command.arguments[k]));
     }
     return text + "  _arguments -s" + specifications + "\n}\n\n";
   }

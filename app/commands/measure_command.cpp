@@ -49,7 +49,8 @@ void add_measure_command(CLI::App& program, int& exit_code) {
           ->add_option(
               "--trajectory", options->trajectory,
               "File for the states of all particles, at the interval --every. The extension "
-              "selects the format: .xyz (extended XYZ), .lammpstrj (LAMMPS) or .csv.")
+              "selects the format: .xyz (extended XYZ), .lammpstrj (LAMMPS), .csv, .gsd "
+              "(HOOMD-blue) or .h5md (H5MD).")
           ->check(named_file())
           ->type_name("FILE");
   CLI::Option* every = command

@@ -77,6 +77,7 @@ int run_program(int argc, const char* const* argv) {
     add_render_command(program, exit_code);
     add_measure_command(program, exit_code);
     add_sweep_command(program, exit_code);
+    add_convert_command(program, exit_code);
     add_check_command(program, exit_code);
     add_scenes_command(program, exit_code);
     add_bench_command(program, exit_code);

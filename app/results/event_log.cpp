@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
 
-#include "app/results/hdf5_writer.h"
+#include "app/results/growing_dataset.h"
 #include "engine/error.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/system/write_file.h"
@@ -134,64 +132,44 @@ std::string csv_lines(const std::vector<double>& records, std::size_t size) {
 
 namespace {
 
-// A growing dataset of one quantity. Each chunk holds kChunk events.
-class QuantityDataset {
- public:
-  static constexpr hsize_t kChunk = 16384;
+constexpr hsize_t kEventChunk = 16384;  // events
 
-  QuantityDataset(const H5::H5File& file, const EventQuantity& quantity)
-      : components_(quantity.components.size()), whole_(quantity.whole) {
-    Hdf5Shape shape = {0}, most = {H5S_UNLIMITED}, chunk = {kChunk};
-    if (components_ > 1 || quantity.components.front() != "") {
-      for (Hdf5Shape* each : {&shape, &most, &chunk}) each->push_back(components_);
-    }
-    H5::DSetCreatPropList list = dataset_properties();
-    list.setChunk(static_cast<int>(chunk.size()), chunk.data());
-    list.setShuffle();
-    list.setDeflate(1);
-    const H5::DataSpace space(static_cast<int>(shape.size()), shape.data(), most.data());
-    dataset_ = file.createDataSet(
-        quantity.name, whole_ ? H5::PredType::STD_I64LE : H5::PredType::IEEE_F64LE, space, list);
-    write_text(dataset_, "units", quantity.unit);
-    shape_ = shape;
+GrowingDataset dataset_of(const EventQuantity& quantity, const H5::Group& group) {
+  Hdf5Shape row, chunk = {kEventChunk};
+  if (quantity.components.size() > 1 || quantity.components.front() != "") {
+    row.push_back(quantity.components.size());
+    chunk.push_back(quantity.components.size());
   }
+  GrowingDataset dataset(group, quantity.name,
+                         quantity.whole ? H5::PredType::STD_I64LE : H5::PredType::IEEE_F64LE, row,
+                         chunk);
+  write_text(dataset.dataset(), "units", quantity.unit);
+  return dataset;
+}
 
-  // Appends the numbers of `count` records, from the given place in each record of `size` numbers.
-  void append(const std::vector<double>& records, std::size_t count, std::size_t size,
-              std::size_t place) {
-    std::vector<double> values(count * components_);
-    for (std::size_t k = 0; k < count; ++k) {
-      std::copy_n(&records[k * size + place], components_, &values[k * components_]);
-    }
-    Hdf5Shape offset(shape_.size(), 0), added = shape_;
-    offset[0] = shape_[0];
-    added[0] = count;
-    shape_[0] += count;
-    dataset_.extend(shape_.data());
-    const H5::DataSpace memory(static_cast<int>(added.size()), added.data());
-    const H5::DataSpace file = dataset_.getSpace();
-    file.selectHyperslab(H5S_SELECT_SET, added.data(), offset.data());
-    dataset_.write(values.data(), H5::PredType::NATIVE_DOUBLE, memory, file);
+// Appends the numbers of `count` records, from the given place in each record of `size` numbers.
+void append(GrowingDataset& dataset, const std::vector<double>& records, std::size_t count,
+            std::size_t size, std::size_t place, std::size_t components) {
+  std::vector<double> values(count * components);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::copy_n(&records[k * size + place], components, &values[k * components]);
   }
-
- private:
-  std::size_t components_;
-  bool whole_;
-  Hdf5Shape shape_;  // events so far, and components of a vector
-  H5::DataSet dataset_;
-};
+  dataset.append(values.data(), count);
+}
 
 // Throws RunError if not all records can be read.
 void fill(const H5::H5File& file, const std::filesystem::path& records_path,
           const std::vector<EventQuantity>& quantities) {
   std::ifstream records(records_path, std::ios::binary);
-  write_text(file.openGroup("/"), "units", kUnits);
-  write_text(file.openGroup("/"), "kinds",
+  if (!records) throw RunError("cannot read " + records_path.string());
+  const H5::Group root = file.openGroup("/");
+  write_text(root, "units", kUnits);
+  write_text(root, "kinds",
              "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall");
-  std::vector<QuantityDataset> datasets;
-  for (const EventQuantity& quantity : quantities) datasets.emplace_back(file, quantity);
+  std::vector<GrowingDataset> datasets;
+  for (const EventQuantity& quantity : quantities) datasets.push_back(dataset_of(quantity, root));
   const std::size_t size = record_size(quantities);
-  std::vector<double> chunk(size * QuantityDataset::kChunk);
+  std::vector<double> chunk(size * kEventChunk);
   const auto bytes = static_cast<std::streamsize>(chunk.size() * sizeof(double));
   while (records) {
     records.read(reinterpret_cast<char*>(chunk.data()), bytes);
@@ -199,8 +177,9 @@ void fill(const H5::H5File& file, const std::filesystem::path& records_path,
     if (count == 0) break;
     std::size_t place = 0;
     for (std::size_t k = 0; k < datasets.size(); ++k) {
-      datasets[k].append(chunk, count, size, place);
-      place += quantities[k].components.size();
+      const std::size_t components = quantities[k].components.size();
+      append(datasets[k], chunk, count, size, place, components);
+      place += components;
     }
   }
   if (!records.eof()) throw RunError("cannot read " + records_path.string());
@@ -211,24 +190,8 @@ void fill(const H5::H5File& file, const std::filesystem::path& records_path,
 
 void write_event_file(const std::filesystem::path& path, const std::filesystem::path& records,
                       const std::vector<EventQuantity>& quantities) {
-  const std::filesystem::path target = target_of(path);
-  const NewFile made = new_file_beside(target);
-  if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
-  std::error_code ignored;
-  try {
-    H5::Exception::dontPrint();
-    {
-      const H5::H5File file(made.path.string(), H5F_ACC_TRUNC);
-      fill(file, records, quantities);
-    }
-    rename_synced(made.path, target);
-  } catch (const H5::Exception& error) {
-    std::filesystem::remove(made.path, ignored);
-    throw RunError("cannot write " + path.string() + ": " + error.getDetailMsg());
-  } catch (const RunError&) {
-    std::filesystem::remove(made.path, ignored);
-    throw;
-  }
+  write_large_hdf5(path, std::filesystem::file_size(records),
+                   [&](const H5::H5File& file) { fill(file, records, quantities); });
 }
 
 template void append_record<2>(std::vector<double>&, const Model<2>&, double,

@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <span>
 #include <utility>
 
 #include "engine/error.h"
@@ -30,31 +29,33 @@ GrowingFile::GrowingFile(std::filesystem::path path, std::uint64_t bytes)
                     "name the file of the interrupted run");
   }
   // Records after the checkpoint are written again.
-  if (!keep_complete_records()) fail();
+  if (ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) fail();
 }
 
-bool GrowingFile::keep_complete_records() {
-  const auto bytes = static_cast<off_t>(bytes_);
-  return ftruncate(file_.get(), bytes) == 0 && lseek(file_.get(), bytes, SEEK_SET) == bytes;
-}
-
-void GrowingFile::append(const std::string& records) {
-  if (lost_ == 0 && !file_.write_all(std::as_bytes(std::span(records)))) {
-    const int error = errno;
-    if (!keep_complete_records()) lost_ = error;
-    errno = error;
-    fail();
+void GrowingFile::append(std::string_view records) {
+  try {
+    write(bytes_, records);
+  } catch (const RunError&) {
+    // The next append overwrites an incomplete record. Until then the file ends before it.
+    static_cast<void>(ftruncate(file_.get(), static_cast<off_t>(bytes_)) == 0);
+    throw;
   }
-  require_no_loss();
   bytes_ += records.size();
 }
 
-void GrowingFile::sync() {
-  if (lost_ == 0 && !file_.sync()) lost_ = errno;
-  require_no_loss();
+void GrowingFile::write(std::uint64_t place, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written =
+        pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (written < 0 && errno != EINTR) fail();
+    if (written <= 0) continue;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    place += static_cast<std::uint64_t>(written);
+  }
 }
 
-void GrowingFile::require_no_loss() const {
+void GrowingFile::sync() {
+  if (lost_ == 0 && file_ && !file_.sync()) lost_ = errno;
   errno = lost_;
   if (lost_ != 0) fail();
 }

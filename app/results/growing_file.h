@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
+#include <string_view>
 
 #include "engine/system/file_descriptor.h"
 
@@ -19,16 +19,16 @@ class GrowingFile {
   /// Size of the complete records.
   std::uint64_t bytes() const { return bytes_; }
   /// Appends records. Throws RunError; the file then ends with the previous records.
-  void append(const std::string& records);
+  void append(std::string_view records);
+  /// Writes bytes at a place in the file, counted from its begin. Throws RunError.
+  void write(std::uint64_t place, std::string_view bytes);
   /// Waits until the records are on the disk. Throws RunError. After a failure every later call
-  /// throws, because the system reports a lost record once.
+  /// throws, because the system reports a lost record once. Does nothing after close().
   void sync();
   /// Ends the file with the records on the disk. Throws RunError.
   void close();
 
  private:
-  bool keep_complete_records();
-  void require_no_loss() const;
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;

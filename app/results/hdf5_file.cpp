@@ -47,9 +47,7 @@ void write_list(const H5::H5Object& object, const std::string& name, const Json&
   } else if (all([](const Json& item) { return item.is_number(); })) {
     write_list(object, name, H5::PredType::NATIVE_DOUBLE, list.get<std::vector<double>>());
   } else if (all([](const Json& item) { return item.is_string(); })) {
-    std::vector<const char*> texts;
-    for (const Json& item : list) texts.push_back(item.get_ref<const std::string&>().c_str());
-    write_list(object, name, text_type(), texts);
+    write_texts(object, name, list.get<std::vector<std::string>>());
   } else {
     write_text(object, name, list.dump());
   }

@@ -1,6 +1,11 @@
 #include "app/results/hdf5_writer.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
 
 #include "engine/error.h"
 #include "engine/system/write_file.h"
@@ -26,6 +31,15 @@ H5::DSetCreatPropList dataset_properties() {
 void write_text(const H5::H5Object& object, const std::string& name, const std::string& text) {
   const char* bytes = text.c_str();
   object.createAttribute(name, text_type(), H5::DataSpace()).write(text_type(), &bytes);
+}
+
+void write_texts(const H5::H5Object& object, const std::string& name,
+                 const std::vector<std::string>& texts) {
+  std::vector<const char*> bytes;
+  for (const std::string& text : texts) bytes.push_back(text.c_str());
+  const H5::Attribute attribute =
+      object.createAttribute(name, text_type(), space_of({texts.size()}));
+  if (!texts.empty()) attribute.write(text_type(), bytes.data());
 }
 
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
@@ -64,6 +78,38 @@ void write_hdf5(const std::filesystem::path& path,
     write_file(path, image_of(fill));
   } catch (const H5::Exception& error) {
     throw RunError("cannot make " + path.string() + ": " + error.getDetailMsg());
+  }
+}
+
+// HDF5 itself crashes if a disk is full. Chunks and their index take little more space than the
+// numbers.
+static int reserve(const NewFile& made, std::uint64_t numbers) {
+  constexpr std::uint64_t kHeads = std::uint64_t{1} << 20;
+  return posix_fallocate(made.file.get(), 0, static_cast<off_t>(numbers + numbers / 64 + kHeads));
+}
+
+void write_large_hdf5(const std::filesystem::path& path, std::uint64_t numbers,
+                      const std::function<void(const H5::H5File&)>& fill) {
+  const std::filesystem::path target = target_of(path);
+  const NewFile made = new_file_beside(target);
+  if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+  std::error_code ignored;
+  if (const int error = reserve(made, numbers); error != 0) {
+    std::filesystem::remove(made.path, ignored);
+    throw RunError("cannot write " + path.string() + ": " + std::strerror(error));
+  }
+  try {
+    H5::Exception::dontPrint();
+    H5::H5File file(made.path.string(), H5F_ACC_TRUNC);
+    fill(file);
+    file.close();
+    rename_synced(made.path, target);
+  } catch (const H5::Exception& error) {
+    std::filesystem::remove(made.path, ignored);
+    throw RunError("cannot write " + path.string() + ": " + error.getDetailMsg());
+  } catch (const RunError&) {
+    std::filesystem::remove(made.path, ignored);
+    throw;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <H5Cpp.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -23,6 +24,10 @@ H5::DSetCreatPropList dataset_properties();
 /// Writes a text as an attribute.
 void write_text(const H5::H5Object& object, const std::string& name, const std::string& text);
 
+/// Writes a list of texts as an attribute.
+void write_texts(const H5::H5Object& object, const std::string& name,
+                 const std::vector<std::string>& texts);
+
 /// Writes numbers as a dataset of this shape, with the attribute "units" unless `unit` is empty.
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values, const Hdf5Shape& shape);
@@ -33,5 +38,11 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
 /// Writes an HDF5 file, completely or not at all: `fill` fills it in memory. Throws RunError.
 void write_hdf5(const std::filesystem::path& path,
                 const std::function<void(const H5::H5File&)>& fill);
+
+/// Writes an HDF5 file that may be larger than the memory, completely or not at all: `fill` fills
+/// it on the disk. `numbers` is the size of its numbers before the compression, in bytes. Throws
+/// RunError, also if the disk has less space than this.
+void write_large_hdf5(const std::filesystem::path& path, std::uint64_t numbers,
+                      const std::function<void(const H5::H5File&)>& fill);
 
 }  // namespace clatter

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "app/results/three_axes.h"
 #include "engine/error.h"
 #include "engine/system/write_file.h"
 
@@ -13,41 +14,21 @@ namespace clatter {
 
 namespace {
 
-using Buffer = fmt::memory_buffer;
-
-// Components of a vector of one axis are along z: the spin of a disk.
-template <class T, int Size>
-std::array<T, 3> in_space(const Eigen::Matrix<T, Size, 1>& vector) {
-  std::array<T, 3> all{};
-  for (int k = 0; k < Size; ++k) all[Size == 1 ? 2 : k] = vector[k];
-  return all;
-}
+using TextBuffer = fmt::memory_buffer;
 
 template <class T>
-void add_numbers(Buffer& text, std::span<const T> numbers, char separator) {
+void add_numbers(TextBuffer& text, std::span<const T> numbers, char separator) {
   for (const T number : numbers)
     fmt::format_to(std::back_inserter(text), "{}{}", separator, number);
 }
 
 template <class T>
-void add_space(Buffer& text, const std::array<T, 3>& numbers) {
+void add_space(TextBuffer& text, const std::array<T, 3>& numbers) {
   add_numbers<T>(text, numbers, ' ');
 }
 
 template <int D>
-std::array<double, 3> extents(const Model<D>& model) {
-  std::array<double, 3> all = in_space(model.box);
-  if (D == 2) all[2] = model.diameter;
-  return all;
-}
-
-template <int D>
-bool is_periodic(const Model<D>& model, int axis) {
-  return axis < D && model.periodic(axis);
-}
-
-template <int D>
-void add_xyz(Buffer& text, const TrajectoryFrame<D>& frame) {
+void add_xyz(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   const Model<D>& model = frame.model;
   const auto [lx, ly, lz] = extents(model);
   const auto pbc = [&](int axis) { return is_periodic(model, axis) ? 'T' : 'F'; };
@@ -70,7 +51,7 @@ void add_xyz(Buffer& text, const TrajectoryFrame<D>& frame) {
 }
 
 template <int D>
-void add_dump(Buffer& text, const TrajectoryFrame<D>& frame) {
+void add_dump(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   const Model<D>& model = frame.model;
   const bool spins = !frame.state.spins.empty();
   const std::array<double, 3> box = extents(model);
@@ -102,7 +83,7 @@ std::string axis_names(const std::string& prefix, int count) {
 }
 
 template <int D>
-void add_csv(Buffer& text, const TrajectoryFrame<D>& frame) {
+void add_csv(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   const auto add = [&](const auto& vector) {
     using T = typename std::decay_t<decltype(vector)>::Scalar;
     add_numbers<T>(text, {vector.data(), static_cast<std::size_t>(vector.size())}, ',');
@@ -129,8 +110,10 @@ TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char
   if (extension == ".xyz" || extension == ".extxyz") return TrajectoryFormat::ExtXyz;
   if (extension == ".lammpstrj" || extension == ".dump") return TrajectoryFormat::LammpsDump;
   if (extension == ".csv") return TrajectoryFormat::Csv;
+  if (extension == ".gsd") return TrajectoryFormat::Gsd;
+  if (extension == ".h5md") return TrajectoryFormat::H5md;
   throw UserError({flag, 0, 0}, file.string() + " has no extension of a trajectory",
-                  "give a name that ends in .xyz, .lammpstrj or .csv");
+                  "give a name that ends in .xyz, .lammpstrj, .csv, .gsd or .h5md");
 }
 
 template <int D>
@@ -146,7 +129,7 @@ template std::string header_text<3>(TrajectoryFormat, bool);
 
 template <int D>
 std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format) {
-  Buffer text;
+  TextBuffer text;
   switch (format) {
     case TrajectoryFormat::ExtXyz:
       add_xyz(text, frame);
@@ -156,6 +139,9 @@ std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format)
       break;
     case TrajectoryFormat::Csv:
       add_csv(text, frame);
+      break;
+    case TrajectoryFormat::Gsd:
+    case TrajectoryFormat::H5md:
       break;
   }
   return fmt::to_string(text);

@@ -9,11 +9,13 @@
 
 namespace clatter {
 
-/// Text format of a trajectory. Its numbers read back to exactly the same bits.
+/// Format of a trajectory. Its numbers read back to exactly the same bits.
 enum class TrajectoryFormat {
   ExtXyz,      ///< extended XYZ: .xyz and .extxyz
   LammpsDump,  ///< text dump of LAMMPS: .lammpstrj and .dump
-  Csv          ///< one line per particle and frame: .csv
+  Csv,         ///< one line per particle and frame: .csv
+  Gsd,         ///< binary file of HOOMD-blue: .gsd
+  H5md         ///< HDF5 file in the H5MD structure: .h5md
 };
 
 /// The format of a file extension. Throws UserError that names `flag` for other extensions, and for
@@ -30,12 +32,12 @@ struct TrajectoryFrame {
   std::vector<IntVec<D>> images;  ///< [N] periodic images, see PeriodicImages
 };
 
-/// The text before the first frame. `spins`: whether the particles have spins.
+/// The text before the first frame of a text format. `spins`: whether the particles have spins.
 template <int D>
 std::string header_text(TrajectoryFormat format, bool spins);
 
-/// The text of a frame, with spins unless the state has none. Formats for three dimensions have
-/// disks at z = 0, with angular velocities along z.
+/// The text of a frame in a text format, with spins unless the state has none. Formats for three
+/// dimensions have disks at z = 0, with angular velocities along z.
 template <int D>
 std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format);
 

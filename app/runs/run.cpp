@@ -275,27 +275,34 @@ void require_no_overlap(const RunChecks& checks) {
       checks.deepest_overlap));
 }
 
+// Completes the trajectory and the event log. Those of an interrupted run are completed by its
+// continuation. Returns the failure, if any.
+template <int D>
+std::string Run<D>::finish_files() {
+  if (ended_early_ && !stop_) return "";
+  try {
+    if (recorder_) recorder_->finish();
+    if (events_) events_->finish(stop_ || !options_.file.empty());
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 template <int D>
 int Run<D>::end() {
-  std::string log_failure;
-  try {
-    // The log of an interrupted run is completed by its continuation.
-    if (events_ && (stop_ || !ended_early_)) events_->finish(stop_ || !options_.file.empty());
-  } catch (const RunError& error) {
-    log_failure = error.what();
-  }
+  const std::string unfinished = finish_files();
   if (stop_) {
     const std::string remedy = stop_->remedy().empty() ? "" : " --set " + stop_->remedy();
     throw PhysicalStop(stop_->what() +
                        (failure_.empty() ? "; " + how_to_resume() + remedy
                                          : "; no checkpoint was written: " + failure_) +
-                       (log_failure.empty() ? "" : "; " + log_failure));
+                       (unfinished.empty() ? "" : "; " + unfinished));
   }
   require_no_overlap(simulation().checks());
   // An interrupted run throws too: its exit code would claim that the state has been saved.
   if (!failure_.empty()) throw RunError("no checkpoint was written: " + failure_);
-  if (recorder_) recorder_->close();
-  if (!log_failure.empty()) throw RunError(log_failure + rescue());
+  if (!unfinished.empty()) throw RunError(unfinished + rescue());
   return ended_early_ ? kInterrupted : kOk;
 }
 

@@ -79,8 +79,8 @@ class Run {
   /// Writes the checkpoint that the end of the run requires. To be called before the results of the
   /// measurement are read, which close its last window.
   void put_aside();
-  /// Ends the trajectory and the event log. Returns the exit code, or throws the error of the run. To be called after
-  /// the results are written.
+  /// Ends the trajectory and the event log. Returns the exit code, or throws the error of the run.
+  /// To be called after the results are written.
   int end();
 
  private:
@@ -93,6 +93,7 @@ class Run {
   void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
   std::string how_to_resume() const;
+  std::string finish_files();
 
   std::string command_;
   Scene scene_;

@@ -39,8 +39,7 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
       times_(every),
       next_(times_.first_from(simulation.time())) {
   images_.emplace(simulation);
-  file_.emplace(path, 0);
-  file_->append(header_text<D>(format_, spins));
+  open(simulation, 0);
 }
 
 template <int D>
@@ -75,7 +74,13 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
                     "resume the run without changes of roughness, or without --trajectory");
   }
   next_ = static_cast<long>(before.next);
-  file_.emplace(path, before.bytes);
+  open(simulation, before.bytes);
+}
+
+template <int D>
+void TrajectoryRecorder<D>::open(const Simulation<D>& simulation, std::uint64_t bytes) {
+  file_ = open_trajectory<D>(path_, format_, simulation.model(), simulation.particles().size(),
+                             spins_, bytes);
 }
 
 template <int D>
@@ -86,7 +91,7 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
                            .state = simulation.state(),
                            .images = images_->images()};
   frame.state.spins.resize(spins_ ? frame.state.positions.size() : 0, Spin<D>::Zero());
-  file_->append(frame_text(frame, format_));
+  file_->add(frame);
   ++next_;
 }
 
@@ -107,8 +112,8 @@ std::string TrajectoryRecorder<D>::save() {
 }
 
 template <int D>
-void TrajectoryRecorder<D>::close() {
-  file_->close();
+void TrajectoryRecorder<D>::finish() {
+  file_->finish();
 }
 
 template <int D>

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "app/results/growing_file.h"
-#include "app/results/trajectory.h"
+#include "app/results/trajectory_file.h"
 #include "app/runs/regular_times.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/periodic_images.h"
@@ -37,12 +38,15 @@ class TrajectoryRecorder {
   void follow(Simulation<D>& next);
   /// Waits until the frames are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
-  /// Ends the file with all frames on the disk. Throws RunError, also if an earlier save() failed.
-  void close();
+  /// Completes the file, with all frames on the disk. Throws RunError, also if an earlier save()
+  /// failed.
+  void finish();
   /// The flags of `clatter measure` that continue this trajectory.
   std::string flags() const;
 
  private:
+  void open(const Simulation<D>& simulation, std::uint64_t bytes);
+
   TrajectoryFormat format_;
   std::filesystem::path path_;
   double every_;
@@ -50,7 +54,7 @@ class TrajectoryRecorder {
   RegularTimes times_;
   long next_ = 0;  // number of the next frame
   std::optional<PeriodicImages<D>> images_;
-  std::optional<GrowingFile> file_;
+  std::unique_ptr<TrajectoryFile<D>> file_;
 };
 
 extern template class TrajectoryRecorder<2>;

@@ -105,7 +105,7 @@ void PanelDriver::drag(float x, float y, float to_x) {
 }
 
 void PanelDriver::wait_for(const std::function<bool(const Frame&)>& holds) {
-  for (int look = 0; look < 1000 && !holds(session_.frame()); ++look) {
+  for (int look = 0; look < 6000 && !holds(session_.frame()); ++look) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     session_.update();
   }

@@ -14,7 +14,8 @@ Shell::Shell() {
 }
 
 // A program with sanitizers is several times slower, and so is its time limit.
-constexpr int kSlowness = sizeof(CLATTER_SANITIZE) > 1 ? 5 : 1;
+constexpr bool kSanitized = sizeof(CLATTER_SANITIZE) > 1;
+constexpr int kSlowness = kSanitized ? 5 : 1;
 
 Outcome Shell::run(const std::string& line, int seconds) const {
   folder_.write("line", "cd here\nPATH=" CLATTER_FOLDER ":$PATH\n" + line + '\n');
@@ -41,6 +42,10 @@ std::vector<std::string> Shell::files() const {
   }
   std::ranges::sort(names);
   return names;
+}
+
+bool is_sanitized() {
+  return kSanitized;
 }
 
 Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal) {

@@ -40,6 +40,10 @@ class Shell {
   testing::TemporaryFolder folder_;
 };
 
+/// Whether the program has a sanitizer. This takes memory and time, and prevents LD_PRELOAD and
+/// limits of the address space.
+bool is_sanitized();
+
 /// Starts a line with `--checkpoint c` in the background. A signal ends it as soon as a checkpoint
 /// exists, on any machine.
 Outcome cut_off(const Shell& shell, const std::string& line, const std::string& signal);

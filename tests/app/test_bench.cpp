@@ -192,9 +192,8 @@ TEST_CASE("Bench: the table of render has the cost of each stage, for pictures o
 
 TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {
   // The memory of so few disks is within the noise of the program. A sanitizer adds memory.
-  const bool sanitized = !std::string(CLATTER_SANITIZE).empty();
   const std::regex cell(std::string(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +)") +
-                        (sanitized ? "[-\\d]+" : "-") + "\n$");
+                        (is_sanitized() ? "[-\\d]+" : "-") + "\n$");
   const Shell shell;
   for (const std::string name : {"", " engine"}) {
     CAPTURE(name);
@@ -204,7 +203,7 @@ TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in 
     CHECK(std::regex_search(outcome.out, cell));
     const json row = json::parse(shell.read("cell.json"))[0];
     CHECK(row["count"] == 100);
-    CHECK((sanitized || row["bytes_per_disk"].is_null()));
+    CHECK((is_sanitized() || row["bytes_per_disk"].is_null()));
   }
 }
 

@@ -77,7 +77,8 @@ TEST_CASE("Completions: every command has the scripts of zsh and fish") {
   const std::string zsh = shell.run("clatter completions zsh").out;
   const std::string fish = shell.run("clatter completions fish").out;
   CHECK(zsh.starts_with("#compdef clatter\n"));
-  for (const std::string command : {"view", "render", "measure", "check", "scenes", "bench"}) {
+  for (const std::string command :
+       {"view", "render", "measure", "check", "scenes", "convert", "bench"}) {
     CAPTURE(command);
     CHECK(says(zsh, "_clatter_" + command + "() {"));
     CHECK(says(fish, "'__clatter_command_is' -a " + command + " "));
@@ -96,7 +97,8 @@ TEST_CASE("Completions: zsh and fish offer the values of each kind of flag") {
         "'--csv[Folder for tables of series, profiles and maps]:DIR:_files -/'",
         "'*--set[Change a key of the scene, as in --set particles.count=500]"
         ":KEY=VALUE:__clatter_settings'",
-        "'*:SCENE:__clatter_scenes'", "'*:KEY:__clatter_keys'"}) {
+        "'*:SCENE:__clatter_scenes'", "'*:KEY:__clatter_keys'",
+        "'1:IN:_files' \\\n    '2:OUT:_files'"}) {
     CAPTURE(line);
     CHECK(says(zsh, std::string("    ") + line));
   }

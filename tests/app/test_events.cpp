@@ -236,7 +236,10 @@ TEST_CASE("Event log: a complete run can be continued with its log") {
     CHECK(resumed.code == 0);
     CHECK(shell.run("cmp " + file + " whole_" + file).code == 0);
     CHECK_FALSE(std::filesystem::exists(shell.path("e.h5.records")));
-    const Outcome without = shell.run("clatter measure s.toml --resume c --until 11 --out r.json");
+    const Outcome without = shell.run(
+        "clatter measure s.toml --set measure.burn_in=0 --set measure.duration=30 --resume c "
+        "--until 11 --out r.json");
+    CAPTURE(without.err);
     CHECK(says(without.err, "note: the event log of c does not continue without --events"));
   }
 }
@@ -252,7 +255,15 @@ TEST_CASE("Event log: a run that stops by itself has its last events") {
   CHECK(outcome.code == 3);
   REQUIRE(std::filesystem::exists(shell.path("e.h5")));
   CHECK(std::filesystem::exists(shell.path("e.h5.records")));
-  const Outcome read = shell.run(CLATTER_READERS "read_events.py e.h5 | wc -l");
+  const Outcome read =
+      shell.run(CLATTER_READERS
+                "read_events.py e.h5 time,kind,particle,partner,"
+                "position_x,position_y,partner_position_x,partner_position_y,"
+                "velocity_before_x,velocity_before_y,velocity_after_x,velocity_after_y,"
+                "partner_velocity_before_x,partner_velocity_before_y,"
+                "partner_velocity_after_x,partner_velocity_after_y,impulse_x,impulse_y "
+                "| wc -l");
+  CAPTURE(read.err);
   CHECK(std::stoi(read.out) > 100);
 }
 
@@ -317,6 +328,19 @@ TEST_CASE("Event log: a full disk leaves complete records, and no damaged log") 
   }
   write();
   CHECK(std::filesystem::file_size(shell.path("e.h5")) > 2'000'000);
+}
+
+TEST_CASE("Event log: if the HDF5 file cannot be written, the run can be resumed") {
+  const Shell shell;
+  shell.write("s.toml", scene(2));
+  const std::string line = kRun + "--events e.h5 --out r.json";
+  const Outcome full = shell.run("ulimit -f 800; " + line);
+  CAPTURE(full.err);
+  CHECK(full.code == 1);
+  CHECK(says(full.err,
+             "cannot write e.h5: File too large; continue with --resume r.checkpoint --events"));
+  REQUIRE(shell.run(line + " --resume r.checkpoint && mv e.h5 resumed.h5").code == 0);
+  CHECK(shell.run(line + " && cmp e.h5 resumed.h5").code == 0);
 }
 
 TEST_CASE("Event log: wrong use is refused") {

@@ -444,7 +444,7 @@ TEST_CASE("Measure: progress is written to stderr as asked") {
 }
 
 TEST_CASE("Measure: check predicts the memory that a measurement takes") {
-  if (!std::string(CLATTER_SANITIZE).empty()) {
+  if (is_sanitized()) {
     MESSAGE("[skipped] a sanitizer takes several times the memory for itself");
     return;
   }

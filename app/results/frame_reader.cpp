@@ -1,0 +1,635 @@
+#include "app/results/frame_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/results/gsd_reader.h"
+#include "app/results/h5md_reader.h"
+#include "engine/error.h"
+#include "engine/physics/state.h"
+#include "engine/scene/text.h"
+#include "engine/whole_number.h"
+
+namespace clatter {
+
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+// The lines of a text file.
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
+    if (!file_) refuse("the file cannot be read", "check its permissions");
+  }
+
+  // Moves to the next line; false at the end.
+  bool next() {
+    if (!std::getline(file_, line_)) return false;
+    if (line_.ends_with('\r')) line_.pop_back();
+    ++number_;
+    return true;
+  }
+  const std::string& text() const { return line_; }
+  // The words of the line.
+  Words words() const {
+    Words words;
+    const std::string_view line = line_;
+    for (std::size_t begin = 0; begin < line.size();) {
+      const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
+      if (end > begin) words.push_back(line.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    return words;
+  }
+  // The cells of a line of CSV, without surrounding blanks.
+  Words cells() const {
+    Words cells;
+    const std::string_view line = line_;
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t end = std::min(line.find(',', begin), line.size());
+      std::string_view cell = line.substr(begin, end - begin);
+      while (cell.starts_with(' ')) cell.remove_prefix(1);
+      while (cell.ends_with(' ')) cell.remove_suffix(1);
+      cells.push_back(cell);
+      begin = end + 1;
+    }
+    return cells;
+  }
+  double number(std::string_view word) const {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double number = 0.0;
+    const auto [stopped, error] = std::from_chars(word.begin(), word.end(), number);
+    if (error == std::errc() && stopped == word.end() && std::isfinite(number)) return number;
+    refuse(in_quotes(word.substr(0, 40)) + " is no finite number", "write, say, -0.25 or 1.5e-3");
+  }
+  std::size_t count(std::string_view word) const {
+    const auto count = whole_number<std::size_t>(word);
+    if (count && *count <= kMaxParticles<2>) return *count;
+    refuse(in_quotes(word.substr(0, 40)) + " is no number of particles",
+           "give at most " + std::to_string(kMaxParticles<2>));
+  }
+  [[noreturn]] void refuse(const std::string& problem, const std::string& advice) const {
+    throw UserError({path_.string(), number_, 0}, problem, advice);
+  }
+  [[noreturn]] void refuse_end() const {
+    refuse("the file ends within a frame",
+           "give a complete file, or an earlier frame with --frame");
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::string line_;
+  int number_ = 0;
+};
+
+long step_of(double number) {
+  return number >= 0.0 && number < 9e15 ? static_cast<long>(number) : 0;
+}
+
+// The quantities of a particle in a table, in the order of the values of a row.
+enum Quantities { kX, kVx = 3, kImage = 6, kOmega = 9, kRadius = 12, kId, kTime, kIgnored, kRow };
+
+// A table of particles: the meaning of its columns.
+class ParticleTable {
+ public:
+  explicit ParticleTable(std::vector<int> columns) : columns_(std::move(columns)) {}
+
+  bool has(int quantity) const { return std::ranges::find(columns_, quantity) != columns_.end(); }
+
+  void require(const Lines& lines) const {
+    for (const int axis : {0, 1}) {
+      if (!has(kX + axis)) lines.refuse("the positions are missing", "give the columns x and y");
+      if (!has(kVx + axis))
+        lines.refuse("the velocities are missing", "give the columns vx and vy");
+    }
+  }
+
+  // The values of the current line.
+  std::array<double, kRow> row(const Lines& lines, const Words& words) const {
+    if (words.size() != columns_.size()) {
+      lines.refuse("this line has " + std::to_string(words.size()) + " columns instead of " +
+                       std::to_string(columns_.size()),
+                   "give every column a value");
+    }
+    std::array<double, kRow> row{};
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      if (columns_[k] != kIgnored) row[columns_[k]] = lines.number(words[k]);
+    }
+    if (has(kRadius) && row[kRadius] != 0.5) {
+      lines.refuse("the radius is " + number_text(row[kRadius]) + " instead of 0.5",
+                   "divide all lengths by the diameter");
+    }
+    return row;
+  }
+
+  void add(ParticleFrame& frame, const std::array<double, kRow>& row) const {
+    const auto vector = [&](int at) { return std::array{row[at], row[at + 1], row[at + 2]}; };
+    frame.positions.push_back(vector(kX));
+    frame.velocities.push_back(vector(kVx));
+    if (has(kImage)) frame.images.push_back(vector(kImage));
+    if (has(kOmega) || has(kOmega + 2)) frame.spins.push_back(vector(kOmega));
+  }
+
+ private:
+  std::vector<int> columns_;
+};
+
+// Disks have no motion out of their plane.
+bool is_flat(const ParticleFrame& frame) {
+  const auto flat = [](const ParticleFrame::Vector& vector) { return vector[2] == 0.0; };
+  return std::ranges::all_of(frame.positions, flat) && std::ranges::all_of(frame.velocities, flat);
+}
+
+// Moves the lower corner of the box to 0. Disks stay at z = 0.
+void shift(ParticleFrame& frame, const ParticleFrame::Vector& corner) {
+  frame.dimension = is_flat(frame) ? 2 : 3;
+  for (ParticleFrame::Vector& position : frame.positions) {
+    for (int axis = 0; axis < frame.dimension; ++axis) position[axis] -= corner[axis];
+  }
+}
+
+// CSV.
+
+class CsvFrames {
+ public:
+  explicit CsvFrames(const std::filesystem::path& path) : lines_(path), table_({}) {
+    static const std::map<std::string_view, int> kColumns = {{"x", kX},
+                                                             {"y", kX + 1},
+                                                             {"z", kX + 2},
+                                                             {"vx", kVx},
+                                                             {"vy", kVx + 1},
+                                                             {"vz", kVx + 2},
+                                                             {"image_x", kImage},
+                                                             {"image_y", kImage + 1},
+                                                             {"image_z", kImage + 2},
+                                                             {"omega", kOmega + 2},
+                                                             {"omega_x", kOmega},
+                                                             {"omega_y", kOmega + 1},
+                                                             {"omega_z", kOmega + 2},
+                                                             {"time", kTime},
+                                                             {"particle", kIgnored}};
+    if (!next_line()) lines_.refuse("the file has no header line", "name the columns in a header");
+    std::vector<int> columns;
+    for (const std::string_view word : lines_.cells()) {
+      const auto column = kColumns.find(word);
+      if (column == kColumns.end()) {
+        lines_.refuse("unknown column " + in_quotes(word.substr(0, 40)),
+                      "give the columns of a start state or of a trajectory");
+      }
+      columns.push_back(column->second);
+    }
+    table_ = ParticleTable(columns);
+    table_.require(lines_);
+    more_ = next_line();
+  }
+
+  std::optional<ParticleFrame> next() {
+    if (!more_ && (frames_ > 0 || table_.has(kTime))) return std::nullopt;
+    ParticleFrame frame;
+    frame.dimension = table_.has(kX + 2) ? 3 : 2;
+    frame.number = static_cast<long>(frames_++);
+    for (bool first = true; more_; more_ = next_line(), first = false) {
+      const auto row = table_.row(lines_, lines_.cells());
+      if (!first && row[kTime] != frame.time) break;
+      frame.time = row[kTime];
+      table_.add(frame, row);
+    }
+    if (frames_ == 1) particles_ = frame.positions.size();
+    if (frame.positions.size() != particles_) lines_.refuse_end();
+    return frame;
+  }
+
+ private:
+  // Skips blank lines and comments.
+  bool next_line() {
+    while (lines_.next()) {
+      const std::size_t first = lines_.text().find_first_not_of(" \t");
+      if (first != std::string::npos && lines_.text()[first] != '#') return true;
+    }
+    return false;
+  }
+
+  Lines lines_;
+  ParticleTable table_;
+  bool more_ = false;
+  std::size_t frames_ = 0;
+  std::size_t particles_ = 0;  // of the first frame
+};
+
+// Extended XYZ.
+
+class XyzFrames {
+ public:
+  explicit XyzFrames(const std::filesystem::path& path) : lines_(path) {}
+
+  std::optional<ParticleFrame> next() {
+    if (!lines_.next() || lines_.words().empty()) return std::nullopt;
+    const std::size_t particles = lines_.count(lines_.words().front());
+    if (!lines_.next()) lines_.refuse_end();
+    ParticleFrame frame;
+    frame.number = frames_++;
+    const ParticleFrame::Vector corner = read_head(frame);
+    const ParticleTable table = read_columns();
+    for (std::size_t i = 0; i < particles; ++i) {
+      if (!lines_.next()) lines_.refuse_end();
+      table.add(frame, table.row(lines_, lines_.words()));
+    }
+    shift(frame, corner);
+    return frame;
+  }
+
+ private:
+  // The value of a key in the head; empty: absent.
+  std::string value_of(const std::string& key) const {
+    const std::string head = ' ' + lines_.text();
+    const std::size_t place = head.find(' ' + key + '=');
+    if (place == head.npos) return "";
+    const std::string rest = head.substr(place + key.size() + 2);
+    return rest.starts_with('"') ? rest.substr(1, rest.find('"', 1) - 1)
+                                 : rest.substr(0, rest.find(' '));
+  }
+
+  std::vector<double> numbers_of(const std::string& text) const {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find(' ', begin), text.size());
+      if (end > begin) numbers.push_back(lines_.number(text.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    return numbers;
+  }
+
+  // Reads time and box. Returns the lower corner of the box.
+  ParticleFrame::Vector read_head(ParticleFrame& frame) const {
+    const std::string time = value_of("Time"), periodic = value_of("pbc");
+    if (!time.empty()) frame.time = lines_.number(time);
+    const std::vector<double> lattice = numbers_of(value_of("Lattice"));
+    if (lattice.size() != 9)
+      lines_.refuse("the box is missing", "give Lattice=\"...\" nine numbers");
+    frame.box.emplace();
+    for (std::size_t k = 0; k < 9; ++k) {
+      if (k % 4 == 0) {
+        frame.box->lengths[k / 4] = lattice[k];
+      } else if (lattice[k] != 0.0) {
+        lines_.refuse("the box is tilted", "give a rectangular box");
+      }
+    }
+    const Words flags = split(periodic);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Without the key a box is periodic.
+      frame.box->periodic[axis] =
+          flags.size() != 3 || flags[axis] == "T" || flags[axis] == "1" || flags[axis] == "True";
+    }
+    const std::vector<double> origin = numbers_of(value_of("Origin"));
+    if (origin.size() == 3) return {origin[0], origin[1], origin[2]};
+    return {};
+  }
+
+  static Words split(std::string_view text) {
+    Words words;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find(' ', begin), text.size());
+      if (end > begin) words.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    return words;
+  }
+
+  ParticleTable read_columns() const {
+    static const std::map<std::string, int> kNames = {{"pos", kX},       {"velo", kVx},
+                                                      {"vel", kVx},      {"map_shift", kImage},
+                                                      {"omega", kOmega}, {"radius", kRadius}};
+    std::string rest = value_of("Properties") + ':';
+    std::vector<std::string> parts;
+    for (std::size_t end = 0; (end = rest.find(':')) != rest.npos; rest.erase(0, end + 1)) {
+      parts.push_back(rest.substr(0, end));
+    }
+    std::vector<int> columns;
+    for (std::size_t k = 0; k + 2 < parts.size(); k += 3) {
+      const auto name = kNames.find(parts[k]);
+      const auto width = whole_number<int>(parts[k + 2]);
+      const int wanted = name == kNames.end() ? 0 : name->second == kRadius ? 1 : 3;
+      if (!width || *width < 1 || *width > 100 || (wanted > 0 && *width != wanted)) {
+        lines_.refuse("the property " + in_quotes(parts[k].substr(0, 40)) + " has a wrong width",
+                      "give vectors three columns");
+      }
+      for (int c = 0; c < *width; ++c) columns.push_back(wanted > 0 ? name->second + c : kIgnored);
+    }
+    ParticleTable table(columns);
+    table.require(lines_);
+    return table;
+  }
+
+  Lines lines_;
+  long frames_ = 0;
+};
+
+// Text dumps of LAMMPS.
+
+class DumpFrames {
+ public:
+  explicit DumpFrames(const std::filesystem::path& path) : lines_(path) {}
+
+  std::optional<ParticleFrame> next() {
+    ParticleFrame frame;
+    ParticleFrame::Vector corner = {};
+    std::optional<std::size_t> particles;
+    while (lines_.next()) {
+      const std::string item = lines_.text();
+      if (item == "ITEM: TIMESTEP") {
+        frame.number = step_of(next_number());
+      } else if (item == "ITEM: TIME") {
+        frame.time = next_number();
+      } else if (item == "ITEM: UNITS") {
+        if (!lines_.next()) lines_.refuse_end();
+      } else if (item == "ITEM: NUMBER OF ATOMS") {
+        if (!lines_.next()) lines_.refuse_end();
+        particles = lines_.count(lines_.text());
+      } else if (item.starts_with("ITEM: BOX BOUNDS")) {
+        corner = read_box(frame);
+      } else if (item.starts_with("ITEM: ATOMS") && particles && frame.box) {
+        read_atoms(frame, *particles);
+        shift(frame, corner);
+        return frame;
+      } else {
+        lines_.refuse("unexpected line " + in_quotes(item.substr(0, 40)),
+                      "give a text dump of LAMMPS with box and number of atoms");
+      }
+      begun_ = true;
+    }
+    if (begun_) lines_.refuse_end();
+    return std::nullopt;
+  }
+
+ private:
+  double next_number() {
+    if (!lines_.next()) lines_.refuse_end();
+    return lines_.number(lines_.text());
+  }
+
+  ParticleFrame::Vector read_box(ParticleFrame& frame) {
+    const Words words = lines_.words();
+    if (words.size() != 6) lines_.refuse("the box is tilted", "give a rectangular box");
+    frame.box.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      frame.box->periodic[axis] = words[3 + axis] == "pp";
+    }
+    ParticleFrame::Vector corner = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!lines_.next()) lines_.refuse_end();
+      const Words bounds = lines_.words();
+      if (bounds.size() != 2) lines_.refuse("this line has not two bounds", "give both bounds");
+      corner[axis] = lines_.number(bounds[0]);
+      frame.box->lengths[axis] = lines_.number(bounds[1]) - corner[axis];
+    }
+    return corner;
+  }
+
+  // LAMMPS writes atoms in any order; they are sorted by their numbers.
+  void read_atoms(ParticleFrame& frame, std::size_t particles) {
+    static const std::map<std::string_view, int> kNames = {{"id", kId},
+                                                           {"x", kX},
+                                                           {"y", kX + 1},
+                                                           {"z", kX + 2},
+                                                           {"vx", kVx},
+                                                           {"vy", kVx + 1},
+                                                           {"vz", kVx + 2},
+                                                           {"ix", kImage},
+                                                           {"iy", kImage + 1},
+                                                           {"iz", kImage + 2},
+                                                           {"omegax", kOmega},
+                                                           {"omegay", kOmega + 1},
+                                                           {"omegaz", kOmega + 2},
+                                                           {"radius", kRadius}};
+    std::vector<int> columns;
+    const Words words = lines_.words();
+    for (std::size_t k = 2; k < words.size(); ++k) {
+      const auto name = kNames.find(words[k]);
+      columns.push_back(name == kNames.end() ? kIgnored : name->second);
+    }
+    const ParticleTable table(columns);
+    table.require(lines_);
+    std::vector<std::array<double, kRow>> rows;
+    for (std::size_t i = 0; i < particles; ++i) {
+      if (!lines_.next()) lines_.refuse_end();
+      rows.push_back(table.row(lines_, lines_.words()));
+    }
+    std::ranges::stable_sort(rows, {}, [](const auto& row) { return row[kId]; });
+    for (const auto& row : rows) table.add(frame, row);
+    begun_ = false;
+  }
+
+  Lines lines_;
+  bool begun_ = false;  // whether a frame has begun
+};
+
+[[noreturn]] void refuse_frame(const std::filesystem::path& path, std::size_t frames) {
+  if (frames == 0) throw UserError({path.string()}, "the file has no frame", "give another file");
+  throw UserError({path.string()}, "the file has " + std::to_string(frames) + " frames",
+                  "give --frame from 0 to " + std::to_string(frames - 1));
+}
+
+template <class Frames>
+ParticleFrame frame_of(const std::filesystem::path& path, std::optional<std::size_t> wanted) {
+  Frames frames(path);
+  std::optional<ParticleFrame> last;
+  for (std::size_t number = 0;; ++number) {
+    std::optional<ParticleFrame> frame = frames.next();
+    if (!frame && (wanted || !last)) refuse_frame(path, number);
+    if (!frame) return *last;
+    if (wanted == number) return *frame;
+    last = std::move(frame);
+  }
+}
+
+std::vector<ParticleFrame::Vector> vectors_of(const std::vector<double>& numbers,
+                                              std::size_t components) {
+  std::vector<ParticleFrame::Vector> vectors(numbers.size() / components);
+  for (std::size_t k = 0; k < vectors.size() * components; ++k) {
+    vectors[k / components][k % components] = numbers[k];
+  }
+  return vectors;
+}
+
+void require_unit_diameters(const std::filesystem::path& path,
+                            const std::vector<double>& diameters) {
+  for (const double diameter : diameters) {
+    if (diameter == 1.0) continue;
+    throw UserError({path.string()}, "a diameter is " + number_text(diameter) + " instead of 1",
+                    "divide all lengths by the diameter");
+  }
+}
+
+ParticleFrame frame_of_gsd(const std::filesystem::path& path, std::optional<std::size_t> wanted) {
+  GsdReader reader(path);
+  const std::uint64_t place = wanted.value_or(std::max<std::uint64_t>(reader.frames(), 1) - 1);
+  if (place >= reader.frames()) refuse_frame(path, reader.frames());
+  const auto first = [&](const std::string& name, double otherwise) {
+    const std::vector<double> numbers = reader.numbers(name, place, 1);
+    return numbers.empty() ? otherwise : numbers.front();
+  };
+  const double count = first("particles/N", 0.0);
+  if (!(count >= 0.0 && count <= kMaxParticles<2>)) {
+    throw UserError({path.string()}, "the number of particles is " + number_text(count),
+                    "give a smaller file");
+  }
+  const auto particles = static_cast<std::uint64_t>(count);
+  const auto vectors = [&](const std::string& name) {
+    return vectors_of(reader.numbers(name, place, 3 * particles), 3);
+  };
+  ParticleFrame frame;
+  frame.number = step_of(first("configuration/step", 0.0));
+  frame.time = first("log/time", 0.0);
+  frame.dimension = first("configuration/dimensions", 3.0) == 2.0 ? 2 : 3;
+  require_unit_diameters(path, reader.numbers("particles/diameter", place, particles));
+
+  const std::vector<double> box = reader.numbers("configuration/box", place, 6);
+  if (box.empty()) throw UserError({path.string()}, "the box is missing", "give another file");
+  if (box[3] != 0.0 || box[4] != 0.0 || box[5] != 0.0) {
+    throw UserError({path.string()}, "the box is tilted", "give a file with a rectangular box");
+  }
+  frame.box = ParticleBox{{box[0], box[1], box[2]}, {true, true, frame.dimension == 3}};
+  const std::vector<double> exact = reader.numbers("log/configuration/box", place, 3);
+  const std::vector<double> periodic = reader.numbers("log/configuration/periodic", place, 3);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!exact.empty()) frame.box->lengths[axis] = exact[axis];
+    if (!periodic.empty()) frame.box->periodic[axis] = periodic[axis] != 0.0;
+  }
+
+  frame.positions = vectors("log/particles/position");
+  frame.velocities = vectors("log/particles/velocity");
+  frame.spins = vectors("log/particles/angular_velocity");
+  frame.images = vectors("particles/image");
+  if (frame.velocities.empty()) frame.velocities = vectors("particles/velocity");
+  if (frame.positions.empty()) {
+    frame.positions = vectors("particles/position");
+    for (ParticleFrame::Vector& position : frame.positions) {
+      for (int axis = 0; axis < frame.dimension; ++axis) {
+        position[axis] += 0.5 * frame.box->lengths[axis];
+      }
+    }
+  }
+  frame.velocities.resize(frame.positions.size());  // HOOMD-blue omits velocities that are 0
+  const std::vector<double> inertia =
+      reader.numbers("particles/moment_inertia", place, 3 * particles);
+  if (!inertia.empty() && inertia.back() > 0.0) frame.inertia = 4.0 * inertia.back();
+  return frame;
+}
+
+ParticleFrame frame_of_h5md(const std::filesystem::path& path, std::optional<std::size_t> wanted) {
+  const H5mdReader reader(path);
+  const std::size_t place = wanted.value_or(std::max<std::size_t>(reader.frames(), 1) - 1);
+  if (place >= reader.frames()) refuse_frame(path, reader.frames());
+  const std::size_t components = reader.components();
+  ParticleFrame frame;
+  frame.number = step_of(reader.step(place));
+  frame.time = reader.time(place);
+  frame.positions = vectors_of(reader.vectors("position", place), components);
+  frame.velocities = vectors_of(reader.vectors("velocity", place), components);
+  if (reader.has("image")) frame.images = vectors_of(reader.vectors("image", place), components);
+  if (components == 3 && reader.has("angular_velocity")) {
+    frame.spins = vectors_of(reader.vectors("angular_velocity", place), components);
+  }
+  if (reader.has("diameter")) require_unit_diameters(path, reader.numbers("diameter", place));
+  frame.dimension = is_flat(frame) ? 2 : 3;
+  const std::vector<double> lengths = reader.box(place);
+  const std::vector<bool> periodic = reader.periodic();
+  frame.box.emplace();
+  for (std::size_t axis = 0; axis < components; ++axis) {
+    frame.box->lengths[axis] = lengths[axis];
+    frame.box->periodic[axis] = periodic[axis];
+  }
+  return frame;
+}
+
+// Moves particles into the box along periodic axes.
+void wrap(ParticleFrame& frame) {
+  for (int axis = 0; axis < frame.dimension; ++axis) {
+    const double length = frame.box->lengths[axis];
+    if (!frame.box->periodic[axis]) continue;
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+      double& place = frame.positions[i][axis];
+      if (place >= 0.0 && place <= length) continue;
+      const double boxes = std::floor(place / length);
+      place = std::clamp(place - boxes * length, 0.0, length);
+      frame.images[i][axis] += boxes;
+    }
+  }
+}
+
+void require_sound(const ParticleFrame& frame, const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& problem, const std::string& advice) {
+    throw UserError({path.string()}, problem, advice);
+  };
+  if (frame.positions.size() > (frame.dimension == 2 ? kMaxParticles<2> : kMaxParticles<3>)) {
+    refuse("the frame has too many particles", "give a smaller file");
+  }
+  const auto require_finite = [&](const std::vector<ParticleFrame::Vector>& vectors,
+                                  const std::string& quantity) {
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+      if (std::ranges::all_of(vectors[i], [](double x) { return std::isfinite(x); })) continue;
+      refuse("the " + quantity + " of particle " + std::to_string(i) + " is not finite",
+             "give another frame with --frame");
+    }
+  };
+  require_finite(frame.positions, "position");
+  require_finite(frame.velocities, "velocity");
+  require_finite(frame.spins, "angular velocity");
+  if (!std::isfinite(frame.time)) refuse("the time is not finite", "give another frame");
+  for (int axis = 0; frame.box && axis < frame.dimension; ++axis) {
+    const double length = frame.box->lengths[axis];
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      refuse("an edge of the box is not a positive number", "give another file");
+    }
+  }
+}
+
+void require_bounded_images(const ParticleFrame& frame, const std::filesystem::path& path) {
+  for (const ParticleFrame::Vector& image : frame.images) {
+    for (const double boxes : image) {
+      if (std::fabs(boxes) <= std::numeric_limits<int>::max() && std::floor(boxes) == boxes)
+        continue;
+      throw UserError({path.string()}, "a periodic image is no whole number of 32 bits",
+                      "give a file with smaller images");
+    }
+  }
+}
+
+}  // namespace
+
+ParticleFrame read_frame(const std::filesystem::path& path, TrajectoryFormat format,
+                         std::optional<std::size_t> frame) {
+  const auto read = [&] {
+    switch (format) {
+      case TrajectoryFormat::ExtXyz:
+        return frame_of<XyzFrames>(path, frame);
+      case TrajectoryFormat::LammpsDump:
+        return frame_of<DumpFrames>(path, frame);
+      case TrajectoryFormat::Csv:
+        return frame_of<CsvFrames>(path, frame);
+      case TrajectoryFormat::Gsd:
+        return frame_of_gsd(path, frame);
+      case TrajectoryFormat::H5md:
+        return frame_of_h5md(path, frame);
+    }
+    return ParticleFrame();
+  };
+  ParticleFrame found = read();
+  require_sound(found, path);
+  found.images.resize(found.positions.size());
+  if (found.box) wrap(found);
+  require_bounded_images(found, path);
+  return found;
+}
+
+}  // namespace clatter

@@ -1,0 +1,166 @@
+#include "app/results/h5md_trajectory.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "app/results/growing_dataset.h"
+#include "app/results/h5md_reader.h"
+#include "app/results/three_axes.h"
+#include "engine/error.h"
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr hsize_t kH5mdChunk = 8192;  // particles of one frame, or of several
+
+// A record is a frame as doubles: number, time, and the vectors of each quantity.
+constexpr std::size_t kRecordHead = 2;
+
+std::vector<std::string> h5md_quantities(bool spins) {
+  std::vector<std::string> names = {"position", "velocity", "image"};
+  if (spins) names.push_back("angular_velocity");
+  return names;
+}
+
+std::size_t h5md_record_size(std::size_t particles, bool spins) {
+  return kRecordHead + h5md_quantities(spins).size() * 3 * particles;
+}
+
+std::filesystem::path h5md_records(const std::filesystem::path& path) {
+  return path.string() + ".records";
+}
+
+std::string_view raw_bytes(const std::vector<double>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
+}
+
+// Rebuilds the records of a complete file.
+void restore_records(const std::filesystem::path& path, std::size_t particles, bool spins) {
+  const H5mdReader reader(path);
+  GrowingFile records(h5md_records(path), 0);
+  for (std::size_t k = 0; k < reader.frames(); ++k) {
+    std::vector<double> record = {reader.step(k), reader.time(k)};
+    for (const std::string& name : h5md_quantities(spins)) {
+      const std::vector<double> numbers = reader.vectors(name, k);
+      record.insert(record.end(), numbers.begin(), numbers.end());
+    }
+    if (record.size() != h5md_record_size(particles, spins)) break;  // of another run
+    records.append(raw_bytes(record));
+  }
+  records.close();
+}
+
+void write_head(const H5::H5File& file) {
+  const H5::Group head = file.createGroup("h5md");
+  const hsize_t two = 2;
+  const std::array<int, 2> version = {1, 1};
+  head.createAttribute("version", H5::PredType::STD_I32LE, H5::DataSpace(1, &two))
+      .write(H5::PredType::NATIVE_INT, version.data());
+  write_text(head.createGroup("author"), "name", "unknown");
+  const H5::Group creator = head.createGroup("creator");
+  write_text(creator, "name", "clatter");
+  write_text(creator, "version", CLATTER_VERSION);
+  write_text(file.openGroup("/"), "units", kUnits);
+}
+
+// The box of a trajectory, for all frames.
+template <int D>
+H5::Group write_box(const H5::Group& particles, const Model<D>& model) {
+  const H5::Group box = particles.createGroup("box");
+  const int dimension = 3;
+  box.createAttribute("dimension", H5::PredType::STD_I32LE, H5::DataSpace())
+      .write(H5::PredType::NATIVE_INT, &dimension);
+  std::vector<std::string> boundary;
+  for (int axis = 0; axis < 3; ++axis) {
+    boundary.emplace_back(is_periodic(model, axis) ? "periodic" : "none");
+  }
+  write_texts(box, "boundary", boundary);
+  return box;
+}
+
+}  // namespace
+
+template <int D>
+H5mdTrajectory<D>::H5mdTrajectory(const std::filesystem::path& path, const Model<D>& model,
+                                  std::size_t particles, bool spins, std::uint64_t bytes)
+    : path_(path), model_(model), particles_(particles), spins_(spins) {
+  std::error_code ignored;
+  if (bytes > 0 && !std::filesystem::exists(h5md_records(path), ignored) &&
+      std::filesystem::exists(path, ignored)) {
+    restore_records(path, particles, spins);
+  }
+  records_.emplace(h5md_records(path), bytes);
+}
+
+template <int D>
+void H5mdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
+  std::vector<double> record = {static_cast<double>(frame.number), frame.time};
+  const auto add_vectors = [&](const auto& vectors) {
+    for (const auto& vector : vectors) {
+      for (const auto number : in_space(vector)) record.push_back(static_cast<double>(number));
+    }
+  };
+  add_vectors(frame.state.positions);
+  add_vectors(frame.state.velocities);
+  add_vectors(frame.images);
+  if (spins_) add_vectors(frame.state.spins);
+  records_->append(raw_bytes(record));
+}
+
+template <int D>
+void H5mdTrajectory<D>::finish() {
+  records_->sync();
+  std::ifstream records(h5md_records(path_), std::ios::binary);
+  if (!records) throw RunError("cannot read " + h5md_records(path_).string());
+  write_large_hdf5(path_, records_->bytes(), [&](const H5::H5File& file) {
+    write_head(file);
+    const H5::Group all = file.createGroup("particles").createGroup("all");
+    const H5::Group box = write_box(all, model_);
+    write_dataset(all, "mass", "", std::vector<double>(particles_, 1.0));
+    write_dataset(all, "diameter", "", std::vector<double>(particles_, model_.diameter));
+
+    const hsize_t in_chunk = std::clamp<hsize_t>(particles_, 1, kH5mdChunk);
+    const Hdf5Shape numbers = {kH5mdChunk}, vectors = {kH5mdChunk / in_chunk, in_chunk, 3};
+    const H5::DataType real = H5::PredType::IEEE_F64LE, whole = H5::PredType::STD_I64LE;
+    const H5::Group edges = box.createGroup("edges");
+    GrowingDataset step(edges, "step", whole, {}, numbers), time(edges, "time", real, {}, numbers);
+    GrowingDataset edge(edges, "value", real, {3, 3}, {kH5mdChunk / 9, 3, 3});
+    std::vector<GrowingDataset> values;
+    for (const std::string& name : h5md_quantities(spins_)) {
+      const H5::Group element = all.createGroup(name);
+      // Elements of the same frames share their steps and times.
+      for (const char* shared : {"step", "time"}) {
+        all.link(H5L_TYPE_HARD, std::string("box/edges/") + shared, name + '/' + shared);
+      }
+      values.emplace_back(element, "value", name == "image" ? whole : real,
+                          Hdf5Shape{particles_, 3}, vectors);
+    }
+
+    const std::array<double, 3> box_size = extents(model_);
+    std::array<double, 9> diagonal = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) diagonal[4 * axis] = box_size[axis];
+    std::vector<double> record(h5md_record_size(particles_, spins_));
+    const auto size = static_cast<std::streamsize>(record.size() * sizeof(double));
+    while (records.read(reinterpret_cast<char*>(record.data()), size)) {
+      step.append(&record[0], 1);
+      time.append(&record[1], 1);
+      edge.append(diagonal.data(), 1);
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        values[k].append(record.data() + kRecordHead + k * 3 * particles_, 1);
+      }
+    }
+  });
+  records_->close();
+  std::error_code ignored;
+  std::filesystem::remove(h5md_records(path_), ignored);
+}
+
+template class H5mdTrajectory<2>;
+template class H5mdTrajectory<3>;
+
+}  // namespace clatter

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace clatter {
+
+/// The box of a file.
+struct ParticleBox {
+  std::array<double, 3> lengths = {};
+  std::array<bool, 3> periodic = {};
+};
+
+/// A frame that was read from a file, with three components of each vector. Disks are at z = 0.
+struct ParticleFrame {
+  using Vector = std::array<double, 3>;
+
+  int dimension = 3;               ///< 2: disks
+  long number = 0;                 ///< in the run that wrote the file
+  double time = 0.0;               ///< 0 if the file has no times
+  std::optional<ParticleBox> box;  ///< absent in CSV
+  std::optional<double> inertia;   ///< q = 4I/(m a^2), if the file has it
+  std::vector<Vector> positions;   ///< [N] relative to the lower corner of the box
+  std::vector<Vector> velocities;  ///< [N]
+  std::vector<Vector> spins;       ///< [N] angular velocities; empty: none
+  std::vector<Vector> images;      ///< [N] periodic images
+};
+
+}  // namespace clatter

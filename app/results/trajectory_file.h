@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "app/results/trajectory.h"
+
+namespace clatter {
+
+/// A trajectory file that grows with a run.
+template <int D>
+class TrajectoryFile {
+ public:
+  virtual ~TrajectoryFile() = default;
+
+  /// Appends a frame. Throws RunError.
+  virtual void add(const TrajectoryFrame<D>& frame) = 0;
+  /// Size of the complete frames, from which the file can be continued.
+  virtual std::uint64_t bytes() const = 0;
+  /// Waits until the frames are on the disk. Throws RunError, see GrowingFile.
+  virtual void sync() = 0;
+  /// Completes the file, with all frames on the disk. Throws RunError; sync() is then still
+  /// possible.
+  virtual void finish() = 0;
+};
+
+/// Opens a trajectory of `particles` particles in the box of the model, with the first `bytes`
+/// bytes of its frames; 0: a new file. `spins`: whether the frames have angular velocities. Throws
+/// UserError if the file has fewer bytes, and RunError if it cannot be written.
+template <int D>
+std::unique_ptr<TrajectoryFile<D>> open_trajectory(const std::filesystem::path& path,
+                                                   TrajectoryFormat format, const Model<D>& model,
+                                                   std::size_t particles, bool spins,
+                                                   std::uint64_t bytes);
+
+}  // namespace clatter

@@ -1,0 +1,236 @@
+// Conversion of start states, trajectories and checkpoints.
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/app/shell.h"
+#include "tests/app/trajectory_scenes.h"
+
+namespace clatter {
+
+using namespace testing;
+
+namespace {
+
+const std::vector<std::string> kBoxed = {"xyz", "lammpstrj", "gsd", "h5md"};
+constexpr const char* kFrame =
+    "2\nLattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T F F\" Time=3 "
+    "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1\n"
+    "X 1 2 0 0.5 0.25 0 0.5\nX 3 4 0 -0.5 0 0 0.5\n";
+
+std::string hash_after(const Shell& shell, const std::string& state) {
+  const Outcome run = shell.run(
+      "clatter measure s.toml --quiet --set measure.burn_in=0 --until 3 "
+      "--set 'particles.start={layout=\"file\",file=\"" +
+      state + "\"}' --out h.json && grep state_hash h.json");
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  return run.out;
+}
+
+}  // namespace
+
+TEST_CASE("Convert: each format gives back the state of the run, to the bit") {
+  for (const char* scene : {kDisks, kSmoothDisks, kSpheres}) {
+    const Shell shell;
+    shell.write("s.toml", scene);
+    CAPTURE(scene);
+    // The state at a frame in the middle of a trajectory. At 1 the wall of the disks is at rest.
+    REQUIRE(shell
+                .run(kRun + "--set measure.burn_in=0 --until 1 --save-state want.csv "
+                            "--checkpoint c")
+                .code == 0);
+    REQUIRE(shell.run("clatter convert c from_c.csv && cmp from_c.csv want.csv").code == 0);
+    std::vector<std::string> formats = kBoxed;
+    formats.push_back("csv");
+    for (const std::string& format : formats) {
+      CAPTURE(format);
+      REQUIRE(shell.run(kRun + "--until 2 --every 0.25 --trajectory t." + format).code == 0);
+      const Outcome middle = shell.run("clatter convert t." + format + " --frame 4 a.csv");
+      CAPTURE(middle.err);
+      REQUIRE(middle.code == 0);
+      CHECK(shell.read("a.csv") == shell.read("want.csv"));
+      CHECK(hash_after(shell, "a.csv") == hash_after(shell, "want.csv"));
+      REQUIRE(shell.run("clatter convert t." + format + " last.csv").code == 0);
+      REQUIRE(shell.run("clatter convert t." + format + " --frame 8 eight.csv").code == 0);
+      CHECK(shell.run("cmp last.csv eight.csv").code == 0);
+      CHECK(shell.run("cmp last.csv want.csv").code != 0);
+    }
+  }
+}
+
+TEST_CASE("Convert: a frame in one format is the frame in each other format") {
+  for (const char* scene : {kDisks, kSmoothDisks, kSpheres}) {
+    const Shell shell;
+    shell.write("s.toml", scene);
+    CAPTURE(scene);
+    for (const std::string& format : kBoxed) {
+      REQUIRE(shell.run(kRun + "--until 9 --every 9 --trajectory t." + format).code == 0);
+    }
+    REQUIRE(shell.run("clatter convert t.xyz want.xyz").code == 0);
+    for (const std::string& from : kBoxed) {
+      for (const std::string& to : kBoxed) {
+        CAPTURE(from);
+        CAPTURE(to);
+        REQUIRE(shell.run("clatter convert t." + from + " out." + to).code == 0);
+        // Back as extended XYZ, which has all quantities. A dump has no time.
+        REQUIRE(shell.run("clatter convert out." + to + " back.xyz").code == 0);
+        CHECK(shell
+                  .run("for f in want back; do sed 's/ Time=[^ ]*//' $f.xyz >$f; done; "
+                       "cmp want back")
+                  .code == 0);
+        if (from != "lammpstrj" && to != "lammpstrj") {
+          CHECK(says(shell.read("back.xyz"), " Time=9 "));
+        }
+      }
+    }
+    // A start state gets its box from the scene, and a checkpoint has it.
+    REQUIRE(shell
+                .run(kRun + "--set measure.burn_in=0 --until 1 --save-state s.csv "
+                            "--checkpoint c")
+                .code == 0);
+    for (const std::string& to : kBoxed) {
+      REQUIRE(shell.run("clatter convert s.csv --scene s.toml a." + to).code == 0);
+      REQUIRE(shell.run("clatter convert a." + to + " back.csv && cmp s.csv back.csv").code == 0);
+      REQUIRE(shell
+                  .run("clatter convert c b." + to + " && clatter convert a." + to +
+                       " a.csv && clatter convert b." + to + " b.csv && cmp a.csv b.csv")
+                  .code == 0);
+    }
+    check_refused(shell, "clatter convert s.csv new.xyz",
+                  {"s.csv: a CSV has no box; give its scene with --scene"});
+    check_refused(shell, "clatter convert t.xyz --scene s.toml new.xyz",
+                  {"--scene: t.xyz has a box; omit --scene"});
+    check_refused(shell, "clatter convert c --frame 0 new.csv",
+                  {"--frame: a checkpoint has one state; omit --frame"});
+  }
+}
+
+TEST_CASE("Convert: files of other programs with the same columns") {
+  const Shell shell;
+  // A box away from the origin, atoms in any order, and one beyond the periodic side.
+  shell.write("a.dump",
+              "ITEM: UNITS\nlj\nITEM: TIME\n2.5\nITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\n"
+              "ITEM: BOX BOUNDS pp ff pp\n-4 4\n-3 3\n-0.5 0.5\n"
+              "ITEM: ATOMS id type mass x y z vx vy vz\n"
+              "7 1 1 4.5 1 0 0.5 0.25 0\n3 1 1 -2 -1 0 1 0 0 \n");
+  REQUIRE(shell.run("clatter convert a.dump a.csv && clatter convert a.dump a.xyz").code == 0);
+  CHECK(shell.read("a.csv") == "x,y,vx,vy\n2,2,1,0\n0.5,4,0.5,0.25\n");
+  CHECK(says(shell.read("a.xyz"), "pbc=\"T F F\" Time=2.5 "));
+  CHECK(says(shell.read("a.xyz"), "\nX 0.5 4 0 0.5 0.25 0 1 0 0 0.5\n"));
+  // HOOMD-blue and H5MD without the exact numbers, by other writers.
+  const Outcome written = shell.run(CLATTER_READERS "write_trajectories.py o.gsd o.h5md huge.h5md");
+  CAPTURE(written.err);
+  REQUIRE(written.code == 0);
+  const std::string want = "x,y,z,vx,vy,vz\n0.5,3.5,2.25,1,0,0.5\n5,1.5,2.5,0,2,0\n";
+  for (const std::string file : {"o.gsd", "o.h5md"}) {
+    CAPTURE(file);
+    const Outcome converted = shell.run("clatter convert " + file + " o.csv");
+    CAPTURE(converted.err);
+    REQUIRE(converted.code == 0);
+    CHECK(shell.read("o.csv") == want);
+    REQUIRE(shell.run("clatter convert " + file + " o.xyz").code == 0);
+    CHECK(says(shell.read("o.xyz"), file == "o.gsd" ? "pbc=\"T T T\"" : "pbc=\"T F F\" Time=0.5"));
+  }
+  check_refused(shell, "clatter convert huge.h5md o.csv",
+                {"huge.h5md: the quantity \"position\" is too large"});
+}
+
+TEST_CASE("Convert: malformed text files are refused with the line") {
+  const Shell shell;
+  const auto refused = [&](const std::string& file, const std::string& text,
+                           const std::vector<std::string>& parts) {
+    CAPTURE(text);
+    shell.write(file, text);
+    check_refused(shell, "clatter convert " + file + " out.csv", parts);
+  };
+  const std::string good = kFrame;
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  refused("a.xyz", "", {"a.xyz: the file has no frame"});
+  refused("a.xyz", good.substr(0, good.size() - 21), {"a.xyz:3: the file ends within a frame"});
+  refused("a.xyz", good.substr(0, good.size() - 8), {"a.xyz:4: this line has 5 columns"});
+  refused("a.xyz", changed("-0.5 0 0", "nan 0 0"), {"a.xyz:4: \"nan\" is no finite number"});
+  refused("a.xyz", changed("2\n", "3\n"), {"a.xyz:4: the file ends within a frame"});
+  refused("a.xyz", changed("2\n", "99999999999999999999\n"), {"is no number of particles"});
+  refused("a.xyz", changed("2\n", "-1\n"), {"a.xyz:1: \"-1\" is no number of particles"});
+  refused("a.xyz", changed("8 0 0", "8 1 0"), {"a.xyz:2: the box is tilted"});
+  refused("a.xyz", changed("8 0 0", "0 0 0"), {"an edge of the box is not a positive number"});
+  refused("a.xyz", changed("Lattice", "Other"), {"a.xyz:2: the box is missing"});
+  refused("a.xyz", changed("velo:R:3", "v:R:3"), {"a.xyz:2: the velocities are missing"});
+  refused("a.xyz", changed("velo:R:3", "velo:R:9999999999"), {"\"velo\" has a wrong width"});
+  refused("a.xyz", changed("0.25 0 0.5", "0.25 0 0.4"),
+          {"a.xyz:3: the radius is 0.4 instead of 0.5; divide all lengths by the diameter"});
+  refused("a.dump", "ITEM: TIMESTEP\n", {"a.dump:1: the file ends within a frame"});
+  refused("a.dump", "nothing", {"a.dump:1: unexpected line \"nothing\""});
+  refused("a.dump",
+          "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n"
+          "0 1\n0 1\n0 1\nITEM: ATOMS id xs ys zs\n1 0 0 0\n",
+          {"a.dump:9: the positions are missing"});
+  refused("a.csv", "", {"a.csv: the file has no header line"});
+  refused("a.csv", "x,y,vx\n", {"a.csv:1: the velocities are missing"});
+  refused("a.csv", "x,y,vx,vy,w\n", {"a.csv:1: unknown column \"w\""});
+  refused("a.csv", "x,y,vx,vy\n1,2,3\n", {"a.csv:2: this line has 3 columns instead of 4"});
+  refused("a.csv", "x,y,vx,vy\n1,2,3,inf\n", {"a.csv:2: \"inf\" is no finite number"});
+  refused("a.csv", "time,x,y,vx,vy\n0,1,2,3,4\n0,3,4,3,4\n1,1,2,3,4\n",
+          {"a.csv:4: the file ends within a frame"});
+  shell.write("b.xyz", good + good);
+  check_refused(shell, "clatter convert b.xyz --frame 2 out.csv",
+                {"b.xyz: the file has 2 frames; give --frame from 0 to 1"});
+  check_refused(shell, "clatter convert none.xyz out.csv", {"none.xyz: there is no such file"});
+  check_refused(shell, "clatter convert b.xyz b.xyz",
+                {"b.xyz is the file that this command reads"});
+  check_refused(shell, "clatter convert b.xyz out.foo", {"OUT: out.foo has no extension"});
+  check_refused(shell, "cp b.xyz b.foo; clatter convert b.foo out.csv; e=$?; rm b.foo; exit $e",
+                {"IN: b.foo has no extension of a trajectory"});
+  check_refused(shell, "clatter convert b.xyz out.csv --frame -1", {"--frame"});
+}
+
+TEST_CASE("Convert: damaged binary files are refused") {
+  const Shell shell;
+  shell.write("s.toml", kSpheres);
+  for (const std::string format : {"gsd", "h5md"}) {
+    REQUIRE(shell.run(kRun + "--every 1 --trajectory t." + format).code == 0);
+    const std::string whole = shell.read("t." + format);
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 10}) {
+      CAPTURE(size);
+      shell.write("d." + format, whole.substr(0, size));
+      check_refused(shell, "clatter convert d." + format + " out.csv", {"d." + format + ": "});
+    }
+    // Each byte of the head in turn is damaged. The program gives a frame or an error.
+    for (std::size_t k = 0; k < 400; k += 7) {
+      std::string damaged = whole;
+      damaged[k] = static_cast<char>(~damaged[k]);
+      shell.write("d." + format, damaged);
+      const Outcome outcome = shell.run("clatter convert d." + format + " out.csv");
+      CAPTURE(k);
+      CAPTURE(outcome.err);
+      CHECK((outcome.code == 0 || outcome.code == 2));
+    }
+  }
+}
+
+TEST_CASE("Convert: a full disk leaves the earlier file") {
+  const Shell shell;
+  REQUIRE(shell.run("clatter measure vibrated --until 1 --save-state s.csv --out r.json").code ==
+          0);
+  for (const std::string& format : kBoxed) {
+    CAPTURE(format);
+    shell.write("out." + format, "earlier");
+    const std::vector<std::string> before = shell.files();
+    const Outcome full =
+        shell.run("ulimit -f 20; clatter convert s.csv --scene vibrated out." + format);
+    CAPTURE(full.err);
+    CHECK(full.code == 1);
+    CHECK(says(full.err, "cannot write "));
+    CHECK(shell.files() == before);
+    CHECK(shell.read("out." + format) == "earlier");
+  }
+}
+
+}  // namespace clatter
