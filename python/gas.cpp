@@ -114,6 +114,18 @@ void Gas::change(const std::vector<Override>& laws) {
 
 namespace {
 
+// Ends the work of an observer. Only another simulation has no observers. It has the same bits. If
+// the memory is too small for it, the present simulation continues and needs its observer.
+template <int D, class T>
+void detach(ScheduledRun<D>& run, std::unique_ptr<T> observer) {
+  run.on_change = nullptr;
+  try {
+    run.renew();
+  } catch (...) {
+    static_cast<void>(observer.release());
+  }
+}
+
 // A measurement of a run up to the simulation time `end`, without traces in the run.
 template <int D>
 class MeasurementOf {
@@ -126,16 +138,7 @@ class MeasurementOf {
   }
   MeasurementOf(const MeasurementOf&) = delete;
   MeasurementOf& operator=(const MeasurementOf&) = delete;
-  // Only another simulation has no observers. It has the same bits. If the memory is too small for
-  // it, the present simulation continues and needs its observer.
-  ~MeasurementOf() {
-    run_.on_change = nullptr;
-    try {
-      run_.renew();
-    } catch (...) {
-      static_cast<void>(measurement_.release());
-    }
-  }
+  ~MeasurementOf() { detach(run_, std::move(measurement_)); }
 
   Measured result(const StopRequest& stop) { return (*measurement_)->result(stop); }
 
@@ -145,6 +148,69 @@ class MeasurementOf {
   ScheduledRun<D>& run_;
   std::unique_ptr<Measuring> measurement_ = std::make_unique<Measuring>();
 };
+
+// Collects the collisions of a run.
+template <int D>
+class Collisions final : private Observer<D> {
+ public:
+  Collisions(ScheduledRun<D>& run, bool spins) : spins_(spins) {
+    follow(run.simulation());
+    run.on_change = [this](Simulation<D>& next) { follow(next); };
+  }
+
+  std::vector<double> records;
+
+ private:
+  void follow(Simulation<D>& next) {
+    simulation_ = &next;
+    next.add_observer(*this);
+  }
+  void on_collision(const PairCollision<D>& collision) override { add(collision); }
+  void on_wall(const WallCollision<D>& collision) override { add(collision); }
+  template <class Collision>
+  void add(const Collision& collision) {
+    append_record<D>(records, simulation_->model(), simulation_->time(), collision, spins_);
+  }
+
+  const Simulation<D>* simulation_ = nullptr;
+  bool spins_;
+};
+
+// Runs until all collisions have occurred, in steps whose lengths double.
+template <int D>
+void run_for(ScheduledRun<D>& run, std::uint64_t collisions, const StopRequest& stop) {
+  constexpr double kLongest = 1e7;  // beyond it a lone particle would take minutes
+  const auto occurred = [&] {
+    const EventCounts& counts = run.simulation().counts();
+    return counts.pair_collisions + counts.wall_collisions;
+  };
+  const std::uint64_t last = occurred() + collisions;
+  for (double step = 1.0; occurred() < last; step *= 2.0) {
+    if (step > kLongest) {
+      throw RunError(fmt::format("only {} of {} collisions occur up to t = {:g}",
+                                 collisions - (last - occurred()), collisions,
+                                 run.simulation().time()));
+    }
+    const bool arrived = run.run_until(run.simulation().time() + step, last, kNoLimit, stop);
+    if (!arrived && occurred() < last) throw Interrupted();
+  }
+}
+
+template <int D>
+EventTable collisions_of(ScheduledRun<D>& run, std::uint64_t count, const StopRequest& stop) {
+  const bool spins = run.simulation().model().spins;
+  auto collisions = std::make_unique<Collisions<D>>(run, spins);
+  EventTable events{event_quantities(D, spins), {}};
+  try {
+    run_for(run, count, stop);
+    events.records = std::move(collisions->records);
+  } catch (...) {
+    detach(run, std::move(collisions));
+    throw;
+  }
+  detach(run, std::move(collisions));
+  return events;
+}
 
 template <int D>
 std::string measured(ScheduledRun<D>& run, const Scene& scene, double end,
@@ -202,6 +268,21 @@ std::string Gas::measure(const std::optional<double>& duration, const StopReques
         std::string result = measured(run, scene, end, stop);
         arrived_ = true;
         return result;
+      },
+      run_);
+}
+
+EventTable Gas::events(long count, const StopRequest& stop) {
+  const Turn turn(*this);
+  constexpr long kMost = 100'000'000;
+  if (count < 1 || count > kMost) {
+    throw UserError({"events"}, std::to_string(count) + " collisions are not possible",
+                    "give a number from 1 to " + std::to_string(kMost));
+  }
+  return std::visit(
+      [&](auto& run) {
+        arrived_ = false;
+        return collisions_of(run, static_cast<std::uint64_t>(count), stop);
       },
       run_);
 }

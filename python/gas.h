@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/results/event_log.h"
 #include "engine/physics/state.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene.h"
@@ -14,6 +15,12 @@
 #include "render/output/image.h"
 
 namespace clatter {
+
+/// Collisions in order of time, as in an event log.
+struct EventTable {
+  std::vector<EventQuantity> quantities;
+  std::vector<double> records;  ///< [events][record_size(quantities)]
+};
 
 /// A gas of disks or spheres for a notebook: a run of a scene, with its measurements and pictures.
 /// Long work throws Interrupted after a stop request. The gas is then where the request halted it,
@@ -46,6 +53,9 @@ class Gas {
   /// absent: measure.duration. Returns the result of `clatter measure` as JSON. Throws UserError,
   /// RunError, PhysicalStop and Interrupted.
   std::string measure(const std::optional<double>& duration, const StopRequest& stop = {});
+  /// Runs on for `count` collisions of particles and with walls, and returns them. Throws
+  /// UserError, PhysicalStop, Interrupted, and RunError if no more collisions occur.
+  EventTable events(long count, const StopRequest& stop = {});
   /// The picture that `clatter render` draws at this time, as wide as `width` pixels. Its height
   /// follows the box. Averages and trails of the scene's view begin at time 0. Throws UserError,
   /// RunError and Interrupted.

@@ -122,6 +122,34 @@ py::object measure_gas(Gas& gas, const std::optional<double>& duration) {
       without_gil([&](const StopRequest& stop) { return gas.measure(duration, stop); }));
 }
 
+// A structured array with a field of each quantity.
+py::object events(Gas& gas, long count) {
+  const EventTable table =
+      without_gil([&](const StopRequest& stop) { return gas.events(count, stop); });
+  const auto size = static_cast<py::ssize_t>(record_size(table.quantities));
+  const auto rows = static_cast<py::ssize_t>(table.records.size()) / size;
+  const py::array_t<double> numbers({rows, size}, table.records.data());
+  py::list fields;
+  for (const auto& [name, unit, components, whole] : table.quantities) {
+    const bool scalar = components.size() == 1 && components.front().empty();
+    const char* const type = whole ? "i8" : "f8";
+    fields.append(scalar ? py::make_tuple(name, type)
+                         : py::make_tuple(name, type, py::make_tuple(components.size())));
+  }
+  py::object array = py::module_::import("numpy").attr("empty")(rows, "dtype"_a = fields);
+  py::ssize_t place = 0;
+  for (const auto& [name, unit, components, whole] : table.quantities) {
+    const auto width = static_cast<py::ssize_t>(components.size());
+    const bool scalar = width == 1 && components.front().empty();
+    const py::object all = py::slice{py::none(), py::none(), py::none()};
+    const py::object columns =
+        scalar ? py::object(py::int_(place)) : py::object(py::slice(place, place + width, 1));
+    array[py::str(name)] = numbers[py::make_tuple(all, columns)];
+    place += width;
+  }
+  return array;
+}
+
 py::array_t<unsigned char> draw_gas(Gas& gas, int width) {
   const Image image = without_gil([&](const StopRequest& stop) { return gas.draw(width, stop); });
   return py::array_t<unsigned char>({image.size.height, image.size.width, 4}, image.rgba.data());
@@ -227,6 +255,13 @@ PYBIND11_MODULE(clatter, module) {
            "(key events) are those of the averaging time. docs/results.md describes the keys.\n\n"
            "The key performance has the CPU time of the whole process. Raises SceneError, RunError "
            "and PhysicalStop. These, and Ctrl-C, lose the averages and keep the gas.")
+      .def("events", events, "n"_a,
+           "Runs the gas on for n collisions of particles and with walls. Returns them as a "
+           "structured array, (n,): the quantities of an event log, described in "
+           "docs/results.md. Vectors are fields with D components.\n\n"
+           "Afterwards the gas is at the time of the last of them. Raises PhysicalStop, SceneError "
+           "for n < 1, and RunError if no more collisions occur. These, and Ctrl-C, lose the "
+           "collisions and keep the gas.")
       .def(
           "set", [](Gas& gas, const py::dict& laws) { gas.change(overrides_of(laws)); }, "laws"_a,
           "Changes laws now, with the rules of [[change]] in the scene: a dict of keys and values, "

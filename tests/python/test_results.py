@@ -55,6 +55,47 @@ class Results(unittest.TestCase):
         self.assertEqual(gas.time, 0.0)
 
 
+class Events(unittest.TestCase):
+    def setUp(self):
+        self.folder = Folder()
+        self.addCleanup(self.folder.cleanup)
+
+    def test_events_are_the_event_log_of_the_program(self):
+        for name, text in (("disks", DISKS_TOML), ("spheres", SPHERES_TOML)):
+            path = self.folder.write(name + ".toml", text)
+            result = self.folder.measure(path, "--seed", 2, "--events", name + ".csv")
+            log = np.genfromtxt(
+                Path(self.folder.name, name + ".csv"), delimiter=",", names=True, skip_header=1
+            )
+            gas = clatter.load(path, seed=2)
+            # The gravity of the disks changes during the first call.
+            self.assertLess(3.3, log["time"][29])
+            parts = [gas.events(30), gas.events(len(log) - 30)]
+            self.assertEqual(gas.time, parts[1]["time"][-1])
+            events = np.concatenate(parts)
+            columns = set()
+            for field in events.dtype.names:
+                if events[field].ndim == 1:
+                    np.testing.assert_array_equal(events[field], log[field])
+                    columns.add(field)
+                else:
+                    for axis, letter in zip(range(events[field].shape[1]), "xyz"):
+                        column = f"{field}_{letter}"
+                        np.testing.assert_array_equal(events[field][:, axis], log[column])
+                        columns.add(column)
+            self.assertEqual(columns, set(log.dtype.names))
+            self.assertEqual(events["kind"].dtype, np.int64)
+            gas.run_until(21.0)
+            self.assertEqual(gas.hash, result["state_hash"])
+
+    def test_a_gas_without_collisions_has_no_events(self):
+        gas = clatter.load({"title": "T", "box": {"size": [9, 8]}, "particles": {"count": 1}})
+        with self.assertRaisesRegex(clatter.RunError, "only 0 of 1 collisions occur"):
+            gas.events(1)
+        with self.assertRaises(clatter.SceneError):
+            gas.events(0)
+
+
 class Pictures(unittest.TestCase):
     def pixels(self, folder, file):
         raw = subprocess.run(
