@@ -128,7 +128,7 @@ TEST_CASE_TEMPLATE("Mean-squared displacement: its slope is the integral of the 
   const double side = D == 2 ? std::sqrt(500.0 * std::numbers::pi / 0.8)
                              : std::cbrt(500.0 * std::numbers::pi / 0.9);
   const Scene scene = gas(VecX::Constant(D, side), 500, 1.0);
-  Measure measure;
+  Measure measure = scene.measure;
   measure.burn_in = 5.0;
   measure.observables = {ObservableKind::MeanSquaredDisplacement,
                          ObservableKind::VelocityAutocorrelation};
