@@ -217,7 +217,7 @@ std::vector<Feature> with_observables(std::vector<Feature> features) {
   add("velocity distribution", nothing, ObservableKind::VelocityDistribution);
   add("free flights", nothing, ObservableKind::FreeFlights);
   add("collision statistics", nothing, ObservableKind::Collisions);
-  add("wall hits, walls on four sides", close_box, ObservableKind::WallHits);
+  add("wall hits, four walls", close_box, ObservableKind::WallHits);
   add("mean-squared displacement", nothing, ObservableKind::MeanSquaredDisplacement);
   add("velocity autocorrelation", nothing, ObservableKind::VelocityAutocorrelation);
   add("structure factor", nothing, ObservableKind::StructureFactor);

@@ -24,6 +24,17 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
+// The words between blanks.
+Words words_of(std::string_view text) {
+  Words words;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \t", begin), text.size());
+    if (end > begin) words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
 // The lines of a text file.
 class Lines {
  public:
@@ -40,16 +51,7 @@ class Lines {
   }
   const std::string& text() const { return line_; }
   // The words of the line.
-  Words words() const {
-    Words words;
-    const std::string_view line = line_;
-    for (std::size_t begin = 0; begin < line.size();) {
-      const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
-      if (end > begin) words.push_back(line.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    return words;
-  }
+  Words words() const { return words_of(line_); }
   // The cells of a line of CSV, without surrounding blanks.
   Words cells() const {
     Words cells;
@@ -261,11 +263,7 @@ class XyzFrames {
 
   std::vector<double> numbers_of(const std::string& text) const {
     std::vector<double> numbers;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find(' ', begin), text.size());
-      if (end > begin) numbers.push_back(lines_.number(text.substr(begin, end - begin)));
-      begin = end + 1;
-    }
+    for (const std::string_view word : words_of(text)) numbers.push_back(lines_.number(word));
     return numbers;
   }
 
@@ -284,7 +282,7 @@ class XyzFrames {
         lines_.refuse("the box is tilted", "give a rectangular box");
       }
     }
-    const Words flags = split(periodic);
+    const Words flags = words_of(periodic);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // Without the key a box is periodic.
       frame.box->periodic[axis] =
@@ -293,16 +291,6 @@ class XyzFrames {
     const std::vector<double> origin = numbers_of(value_of("Origin"));
     if (origin.size() == 3) return {origin[0], origin[1], origin[2]};
     return {};
-  }
-
-  static Words split(std::string_view text) {
-    Words words;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find(' ', begin), text.size());
-      if (end > begin) words.push_back(text.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    return words;
   }
 
   ParticleTable read_columns() const {

@@ -58,12 +58,12 @@ constexpr std::array<ObservablePrice, 10> kObservablePrices = {
      {ObservableKind::VelocityDistribution, 0.05},
      {ObservableKind::FreeFlights, 0.17},
      {ObservableKind::Collisions, 0.22},
-     {ObservableKind::WallHits, 0.05},
-     {ObservableKind::MeanSquaredDisplacement, 0.3},
+     {ObservableKind::WallHits, 0.12},
+     {ObservableKind::MeanSquaredDisplacement, 0.35},
      {ObservableKind::VelocityAutocorrelation, 0.1},
-     {ObservableKind::StructureFactor, 1.0},
-     {ObservableKind::Clusters, 0.3},
-     {ObservableKind::BondOrder, 0.5}}};
+     {ObservableKind::StructureFactor, 7.8},
+     {ObservableKind::Clusters, 0.54},
+     {ObservableKind::BondOrder, 0.72}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;

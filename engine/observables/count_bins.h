@@ -10,7 +10,9 @@ namespace clatter {
 /// Bins for whole numbers >= 0: one for each number below 16, then eight equal bins between
 /// consecutive powers of 2.
 struct CountBins {
-  static constexpr std::size_t kSingle = LogBins::kPerOctave;  ///< numbers below have own bins
+  /// Numbers below have own bins. Logarithmic bins from here to its double have one number each,
+  /// too.
+  static constexpr std::size_t kSingle = LogBins::kPerOctave;
   static constexpr std::size_t kCount = 256;
 
   /// The bin of a number below 2^32.
