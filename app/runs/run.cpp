@@ -280,13 +280,18 @@ void require_no_overlap(const RunChecks& checks) {
 template <int D>
 std::string Run<D>::finish_files() {
   if (ended_early_ && !stop_) return "";
-  try {
-    if (recorder_) recorder_->finish();
-    if (events_) events_->finish(stop_ || !options_.file.empty());
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "";
+  std::string failures;
+  // A failure of one file leaves the other one to finish.
+  const auto finish = [&failures](const auto& finish_file) {
+    try {
+      finish_file();
+    } catch (const RunError& error) {
+      failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+    }
+  };
+  if (recorder_) finish([&] { recorder_->finish(); });
+  if (events_) finish([&] { events_->finish(stop_ || !options_.file.empty()); });
+  return failures;
 }
 
 template <int D>

@@ -244,11 +244,14 @@ TEST_CASE("Event log: a complete run can be continued with its log") {
   }
 }
 
+// A gas that collapses at t = 69.
+static const std::string kCollapse =
+    "schema = 1\ntitle = \"collapse\"\n[box]\nsize = [10.0, 10.0]\n[particles]\n"
+    "count = 40\nrestitution = 0.05\n";
+
 TEST_CASE("Event log: a run that stops by itself has its last events") {
   const Shell shell;
-  shell.write("s.toml",
-              "schema = 1\ntitle = \"collapse\"\n[box]\nsize = [10.0, 10.0]\n[particles]\n"
-              "count = 40\nrestitution = 0.05\n");
+  shell.write("s.toml", kCollapse);
   const Outcome outcome =
       shell.run("clatter measure s.toml --until 1e4 --out r.json --events e.h5");
   CAPTURE(outcome.err);
@@ -341,6 +344,27 @@ TEST_CASE("Event log: if the HDF5 file cannot be written, the run can be resumed
              "cannot write e.h5: File too large; continue with --resume r.checkpoint --events"));
   REQUIRE(shell.run(line + " --resume r.checkpoint && mv e.h5 resumed.h5").code == 0);
   CHECK(shell.run(line + " && cmp e.h5 resumed.h5").code == 0);
+}
+
+TEST_CASE("Event log: it is complete although the trajectory of a stopped run is not") {
+  const Shell shell;
+  shell.write("s.toml", kCollapse);
+  // A private namespace, so that the mount ends with the command. The disk has room for the
+  // records, and none for the complete file.
+  const std::string small_disk =
+      "mkdir -p small; exec unshare --mount sh -c 'mount -t tmpfs -o size=40k none small || exit "
+      "77; ";
+  if (shell.run(small_disk + "'").code != 0) {
+    MESSAGE("[skipped] only root may mount a small disk");
+    return;
+  }
+  const Outcome full = shell.run(small_disk +
+                                 "clatter measure s.toml --until 1e4 --out r.json --events e.h5 "
+                                 "--trajectory small/t.h5md --every 10'");
+  CAPTURE(full.err);
+  CHECK(full.code == 3);
+  CHECK(says(full.err, "cannot write small/t.h5md: No space left on device"));
+  CHECK(std::filesystem::exists(shell.path("e.h5")));
 }
 
 TEST_CASE("Event log: wrong use is refused") {
