@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "engine/error.h"
 #include "engine/system/checksum.h"
@@ -42,6 +44,18 @@ bool is_at(const FileDescriptor& folder, const std::filesystem::path& path) {
   struct stat opened, named;
   return fstat(folder.get(), &opened) == 0 && stat(path.c_str(), &named) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+// Locks the open folder; false if another program holds the lock. The child of a killed film holds
+// it until the child begins its own program, hence the short wait.
+bool lock(const FileDescriptor& folder) {
+  constexpr int kAttempts = 100;
+  constexpr std::chrono::milliseconds kPause{10};
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (flock(folder.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
 }
 
 }  // namespace
@@ -85,7 +99,7 @@ void Movie::open_folder() {
       throw RunError("cannot write " + path_.string() + ": " +
                      (error ? error.message() : std::strerror(errno)));
     }
-    if (flock(held_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (!lock(held_)) {
       throw UserError({path_.string()}, "another program is filming to this name",
                       "wait for its end, or give another name");
     }

@@ -145,6 +145,23 @@ TEST_CASE(
   CHECK(hashes(shell, "-i film.mp4").size() == 150 * 33);
 }
 
+TEST_CASE("Film parts: a lock that is released soon does not refuse a film") {
+  const Shell shell;
+  write_scene(shell);
+  const std::string line = kFilm + "--out film.mp4";
+  const auto film_beside_lock = [&](const std::string& seconds) {
+    return shell.run("mkdir -p film.mp4.part; flock film.mp4.part sh -c 'touch held; sleep " +
+                     seconds + "' & until [ -e held ]; do sleep 0.01; done; rm held; " + line +
+                     "; code=$?; wait; exit $code");
+  };
+  const Outcome refused = film_beside_lock("4");
+  CHECK(refused.code == 2);
+  CHECK(says(refused.err, "another program is filming to this name"));
+  const Outcome film = film_beside_lock("0.3");
+  CAPTURE(film.err);
+  CHECK(film.code == 0);
+}
+
 // The film has two complete pieces and a part of a third.
 TEST_CASE("Film parts: a film that could not be joined is resumed to the same bytes") {
   const Shell shell;
