@@ -1,5 +1,5 @@
 # Installation and Debian package. The target installed_files builds all files of `cmake --install`:
-# the program, its manual page and its completions.
+# the program, its manual page, its completions and, where it is built, the module of Python.
 include(GNUInstallDirs)
 
 # Debian packages install zsh completions in zsh/vendor-completions, see ./run package.
@@ -43,6 +43,9 @@ add_custom_target(installed_files ALL
                   DEPENDS clatter ${share}/clatter.bash ${share}/clatter.zsh ${share}/clatter.fish
                           ${share}/clatter.1.gz ${share}/changelog.gz
                           ${share}/changelog.Debian.gz)
+if(TARGET clatter_python)
+  add_dependencies(installed_files clatter_python)
+endif()
 
 # Tests are not installed. The other targets need no build.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
@@ -76,10 +79,11 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Libraries opened at run time. OSMesa draws without a display and without a driver.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libegl1, libgl1, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "simulation of driven granular gases of hard disks
 clatter simulates hard disks that lose energy in collisions, in a box whose
 walls return it. It computes one collision after the other, without a time
 step. It shows a gas in a window, films it, and measures it with standard
-errors.")
+errors. The module clatter of Python does the same in notebooks.")
 include(CPack)
