@@ -103,7 +103,9 @@ class Trial {
     const double interval = 1.0 / enskog_rate(kAreaFraction, 1.0);
     for (double* each :
          {&measure.radial_distribution.interval, &measure.velocity_distribution.interval,
-          &measure.structure_factor.interval, &measure.clusters.interval}) {
+          &measure.structure_factor.interval, &measure.clusters.interval,
+          &measure.wall_power.interval, &measure.plane_current.interval,
+          &measure.local_density.interval, &measure.spin_distribution.interval}) {
       *each = interval;
     }
     for (TimeCorrelationSettings* settings :
@@ -223,6 +225,9 @@ std::vector<Feature> with_observables(std::vector<Feature> features) {
   add("structure factor", nothing, ObservableKind::StructureFactor);
   add("clusters", nothing, ObservableKind::Clusters);
   add("bond order", nothing, ObservableKind::BondOrder);
+  add("wall power, four walls", close_box, ObservableKind::WallPower);
+  add("current through a plane", nothing, ObservableKind::PlaneCurrent);
+  add("local density", nothing, ObservableKind::LocalDensity);
   return features;
 }
 

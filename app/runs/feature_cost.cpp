@@ -53,7 +53,7 @@ struct ObservablePrice {
   ObservableKind kind;
   double surcharge;
 };
-constexpr std::array<ObservablePrice, 10> kObservablePrices = {
+constexpr std::array<ObservablePrice, 14> kObservablePrices = {
     {{ObservableKind::RadialDistribution, 0.7},
      {ObservableKind::VelocityDistribution, 0.05},
      {ObservableKind::FreeFlights, 0.17},
@@ -63,7 +63,11 @@ constexpr std::array<ObservablePrice, 10> kObservablePrices = {
      {ObservableKind::VelocityAutocorrelation, 0.1},
      {ObservableKind::StructureFactor, 7.8},
      {ObservableKind::Clusters, 0.54},
-     {ObservableKind::BondOrder, 0.72}}};
+     {ObservableKind::BondOrder, 0.72},
+     {ObservableKind::WallPower, 0.01},
+     {ObservableKind::PlaneCurrent, 0.05},
+     {ObservableKind::LocalDensity, 0.05},
+     {ObservableKind::SpinDistribution, 0.05}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;
@@ -78,8 +82,7 @@ FeatureCost observables_of(const Scene& scene) {
     const std::optional<double> interval = measure.sampling_interval(kind);
     price += interval ? surcharge / (*interval * rate) : surcharge;
   }
-  return {"observables", names,
-          observables_memory(measure, scene.dimension(), scene.particles.count), price};
+  return {"observables", names, observables_memory(scene), price};
 }
 
 // A kick of one disk costs about half a collision of two disks. Valid at the temperature of the

@@ -5,6 +5,7 @@
 
 #include "engine/observables/count_bins.h"
 #include "engine/observables/log_bins.h"
+#include "engine/observables/signed_bins.h"
 
 namespace clatter {
 
@@ -41,16 +42,32 @@ class DensityTable {
   std::size_t total_;
 };
 
-// The table of all bins between the first and the last with counts.
+bool is_filled(std::span<const ObservableSums> parts, std::size_t bin) {
+  return std::ranges::any_of(parts,
+                             [&](const ObservableSums& part) { return part.values[bin] > 0.0; });
+}
+
+// The table of all bins with counts.
 template <class Bins>
 ResultTable filled_bins(std::string name, const std::string& unit,
                         std::span<const ObservableSums> parts, std::size_t first,
                         std::size_t total) {
+  DensityTable densities(std::move(name), unit, parts, total);
+  for (std::size_t bin = 0; bin < Bins::kCount; ++bin) {
+    if (!is_filled(parts, first + bin)) continue;
+    densities.add(first + bin, Bins::edge(bin), Bins::edge(bin + 1));
+  }
+  return std::move(densities).table();
+}
+
+// The table of all bins between the first and the last with counts.
+template <class Bins>
+ResultTable bins_in_range(std::string name, const std::string& unit,
+                          std::span<const ObservableSums> parts, std::size_t first,
+                          std::size_t total) {
   std::size_t begin = Bins::kCount, end = 0;
   for (std::size_t bin = 0; bin < Bins::kCount; ++bin) {
-    const bool filled = std::ranges::any_of(
-        parts, [&](const ObservableSums& part) { return part.values[first + bin] > 0.0; });
-    if (!filled) continue;
+    if (!is_filled(parts, first + bin)) continue;
     begin = std::min(begin, bin);
     end = bin + 1;
   }
@@ -66,12 +83,23 @@ ResultTable filled_bins(std::string name, const std::string& unit,
 ResultTable log_histogram(std::string name, const std::string& unit,
                           std::span<const ObservableSums> parts, std::size_t first,
                           std::size_t total) {
-  return filled_bins<LogBins>(std::move(name), unit, parts, first, total);
+  return bins_in_range<LogBins>(std::move(name), unit, parts, first, total);
 }
 
 ResultTable count_histogram(std::string name, std::span<const ObservableSums> parts,
                             std::size_t first, std::size_t total) {
-  return filled_bins<CountBins>(std::move(name), "1", parts, first, total);
+  return bins_in_range<CountBins>(std::move(name), "1", parts, first, total);
+}
+
+ResultTable signed_log_histogram(std::string name, const std::string& unit,
+                                 std::span<const ObservableSums> parts, std::size_t first,
+                                 std::size_t total) {
+  return filled_bins<SignedLogBins>(std::move(name), unit, parts, first, total);
+}
+
+ResultTable signed_count_histogram(std::string name, std::span<const ObservableSums> parts,
+                                   std::size_t first, std::size_t total) {
+  return filled_bins<SignedCountBins>(std::move(name), "1", parts, first, total);
 }
 
 ResultTable linear_histogram(std::string name, const std::string& unit,

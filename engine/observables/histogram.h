@@ -19,6 +19,15 @@ ResultTable log_histogram(std::string name, const std::string& unit,
 ResultTable count_histogram(std::string name, std::span<const ObservableSums> parts,
                             std::size_t first, std::size_t total);
 
+/// The same with SignedLogBins. Bins without counts have no row.
+ResultTable signed_log_histogram(std::string name, const std::string& unit,
+                                 std::span<const ObservableSums> parts, std::size_t first,
+                                 std::size_t total);
+
+/// The same with SignedCountBins, as in count_histogram. Bins without counts have no row.
+ResultTable signed_count_histogram(std::string name, std::span<const ObservableSums> parts,
+                                   std::size_t first, std::size_t total);
+
 /// The same for `bins` equal bins between `low` and `high`.
 ResultTable linear_histogram(std::string name, const std::string& unit,
                              std::span<const ObservableSums> parts, std::size_t first,

@@ -46,6 +46,17 @@ Estimate ratio_of(std::span<const ObservableSums> parts, std::size_t numerator,
   return ratio_of(above, below);
 }
 
+Estimate variance_of(std::span<const ObservableSums> parts, std::size_t count) {
+  const double mean = ratio_of(parts, count + 1, count).mean;
+  std::vector<double> squares, counts;
+  for (const ObservableSums& part : parts) {
+    const double number = part.values[count], sum = part.values[count + 1];
+    squares.push_back(part.values[count + 2] - 2.0 * mean * sum + mean * mean * number);
+    counts.push_back(number);
+  }
+  return ratio_of(squares, counts);
+}
+
 void append(TableColumn& column, const Estimate& estimate) {
   column.values.push_back(estimate.mean);
   column.standard_errors.push_back(estimate.standard_error);

@@ -89,6 +89,10 @@ Estimate ratio_of(std::span<const double> numerator, std::span<const double> den
 Estimate ratio_of(std::span<const ObservableSums> parts, std::size_t numerator,
                   std::size_t denominator, double scale = 1.0);
 
+/// Variance of a quantity. The sums from `count` on are those of 1, of the quantity and of its
+/// square.
+Estimate variance_of(std::span<const ObservableSums> parts, std::size_t count);
+
 /// Appends an estimate to a column.
 void append(TableColumn& column, const Estimate& estimate);
 

@@ -5,12 +5,17 @@
 #include "engine/observables/collision_statistics.h"
 #include "engine/observables/count_bins.h"
 #include "engine/observables/free_flights.h"
+#include "engine/observables/local_density.h"
 #include "engine/observables/log_bins.h"
+#include "engine/observables/plane_current.h"
 #include "engine/observables/radial_distribution.h"
+#include "engine/observables/signed_bins.h"
+#include "engine/observables/spin_distribution.h"
 #include "engine/observables/structure_factor.h"
 #include "engine/observables/time_correlation.h"
 #include "engine/observables/velocity_distribution.h"
 #include "engine/observables/wall_hits.h"
+#include "engine/observables/wall_power.h"
 
 namespace clatter {
 
@@ -50,6 +55,14 @@ static std::unique_ptr<Observable> make_observable(ObservableKind kind, Simulati
       return std::make_unique<Clusters<D>>(simulation, measure.clusters);
     case ObservableKind::BondOrder:
       return make_bond_order(simulation, measure.bond_order);
+    case ObservableKind::WallPower:
+      return std::make_unique<WallPower<D>>(simulation, measure.wall_power);
+    case ObservableKind::PlaneCurrent:
+      return std::make_unique<PlaneCurrent<D>>(simulation, measure.plane_current);
+    case ObservableKind::LocalDensity:
+      return std::make_unique<LocalDensity<D>>(simulation, measure.local_density);
+    case ObservableKind::SpinDistribution:
+      return std::make_unique<SpinDistribution<D>>(simulation, measure.spin_distribution);
   }
   return nullptr;
 }
@@ -140,8 +153,14 @@ std::vector<std::string> observable_tables() {
                                     "structure_factor",
                                     "clusters.size",
                                     "clusters.growth",
-                                    "bond_order"};
+                                    "bond_order",
+                                    "wall_power.total",
+                                    "plane_current.number",
+                                    "local_density.number",
+                                    "spin_distribution.components",
+                                    "spin_distribution.cosine"};
   for (const char* side : kSideNames) {
+    names.push_back(std::string("wall_power.") + side);
     for (const char* speeds : {".incoming", ".outgoing"}) {
       names.push_back(std::string("wall_hits.") + side + speeds);
     }
@@ -149,7 +168,10 @@ std::vector<std::string> observable_tables() {
   return names;
 }
 
-double observables_memory(const Measure& measure, int dimension, double particles) {
+double observables_memory(const Scene& scene) {
+  const Measure& measure = scene.measure;
+  const int dimension = scene.dimension();
+  const double particles = scene.particles.count;
   constexpr double kFine = PartSums<ObservableSums, 1024>::kMaxParts + 1.0;
   constexpr double kCoarse = PartSums<ObservableSums>::kMaxParts + 1.0;
   constexpr double kBins = LogBins::kCount + 64.0;  // and the sums of means
@@ -172,6 +194,9 @@ double observables_memory(const Measure& measure, int dimension, double particle
         break;
       case ObservableKind::VelocityDistribution:
         bytes += sums(dimension * measure.velocity_distribution.bins + 3.0, 3.0);
+        break;
+      case ObservableKind::SpinDistribution:
+        bytes += sums(dimension * measure.spin_distribution.bins + 54.0, 4.0) + sample;
         break;
       case ObservableKind::FreeFlights:
         bytes += sums(2.0 * kBins, 3.0) + 2.0 * sizeof(double) * particles;
@@ -196,6 +221,16 @@ double observables_memory(const Measure& measure, int dimension, double particle
         break;
       case ObservableKind::BondOrder:
         bytes += history(measure.bond_order.lags_in_time, 2.0) + sums(3.0, 3.0) + sample;
+        break;
+      case ObservableKind::WallPower:
+        bytes += (2.0 * dimension + 1.0) * sums(SignedLogBins::kCount + 3.0, 3.0);
+        break;
+      case ObservableKind::PlaneCurrent:
+        bytes += sums(SignedCountBins::kCount + 3.0, 3.0) + 2.0 * sample;
+        break;
+      case ObservableKind::LocalDensity:
+        bytes += sums(CountBins::kCount + 3.0, 3.0) + sample +
+                 sizeof(std::uint32_t) * measure.local_density.number_of_cells(scene.box);
         break;
     }
   }

@@ -52,8 +52,8 @@ class Observables {
 /// The names of all tables that observables may have.
 std::vector<std::string> observable_tables();
 
-/// Upper estimate of the memory of the observables of a gas, in bytes.
-double observables_memory(const Measure& measure, int dimension, double particles);
+/// Upper estimate of the memory of the observables of a scene, in bytes.
+double observables_memory(const Scene& scene);
 
 extern template class Observables<2>;
 extern template class Observables<3>;

@@ -15,7 +15,7 @@ template <int D>
 class VelocityDistribution final : public Observable {
  public:
   VelocityDistribution(const Simulation<D>& simulation,
-                       const VelocityDistributionSettings& settings)
+                       const DistributionSettings& settings)
       : simulation_(simulation), settings_(settings) {}
 
   std::size_t size() const override;
@@ -25,7 +25,7 @@ class VelocityDistribution final : public Observable {
 
  private:
   const Simulation<D>& simulation_;
-  VelocityDistributionSettings settings_;
+  DistributionSettings settings_;
 };
 
 extern template class VelocityDistribution<2>;

@@ -82,6 +82,11 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
   measure.cells.resize(static_cast<std::size_t>(dimension), measure.cells[1]);
   remove_if(flat && measure.profile_axis == Axis::Z, "measure.profile_axis",
             [&] { measure.profile_axis = Axis::X; });
+  remove_if(flat && measure.plane_current.axis == Axis::Z, "measure.plane_current.axis",
+            [&] { measure.plane_current.axis = Axis::X; });
+  remove_if(!flat && measure.observes(ObservableKind::BondOrder),
+            "\"bond_order\" in measure.observables",
+            [&] { std::erase(measure.observables, ObservableKind::BondOrder); });
   const auto measured = measured_names(dimension);
   const auto unknown = [&](Field field) { return !is_among(field, measured); };
   remove_if(std::ranges::any_of(measure.fields, unknown), "measure.fields",

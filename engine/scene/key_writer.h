@@ -38,7 +38,8 @@ class KeyWriter {
   }
 
   template <class E, class Names>
-  void choice(std::string_view key, E chosen, const Names& names, Presence = kOptional) {
+  void choice(std::string_view key, E chosen, const Names& names, Presence presence = kOptional) {
+    if (presence.kind == Presence::Forbidden) return;
     write(key, value_text(std::string(name_of(chosen, names))));
   }
 

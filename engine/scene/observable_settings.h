@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+
+#include "engine/scene/view.h"
 
 namespace clatter {
 
@@ -15,7 +19,11 @@ enum class ObservableKind : std::uint8_t {
   VelocityAutocorrelation,  ///< <v_k(0) v_k(t)>
   StructureFactor,          ///< S(k)
   Clusters,                 ///< sizes of clusters, and their growth
-  BondOrder                 ///< psi_6 of disks and its correlation in time
+  BondOrder,                ///< psi_6 of disks and its correlation in time
+  WallPower,                ///< distribution of the power of the walls
+  PlaneCurrent,             ///< net number of particles that cross a plane
+  LocalDensity,             ///< number of particles in cells
+  SpinDistribution          ///< of the components, and angles between spin and velocity
 };
 
 /// Settings of g(r).
@@ -25,10 +33,10 @@ struct RadialDistributionSettings {
   int bins = 200;         ///< between contact and the range
 };
 
-/// Settings of the distribution of velocities.
-struct VelocityDistributionSettings {
+/// Settings of the distribution of velocities or spins.
+struct DistributionSettings {
   double interval = 1.0;  ///< time between samples, > 0
-  double range = 6.0;     ///< largest component, in units of the thermal speed sqrt(T/m)
+  double range = 6.0;     ///< largest component, in units of the thermal speed or of the mean spin
   int bins = 120;         ///< over both signs
 };
 
@@ -58,6 +66,33 @@ struct ClusterSettings {
 struct BondOrderSettings {
   TimeCorrelationSettings lags_in_time = {.interval = 1.0, .longest = 100.0};
   double range = 1.5;  ///< largest distance of neighbours, above a diameter
+};
+
+/// Settings of the power of the walls.
+struct WallPowerSettings {
+  double interval = 1.0;  ///< time over which the power is averaged, > 0
+};
+
+/// Settings of the current through a plane.
+struct PlaneCurrentSettings {
+  double interval = 1.0;  ///< time over which crossings are counted, > 0
+  Axis axis = Axis::X;    ///< normal of the plane
+  double position = 0.5;  ///< of the plane, as a share of the box along its normal
+};
+
+/// Settings of the number of particles in cells.
+struct LocalDensitySettings {
+  double interval = 1.0;  ///< time between samples, > 0
+  double cell = 3.0;      ///< shortest edge of the cells, > 0
+
+  /// Number of equal cells along a side of the box: the most with this edge, at least 1.
+  double cells_along(double side) const { return std::max(1.0, std::floor(side / cell)); }
+  /// Number of cells in a box.
+  double number_of_cells(const VecX& box) const {
+    double number = 1.0;
+    for (const double side : box) number *= cells_along(side);
+    return number;
+  }
 };
 
 }  // namespace clatter

@@ -63,6 +63,14 @@ std::optional<double> Measure::sampling_interval(ObservableKind kind) const {
       return clusters.interval;
     case ObservableKind::BondOrder:
       return bond_order.lags_in_time.interval;
+    case ObservableKind::WallPower:
+      return wall_power.interval;
+    case ObservableKind::PlaneCurrent:
+      return plane_current.interval;
+    case ObservableKind::LocalDensity:
+      return local_density.interval;
+    case ObservableKind::SpinDistribution:
+      return spin_distribution.interval;
     case ObservableKind::FreeFlights:
     case ObservableKind::Collisions:
     case ObservableKind::WallHits:

@@ -62,12 +62,16 @@ struct Measure {
   double width = 1.0;  ///< standard deviation of the Gaussian per axis, > 0
   std::vector<ObservableKind> observables = {};  ///< requested observables; empty: none
   RadialDistributionSettings radial_distribution = {};
-  VelocityDistributionSettings velocity_distribution = {};
+  DistributionSettings velocity_distribution = {};
   TimeCorrelationSettings mean_squared_displacement = {.interval = 1.0, .longest = 100.0};
   TimeCorrelationSettings velocity_autocorrelation = {};
   StructureFactorSettings structure_factor = {};
   ClusterSettings clusters = {};
   BondOrderSettings bond_order = {};
+  WallPowerSettings wall_power = {};
+  PlaneCurrentSettings plane_current = {};
+  LocalDensitySettings local_density = {};
+  DistributionSettings spin_distribution = {};
 
   /// Whether an observable is requested.
   bool observes(ObservableKind kind) const {

@@ -74,7 +74,7 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
                   "choose another, or make the particles or a wall rough");
 }
 
-/// Throws if a field of spins is requested and no particle spins.
+/// Throws if a field or an observable of spins is requested and no particle spins.
 static void check_fields(const Scene& scene, const toml::table& root, const std::string& file) {
   if (scene.spins()) return;
   const auto refuse = [&](const char* path) {
@@ -82,6 +82,11 @@ static void check_fields(const Scene& scene, const toml::table& root, const std:
                     std::string("a field of spins ") + kNotWithoutSpins.reason,
                     "choose another, or make the particles or a wall rough");
   };
+  if (scene.measure.observes(ObservableKind::SpinDistribution)) {
+    throw UserError(place_of(root, "measure.observables", file),
+                    std::string("\"spin_distribution\" ") + kNotWithoutSpins.reason,
+                    "remove it, or make the particles or a wall rough");
+  }
   if (std::ranges::any_of(scene.measure.fields, of_spins)) refuse("measure.fields");
   if (scene.view.field && of_spins(*scene.view.field)) refuse("view.field");
 }
@@ -157,6 +162,14 @@ static void check_observables(const Scene& scene, const toml::table& root,
                     "remove it");
   }
   if (measure.observes(ObservableKind::StructureFactor)) check_wave_vectors(scene, root, file);
+  constexpr double kMostCells = 1e7;
+  const LocalDensitySettings& density = measure.local_density;
+  if (measure.observes(ObservableKind::LocalDensity) &&
+      density.number_of_cells(scene.box) > kMostCells) {
+    throw UserError(place_of(root, "measure.local_density.cell", file),
+                    "the box has more than 1e7 cells of " + number_text(density.cell),
+                    "choose larger cells");
+  }
 }
 
 /// Throws unless the camera's times increase, and its positions have the dimension of the box.
@@ -178,12 +191,16 @@ static void check_camera(const Scene& scene, const toml::table& root, const std:
   }
 }
 
-/// Throws if the box does not have the axis of the profiles.
-static void check_axis(const Scene& scene, const toml::table& root, const std::string& file) {
-  if (static_cast<int>(scene.measure.profile_axis) < scene.dimension()) return;
-  throw UserError(place_of(root, "measure.profile_axis", file),
-                  "'measure.profile_axis' cannot be \"z\" of a box of two dimensions",
-                  "choose \"x\" or \"y\", or give box.size a third number");
+/// Throws if the box does not have the axis of the profiles, or of the normal of the plane.
+static void check_axes(const Scene& scene, const toml::table& root, const std::string& file) {
+  const auto check = [&](const std::string& key, Axis axis) {
+    if (static_cast<int>(axis) < scene.dimension()) return;
+    throw UserError(place_of(root, key, file),
+                    "'" + key + "' cannot be \"z\" of a box of two dimensions",
+                    "choose \"x\" or \"y\", or give box.size a third number");
+  };
+  check("measure.profile_axis", scene.measure.profile_axis);
+  check("measure.plane_current.axis", scene.measure.plane_current.axis);
 }
 
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
@@ -191,7 +208,7 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_speeds(scene, root, file);
   check_room(scene, root, file);
   check_colour(scene, root, file);
-  check_axis(scene, root, file);
+  check_axes(scene, root, file);
   check_fields(scene, root, file);
   check_kernel(scene, root, file);
   check_observables(scene, root, file);

@@ -176,7 +176,7 @@ inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
 inline constexpr std::array<Named<Kernel>, 2> kKernels = {
     {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
 
-inline constexpr std::array<Named<ObservableKind>, 10> kObservables = {
+inline constexpr std::array<Named<ObservableKind>, 14> kObservables = {
     {{"radial_distribution", ObservableKind::RadialDistribution},
      {"velocity_distribution", ObservableKind::VelocityDistribution},
      {"free_flights", ObservableKind::FreeFlights},
@@ -186,7 +186,11 @@ inline constexpr std::array<Named<ObservableKind>, 10> kObservables = {
      {"velocity_autocorrelation", ObservableKind::VelocityAutocorrelation},
      {"structure_factor", ObservableKind::StructureFactor},
      {"clusters", ObservableKind::Clusters},
-     {"bond_order", ObservableKind::BondOrder}}};
+     {"bond_order", ObservableKind::BondOrder},
+     {"wall_power", ObservableKind::WallPower},
+     {"plane_current", ObservableKind::PlaneCurrent},
+     {"local_density", ObservableKind::LocalDensity},
+     {"spin_distribution", ObservableKind::SpinDistribution}}};
 
 inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
 
@@ -376,6 +380,23 @@ inline constexpr auto kClusterKeys = key_table(
 inline constexpr auto kBondOrderKeys =
     key_table("measure", {{"range", "a", "Largest distance of the centres of neighbours."}});
 
+inline constexpr auto kSpinDistributionKeys = key_table(
+    "measure", {{"interval", "t", "Time between samples of all spins."},
+                {"range", "1", "Largest spin component, in units of the root mean square."},
+                {"bins", "1", "Number of equal bins between -`range` and `range`."}});
+
+inline constexpr auto kWallPowerKeys =
+    key_table("measure", {{"interval", "t", "Time over which the power is averaged."}});
+
+inline constexpr auto kPlaneCurrentKeys =
+    key_table("measure", {{"interval", "t", "Time over which the crossings are counted."},
+                          {"axis", "", "Normal of the plane. z is for spheres only."},
+                          {"position", "1", "Position of the plane, as a share of the box."}});
+
+inline constexpr auto kLocalDensityKeys =
+    key_table("measure", {{"interval", "t", "Time between samples."},
+                          {"cell", "a", "Shortest edge of the cells, which fill the box."}});
+
 inline constexpr auto kTimeCorrelationKeys = key_table(
     "measure", {{"interval", "t", "Shortest lag. All particles are sampled at this interval."},
                 {"longest", "t", "Longest lag."},
@@ -389,6 +410,14 @@ void visit_time_correlation(Visitor& io, TimeCorrelationSettings& settings, Pres
   io.value(kTimeCorrelationKeys.at("interval"), settings.interval, above(0.0), presence);
   io.value(kTimeCorrelationKeys.at("longest"), settings.longest, above(0.0), presence);
   io.value(kTimeCorrelationKeys.at("lags"), settings.lags, between(2, 1000), presence);
+}
+
+/// The keys of a distribution.
+template <const auto& keys, class Visitor>
+void visit_distribution(Visitor& io, DistributionSettings& settings, Presence presence) {
+  io.value(keys.at("interval"), settings.interval, above(0.0), presence);
+  io.value(keys.at("range"), settings.range, above(0.0), presence);
+  io.value(keys.at("bins"), settings.bins, between(2, 100'000), presence);
 }
 
 /// The tables of the observables in [measure]. Each requires its observable.
@@ -406,11 +435,12 @@ void visit_observables(Visitor& io, Measure& measure) {
     io.value(kRadialDistributionKeys.at("bins"), settings.bins, between(10, 100'000), presence);
   });
   io.table("velocity_distribution", [&](auto& io) {
-    const Presence presence = presence_of(ObservableKind::VelocityDistribution);
-    VelocityDistributionSettings& settings = measure.velocity_distribution;
-    io.value(kVelocityDistributionKeys.at("interval"), settings.interval, above(0.0), presence);
-    io.value(kVelocityDistributionKeys.at("range"), settings.range, above(0.0), presence);
-    io.value(kVelocityDistributionKeys.at("bins"), settings.bins, between(2, 100'000), presence);
+    visit_distribution<kVelocityDistributionKeys>(
+        io, measure.velocity_distribution, presence_of(ObservableKind::VelocityDistribution));
+  });
+  io.table("spin_distribution", [&](auto& io) {
+    visit_distribution<kSpinDistributionKeys>(io, measure.spin_distribution,
+                                              presence_of(ObservableKind::SpinDistribution));
   });
   io.table("mean_squared_displacement", [&](auto& io) {
     visit_time_correlation(io, measure.mean_squared_displacement,
@@ -437,6 +467,23 @@ void visit_observables(Visitor& io, Measure& measure) {
     const Presence presence = presence_of(ObservableKind::BondOrder);
     visit_time_correlation(io, measure.bond_order.lags_in_time, presence);
     io.value(kBondOrderKeys.at("range"), measure.bond_order.range, above(1.0), presence);
+  });
+  io.table("wall_power", [&](auto& io) {
+    io.value(kWallPowerKeys.at("interval"), measure.wall_power.interval, above(0.0),
+             presence_of(ObservableKind::WallPower));
+  });
+  io.table("plane_current", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::PlaneCurrent);
+    PlaneCurrentSettings& settings = measure.plane_current;
+    io.value(kPlaneCurrentKeys.at("interval"), settings.interval, above(0.0), presence);
+    io.choice(kPlaneCurrentKeys.at("axis"), settings.axis, kAxes, presence);
+    io.value(kPlaneCurrentKeys.at("position"), settings.position, between(0.0, 1.0), presence);
+  });
+  io.table("local_density", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::LocalDensity);
+    io.value(kLocalDensityKeys.at("interval"), measure.local_density.interval, above(0.0),
+             presence);
+    io.value(kLocalDensityKeys.at("cell"), measure.local_density.cell, above(0.0), presence);
   });
 }
 

@@ -23,12 +23,14 @@ namespace {
 const char* const kAllOfSpheres =
     "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
     "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
-    "\"structure_factor\", \"clusters\"]";
+    "\"structure_factor\", \"clusters\", \"wall_power\", \"plane_current\", "
+    "\"local_density\", \"spin_distribution\"]";
 
 const char* const kAllOfDisks =
     "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
     "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
-    "\"structure_factor\", \"clusters\", \"bond_order\"]";
+    "\"structure_factor\", \"clusters\", \"bond_order\", \"wall_power\", \"plane_current\", "
+    "\"local_density\", \"spin_distribution\"]";
 
 // A gas without any symmetry, of disks or spheres.
 std::string scene(int dimension, const std::string& observables) {
@@ -79,7 +81,7 @@ std::vector<Expected> expected_tables(int dimension) {
                             const std::string& inverse) {
     return Expected{name, {{"low", unit}, {"high", unit}, {"density", inverse}}, {"low", "high"}};
   };
-  const std::string energy = "m a^2/t^2";
+  const std::string energy = "m a^2/t^2", power = "m a^2/t^3";
   std::vector<Expected> tables = {
       {"radial_distribution", {{"r", "a"}, {"g", "1"}}, {"r"}},
       {"velocity_distribution", {{"low", "1"}, {"high", "1"}}, {"low", "high"}},
@@ -99,9 +101,22 @@ std::vector<Expected> expected_tables(int dimension) {
       histogram("clusters.size", "1", "1"),
       {"clusters.growth",
        {{"time", "t"}, {"number", "1"}, {"largest", "1"}, {"mean_size", "1"}},
-       {"time", "number", "largest", "mean_size"}}};
+       {"time", "number", "largest", "mean_size"}},
+      histogram("wall_power.left", power, "1/(" + power + ")"),
+      histogram("wall_power.right", power, "1/(" + power + ")"),
+      histogram("wall_power.total", power, "1/(" + power + ")"),
+      histogram("plane_current.number", "1", "1"),
+      histogram("local_density.number", "1", "1"),
+      {"spin_distribution.components", {{"low", "1"}, {"high", "1"}}, {"low", "high"}}};
   if (dimension == 2) {
     tables.push_back({"bond_order", {{"time", "t"}, {"correlation", "1"}}, {"time"}});
+  }
+  Expected& spins = *std::ranges::find(tables, "spin_distribution.components", &Expected::name);
+  if (dimension == 2) {
+    spins.columns.emplace_back("density", "1");
+  } else {
+    for (const char* axis : {"x", "y", "z"}) spins.columns.emplace_back(axis, "1");
+    tables.push_back(histogram("spin_distribution.cosine", "1", "1"));
   }
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string name(1, "xyz"[axis]);

@@ -53,7 +53,11 @@ Measure with_observables(Measure measure) {
                          ObservableKind::VelocityAutocorrelation,
                          ObservableKind::StructureFactor,
                          ObservableKind::Clusters,
-                         ObservableKind::BondOrder};
+                         ObservableKind::BondOrder,
+                         ObservableKind::WallPower,
+                         ObservableKind::PlaneCurrent,
+                         ObservableKind::LocalDensity,
+                         ObservableKind::SpinDistribution};
   measure.mean_squared_displacement = {.interval = 0.3, .longest = 9.0, .lags = 4};
   return measure;
 }

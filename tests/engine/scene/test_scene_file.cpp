@@ -82,10 +82,15 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(radial_interval == b.measure.radial_distribution.interval);
   CHECK(radial_range == b.measure.radial_distribution.range);
   CHECK(radial_bins == b.measure.radial_distribution.bins);
-  const auto& [velocity_interval, velocity_range, velocity_bins] = a.measure.velocity_distribution;
-  CHECK(velocity_interval == b.measure.velocity_distribution.interval);
-  CHECK(velocity_range == b.measure.velocity_distribution.range);
-  CHECK(velocity_bins == b.measure.velocity_distribution.bins);
+  const auto check_distribution = [](const DistributionSettings& first,
+                                     const DistributionSettings& second) {
+    const auto& [interval, range, bins] = first;
+    CHECK(interval == second.interval);
+    CHECK(range == second.range);
+    CHECK(bins == second.bins);
+  };
+  check_distribution(a.measure.velocity_distribution, b.measure.velocity_distribution);
+  check_distribution(a.measure.spin_distribution, b.measure.spin_distribution);
   const auto check_lags = [](const TimeCorrelationSettings& first,
                              const TimeCorrelationSettings& second) {
     const auto& [interval, longest, count] = first;
@@ -101,6 +106,14 @@ void check_equal(const Scene& a, const Scene& b) {
   const auto& [bond_lags, bond_range] = a.measure.bond_order;
   check_lags(bond_lags, b.measure.bond_order.lags_in_time);
   CHECK(bond_range == b.measure.bond_order.range);
+  CHECK(a.measure.wall_power.interval == b.measure.wall_power.interval);
+  const auto& [current_interval, current_axis, current_position] = a.measure.plane_current;
+  CHECK(current_interval == b.measure.plane_current.interval);
+  CHECK(current_axis == b.measure.plane_current.axis);
+  CHECK(current_position == b.measure.plane_current.position);
+  const auto& [density_interval, density_cell] = a.measure.local_density;
+  CHECK(density_interval == b.measure.local_density.interval);
+  CHECK(density_cell == b.measure.local_density.cell);
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
   CHECK(a.view.field_palette == b.view.field_palette);
@@ -167,13 +180,21 @@ Scene unusual_scene() {
                                ObservableKind::VelocityDistribution,
                                ObservableKind::WallHits,
                                ObservableKind::Clusters,
-                               ObservableKind::BondOrder};
+                               ObservableKind::BondOrder,
+                               ObservableKind::WallPower,
+                               ObservableKind::PlaneCurrent,
+                               ObservableKind::LocalDensity,
+                               ObservableKind::SpinDistribution};
   scene.measure.radial_distribution = {.interval = 0.7, .range = 1.1, .bins = 17};
   scene.measure.velocity_distribution = {.interval = 1e-3, .range = 0.1, .bins = 3};
   scene.measure.mean_squared_displacement = {.interval = 0.3, .longest = 2e6, .lags = 2};
   scene.measure.velocity_autocorrelation = {.interval = 0.2, .longest = 0.2, .lags = 999};
   scene.measure.clusters = {.interval = 8.0, .range = 1.01};
   scene.measure.bond_order = {{.interval = 2.5, .longest = 9.0, .lags = 3}, 1.6};
+  scene.measure.spin_distribution = {.interval = 3.5, .range = 7.0, .bins = 5};
+  scene.measure.wall_power = {.interval = 0.4};
+  scene.measure.plane_current = {.interval = 0.6, .axis = Axis::Y, .position = 0.25};
+  scene.measure.local_density = {.interval = 0.9, .cell = 2.2};
   scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field(Quantity::Temperature, 0),
                 .window = 0.125,
