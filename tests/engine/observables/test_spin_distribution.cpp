@@ -30,7 +30,9 @@ TEST_CASE_TEMPLATE("Spin distribution: components, kurtosis and angles are those
   constexpr int D = Dimension::value;
   constexpr int kComponents = D == 2 ? 1 : 3;
   constexpr double kTime = 40.0;  // all particles have collided and spin
-  const Scene scene = rough_gas<D>(60, 0.9, 0.3);
+  Scene scene = rough_gas<D>(60, 0.9, 0.3);
+  // Walls, so that the mean velocity is not 0.
+  wall_in(scene, 0, {.kind = WallKind::Thermal, .temperature = 1.0});
   Measure measure;
   measure.spin_distribution = {.interval = kTime, .range = 2.5, .bins = 10};
   const Measured measured = observed<D>(scene, measure, ObservableKind::SpinDistribution, kTime, 3);
