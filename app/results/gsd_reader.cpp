@@ -113,7 +113,8 @@ std::vector<double> GsdReader::numbers(const std::string& name, std::uint64_t fr
                                        std::uint64_t count) {
   const auto number = std::ranges::find(names_, name) - names_.begin();
   for (const std::uint64_t place : {frame, std::uint64_t{0}}) {
-    const auto [begin, end] = std::ranges::equal_range(chunks_, place, {}, &Chunk::frame);
+    const auto begin = std::ranges::lower_bound(chunks_, place, {}, &Chunk::frame);
+    const auto end = std::ranges::upper_bound(chunks_, place, {}, &Chunk::frame);
     const auto chunk = std::find_if(
         begin, end, [&](const Chunk& each) { return std::ptrdiff_t{each.name} == number; });
     if (chunk == end) continue;
