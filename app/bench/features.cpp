@@ -159,6 +159,11 @@ void shake(Scene& scene) {
   add_walls(scene, kLeft, {.kind = WallKind::Driven, .drive_speed = 1.0});
 }
 
+void make_rough(Scene& scene) {
+  scene.particles.roughness = {.friction = std::numeric_limits<double>::infinity(),
+                               .tangential_restitution = 1.0};
+}
+
 void close_box(Scene& scene) {
   add_walls(scene, kLeft, {});
   add_walls(scene, kBottom, {});
@@ -191,11 +196,7 @@ std::vector<Feature> features() {
              add_walls(scene, kBottom, {});
              scene.gravity = Vec2(0.0, -0.02);
            }},
-          {"rough",
-           [](Scene& scene) {
-             scene.particles.roughness = {.friction = std::numeric_limits<double>::infinity(),
-                                          .tangential_restitution = 1.0};
-           }},
+          {"rough", make_rough},
           {"t_c",
            [](Scene& scene) {
              lose_energy(scene);
@@ -228,6 +229,7 @@ std::vector<Feature> with_observables(std::vector<Feature> features) {
   add("wall power, four walls", close_box, ObservableKind::WallPower);
   add("current through a plane", nothing, ObservableKind::PlaneCurrent);
   add("local density", nothing, ObservableKind::LocalDensity);
+  add("spin distribution, rough", make_rough, ObservableKind::SpinDistribution);
   return features;
 }
 

@@ -64,10 +64,10 @@ constexpr std::array<ObservablePrice, 14> kObservablePrices = {
      {ObservableKind::StructureFactor, 7.8},
      {ObservableKind::Clusters, 0.54},
      {ObservableKind::BondOrder, 0.72},
-     {ObservableKind::WallPower, 0.01},
-     {ObservableKind::PlaneCurrent, 0.05},
-     {ObservableKind::LocalDensity, 0.05},
-     {ObservableKind::SpinDistribution, 0.05}}};
+     {ObservableKind::WallPower, 0.13},
+     {ObservableKind::PlaneCurrent, 0.23},
+     {ObservableKind::LocalDensity, 0.07},
+     {ObservableKind::SpinDistribution, 0.18}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;

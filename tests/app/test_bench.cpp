@@ -157,8 +157,8 @@ TEST_CASE("Bench: the table of features has a rate for each") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   const json table = json::parse(shell.read("t.json"));
-  REQUIRE(table.size() == 29);
-  CHECK(std::ranges::count(outcome.out, '\n') == 30);
+  REQUIRE(table.size() == 30);
+  CHECK(std::ranges::count(outcome.out, '\n') == 31);
   CHECK(table[0].at("feature") == "bare");
   for (const json& row : table) {
     CAPTURE(row.dump());
