@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/observables/histogram.h"
 #include "engine/observables/log_bins.h"
@@ -21,7 +22,8 @@ struct CollisionSums {
   static constexpr std::size_t kDissipative = 5;  // collisions that dissipate
   static constexpr std::size_t kFrictional = 6;   // collisions with finite friction
   static constexpr std::size_t kSliding = 7;
-  static constexpr std::size_t kImpactBins = 8;
+  static constexpr std::size_t kRecollisions = 8;  // of two last partners
+  static constexpr std::size_t kImpactBins = 9;
   static constexpr std::size_t kImpactBinCount = 50;
   static constexpr std::size_t kNormalBins = kImpactBins + kImpactBinCount;
   static constexpr std::size_t kTangentialBins = kNormalBins + LogBins::kCount;
@@ -70,12 +72,22 @@ std::size_t CollisionStatistics<D>::mean_size() const {
 template <int D>
 void CollisionStatistics<D>::start() {
   Observable::start();
+  partners_.resize(simulation_.particles().size());
+  std::iota(partners_.begin(), partners_.end(), 0u);
   simulation_.add_observer(*this);
+}
+
+template <int D>
+void CollisionStatistics<D>::save(ArchiveWriter& io) {
+  Observable::save(io);
+  io(partners_);
 }
 
 template <int D>
 void CollisionStatistics<D>::restore(ArchiveReader& io) {
   Observable::restore(io);
+  io(partners_);
+  io.require(partners_.size() == simulation_.particles().size());
   simulation_.add_observer(*this);
 }
 
@@ -105,6 +117,12 @@ void CollisionStatistics<D>::on_collision(const PairCollision<D>& collision) {
     sums[CollisionSums::kDissipative] += 1.0;
     sums[CollisionSums::kLossBins + LogBins::of(loss)] += 1.0;
   }
+  if (partners_[first.particle] == second.particle &&
+      partners_[second.particle] == first.particle) {
+    sums[CollisionSums::kRecollisions] += 1.0;
+  }
+  partners_[first.particle] = second.particle;
+  partners_[second.particle] = first.particle;
   const Roughness& roughness = simulation_.model().roughness;
   const double friction = roughness.friction_in_force();
   if (!roughness.any() || !std::isfinite(friction)) return;
@@ -132,7 +150,8 @@ ObservableResult CollisionStatistics<D>::result(const ObservableParts& parts) co
                      CollisionSums::kTangentialBins, CollisionSums::kCount)},
       {{"collisions.mean_impact_parameter", mean(CollisionSums::kImpactParameter)},
        {"collisions.mean_normal_speed", mean(CollisionSums::kNormalSpeed)},
-       {"collisions.mean_tangential_speed", mean(CollisionSums::kTangentialSpeed)}}};
+       {"collisions.mean_tangential_speed", mean(CollisionSums::kTangentialSpeed)},
+       {"collisions.recollision_share", mean(CollisionSums::kRecollisions)}}};
   if (occurred(CollisionSums::kDissipative)) {
     result.tables.push_back(log_histogram("collisions.energy_loss", "m a^2/t^2", parts.coarse,
                                           CollisionSums::kLossBins, CollisionSums::kCount));

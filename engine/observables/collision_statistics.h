@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/observable.h"
 
@@ -10,6 +13,8 @@ namespace clatter {
 /// "..normal_speed", "..tangential_speed" and, if collisions dissipated, "..energy_loss"; their
 /// means have the same names with "mean_" before the last word. "collisions.sliding_share" is the
 /// share of the collisions with finite friction that reach the Coulomb limit.
+/// "collisions.recollision_share" is the share of the collisions of two particles whose last
+/// collision was with each other.
 template <int D>
 class CollisionStatistics final : public Observable, private Observer<D> {
  public:
@@ -19,12 +24,15 @@ class CollisionStatistics final : public Observable, private Observer<D> {
   std::size_t mean_size() const override;
   void start() override;
   ObservableResult result(const ObservableParts& parts) const override;
+  void save(ArchiveWriter& io) override;
   void restore(ArchiveReader& io) override;
 
  private:
   void on_collision(const PairCollision<D>& collision) override;
 
   Simulation<D>& simulation_;
+  std::vector<std::uint32_t>
+      partners_;  // [N] of the last collision; its own number before the first
 };
 
 extern template class CollisionStatistics<2>;

@@ -142,6 +142,7 @@ void Observables<D>::restore(ArchiveReader& io) {
 std::vector<std::string> observable_tables() {
   std::vector<std::string> names = {"radial_distribution",
                                     "velocity_distribution",
+                                    "velocity_distribution.speed",
                                     "free_flights.time",
                                     "free_flights.path",
                                     "collisions.impact_parameter",
@@ -193,7 +194,7 @@ double observables_memory(const Scene& scene) {
         bytes += sums(measure.radial_distribution.bins + 2.0, 2.0) + sample;
         break;
       case ObservableKind::VelocityDistribution:
-        bytes += sums(dimension * measure.velocity_distribution.bins + 3.0, 3.0);
+        bytes += sums(dimension * measure.velocity_distribution.bins + kBins, 3.0);
         break;
       case ObservableKind::SpinDistribution:
         bytes += sums(dimension * measure.spin_distribution.bins + 54.0, 4.0) + sample;
@@ -202,7 +203,7 @@ double observables_memory(const Scene& scene) {
         bytes += sums(2.0 * kBins, 3.0) + 2.0 * sizeof(double) * particles;
         break;
       case ObservableKind::Collisions:
-        bytes += sums(3.0 * kBins, 8.0);
+        bytes += sums(3.0 * kBins, 9.0) + sizeof(std::uint32_t) * particles;
         break;
       case ObservableKind::WallHits:
         bytes += 2.0 * dimension * sums(2.0 * kBins, 3.0);

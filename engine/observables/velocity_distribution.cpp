@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/observables/histogram.h"
+#include "engine/observables/log_bins.h"
 #include "engine/scene/scene_keys.h"
 
 namespace clatter {
@@ -12,9 +14,10 @@ namespace {
 // Layout of the sums. The speed c is in units of sqrt(2 T/m).
 struct VelocitySums {
   static constexpr std::size_t kCount = 0;
-  static constexpr std::size_t kFourth = 1;  // of c^4
-  static constexpr std::size_t kSixth = 2;   // of c^6
-  static constexpr std::size_t kBins = 3;    // of each axis in turn
+  static constexpr std::size_t kFourth = 1;                        // of c^4
+  static constexpr std::size_t kSixth = 2;                         // of c^6
+  static constexpr std::size_t kSpeeds = 3;                        // bins of |u|
+  static constexpr std::size_t kBins = kSpeeds + LogBins::kCount;  // of each axis in turn
 };
 
 }  // namespace
@@ -26,7 +29,7 @@ std::size_t VelocityDistribution<D>::size() const {
 
 template <int D>
 std::size_t VelocityDistribution<D>::mean_size() const {
-  return VelocitySums::kBins;
+  return VelocitySums::kSpeeds;
 }
 
 template <int D>
@@ -52,6 +55,7 @@ void VelocityDistribution<D>::sample() {
     const double square = 0.5 * scaled.squaredNorm();
     sums[VelocitySums::kFourth] += square * square;
     sums[VelocitySums::kSixth] += square * square * square;
+    sums[VelocitySums::kSpeeds + LogBins::of(scaled.norm())] += 1.0;
     for (int axis = 0; axis < D; ++axis) {
       const double bin = (scaled[axis] + settings_.range) * per_bin;
       if (!(bin >= 0.0 && bin < settings_.bins)) continue;
@@ -100,7 +104,10 @@ ObservableResult VelocityDistribution<D>::result(const ObservableParts& parts) c
              ratio_of(parts.coarse, index, VelocitySums::kCount, width));
     }
   }
-  return {{std::move(table)}, {{"velocity_distribution.a2", a2}, {"velocity_distribution.a3", a3}}};
+  ResultTable speeds = log_histogram("velocity_distribution.speed", "1", parts.coarse,
+                                     VelocitySums::kSpeeds, VelocitySums::kCount);
+  return {{std::move(table), std::move(speeds)},
+          {{"velocity_distribution.a2", a2}, {"velocity_distribution.a3", a3}}};
 }
 
 template class VelocityDistribution<2>;

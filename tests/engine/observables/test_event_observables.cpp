@@ -238,6 +238,46 @@ TEST_CASE("Collisions: the slowest contacts are in the lowest bins") {
 
 // The speeds of particles that a thermal wall emits have the mean sqrt(pi T/2) (theory 4.5). The
 // means over all walls add up to the power of the walls.
+namespace {
+
+// Collisions of two particles whose last collision was with each other.
+class Recollisions : public Observer<2> {
+ public:
+  void on_collision(const PairCollision<2>& collision) override {
+    const std::uint32_t first = collision.particles[0].particle;
+    const std::uint32_t second = collision.particles[1].particle;
+    ++count;
+    // From the whole history: neither of the two has collided since their last collision.
+    for (auto past = history_.rbegin(); past != history_.rend(); ++past) {
+      const auto& [a, b] = *past;
+      const bool both = (a == first && b == second) || (a == second && b == first);
+      const bool either = a == first || a == second || b == first || b == second;
+      if (both) ++repeated;
+      if (either) break;
+    }
+    history_.emplace_back(first, second);
+  }
+  int count = 0, repeated = 0;
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> history_;
+};
+
+}  // namespace
+
+TEST_CASE("Collisions: repeated collisions of a pair are counted") {
+  const Scene scene = crooked_gas();
+  const Measured measured = observed<2>(scene, {}, ObservableKind::Collisions, 200.0, 7);
+  const auto simulation = simulation_of<2>(scene, 7);
+  Recollisions recollisions;
+  simulation->add_observer(recollisions);
+  simulation->run_until(200.0);
+  CHECK(recollisions.repeated > 20);
+  CHECK(mean_of(measured, "collisions.recollision_share").mean ==
+        doctest::Approx(static_cast<double>(recollisions.repeated) / recollisions.count)
+            .epsilon(1e-12));
+}
+
 TEST_CASE("Wall hits: each wall has its own speeds and energy gains") {
   const Measured measured = observed<2>(crooked_gas(), {}, ObservableKind::WallHits, 2000.0, 7);
   const auto mean_speed = [&](const std::string& name) {

@@ -74,6 +74,46 @@ TEST_CASE("Velocity distribution: bins of each axis") {
   }
 }
 
+// The velocities of elastic spheres relative to their mean are uniform on a sphere in n = 3 (N - 1)
+// dimensions. The speed then has the density u^2 (1 - u^2/R^2)^((n - 5)/2) with R^2 = n (1 - 1/N).
+// It differs from Maxwell's in the tail. Sample: 1.2e6 speeds. Bins with 25 or more expected
+// speeds.
+TEST_CASE("Velocity distribution: speeds of elastic spheres, with their tail") {
+  constexpr int kCount = 300;
+  constexpr double kSpeeds = 4000.0 * kCount, n = 3.0 * (kCount - 1);
+  const double side = std::cbrt(kCount * std::numbers::pi / 6.0 / 0.1);
+  Measure measure;
+  measure.velocity_distribution = {.interval = 2.0, .range = 6.0, .bins = 20};
+  const ResultTable table = table_of(observed<3>(gas(VecX::Constant(3, side), kCount, 1.0), measure,
+                                                 ObservableKind::VelocityDistribution, 8000.0, 3),
+                                     "velocity_distribution.speed");
+  const auto integral = [&](double low, double high) {
+    constexpr int kSteps = 1000;
+    double sum = 0.0;
+    for (int step = 0; step < kSteps; ++step) {
+      const double square = std::pow(low + (high - low) * (step + 0.5) / kSteps, 2);
+      sum += square * std::pow(1.0 - square / (n * (1.0 - 1.0 / kCount)), 0.5 * (n - 5.0));
+    }
+    return sum * (high - low) / kSteps;
+  };
+  const double all = integral(0.0, 12.0);
+  double chi_squared = 0.0, largest = 0.0;
+  int bins = 0;
+  for (std::size_t row = 0; row < table.columns[0].values.size(); ++row) {
+    const double low = column_of(table, "low").values[row];
+    const double high = column_of(table, "high").values[row];
+    const double expected = kSpeeds * integral(low, high) / all;
+    if (expected < 25.0) continue;
+    const double found = kSpeeds * column_of(table, "density").values[row] * (high - low);
+    chi_squared += (found - expected) * (found - expected) / expected;
+    largest = std::max(largest, high);
+    ++bins;
+  }
+  CHECK(bins > 40);
+  CHECK(largest >= 4.5);
+  CHECK(chi_squared_p(chi_squared, bins) > 1e-3);
+}
+
 // The theory is for the Boltzmann equation, so the mean free path, 70, is near the size of the box:
 // flows of larger gases add to a2. A particle has 28 kicks between collisions. The theory is of
 // first order in a2; it is accurate to 0.001 here (Montanero & Santos 2000, Granular Matter 2, 53).
