@@ -48,8 +48,7 @@ void PlaneCurrent<D>::restore(ArchiveReader& io) {
   io(*images_, beyond_);
 }
 
-// Sum over the particles of the number of images of the plane between them and the start box, plus
-// those beyond the plane itself. Each crossing changes it by 1.
+// The sum (theory 11.14), up to a constant: each crossing in the direction of the normal adds 1.
 template <int D>
 std::int64_t PlaneCurrent<D>::beyond() const {
   const auto axis = static_cast<int>(settings_.axis);
