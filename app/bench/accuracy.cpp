@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
@@ -56,27 +57,16 @@ AccuracyRow row_of(const Setting& setting, const Replicas& replicas, const Repli
 
 // The extrapolation of all settings but the first to value 0, compared with the first.
 AccuracyRow limit_row(const ParameterSweep& dial, const std::vector<Replicas>& runs) {
-  AccuracyRow row{.setting = "-> 0",
-                  .value = 0.0,
-                  .cpu_per_time = kNotANumber,
-                  .elasticised_share = kNotANumber};
-  row.events_per_second = row.bytes = row.deepest_overlap = row.comparison.error = kNotANumber;
-  for (int k = 0; k < kComparedMeans; ++k) {
-    const auto quantity = static_cast<ComparedMean>(k);
-    std::vector<double> places;
-    std::vector<Estimate> estimates;
-    for (std::size_t s = 1; s < runs.size(); ++s) {
-      places.push_back(dial.settings[s].value);
-      estimates.push_back(mean_over(runs[s], quantity, runs[0]));
-    }
-    const Estimate limit = mean_over(runs[0], quantity, runs[0]);
-    const Estimate found = extrapolate(places, estimates);
-    row.comparison.bias[k] = {
-        found.mean / limit.mean - 1.0,
-        std::hypot(found.standard_error, limit.standard_error) / std::fabs(limit.mean)};
-  }
-  row.comparison.bias[kDensityProfile] = {kNotANumber, kNotANumber};
-  return row;
+  std::vector<double> values;
+  for (std::size_t s = 1; s < runs.size(); ++s) values.push_back(dial.settings[s].value);
+  return {.setting = "-> 0",
+          .value = 0.0,
+          .cpu_per_time = kNotANumber,
+          .events_per_second = kNotANumber,
+          .bytes = kNotANumber,
+          .deepest_overlap = kNotANumber,
+          .elasticised_share = kNotANumber,
+          .comparison = compare_limit(values, std::span(runs).subspan(1), runs.front())};
 }
 
 // The margin of one tenth is about the precision of both values.

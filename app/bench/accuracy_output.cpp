@@ -11,7 +11,6 @@
 #include "engine/system/read_file.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
-#include "render/layers/plot.h"
 
 namespace clatter {
 
@@ -225,7 +224,7 @@ std::string with_accuracy_tables(const AccuracyBench& bench,
   return page;
 }
 
-void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables) {
+Plot accuracy_plot(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables) {
   Plot plot{.title = "What accuracy costs",
             .caption = bench.scene +
                        ": error of means that take one CPU second, against CPU time per time "
@@ -242,8 +241,13 @@ void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>&
     }
     plot.panels.push_back(panel);
   }
+  return plot;
+}
+
+void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables) {
   const auto context = open_context(Backend::Auto);
-  write_png(bench.plot, plot_image(context->gl(), plot, {1600, 1000}, kLightTheme));
+  write_png(bench.plot,
+            plot_image(context->gl(), accuracy_plot(bench, tables), {1600, 1000}, kLightTheme));
 }
 
 }  // namespace clatter

@@ -5,6 +5,7 @@
 
 #include "app/bench/accuracy.h"
 #include "app/bench/pictures.h"
+#include "render/layers/plot.h"
 
 namespace clatter {
 
@@ -30,7 +31,9 @@ std::string with_accuracy_tables(const AccuracyBench& bench,
                                  const std::vector<AccuracyTable>& tables,
                                  const std::vector<PictureTable>& pictures);
 
-/// Draws cost against error, a panel for each sweep of the gas.
+/// Cost against error, a panel for each sweep of the gas.
+Plot accuracy_plot(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables);
+/// Writes the drawn plot to the bench's PNG file.
 void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables);
 
 }  // namespace clatter

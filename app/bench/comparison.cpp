@@ -158,4 +158,24 @@ Estimate extrapolate(const std::vector<double>& places, const std::vector<Estima
   return {(xx * y - x * xy) / determinant, std::sqrt(xx / determinant)};
 }
 
+Comparison compare_limit(const std::vector<double>& values, std::span<const Replicas> settings,
+                         const Replicas& reference) {
+  Comparison comparison;
+  for (int k = 0; k < kComparedMeans; ++k) {
+    const auto quantity = static_cast<ComparedMean>(k);
+    std::vector<Estimate> estimates;
+    for (const Replicas& replicas : settings) {
+      estimates.push_back(mean_over(replicas, quantity, reference));
+    }
+    const Estimate exact = mean_over(reference, quantity, reference);
+    const Estimate limit = extrapolate(values, estimates);
+    comparison.bias[k] = {
+        limit.mean / exact.mean - 1.0,
+        std::hypot(limit.standard_error, exact.standard_error) / std::fabs(exact.mean)};
+  }
+  comparison.bias[kDensityProfile] = {kNotANumber, kNotANumber};
+  comparison.error = kNotANumber;
+  return comparison;
+}
+
 }  // namespace clatter

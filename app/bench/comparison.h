@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "app/bench/run_result.h"
@@ -31,8 +32,13 @@ Comparison compare(const std::vector<RunResult>& replicas, const std::vector<Run
 Estimate mean_over(const std::vector<RunResult>& replicas, ComparedMean quantity,
                    const std::vector<RunResult>& reference);
 
-/// The intercept at 0 of a weighted linear fit through estimates at `places`. The errors are scaled
-/// so that the mean square residual matches them.
+/// The intercept at 0 of a linear fit through estimates at `places`, weighted by their errors.
 Estimate extrapolate(const std::vector<double>& places, const std::vector<Estimate>& estimates);
+
+/// Compares the extrapolation of settings to value 0 with a reference. `values` has the value of
+/// each setting. Density and error: NaN.
+Comparison compare_limit(const std::vector<double>& values,
+                         std::span<const std::vector<RunResult>> settings,
+                         const std::vector<RunResult>& reference);
 
 }  // namespace clatter

@@ -253,6 +253,63 @@ TEST_CASE("Accuracy tables: biases are differences of runs of one seed, over the
   CHECK(comparison.error == doctest::Approx(std::sqrt((4.0 * 0.05 + 0.04) / 6.0)));
 }
 
+// The root mean square bias is that of the products of different replicas.
+TEST_CASE("Accuracy tables: the bias of a profile excludes the scatter of the replicas") {
+  const auto bias_of = [](const std::array<double, 3>& densities) {
+    std::vector<RunResult> reference(3), replicas(3);
+    for (std::size_t r = 0; r < 3; ++r) {
+      reference[r].density.fill(2.0);
+      replicas[r].density.fill(densities[r]);
+    }
+    return compare(replicas, reference).bias[kDensityProfile];
+  };
+  // Relative differences .05, .1, .15: products .005, .0075, .015. Their jackknife error is
+  // .0060093.
+  const Estimate clear = bias_of({2.1, 2.2, 2.3});
+  CHECK(clear.mean == doctest::Approx(std::sqrt(0.0275 / 3.0)));
+  CHECK(clear.standard_error == doctest::Approx(0.5 * 0.0060093 / std::sqrt(0.0275 / 3.0)));
+  // Relative differences -.05, .05, .1: the mean product is negative, the error the same.
+  const Estimate hidden = bias_of({1.9, 2.1, 2.2});
+  CHECK(hidden.mean == 0.0);
+  CHECK(hidden.standard_error == doctest::Approx(std::sqrt(0.0060093)));
+}
+
+TEST_CASE("Accuracy tables: the limit of settings is relative to the reference") {
+  std::vector<RunResult> reference(2);
+  std::vector<std::vector<RunResult>> settings(2, std::vector<RunResult>(2));
+  for (int r : {0, 1}) {
+    const double scatter = r == 0 ? -1.0 : 1.0;
+    for (int k = 0; k < kComparedMeans; ++k) {
+      reference[r].means[k] = 10.0 + 0.5 * scatter;
+      settings[0][r].means[k] = 15.0 + 0.1 * scatter;  // at 1
+      settings[1][r].means[k] = 19.0 + 0.2 * scatter;  // at 3
+    }
+    reference[r].heat_flux.fill(-10.0 - 0.5 * scatter);
+    settings[0][r].heat_flux.fill(-15.0 - 0.1 * scatter);
+    settings[1][r].heat_flux.fill(-19.0 - 0.2 * scatter);
+  }
+  const Comparison comparison = compare_limit({1.0, 3.0}, settings, reference);
+  for (int k = 0; k < kComparedMeans; ++k) {
+    CAPTURE(k);
+    CHECK(comparison.bias[k].mean == doctest::Approx(0.3));
+    CHECK(comparison.bias[k].standard_error == doctest::Approx(std::hypot(0.15, 0.1, 0.5) / 10.0));
+  }
+  CHECK(std::isnan(comparison.bias[kDensityProfile].mean));
+  CHECK(std::isnan(comparison.error));
+}
+
+TEST_CASE("Accuracy tables: the plot has cost against error") {
+  AccuracyTable table = gas_table();
+  table.rows.push_back({.setting = "-> 0", .cpu_per_time = kNotANumber});
+  const Plot plot = accuracy_plot({}, {table});
+  CHECK(says(plot.x_name, "CPU milliseconds"));
+  CHECK(says(plot.y_name, "error"));
+  REQUIRE(plot.panels.size() == 1);
+  REQUIRE(plot.panels[0].points.size() == 1);
+  CHECK(plot.panels[0].points[0].x == doctest::Approx(12.5));
+  CHECK(plot.panels[0].points[0].y == doctest::Approx(7.9));
+}
+
 TEST_CASE("Accuracy tables: a straight line is extrapolated to 0 by its errors") {
   // A line through (1, 5) and (3, 9): 3 at 0, with errors 1.5 * 0.1 and 0.5 * 0.2.
   const Estimate found = extrapolate(

@@ -87,6 +87,17 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
   CHECK(contact_time[6].at("elasticised_share") > 0.1);
   CHECK(contact_time[6].at("error") > 0.5);
 
+  for (const json& dial : table.at("dials")) {
+    for (const json& setting : dial.at("settings")) {
+      CAPTURE(setting.at("setting"));
+      CHECK(setting.at("cpu_seconds_per_time") > 1e-6);
+      CHECK(setting.at("cpu_seconds_per_time") < 1.0);
+      CHECK(setting.at("events_per_cpu_second") > 1e3);
+      CHECK(setting.at("bytes") > 1e3);
+      CHECK(setting.at("deepest_overlap") < 1e-9);
+    }
+  }
+
   // Snapshots do not change the run.
   const json& estimator = dial_of(table, "estimator");
   CHECK(bias(estimator[5], "temperature") == 0.0);
@@ -101,7 +112,22 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
   CHECK(says(page, "\n| off "));
   CHECK_FALSE(says(page, "\nold\n"));
   check_refused(shell, "clatter bench accuracy --dial colour",
-                {"no dial 'colour'", "contact_time"});
+                {"no dial 'colour'", "choose one of antialiasing, picture_size, "});
+}
+
+TEST_CASE("Bench: refusals of the table of accuracy name their cause") {
+  const Shell shell;
+  for (const std::string flag : {"--csv", "--json", "--plot", "--markdown"}) {
+    const Outcome outcome = shell.run("clatter bench accuracy " + flag + " none/t");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code != 0);
+    CHECK(says(outcome.err, flag));
+  }
+  shell.write("lone.toml", "box.size = [9, 9]\nparticles.count = 1\n");
+  const std::string refusal = shell.run("clatter bench accuracy lone.toml").err;
+  CAPTURE(refusal);
+  CHECK(says(refusal, "remove [[change]]"));
+  CHECK(refusal.find("at least two disks") < refusal.find("choose another scene"));
 }
 
 TEST_CASE("Bench: a time-stepped gas is exact only in the limit of short steps") {
