@@ -113,29 +113,6 @@ Json print_rates(const std::vector<Cell>& cells, int dimension, std::vector<Engi
   return json;
 }
 
-// Gases with clusters of disks. Each is compared with a homogeneous gas of the same number and mean
-// density.
-struct Inhomogeneous {
-  const char* name;
-  Scene scene;
-  std::uint64_t after;  // collisions per disk
-};
-
-std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
-  constexpr double kMeanAreaFraction = 0.1;
-  Scene cooling = scene_of(count, kMeanAreaFraction);
-  cooling.particles.restitution = 0.6;
-  cooling.contact_time = 1e-6;
-  Scene falling = scene_of(count, kMeanAreaFraction);
-  falling.particles.restitution = 0.9;
-  falling.contact_time = 1e-6;
-  falling.walls[kTop] = Wall{};
-  falling.walls[kBottom] = Wall{.restitution = 0.9};
-  falling.gravity = Vec2(0.0, -0.2);
-  return {{"cooled into clusters", std::move(cooling), 200},
-          {"collapsed under gravity", std::move(falling), 200}};
-}
-
 Json print_inhomogeneous(int count) {
   std::printf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog.");
   Json json = Json::array();
@@ -174,6 +151,21 @@ void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) 
 }
 
 }  // namespace
+
+std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
+  constexpr double kMeanAreaFraction = 0.1;
+  Scene cooling = scene_of(count, kMeanAreaFraction);
+  cooling.particles.restitution = 0.6;
+  cooling.contact_time = 1e-6;
+  Scene falling = scene_of(count, kMeanAreaFraction);
+  falling.particles.restitution = 0.9;
+  falling.contact_time = 1e-6;
+  falling.walls[kTop] = Wall{};
+  falling.walls[kBottom] = Wall{.restitution = 0.9};
+  falling.gravity = Vec2(0.0, -0.2);
+  return {{"cooled into clusters", std::move(cooling), 200},
+          {"collapsed under gravity", std::move(falling), 200}};
+}
 
 int bench_engine(const std::string& json, const EngineTable& table) {
   const int dimension = table.volume_fraction ? 3 : table.dimension;

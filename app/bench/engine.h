@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
 
 namespace clatter {
 
@@ -16,6 +20,17 @@ struct EngineTable {
 /// Prints the collision rate of elastic particles in a periodic box, by number and by the fraction
 /// that they fill. Writes the table also to `json`, unless it is empty. Returns the exit code.
 int bench_engine(const std::string& json, const EngineTable& table);
+
+/// A gas with clusters of disks. The table of growth compares its rate with that of a homogeneous
+/// gas of the same number and mean density.
+struct Inhomogeneous {
+  const char* name;
+  Scene scene;
+  std::uint64_t after;  ///< collisions per disk before the rate is measured
+};
+
+/// The gases with clusters, of `count` disks each.
+std::vector<Inhomogeneous> inhomogeneous_gases(int count);
 
 /// Prints the dependence of this rate on the number of disks: 100 to 4 million at phi = 0.5, and
 /// 100,000 at other phi from 0.01 to 0.88. A `count` other than 0 limits the number. Writes the

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
@@ -23,6 +23,7 @@
 #include "engine/publish/scheduled_run.h"
 #include "engine/publish/triple_buffer.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/scene_keys.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -32,18 +33,6 @@ namespace {
 constexpr double kAreaFraction = 0.3;
 constexpr int kRounds = 7;
 constexpr std::uint64_t kPerDisk = 200;  // collisions in a round
-
-// A gas with one feature more than the bare gas.
-struct Feature {
-  const char* name;
-  std::function<void(Scene&)> add;       // modifies the bare scene
-  std::vector<Field> fields = {};        // measured during the run
-  std::optional<double> snapshots = {};  // interval of snapshots; absent: exact
-  double frames = 0.0;                   // published per time unit
-  bool balance = false;                  // whether all balance equations are measured
-  bool checkpoint = false;               // whether each round ends with a checkpoint
-  std::optional<ObservableKind> observable = {};
-};
 
 // A run of a feature. Times batches of collisions repeatedly.
 class Trial {
@@ -169,68 +158,17 @@ void close_box(Scene& scene) {
   add_walls(scene, kBottom, {});
 }
 
-std::vector<Feature> features() {
-  const auto nothing = [](Scene&) {};
-  const std::vector<Field> temperature = {Quantity::Temperature};
-  std::vector<Field> all = all_fields(2);
-  std::erase_if(all, [](Field field) {
-    return field.part != Part::Total || of_spins(field) || is_residual(field);
-  });
-  return {{"bare", nothing},
-          {"bare again", nothing},
-          {"inelastic", lose_energy},
-          {"inelastic, driven walls", shake},
-          {"inelastic, moving walls",
-           [](Scene& scene) {
-             scene.particles.restitution = 0.9;
-             add_walls(scene, kLeft, {.kind = WallKind::Sawtooth, .stroke = 0.1, .frequency = 5.0});
-           }},
-          {"inelastic, bulk drive",
-           [](Scene& scene) {
-             scene.particles.restitution = 0.9;
-             scene.bulk_drive = BulkDrive{.interval = 0.05, .kick_speed = 0.12};
-           }},
-          {"walls on four sides", close_box},
-          {"gravity",
-           [](Scene& scene) {
-             add_walls(scene, kBottom, {});
-             scene.gravity = Vec2(0.0, -0.02);
-           }},
-          {"rough", make_rough},
-          {"t_c",
-           [](Scene& scene) {
-             lose_energy(scene);
-             scene.contact_time = 1e-6;
-           }},
-          {"fields exact", nothing, temperature},
-          {"fields exact, all", nothing, all},
-          {"fields snapshot 1", nothing, temperature, 1.0},
-          {"balance", nothing, {}, {}, 0.0, true},
-          {"60 frames a time unit", nothing, {}, {}, 60.0},
-          {"checkpoint each round", nothing, {}, {}, 0.0, false, true}};
-}
-
-std::vector<Feature> with_observables(std::vector<Feature> features) {
-  const auto add = [&](const char* name, const std::function<void(Scene&)>& add_to,
-                       ObservableKind kind) {
-    features.push_back({.name = name, .add = add_to, .observable = kind});
-  };
-  const auto nothing = [](Scene&) {};
-  add("g(r)", nothing, ObservableKind::RadialDistribution);
-  add("velocity distribution", nothing, ObservableKind::VelocityDistribution);
-  add("free flights", nothing, ObservableKind::FreeFlights);
-  add("collision statistics", nothing, ObservableKind::Collisions);
-  add("wall hits, four walls", close_box, ObservableKind::WallHits);
-  add("mean-squared displacement", nothing, ObservableKind::MeanSquaredDisplacement);
-  add("velocity autocorrelation", nothing, ObservableKind::VelocityAutocorrelation);
-  add("structure factor", nothing, ObservableKind::StructureFactor);
-  add("clusters", nothing, ObservableKind::Clusters);
-  add("bond order", nothing, ObservableKind::BondOrder);
-  add("wall power, four walls", close_box, ObservableKind::WallPower);
-  add("current through a plane", nothing, ObservableKind::PlaneCurrent);
-  add("local density", nothing, ObservableKind::LocalDensity);
-  add("spin distribution, rough", make_rough, ObservableKind::SpinDistribution);
-  return features;
+// A feature that an observable adds, with the walls or spins that it needs.
+Feature with_observable(std::string_view name, ObservableKind kind) {
+  Feature feature{.name = std::string(name), .add = [](Scene&) {}, .observable = kind};
+  if (kind == ObservableKind::WallHits || kind == ObservableKind::WallPower) {
+    feature.name += ", four walls";
+    feature.add = close_box;
+  } else if (kind == ObservableKind::SpinDistribution) {
+    feature.name += ", rough";
+    feature.add = make_rough;
+  }
+  return feature;
 }
 
 double median(std::vector<double> values) {
@@ -240,6 +178,50 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
+
+std::vector<Feature> features() {
+  const auto nothing = [](Scene&) {};
+  const std::vector<Field> temperature = {Quantity::Temperature};
+  std::vector<Field> all = all_fields(2);
+  std::erase_if(all, [](Field field) {
+    return field.part != Part::Total || of_spins(field) || is_residual(field);
+  });
+  std::vector<Feature> rows = {
+      {"bare", nothing},
+      {"bare again", nothing},
+      {"inelastic", lose_energy},
+      {"inelastic, driven walls", shake},
+      {"inelastic, moving walls",
+       [](Scene& scene) {
+         scene.particles.restitution = 0.9;
+         add_walls(scene, kLeft, {.kind = WallKind::Sawtooth, .stroke = 0.1, .frequency = 5.0});
+       }},
+      {"inelastic, bulk drive",
+       [](Scene& scene) {
+         scene.particles.restitution = 0.9;
+         scene.bulk_drive = BulkDrive{.interval = 0.05, .kick_speed = 0.12};
+       }},
+      {"walls on four sides", close_box},
+      {"gravity",
+       [](Scene& scene) {
+         add_walls(scene, kBottom, {});
+         scene.gravity = Vec2(0.0, -0.02);
+       }},
+      {"rough", make_rough},
+      {"t_c",
+       [](Scene& scene) {
+         lose_energy(scene);
+         scene.contact_time = 1e-6;
+       }},
+      {"fields exact", nothing, temperature},
+      {"fields exact, all", nothing, all},
+      {"fields snapshot 1", nothing, temperature, 1.0},
+      {"balance", nothing, {}, {}, 0.0, true},
+      {"60 frames a time unit", nothing, {}, {}, 60.0},
+      {"checkpoint each round", nothing, {}, {}, 0.0, false, true}};
+  for (const auto& [name, kind] : kObservables) rows.push_back(with_observable(name, kind));
+  return rows;
+}
 
 int bench_features(const std::string& json, int count) {
   Scene bare;
@@ -253,7 +235,7 @@ int bench_features(const std::string& json, int count) {
                bare.particles.count, kAreaFraction, kRounds,
                static_cast<unsigned long long>(batch));
 
-  const std::vector<Feature> added = with_observables(features());
+  const std::vector<Feature> added = features();
   std::vector<std::unique_ptr<Trial>> trials;
   for (const Feature& feature : added) {
     Scene scene = bare;
@@ -268,11 +250,11 @@ int bench_features(const std::string& json, int count) {
     }
   }
 
-  std::printf("%-24s %9s %7s\n", "with", "Mcoll/s", "rate");
+  std::printf("%-32s %9s %7s\n", "with", "Mcoll/s", "rate");
   auto rows = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < added.size(); ++k) {
     const double rate = 1e-6 * median(rates[k]), ratio = median(ratios[k]);
-    std::printf("%-24s %9.3f %7.3f\n", added[k].name, rate, ratio);
+    std::printf("%-32s %9.3f %7.3f\n", added[k].name.c_str(), rate, ratio);
     rows.push_back({{"feature", added[k].name},
                     {"million_collisions_per_cpu_second", rate},
                     {"rate_over_bare", ratio}});

@@ -1,9 +1,12 @@
 #include "app/bench/fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "app/system/exit_code.h"
 #include "app/system/process_usage.h"
@@ -23,7 +26,7 @@ constexpr int kRepetitions = 3;
 
 // The measurement of a run. Without fields and balance there is no observer.
 struct Observation {
-  const char* name;
+  std::string name;
   std::vector<Field> fields;
   std::optional<double> interval = {};  // of snapshots; absent: exact
   bool balance = false;
@@ -111,15 +114,12 @@ int bench_fields(double duration, const std::string& json) {
   Scene scene = load_scene("vibrated", {});
   scene.measure.cells = {20, 25};  // cells of one diameter
   const std::vector<Field> temperature = {Quantity::Temperature};
-  const std::vector<Observation> ways = {{"bare run", {}},
-                                         {"exact, all fields", averages_without_spins()},
-                                         {"exact", temperature},
-                                         {"snapshot 0.1", temperature, 0.1},
-                                         {"snapshot 0.3", temperature, 0.3},
-                                         {"snapshot 1", temperature, 1.0},
-                                         {"snapshot 3", temperature, 3.0},
-                                         {"snapshot 10", temperature, 10.0},
-                                         {"balance", {}, {}, true}};
+  std::vector<Observation> ways = {
+      {"bare run", {}}, {"exact, all fields", averages_without_spins()}, {"exact", temperature}};
+  for (const double interval : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    ways.push_back({fmt::format("snapshot {:g}", interval), temperature, interval});
+  }
+  ways.push_back({.name = "balance", .fields = {}, .balance = true});
   std::fprintf(stderr,
                "vibrated scene, cells of one diameter, %g time units; the second row measures all "
                "fields, the last row all balance equations, the others T\ncost: CPU time relative "
@@ -134,7 +134,7 @@ int bench_fields(double duration, const std::string& json) {
     const Outcome& outcome = outcomes[k];
     const double cost = outcome.cpu_seconds / bare.cpu_seconds;
     const double added = 1e9 * (outcome.cpu_seconds - bare.cpu_seconds) / outcome.collisions;
-    std::printf("%-18s %8.3f %13.1f", ways[k].name, cost, added);
+    std::printf("%-18s %8.3f %13.1f", ways[k].name.c_str(), cost, added);
     nlohmann::ordered_json row = {
         {"estimator", ways[k].name}, {"cost", cost}, {"added_nanoseconds_per_collision", added}};
     if (!ways[k].fields.empty()) {

@@ -1,15 +1,56 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
 #include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
 
+#include "app/bench/engine.h"
+#include "app/bench/features.h"
+#include "engine/scene/scene_file.h"
 #include "tests/app/shell.h"
 
 namespace clatter {
 
 using nlohmann::json;
+
+namespace {
+
+// Checks that the last printed columns have the numbers of the JSON rows under `keys`, with these
+// formats of printf. A dash or a blank stands for null or for an absent key.
+void check_columns(const std::string& out, const json& rows, const std::string& heading,
+                   const std::vector<std::pair<std::string, const char*>>& keys) {
+  std::istringstream lines(out);
+  std::string line;
+  REQUIRE(std::getline(lines, line));
+  CHECK(std::regex_replace(line, std::regex("^ +| +(?= )"), "") == heading);
+  for (const json& row : rows) {
+    REQUIRE(std::getline(lines, line));
+    CAPTURE(line);
+    CAPTURE(row.dump());
+    std::string numbers;
+    for (const auto& [key, format] : keys) {
+      if (!row.contains(key)) continue;
+      char text[64];
+      if (row.at(key).is_null()) {
+        std::snprintf(text, sizeof text, " -");
+      } else {
+        std::snprintf(text, sizeof text, format, row.at(key).get<double>());
+      }
+      numbers += text;
+    }
+    CHECK(std::regex_replace(line, std::regex(" +"), " ").ends_with(numbers));
+  }
+}
+
+}  // namespace
 
 TEST_CASE("Bench: the table of fields has a row for each estimator and one for the balances") {
   const Shell shell;
@@ -17,10 +58,16 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(says(outcome.err, "300 time units"));
-  CHECK(outcome.out.starts_with("estimator "));
   CHECK(std::ranges::count(outcome.out, '\n') == 10);
   const json table = json::parse(shell.read("t.json"));
   REQUIRE(table.size() == 9);
+  check_columns(outcome.out, table, "estimator cost ns/collision variance cost x variance",
+                {{"cost", " %.3f"},
+                 {"added_nanoseconds_per_collision", " %.1f"},
+                 {"variance", " %.3e"},
+                 {"cost_times_variance", " %.3e"}});
+  CHECK(table[0].at("cost") == 1.0);
+  CHECK(table[0].at("added_nanoseconds_per_collision") == 0.0);
   CHECK(table[0].at("estimator") == "bare run");
   CHECK_FALSE(table[0].contains("variance"));
   for (std::size_t row = 1; row < 8; ++row) {
@@ -30,14 +77,25 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
     const double cost = table[row].at("cost"), variance = table[row].at("variance");
     CHECK(cost > 0.0);
     CHECK(variance > 0.0);
-    CHECK(table[row].at("cost_times_variance") > 0.0);
+    CHECK(table[row].at("cost_times_variance") == doctest::Approx(cost * variance).epsilon(1e-12));
+    // The collisions of a row are the same number n, and (cost - 1)/added is (time of the bare
+    // run)/n.
+    const double added = table[row].at("added_nanoseconds_per_collision");
+    const double of_all_fields = table[1].at("added_nanoseconds_per_collision");
+    const double cost_of_all_fields = table[1].at("cost");
+    CHECK((cost - 1.0) * of_all_fields ==
+          doctest::Approx((cost_of_all_fields - 1.0) * added).epsilon(1e-9));
   }
   CHECK(table[8].at("estimator") == "balance");
   CHECK(table[8].at("cost") > 0.0);
   CHECK_FALSE(table[8].contains("variance"));
-  // Thirty snapshots have less information than complete flights.
+  // Thirty snapshots have less information than complete flights, and all fields cost more than T.
+  CHECK(table[1].at("estimator") == "exact, all fields");
+  CHECK(table[2].at("estimator") == "exact");
+  CHECK(table[7].at("estimator") == "snapshot 10");
   CHECK(table[1].at("variance") == table[2].at("variance"));
   CHECK(table[7].at("variance") > table[2].at("variance"));
+  CHECK(table[1].at("cost") > table[2].at("cost"));
 }
 
 namespace {
@@ -182,35 +240,136 @@ TEST_CASE("Bench: the table of features has a rate for each") {
   const Outcome outcome = shell.run("clatter bench features --count 50 --json t.json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.starts_with("50 disks, phi = 0.3; 7 rounds of 10000 collisions each"));
   const json table = json::parse(shell.read("t.json"));
   REQUIRE(table.size() == 30);
   CHECK(std::ranges::count(outcome.out, '\n') == 31);
-  CHECK(table[0].at("feature") == "bare");
-  for (const json& row : table) {
+  check_columns(outcome.out, table, "with Mcoll/s rate",
+                {{"million_collisions_per_cpu_second", " %.3f"}, {"rate_over_bare", " %.3f"}});
+  const std::vector<Feature> rows = features();
+  REQUIRE(rows.size() == table.size());
+  const double bare = table[0].at("million_collisions_per_cpu_second");
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const json& row = table[k];
     CAPTURE(row.dump());
-    CHECK(row.at("rate_over_bare") > 0.0);
+    CHECK(row.at("feature") == rows[k].name);
+    // A median of ratios, against the ratio of medians.
+    const double rate = row.at("million_collisions_per_cpu_second");
+    CHECK(rate > 0.0);
+    CHECK(row.at("rate_over_bare") > 0.4 * rate / bare);
+    CHECK(row.at("rate_over_bare") < 2.5 * rate / bare);
   }
+  CHECK(table[0].at("rate_over_bare") == 1.0);
+}
+
+TEST_CASE("Bench: each row of the table of features adds the feature of its name") {
+  const std::vector<Feature> rows = features();
+  const auto row = [&](const std::string& name) -> const Feature& {
+    const auto found = std::ranges::find(rows, name, &Feature::name);
+    REQUIRE_MESSAGE(found != rows.end(), name);
+    return *found;
+  };
+  const auto scene = [&](const std::string& name) {
+    Scene scene;
+    row(name).add(scene);
+    return scene;
+  };
+  const std::string bare = scene_to_toml(Scene{});
+  for (const char* name :
+       {"bare", "bare again", "fields exact", "fields exact, all", "fields snapshot 1", "balance",
+        "60 frames a time unit", "checkpoint each round", "radial_distribution", "free_flights"}) {
+    CAPTURE(name);
+    CHECK(scene_to_toml(scene(name)) == bare);
+  }
+
+  // The keys of the scene that each feature sets.
+  using Sides = std::array<std::optional<WallKind>, 4>;
+  const auto sides = [&](const std::string& name) {
+    Sides kinds;
+    const Scene with = scene(name);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      if (with.walls[k]) kinds[k] = with.walls[k]->kind;
+    }
+    return kinds;
+  };
+  constexpr auto rigid = Wall{}.kind;
+  CHECK(scene("inelastic").particles.restitution == 0.999);
+  for (const char* name : {"inelastic, driven walls", "inelastic, moving walls"}) {
+    const auto kind =
+        name == std::string("inelastic, driven walls") ? WallKind::Driven : WallKind::Sawtooth;
+    CHECK(scene(name).particles.restitution == 0.9);
+    CHECK(sides(name) == Sides{kind, kind});
+  }
+  CHECK(scene("inelastic, moving walls").walls[kLeft]->stroke == 0.1);
+  CHECK(scene("inelastic, moving walls").walls[kRight]->frequency == 5.0);
+  CHECK(scene("inelastic, bulk drive").particles.restitution == 0.9);
+  CHECK(scene("inelastic, bulk drive").bulk_drive.value().interval == 0.05);
+  CHECK(scene("inelastic, bulk drive").bulk_drive.value().kick_speed == 0.12);
+  for (const char* name :
+       {"walls on four sides", "wall_hits, four walls", "wall_power, four walls"}) {
+    CHECK(sides(name) == Sides{rigid, rigid, rigid, rigid});
+  }
+  CHECK(sides("gravity") == Sides{std::nullopt, std::nullopt, rigid, rigid});
+  CHECK(scene("gravity").gravity.value()[0] == 0.0);
+  CHECK(scene("gravity").gravity.value()[1] == -0.02);
+  for (const char* name : {"rough", "spin_distribution, rough"}) {
+    CHECK(std::isinf(scene(name).particles.roughness.friction.value()));
+    CHECK(scene(name).particles.roughness.tangential_restitution == 1.0);
+  }
+  CHECK(scene("t_c").contact_time == 1e-6);
+  CHECK(scene("t_c").particles.restitution == 0.999);
+
+  // Measurements beside the run.
+  CHECK(row("fields exact").fields == std::vector<Field>{Quantity::Temperature});
+  CHECK_FALSE(row("fields exact").snapshots);
+  CHECK(row("fields snapshot 1").fields == std::vector<Field>{Quantity::Temperature});
+  CHECK(row("fields snapshot 1").snapshots == 1.0);
+  CHECK(row("fields exact, all").fields.size() == 12);
+  for (const Feature& feature : rows) {
+    CAPTURE(feature.name);
+    CHECK(feature.fields.empty() == !feature.name.starts_with("fields"));
+    CHECK(feature.balance == (feature.name == "balance"));
+    CHECK(feature.frames == (feature.name == "60 frames a time unit" ? 60.0 : 0.0));
+    CHECK(feature.checkpoint == (feature.name == "checkpoint each round"));
+  }
+  CHECK(row("radial_distribution").observable == ObservableKind::RadialDistribution);
+  CHECK(row("wall_power, four walls").observable == ObservableKind::WallPower);
+  CHECK(row("wall_hits, four walls").observable == ObservableKind::WallHits);
+  CHECK(row("spin_distribution, rough").observable == ObservableKind::SpinDistribution);
 }
 
 TEST_CASE("Bench: the table of render has the cost of each stage, for pictures of two sizes") {
   const Shell shell;
-  for (const auto& [dimension, particles] : {std::pair("2", "disks"), {"3", "spheres"}}) {
-    const Outcome outcome = shell.run("clatter bench render --count 500 --dimension " +
-                                      std::string(dimension) + " --json table.json");
+  for (const auto& [dimension, particles] :
+       {std::pair<std::string, std::string>("2", "disks"), {"3", "spheres"}}) {
+    const Outcome outcome = shell.run("clatter bench render --count 500 --dimension " + dimension +
+                                      " --json table.json");
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.starts_with("elastic " + std::string(particles)));
+    CHECK(outcome.err.starts_with("elastic " + particles));
     CHECK(std::ranges::count(outcome.out, '\n') == 3);
     const json rows = json::parse(shell.read("table.json"));
     REQUIRE(rows.size() == 2);
+    std::string heading = "N size";
+    std::vector<std::pair<std::string, const char*>> columns;
+    for (const std::string& stage :
+         std::vector<std::string>{"simulate", "snapshot", "draw", particles, "heatmap", "overlay",
+                                  "read", "png", "x264", "veryfast"}) {
+      heading += " " + stage;
+      columns.emplace_back(stage + "_milliseconds", " %.2f");
+    }
+    check_columns(outcome.out, rows, heading, columns);
     for (const json& row : rows) {
       CHECK(row["count"] == 500);
-      for (const std::string stage : {"simulate", "snapshot", "draw", particles, "heatmap",
-                                      "overlay", "read", "png", "x264"}) {
+      for (const auto& [stage, format] : columns) {
         CAPTURE(stage);
-        CHECK(row[stage + "_milliseconds"].get<double>() > 0.0);
+        CHECK(row[stage].get<double>() > 0.0);
       }
     }
+    CHECK(says(outcome.out, "500   1280x720 "));
+    CHECK(says(outcome.out, "500  1920x1080 "));
+    CHECK(rows[0]["height"] == 720);
+    CHECK(rows[1]["height"] == 1080);
     CHECK(rows[0]["width"] == 1280);
     CHECK(rows[1]["width"] == 1920);
   }
@@ -229,7 +388,103 @@ TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in 
     CHECK(std::regex_search(outcome.out, cell));
     const json row = json::parse(shell.read("cell.json"))[0];
     CHECK(row["count"] == 100);
+    CHECK(row["area_fraction"] == 0.3);
     CHECK((is_sanitized() || row["bytes_per_disk"].is_null()));
+    check_columns(outcome.out, json::array({row}), "N phi Mcoll/s setup s bytes/disk",
+                  {{"count", " %.0f"},
+                   {"area_fraction", " %.3f"},
+                   {"million_collisions_per_cpu_second", " %.3f"},
+                   {"setup_seconds", " %.3f"},
+                   {"bytes_per_disk", " %.0f"}});
+  }
+}
+
+TEST_CASE("Bench: a cell of the engine's table for spheres, with its memory") {
+  const Shell shell;
+  const Outcome outcome =
+      shell.run("clatter bench engine --count 100000 --volume-fraction 0.2 --json cell.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.starts_with("elastic spheres, periodic box"));
+  const json rows = json::parse(shell.read("cell.json"));
+  REQUIRE(rows.size() == 1);
+  check_columns(outcome.out, rows, "N phi Mcoll/s setup s bytes/sph.",
+                {{"count", " %.0f"},
+                 {"volume_fraction", " %.3f"},
+                 {"million_collisions_per_cpu_second", " %.3f"},
+                 {"setup_seconds", " %.3f"},
+                 {"bytes_per_sphere", " %.0f"}});
+  CHECK(rows[0]["count"] == 100'000);
+  CHECK(rows[0]["volume_fraction"] == 0.2);
+  if (!is_sanitized()) {
+    CHECK(rows[0]["bytes_per_sphere"] > 200.0);
+    CHECK(rows[0]["bytes_per_sphere"] < 500.0);
+  }
+}
+
+TEST_CASE("Bench: a fraction that no box holds is refused under the flag that gave it") {
+  const Shell shell;
+  for (const std::string flag : {"--area-fraction 0.9", "--volume-fraction 0.74"}) {
+    CAPTURE(flag);
+    const Outcome outcome = shell.run("clatter bench engine --count 10 " + flag);
+    CHECK(outcome.code == 2);
+    CHECK(says(outcome.err, flag.substr(0, flag.find(' ')) +
+                                ": no square or cubic box holds this number of particles"));
+    CHECK(says(outcome.err, "choose a smaller fraction, or another --count"));
+  }
+}
+
+TEST_CASE("Bench: the table of growth has the numbers and fractions of its limit" *
+          doctest::test_suite("slow")) {
+  const Shell shell;
+  const Outcome outcome =
+      shell.run("clatter bench growth --count 100 --json t.json --plot growth.png");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json rows = json::parse(shell.read("t.json"));
+  std::vector<double> fractions;
+  for (const json& row : rows) {
+    if (!row.contains("gas")) {
+      CHECK(row["count"] == 100);
+      fractions.push_back(row["area_fraction"]);
+    }
+  }
+  CHECK(fractions == std::vector{0.01, 0.1, 0.3, 0.5, 0.7});
+  REQUIRE(rows.size() == fractions.size() + 2);
+  const std::string table = outcome.out.substr(outcome.out.find("gas "));
+  const json gases = json::array({rows[5], rows[6]});
+  check_columns(table, gases, "gas N phi Mcoll/s of homog.",
+                {{"count", " %.0f"},
+                 {"area_fraction", " %.3f"},
+                 {"million_collisions_per_cpu_second", " %.3f"},
+                 {"of_homogeneous", " %.2f"}});
+  for (const json& row : gases) {
+    CHECK(row["count"] == 20'000);
+    CHECK(row["area_fraction"].get<double>() == doctest::Approx(0.1).epsilon(1e-12));
+  }
+  CHECK(gases[0]["gas"] == "cooled into clusters");
+  CHECK(gases[1]["gas"] == "collapsed under gravity");
+  CHECK(shell.read("growth.png").starts_with("\x89PNG"));
+}
+
+TEST_CASE("Bench: one gas with clusters cools, the other falls on a floor") {
+  const std::vector<Inhomogeneous> gases = inhomogeneous_gases(5000);
+  REQUIRE(gases.size() == 2);
+  for (const Inhomogeneous& gas : gases) {
+    const Scene& scene = gas.scene;
+    const bool falls = gas.name == std::string("collapsed under gravity");
+    CAPTURE(gas.name);
+    CHECK(scene.particles.count == 5000);
+    const double area = scene.box[0] * scene.box[1];
+    CHECK(5000 * 0.25 * std::numbers::pi / area == doctest::Approx(0.1).epsilon(1e-12));
+    CHECK(scene.gravity.has_value() == falls);
+    if (falls) CHECK((*scene.gravity)[1] == -0.2);
+    CHECK(scene.particles.restitution == (falls ? 0.9 : 0.6));
+    CHECK(scene.contact_time == 1e-6);
+    CHECK(scene.walls[kBottom].has_value() == falls);
+    CHECK(scene.walls[kTop].has_value() == falls);
+    if (falls) CHECK(scene.walls[kBottom]->restitution == 0.9);
+    if (falls) CHECK(scene.walls[kTop]->restitution == 1.0);
   }
 }
 

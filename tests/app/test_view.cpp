@@ -1,11 +1,13 @@
 // The window, controlled by mouse and keys on a virtual display.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -561,6 +563,11 @@ TEST_CASE("Window: the table of bench window has the cost of its pictures") {
   REQUIRE(outcome.code == 0);
   const json row = json::parse(driver.shell().read("times"));
   CHECK(row["count"] == 100);
+  CHECK(outcome.err.starts_with("window of 1280x720, "));
+  const std::string printed = std::regex_replace(outcome.out, std::regex("[ \n]+"), " ");
+  CHECK(printed == fmt::format(" N median ms 99 % ms 100 {:.2f} {:.2f} ",
+                               row["median_milliseconds"].get<double>(),
+                               row["percentile_99_milliseconds"].get<double>()));
   CHECK(row["median_milliseconds"] > 0.0);
   CHECK(row["percentile_99_milliseconds"] >= row["median_milliseconds"]);
 }
