@@ -388,10 +388,9 @@ RunState<D> Simulation<D>::save() const {
 }
 
 template <int D>
-State<D> Simulation<D>::state() const {
-  State<D> state;
-  state.positions.reserve(particles_.size());
-  state.velocities.reserve(particles_.size());
+std::vector<Vec<D>> Simulation<D>::positions() const {
+  std::vector<Vec<D>> positions;
+  positions.reserve(particles_.size());
   for (const Particle<D>& particle : particles_) {
     Vec<D> r = particle.flight.at(now_, model_.gravity);
     r -= model_.image_index(r).cwiseProduct(model_.box);
@@ -399,7 +398,17 @@ State<D> Simulation<D>::state() const {
       // A position a rounding error below 0 wraps to the far end of the box, which is position 0.
       if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
     }
-    state.positions.push_back(r);
+    positions.push_back(r);
+  }
+  return positions;
+}
+
+template <int D>
+State<D> Simulation<D>::state() const {
+  State<D> state;
+  state.positions = positions();
+  state.velocities.reserve(particles_.size());
+  for (const Particle<D>& particle : particles_) {
     state.velocities.push_back(particle.flight.velocity_at(now_, model_.gravity));
   }
   state.spins.assign(spins_.begin(), spins_.end());

@@ -61,6 +61,8 @@ class Simulation {
   double time() const { return clock_.absolute(now_); }
   /// The same on the moving base, as observers see it.
   double base_time() const { return now_; }
+  /// [N] positions of all particles at time(), wrapped into the box, in original order.
+  std::vector<Vec<D>> positions() const;
   /// All particles evaluated at time(), wrapped into the box; nothing is advanced.
   State<D> state() const;
   /// Hash of state(), in original order: equal for equal runs.

@@ -152,7 +152,7 @@ static std::vector<Vec<D>> melt(const Room<D>& room, const std::vector<Vec<D>>& 
     stop.check();
     if (is_fluid(elastic, simulation.state(), sites)) break;
   }
-  return simulation.state().positions;
+  return simulation.positions();
 }
 
 template <int D>

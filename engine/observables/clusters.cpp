@@ -65,7 +65,7 @@ void Clusters<D>::sample() {
   parent_.resize(count);
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   sizes_.assign(count, 1);
-  cells_.sort(simulation_.state().positions);
+  cells_.sort(simulation_.positions());
   cells_.each_pair(
       [&](std::uint32_t first, std::uint32_t second, const Vec<D>&) { join(first, second); });
 

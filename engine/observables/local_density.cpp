@@ -45,7 +45,7 @@ void LocalDensity<D>::sample() {
   std::size_t cells = 1;
   for (const int count : cells_) cells *= static_cast<std::size_t>(count);
   numbers_.assign(cells, 0);
-  for (const Vec<D>& position : simulation_.state().positions) {
+  for (const Vec<D>& position : simulation_.positions()) {
     std::size_t cell = 0;
     for (int axis = 0; axis < D; ++axis) {
       // Rounding may put a position at the upper edge of the box, or a centre beyond a moving wall.

@@ -1,6 +1,9 @@
 #include "engine/observables/near_cells.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace clatter {
 
@@ -8,18 +11,20 @@ template <int D>
 NearCells<D>::NearCells(const Model<D>& model, std::size_t particles, double range)
     : box_(model.box), range_(range) {
   for (int axis = 0; axis < D; ++axis) {
-    const bool periodic = model.periodic(axis);
-    period_[axis] = periodic ? box_[axis] : std::numeric_limits<double>::infinity();
-    range_ = std::min(range_, 0.5 * period_[axis]);
+    if (model.periodic(axis)) range_ = std::min(range_, 0.5 * box_[axis]);
   }
-  choose_cells(model, particles);
+  choose_cells(particles);
+  list_columns(model.periodic(0));
+  find_near_rows(model);
 }
 
-// A pair within the range is in cells whose numbers differ by at most 2. A dilute gas has about one
-// particle in four cells.
+// A dilute gas has about one particle in four cells.
 template <int D>
-void NearCells<D>::choose_cells(const Model<D>& model, std::size_t particles) {
-  Vec<D> cells = (2.0 / range_ * box_).array().floor().max(1.0);
+void NearCells<D>::choose_cells(std::size_t particles) {
+  IntVec<D> per_range = IntVec<D>::Constant(kAcross);
+  per_range[0] = kAlongX;
+  const Vec<D> finest = per_range.template cast<double>() / range_;
+  Vec<D> cells = box_.cwiseProduct(finest).array().floor().max(1.0);
   const double most = 4.0 * static_cast<double>(particles) + 1.0;
   while (cells.prod() > most) {
     double& largest = *std::max_element(cells.begin(), cells.end());
@@ -27,85 +32,112 @@ void NearCells<D>::choose_cells(const Model<D>& model, std::size_t particles) {
     largest = std::max(std::floor(0.5 * largest), std::floor(most / others));
   }
   cells_ = cells.template cast<int>();
+  cells_per_length_ = cells.cwiseQuotient(box_);
   for (int axis = 0; axis < D; ++axis) {
-    const int count = cells_[axis];
-    for (int cell = 0; cell < count; ++cell) {
-      std::vector<int> near;
-      for (int other = cell - 2; other <= cell + 2; ++other) {
-        if (!model.periodic(axis) && (other < 0 || other >= count)) continue;
-        const int wrapped = (other % count + count) % count;
-        if (std::ranges::find(near, wrapped) == near.end()) near.push_back(wrapped);
-      }
-      std::ranges::sort(near);
-      std::vector<Range>& spans = near_[axis].emplace_back();
-      for (const int number : near) {
-        const auto next = static_cast<std::size_t>(number);
-        if (!spans.empty() && spans.back().end + 1 == next) {
-          spans.back().end = next;
-        } else {
-          spans.push_back({next, next});
-        }
+    reach_[axis] =
+        std::min(per_range[axis], static_cast<int>(range_ * cells_per_length_[axis]) + 1);
+  }
+}
+
+template <int D>
+void NearCells<D>::list_columns(bool periodic) {
+  const int images = periodic ? reach_[0] : 0, count = cells_[0];
+  images_ = static_cast<std::size_t>(images);
+  for (int column = -images; column < count + images; ++column) {
+    const int cell = (column % count + count) % count;
+    columns_.push_back({static_cast<std::size_t>(cell), box_[0] * ((column - cell) / count)});
+  }
+}
+
+// Half of the rows near each row, so that each pair of rows is visited once.
+template <int D>
+void NearCells<D>::find_near_rows(const Model<D>& model) {
+  IntVec<D> at = IntVec<D>::Zero();  // in cells; along x always 0
+  const auto add = [&](const IntVec<D>& offset, std::vector<NearRow>& near) {
+    NearRow next{0, Vec<D>::Zero()};
+    for (int axis = D - 1; axis > 0; --axis) {
+      const int count = cells_[axis], cell = at[axis] + offset[axis];
+      const int wrapped = (cell % count + count) % count;
+      if (wrapped != cell && !model.periodic(axis)) return;
+      next.row = next.row * static_cast<std::size_t>(count) + static_cast<std::size_t>(wrapped);
+      next.shift[axis] = box_[axis] * ((cell - wrapped) / count);
+    }
+    near.push_back(next);
+  };
+  const int rows = cells_.prod() / cells_[0];
+  for (int row = 0; row < rows; ++row) {
+    std::vector<NearRow>& near = near_rows_.emplace_back();
+    at[1] = row % cells_[1];
+    if constexpr (D == 3) at[2] = row / cells_[1];
+    IntVec<D> offset = IntVec<D>::Zero();
+    for (offset[1] = 1; offset[1] <= reach_[1]; ++offset[1]) add(offset, near);
+    if constexpr (D == 3) {
+      for (offset[2] = 1; offset[2] <= reach_[2]; ++offset[2]) {
+        for (offset[1] = -reach_[1]; offset[1] <= reach_[1]; ++offset[1]) add(offset, near);
       }
     }
   }
+}
+
+template <int D>
+std::size_t NearCells<D>::cell_of(const Vec<D>& position) const {
+  std::size_t cell = 0;
+  for (int axis = D - 1; axis >= 0; --axis) {
+    const int along = static_cast<int>(position[axis] * cells_per_length_[axis]);
+    cell = cell * static_cast<std::size_t>(cells_[axis]) +
+           static_cast<std::size_t>(std::clamp(along, 0, cells_[axis] - 1));
+  }
+  return cell;
 }
 
 template <int D>
 void NearCells<D>::sort(const std::vector<Vec<D>>& positions) {
   const std::size_t count = positions.size();
-  const Vec<D> per_length = cells_.template cast<double>().cwiseQuotient(box_);
-  std::vector<std::size_t> cell_of(count);
-  first_.assign(static_cast<std::size_t>(cells_.prod()) + 1, 0);
+  cell_of_particle_.resize(count);
+  first_in_cell_.assign(cells() + 1, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    std::size_t cell = 0;
-    for (int axis = D - 1; axis >= 0; --axis) {
-      const int along = static_cast<int>(positions[i][axis] * per_length[axis]);
-      cell = cell * static_cast<std::size_t>(cells_[axis]) +
-             static_cast<std::size_t>(std::clamp(along, 0, cells_[axis] - 1));
-    }
-    cell_of[i] = cell;
-    ++first_[cell + 1];
+    cell_of_particle_[i] = cell_of(positions[i]);
+    ++first_in_cell_[cell_of_particle_[i]];
   }
-  for (std::size_t cell = 1; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
-  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  particles_.resize(count);
-  for (std::vector<double>& along : coordinates_) along.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t place = next[cell_of[i]]++;
-    particles_[place] = static_cast<std::uint32_t>(i);
-    for (int axis = 0; axis < D; ++axis) coordinates_[axis][place] = positions[i][axis];
+  std::partial_sum(first_in_cell_.begin(), first_in_cell_.end(), first_in_cell_.begin());
+  sorted_.resize(count);
+  for (std::size_t i = count; i-- > 0;) {
+    sorted_[--first_in_cell_[cell_of_particle_[i]]] = static_cast<std::uint32_t>(i);
   }
+
+  const auto along = static_cast<std::size_t>(cells_[0]);
+  const std::size_t rows = near_rows_.size();
+  const std::size_t copies = (columns_.size() + along - 1) / along;
+  const std::size_t entries = copies * count + rows * kPadding;
+  for (std::vector<double>& each : coordinates_) each.resize(entries);
+  particles_.resize(entries);
+  first_.resize(rows * (columns_.size() + 1));
+  std::size_t entry = 0;
+  for (std::size_t row = 0; row < rows; ++row) entry = fill_row(row, positions, entry);
 }
 
-// In each near row, the cells that are consecutive along x.
+// The particles of a row, between their images beyond the ends, and padding. Returns the next
+// entry.
 template <int D>
-const std::vector<typename NearCells<D>::Range>& NearCells<D>::near(std::size_t cell) {
-  ranges_.clear();
-  std::array<std::size_t, D> at;
-  for (int axis = 0; axis < D; ++axis) {
-    const auto along = static_cast<std::size_t>(cells_[axis]);
-    at[axis] = cell % along;
-    cell /= along;
-  }
-  const auto add_row = [&](std::size_t row) {
-    const std::size_t start = row * static_cast<std::size_t>(cells_[0]);
-    for (const auto& [first, last] : near_[0][at[0]]) {
-      ranges_.push_back({first_[start + first], first_[start + last + 1]});
+std::size_t NearCells<D>::fill_row(std::size_t row, const std::vector<Vec<D>>& positions,
+                                   std::size_t entry) {
+  const std::size_t* const sorted = &first_in_cell_[row * static_cast<std::size_t>(cells_[0])];
+  std::size_t* first = &first_[row * (columns_.size() + 1)];
+  for (const auto& [cell, shift] : columns_) {
+    *first++ = entry;
+    for (std::size_t k = sorted[cell]; k < sorted[cell + 1]; ++k) {
+      const Vec<D>& position = positions[sorted_[k]];
+      coordinates_[0][entry] = position[0] + shift;
+      for (int axis = 1; axis < D; ++axis) coordinates_[axis][entry] = position[axis];
+      particles_[entry++] = sorted_[k];
     }
-  };
-  const auto each_near = [&](int axis, const auto& visit) {
-    for (const auto& [first, last] : near_[axis][at[axis]]) {
-      for (std::size_t next = first; next <= last; ++next) visit(next);
-    }
-  };
-  if constexpr (D == 2) {
-    each_near(1, add_row);
-  } else {
-    each_near(2, [&](std::size_t z) {
-      each_near(1, [&](std::size_t y) { add_row(z * static_cast<std::size_t>(cells_[1]) + y); });
-    });
   }
-  return ranges_;
+  *first = entry;
+  for (std::vector<double>& each : coordinates_) {
+    std::fill_n(each.begin() + static_cast<std::ptrdiff_t>(entry), kPadding,
+                std::numeric_limits<double>::infinity());
+  }
+  return entry + kPadding;
 }
 
 template class NearCells<2>;

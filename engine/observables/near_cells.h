@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,79 +11,118 @@
 
 namespace clatter {
 
-/// Particles sorted into cells of at least half a range, to visit all pairs within the range.
+/// Particles sorted into cells, to visit all pairs within a range. Rows of cells are parallel to x,
+/// and continue beyond periodic borders with images of their particles. So the particles near
+/// another one are a few runs of consecutive entries.
 template <int D>
 class NearCells {
  public:
-  /// Consecutive particles in the order of the cells, or consecutive cells.
-  struct Range {
+  /// Consecutive entries that may be within the range of a particle, and follow it.
+  struct Run {
     std::size_t begin, end;
+    Vec<D> from;  ///< the particle's position relative to these entries
   };
+  /// A run may be extended by so many entries. They are beyond the range.
+  static constexpr std::size_t kPadding = 8;
 
   /// Cells for a number of particles. The range is shortened to half the shortest period.
   NearCells(const Model<D>& model, std::size_t particles, double range);
 
   /// The range of the pairs.
   double range() const { return range_; }
+  /// Number of cells.
+  std::size_t cells() const { return static_cast<std::size_t>(cells_.prod()); }
   /// Sorts particles by their positions in the box.
   void sort(const std::vector<Vec<D>>& positions);
-
-  /// Number of cells.
-  std::size_t cells() const { return first_.size() - 1; }
-  /// The particles of a cell.
-  Range in_cell(std::size_t cell) const { return {first_[cell], first_[cell + 1]}; }
-  /// The particles within the range of those in a cell, and others. Valid until the next call.
-  const std::vector<Range>& near(std::size_t cell);
-  /// [N] coordinates along an axis, in the order of the cells.
+  /// [entries] coordinates of particles and images along an axis; infinite in gaps between rows.
   const std::vector<double>& coordinates(int axis) const { return coordinates_[axis]; }
-  /// [N] numbers of the particles, in the order of the cells.
-  const std::vector<std::uint32_t>& particles() const { return particles_; }
-  /// Period of the box along each axis; infinite between walls.
-  const Vec<D>& period() const { return period_; }
+
+  /// Calls visit(entry, run) for each run of each particle, at entry `entry`. All runs together
+  /// have each pair within the range once.
+  template <class Visit>
+  [[gnu::always_inline]] void each_run(const Visit& visit) const;
 
   /// Calls visit(first, second, separation) for each pair within the range, in an order that
   /// depends on the positions only. The separation points from the second to the first particle.
   template <class Visit>
-  void each_pair(const Visit& visit) {
-    for (std::size_t cell = 0; cell < cells(); ++cell) {
-      const Range own = in_cell(cell);
-      if (own.begin == own.end) continue;
-      for (const Range& others : near(cell)) {
-        for (std::size_t i = own.begin; i < own.end; ++i) {
-          for (std::size_t j = std::max(others.begin, i + 1); j < others.end; ++j) {
-            const Vec<D> apart = separation(i, j);
-            if (apart.squaredNorm() <= range_ * range_) {
-              visit(particles_[i], particles_[j], apart);
-            }
-          }
+  void each_pair(const Visit& visit) const {
+    each_run([&](std::size_t first, const Run& run) {
+      for (std::size_t second = run.begin; second < run.end; ++second) {
+        const Vec<D> apart = run.from - position(second);
+        if (apart.squaredNorm() <= range_ * range_) {
+          visit(particles_[first], particles_[second], apart);
+        }
+      }
+    });
+  }
+
+ private:
+  // Cells per range: along x they may be narrow, because runs follow x.
+  static constexpr int kAlongX = 4;
+  static constexpr int kAcross = 2;
+
+  // A row near another one and later than it, or the image of a row.
+  struct NearRow {
+    std::size_t row;
+    Vec<D> shift;  // of the image
+  };
+
+  // Cells at one place along x. Beyond the ends of the box it holds images.
+  struct Column {
+    std::size_t cell;  // along x, in the box
+    double shift;      // of the images
+  };
+
+  void choose_cells(std::size_t particles);
+  void list_columns(bool periodic);
+  void find_near_rows(const Model<D>& model);
+  std::size_t cell_of(const Vec<D>& position) const;
+  std::size_t fill_row(std::size_t row, const std::vector<Vec<D>>& positions, std::size_t entry);
+  Vec<D> position(std::size_t entry) const {
+    Vec<D> position;
+    for (int axis = 0; axis < D; ++axis) position[axis] = coordinates_[axis][entry];
+    return position;
+  }
+
+  Vec<D> box_;
+  double range_;
+  IntVec<D> cells_;  // along each axis; x is fastest
+  IntVec<D> reach_;  // number of near cells to either side
+  Vec<D> cells_per_length_;
+  std::size_t images_;  // columns of images at either end of a row
+  std::vector<Column> columns_;
+  std::vector<std::vector<NearRow>> near_rows_;  // [rows]
+  std::vector<std::size_t> cell_of_particle_;    // [N]
+  std::vector<std::size_t> first_in_cell_;       // [cells + 1] index into sorted_
+  std::vector<std::uint32_t> sorted_;            // [N] particles in the order of cells
+  std::vector<std::size_t> first_;               // [rows][columns + 1] first entry
+  std::array<std::vector<double>, D> coordinates_;
+  std::vector<std::uint32_t> particles_;  // [entries] numbers of the particles
+};
+
+template <int D>
+template <class Visit>
+inline void NearCells<D>::each_run(const Visit& visit) const {
+  const auto along = static_cast<std::size_t>(cells_[0]);
+  const auto reach = static_cast<std::size_t>(reach_[0]);
+  const std::size_t columns = columns_.size();
+  for (std::size_t row = 0; row < near_rows_.size(); ++row) {
+    const std::vector<NearRow>& near = near_rows_[row];
+    const std::size_t* const first = &first_[row * (columns + 1)];
+    for (std::size_t column = images_; column < images_ + along; ++column) {
+      const std::size_t low = column < reach ? 0 : column - reach;
+      const std::size_t high = std::min(column + reach + 1, columns);
+      for (std::size_t entry = first[column]; entry < first[column + 1]; ++entry) {
+        const Vec<D> own = position(entry);
+        visit(entry, Run{entry + 1, first[high], own});
+        for (const NearRow& other : near) {
+          const std::size_t* const start = &first_[other.row * (columns + 1)];
+          visit(entry, Run{start[low], start[high], own - other.shift});
         }
       }
     }
   }
-
- private:
-  void choose_cells(const Model<D>& model, std::size_t particles);
-  Vec<D> separation(std::size_t i, std::size_t j) const {
-    Vec<D> apart;
-    for (int axis = 0; axis < D; ++axis) {
-      apart[axis] = coordinates_[axis][i] - coordinates_[axis][j];
-      if (2.0 * std::fabs(apart[axis]) > period_[axis]) {
-        apart[axis] -= std::copysign(period_[axis], apart[axis]);
-      }
-    }
-    return apart;
-  }
-
-  Vec<D> box_;
-  Vec<D> period_;
-  double range_;
-  IntVec<D> cells_;                                      // along each axis; x is fastest
-  std::array<std::vector<std::vector<Range>>, D> near_;  // [cells] near cells, first and last
-  std::vector<std::size_t> first_ = {0};                 // [cells + 1] first particle of each cell
-  std::array<std::vector<double>, D> coordinates_;
-  std::vector<std::uint32_t> particles_;
-  std::vector<Range> ranges_;  // near the present cell
-};
+}
 
 extern template class NearCells<2>;
 extern template class NearCells<3>;

@@ -52,7 +52,7 @@ void PlaneCurrent<D>::restore(ArchiveReader& io) {
 template <int D>
 std::int64_t PlaneCurrent<D>::beyond() const {
   const auto axis = static_cast<int>(settings_.axis);
-  const std::vector<Vec<D>> positions = simulation_.state().positions;
+  const std::vector<Vec<D>> positions = simulation_.positions();
   const std::vector<IntVec<D>> images = images_->images();
   const double plane = settings_.position * simulation_.model().box[axis];
   std::int64_t sum = 0;

@@ -57,7 +57,8 @@ RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
       range_(longest_distance(simulation.model(), settings.range)),
       width_((range_ - simulation.model().diameter) / settings.bins),
       cells_(simulation.model(), simulation.particles().size(), range_),
-      contact_weights_(contact_weights(width_, bins_)) {
+      contact_weights_(contact_weights(width_, bins_)),
+      single_precision_(range_ * std::numeric_limits<float>::epsilon() < 1e-3 * width_) {
   const auto count = static_cast<double>(simulation.particles().size());
   const double pairs = 0.5 * count * (count - 1.0);
   for (std::size_t bin = 0; bin < bins_; ++bin) {
@@ -95,69 +96,59 @@ double RadialDistribution<D>::edge(std::size_t bin) const {
 
 // Bins of the distances of particles from `own`: [count] coordinates along each axis. Rounding may
 // put a contact below the diameter.
-template <int D>
-[[gnu::always_inline]] static inline void find_bins(const Vec<D>& own, const Vec<D>& period,
+template <typename Real, int D>
+[[gnu::always_inline]] static inline void find_bins(const Vec<D>& own,
                                                     const std::array<const double*, D>& others,
-                                                    double diameter, double per_distance,
-                                                    double last, std::size_t count, int* bins) {
+                                                    Real diameter, Real per_distance, Real last,
+                                                    std::size_t count, int* bins) {
   for (std::size_t k = 0; k < count; ++k) {
     double square = 0.0;
     for (int axis = 0; axis < D; ++axis) {
-      const double apart = std::fabs(own[axis] - others[axis][k]);
-      const double nearest = std::min(apart, std::fabs(period[axis] - apart));
-      square += nearest * nearest;
+      const double apart = own[axis] - others[axis][k];
+      square += apart * apart;
     }
-    const double bin = (std::sqrt(square) - diameter) * per_distance;
-    bins[k] = static_cast<int>(std::min(last, std::max(0.0, bin)));
+    const Real bin = (std::sqrt(static_cast<Real>(square)) - diameter) * per_distance;
+    bins[k] = static_cast<int>(std::min(last, std::max(Real{0}, bin)));
   }
 }
 
-// Pairs of a particle and a later one in the ranges.
+// Runs are extended to whole vectors.
 template <int D>
-[[gnu::always_inline]] inline void RadialDistribution<D>::count_pairs(
-    std::size_t particle, const std::vector<Range>& ranges) {
-  const double last = static_cast<double>(kBinShare * bins_);
-  Vec<D> own;
-  for (int axis = 0; axis < D; ++axis) own[axis] = cells_.coordinates(axis)[particle];
-  for (const Range& range : ranges) {
-    const std::size_t begin = std::max(range.begin, particle + 1);
-    if (begin >= range.end) continue;
-    const std::size_t count = range.end - begin;
-    if (bins_of_pairs_.size() < count) bins_of_pairs_.resize(count);
-    std::array<const double*, D> others;
-    for (int axis = 0; axis < D; ++axis) others[axis] = &cells_.coordinates(axis)[begin];
-    find_bins<D>(own, cells_.period(), others, simulation_.model().diameter, 1.0 / width_, last,
-                 count, bins_of_pairs_.data());
-    for (std::size_t k = 0; k < count; ++k) {
-      ++counts_[static_cast<std::size_t>(bins_of_pairs_[k])];
-    }
-  }
-}
-
-template <int D>
+template <typename Real>
 [[gnu::always_inline]] inline void RadialDistribution<D>::count_all() {
-  for (std::size_t cell = 0; cell < cells_.cells(); ++cell) {
-    const Range own = cells_.in_cell(cell);
-    if (own.begin == own.end) continue;
-    const std::vector<Range>& near = cells_.near(cell);
-    for (std::size_t i = own.begin; i < own.end; ++i) count_pairs(i, near);
-  }
+  constexpr std::size_t kLanes = 4;
+  static_assert(kLanes <= NearCells<D>::kPadding);
+  const auto diameter = static_cast<Real>(simulation_.model().diameter);
+  const auto per_distance = static_cast<Real>(1.0 / width_);
+  const auto last = static_cast<Real>(kBinShare * bins_);
+  cells_.each_run([&](std::size_t, const typename NearCells<D>::Run& run) [[gnu::always_inline]] {
+    const std::size_t pairs = (run.end - run.begin + kLanes - 1) / kLanes * kLanes;
+    if (bins_of_pairs_.size() < pairs) bins_of_pairs_.resize(pairs);
+    std::array<const double*, D> others;
+    for (int axis = 0; axis < D; ++axis) others[axis] = &cells_.coordinates(axis)[run.begin];
+    find_bins<Real, D>(run.from, others, diameter, per_distance, last, pairs,
+                       bins_of_pairs_.data());
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < pairs; ++k) ++counts_[static_cast<std::size_t>(bins_of_pairs_[k])];
+  });
 }
 
 // The same with wider vectors, with equal results.
 template <int D>
+template <typename Real>
 [[gnu::target("avx2")]] void RadialDistribution<D>::count_all_avx2() {
-  count_all();
+  count_all<Real>();
 }
 
 template <int D>
 void RadialDistribution<D>::sample() {
-  cells_.sort(simulation_.state().positions);
+  cells_.sort(simulation_.positions());
   samples_ += 1.0;
-  if (__builtin_cpu_supports("avx2")) {
-    count_all_avx2();
+  const bool avx2 = __builtin_cpu_supports("avx2");
+  if (single_precision_) {
+    avx2 ? count_all_avx2<float>() : count_all<float>();
   } else {
-    count_all();
+    avx2 ? count_all_avx2<double>() : count_all<double>();
   }
 }
 

@@ -11,9 +11,9 @@
 namespace clatter {
 
 /// g(r) of all pairs (theory 11.6): the number of pairs at distance r, relative to independent
-/// particles that are uniform in the region of centres. Table "radial_distribution"; the mean
-/// "radial_distribution.contact" is g at contact, extrapolated from bins near it. It is absent if
-/// the bins are too wide for that.
+/// particles that are uniform in the region of centres. Edges of bins are exact to 1/1000 of a bin.
+/// Table "radial_distribution"; the mean "radial_distribution.contact" is g at contact,
+/// extrapolated from bins near it. It is absent if the bins are too wide for that.
 template <int D>
 class RadialDistribution final : public Observable {
  public:
@@ -29,13 +29,13 @@ class RadialDistribution final : public Observable {
   void restore(ArchiveReader& io) override;
 
  private:
-  using Range = typename NearCells<D>::Range;
-
   // Pairs beyond the range are counted too, in further bins. One counter for all would be slower.
   static constexpr std::size_t kBinShare = 4;
 
-  void count_pairs(std::size_t particle, const std::vector<Range>& ranges);
-  void count_all();
+  // Distances have the precision of Real.
+  template <typename Real>
+  [[gnu::always_inline]] inline void count_all();
+  template <typename Real>
   void count_all_avx2();
   double edge(std::size_t bin) const;
   double expected_share(double low, double high) const;
@@ -47,7 +47,8 @@ class RadialDistribution final : public Observable {
   NearCells<D> cells_;
   std::vector<double> expected_;         // [bins] pairs of independent particles
   std::vector<double> contact_weights_;  // of the values near contact; empty: too few bins
-  std::vector<int> bins_of_pairs_;       // of a particle with one range
+  std::vector<int> bins_of_pairs_;       // of a run
+  bool single_precision_;                // suffices for distances
   double samples_ = 0.0;
   std::vector<std::uint64_t> counts_;  // [kBinShare bins + 1] pairs; the last beyond all
 };

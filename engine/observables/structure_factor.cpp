@@ -88,7 +88,7 @@ template <int D>
 void StructureFactor<D>::sample() {
   constexpr std::size_t kBlock = 64;
   using Factor = std::complex<double>;
-  const std::vector<Vec<D>> positions = simulation_.state().positions;
+  const std::vector<Vec<D>> positions = simulation_.positions();
   if (positions.empty()) return;
   const Vec<D> shortest = unit();
   std::array<std::vector<Factor>, D> factors;  // [most + 1][block]

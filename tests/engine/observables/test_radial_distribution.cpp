@@ -34,29 +34,31 @@ double distance(const Model<D>& model, const Vec<D>& a, const Vec<D>& b) {
 }  // namespace
 
 // The samples of a run are counted again by a loop over all pairs. The boxes have many cells along
-// some axes and few along others.
+// some axes and few along others. 50,000 bins need distances in double precision.
 TEST_CASE_TEMPLATE("Radial distribution: counts all pairs of all samples", Dimension, Plane,
                    Space) {
   constexpr int D = Dimension::value;
   constexpr double kEnd = 6.0, kInterval = 2.0;
-  for (const bool walls : {false, true}) {
+  for (const auto& [bins, walls] : {std::pair(40, false), {40, true}, {50'000, false}}) {
+    CAPTURE(bins);
     CAPTURE(walls);
     Scene scene = gas(D == 2 ? VecX(Vec2(23.0, 9.0)) : VecX(Vec<3>(12.0, 7.0, 5.0)), 60, 0.9);
     if (walls) wall_in(scene, 1, {.kind = WallKind::Thermal, .temperature = 1.0});
     Measure measure;
-    measure.radial_distribution = {.interval = kInterval, .range = 3.0, .bins = 40};
+    measure.radial_distribution = {.interval = kInterval, .range = 3.0, .bins = bins};
     const ResultTable table =
         table_of(observed<D>(scene, measure, ObservableKind::RadialDistribution, kEnd, 3),
                  "radial_distribution");
     const TableColumn r = column_of(table, "r"), g = column_of(table, "g");
-    REQUIRE(r.values.size() == 40);
+    const auto rows = static_cast<std::size_t>(bins);
+    REQUIRE(r.values.size() == rows);
     // Half the shortest period is 2.5 in 3D.
-    const double range = D == 2 ? 3.0 : 2.5, width = (range - 1.0) / 40.0;
+    const double range = D == 2 ? 3.0 : 2.5, width = (range - 1.0) / bins;
     CHECK(r.values.back() == doctest::Approx(range - 0.5 * width));
 
     const auto simulation = simulation_of<D>(scene, 3);
     const Model<D>& model = simulation->model();
-    std::vector<double> counts(40, 0.0);
+    std::vector<double> counts(rows, 0.0);
     for (int sample = 1; sample <= 3; ++sample) {
       simulation->run_until(sample * kInterval);
       const State<D> state = simulation->state();
