@@ -88,11 +88,31 @@ py::object spins(Gas& gas) {
       gas.state());
 }
 
+// Raises an error with its words. Bytes of file names that are no text become surrogates, as in
+// os.fsdecode.
+void raise(const char* type, const std::exception& error) {
+  const auto words = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+  PyErr_SetObject(py::module_::import("clatter").attr(type).ptr(), words.ptr());
+}
+
+// Lets other exceptions pass, to the translators of pybind11.
+void translate(std::exception_ptr exception) {
+  try {
+    if (exception) std::rethrow_exception(exception);
+  } catch (const UserError& error) {
+    raise("SceneError", error);
+  } catch (const PhysicalStop& error) {
+    raise("PhysicalStop", error);
+  } catch (const RunError& error) {
+    raise("RunError", error);
+  }
+}
+
 Scene scene_of(const py::object& source, const std::vector<Override>& settings) {
   if (py::isinstance<py::dict>(source)) {
     return parse_scene(scene_text(source.cast<py::dict>()), "scene", settings);
   }
-  return load_any_scene(py::module_::import("os").attr("fspath")(source).cast<std::string>(),
+  return load_any_scene(py::module_::import("os").attr("fsencode")(source).cast<std::string>(),
                         settings);
 }
 
@@ -197,13 +217,14 @@ PYBIND11_MODULE(clatter, module) {
       "Lengths are in particle diameters and masses in particle masses, as in the scene file. "
       "Time, speeds and temperatures follow from the scene.";
   module.attr("__version__") = CLATTER_VERSION;
-  py::register_exception<UserError>(module, "SceneError", PyExc_ValueError).doc() =
+  py::exception<UserError>(module, "SceneError", PyExc_ValueError).doc() =
       "An error in a scene, a key or an argument: place, problem and fix.";
-  py::register_exception<RunError>(module, "RunError", PyExc_RuntimeError).doc() =
+  py::exception<RunError>(module, "RunError", PyExc_RuntimeError).doc() =
       "A task cannot continue although the input is correct.";
-  py::register_exception<PhysicalStop>(module, "PhysicalStop", PyExc_RuntimeError).doc() =
+  py::exception<PhysicalStop>(module, "PhysicalStop", PyExc_RuntimeError).doc() =
       "A physical reason ends the run, for example inelastic collapse. The gas keeps its state, "
       "and may continue under other laws.";
+  py::register_exception_translator(translate);
 
   py::class_<Frames>(module, "Frames", "Iterator of Gas.frames().")
       .def("__iter__", [](py::object self) { return self; })

@@ -38,7 +38,7 @@ std::string toml_text(const py::handle& value) {
   if (py::isinstance<py::int_>(value)) return py::str(value);
   // numpy.float64 is a float with another text.
   if (py::isinstance<py::float_>(value)) return py::repr(py::float_(value.cast<double>()));
-  if (py::isinstance<py::str>(value)) return quoted(value.cast<std::string>());
+  if (py::isinstance<py::str>(value)) return quoted(py::str(value));
   if (py::hasattr(value, "tolist")) return toml_text(value.attr("tolist")());
   const Nesting nesting;
   std::string text;

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <regex>
 
 #include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
@@ -10,6 +12,7 @@
 #include "app/system/commit.h"
 #include "app/system/exit_code.h"
 #include "engine/error.h"
+#include "engine/printable.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -41,14 +44,24 @@ static std::vector<const char*> with_commands(int argc, const char* const* argv,
   return words;
 }
 
+// The words of CLI11 for the number and the form of values, in those of the program.
+static std::string plain(std::string text) {
+  static const std::regex twice(": At Most 1 required but received (\\d+)$");
+  static const std::regex missing(": 1 required (.*) missing$");
+  static const std::regex wrong("^Could not convert: (\\S+) = ([^]*)$");
+  text = std::regex_replace(text, twice, " is given $1 times; give it once");
+  text = std::regex_replace(text, missing, ": the value is missing; give $1");
+  return std::regex_replace(text, wrong, "$1: the value '$2' is wrong");
+}
+
 // An unknown flag is often the misspelt one of a missing argument, so it comes first.
 static std::string failure_text(const CLI::App& program, const CLI::Error& error) {
-  std::string text = error.what();
+  std::string text = plain(error.what());
   const std::vector<std::string> unknown = program.remaining(true);
   const auto flag =
       std::ranges::find_if(unknown, [](const std::string& word) { return word.starts_with('-'); });
   if (flag != unknown.end()) text = "there is no flag " + *flag;
-  return "clatter: " + text + "; `clatter help COMMAND` lists the flags\n";
+  return "clatter: " + printable(text) + "; `clatter help COMMAND` lists the flags\n";
 }
 
 static std::string version_text() {
@@ -107,6 +120,10 @@ int run_program(int argc, const char* const* argv) {
     return report(error.what(), kWrongUse);
   } catch (const PhysicalStop& error) {
     return report(error.what(), kPhysicalStop);
+  } catch (const std::filesystem::filesystem_error& error) {
+    // For example, another process has removed the current folder.
+    const std::string text = "cannot use " + error.path1().string() + ": " + error.code().message();
+    return report(text.c_str(), kFailed);
   } catch (const std::bad_alloc&) {
     return report("out of memory; give the scene fewer disks or cells", kFailed);
   } catch (const std::exception& error) {

@@ -46,7 +46,8 @@ class Lines {
   bool next() {
     if (!std::getline(file_, line_)) return false;
     if (line_.ends_with('\r')) line_.pop_back();
-    ++number_;
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (++number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
     return true;
   }
   const std::string& text() const { return line_; }
@@ -99,7 +100,21 @@ long step_of(double number) {
 }
 
 // The quantities of a particle in a table, in the order of the values of a row.
-enum Quantities { kX, kVx = 3, kImage = 6, kOmega = 9, kRadius = 12, kId, kTime, kIgnored, kRow };
+enum Quantities {
+  kX,
+  kVx = 3,
+  kImage = 6,
+  kOmega = 9,
+  kRadius = 12,
+  kDiameter,
+  kId,
+  kTime,
+  kIgnored,
+  kRow
+};
+constexpr std::array<const char*, kIgnored> kQuantityNames = {
+    "x",       "y",       "z",       "vx",      "vy",     "vz",       "image_x", "image_y",
+    "image_z", "omega_x", "omega_y", "omega_z", "radius", "diameter", "id",      "time"};
 
 // A table of particles: the meaning of its columns.
 class ParticleTable {
@@ -109,11 +124,21 @@ class ParticleTable {
   bool has(int quantity) const { return std::ranges::find(columns_, quantity) != columns_.end(); }
 
   void require(const Lines& lines) const {
+    for (int quantity = 0; quantity < kIgnored; ++quantity) {
+      if (std::ranges::count(columns_, quantity) < 2) continue;
+      lines.refuse(std::string("two columns are ") + kQuantityNames[quantity],
+                   "remove one of them");
+    }
     for (const int axis : {0, 1}) {
       if (!has(kX + axis)) lines.refuse("the positions are missing", "give the columns x and y");
       if (!has(kVx + axis))
         lines.refuse("the velocities are missing", "give the columns vx and vy");
     }
+  }
+  // Spheres have positions and velocities along z.
+  void require_spheres(const Lines& lines) const {
+    if (!has(kX + 2)) lines.refuse("the positions of spheres lack z", "give the column z");
+    if (!has(kVx + 2)) lines.refuse("the velocities of spheres lack vz", "give the column vz");
   }
 
   // The values of the current line.
@@ -127,10 +152,14 @@ class ParticleTable {
     for (std::size_t k = 0; k < words.size(); ++k) {
       if (columns_[k] != kIgnored) row[columns_[k]] = lines.number(words[k]);
     }
-    if (has(kRadius) && row[kRadius] != 0.5) {
-      lines.refuse("the radius is " + number_text(row[kRadius]) + " instead of 0.5",
+    const auto require_size = [&](int quantity, double size) {
+      if (!has(quantity) || row[quantity] == size) return;
+      lines.refuse(std::string("the ") + kQuantityNames[quantity] + " is " +
+                       number_text(row[quantity]) + " instead of " + number_text(size),
                    "divide all lengths by the diameter");
-    }
+    };
+    require_size(kRadius, 0.5);
+    require_size(kDiameter, 1.0);
     return row;
   }
 
@@ -186,19 +215,20 @@ class CsvFrames {
       const auto column = kColumns.find(word);
       if (column == kColumns.end()) {
         lines_.refuse("unknown column " + in_quotes(word.substr(0, 40)),
-                      "give the columns of a start state or of a trajectory");
+                      "give the columns of a start state or of a trajectory, between commas");
       }
       columns.push_back(column->second);
     }
     table_ = ParticleTable(columns);
     table_.require(lines_);
+    if (is_spatial()) table_.require_spheres(lines_);
     more_ = next_line();
   }
 
   std::optional<ParticleFrame> next() {
     if (!more_ && (frames_ > 0 || table_.has(kTime))) return std::nullopt;
     ParticleFrame frame;
-    frame.dimension = table_.has(kX + 2) ? 3 : 2;
+    frame.dimension = is_spatial() ? 3 : 2;
     frame.number = static_cast<long>(frames_++);
     for (bool first = true; more_; more_ = next_line(), first = false) {
       const auto row = table_.row(lines_, lines_.cells());
@@ -207,11 +237,18 @@ class CsvFrames {
       table_.add(frame, row);
     }
     if (frames_ == 1) particles_ = frame.positions.size();
-    if (frame.positions.size() != particles_) lines_.refuse_end();
+    if (frame.positions.size() < particles_ && !more_) lines_.refuse_end();
+    if (frame.positions.size() != particles_) {
+      lines_.refuse("the frame at time " + number_text(frame.time) + " has " +
+                        std::to_string(frame.positions.size()) + " particles instead of " +
+                        std::to_string(particles_),
+                    "give all frames the same particles");
+    }
     return frame;
   }
 
  private:
+  bool is_spatial() const { return table_.has(kX + 2) || table_.has(kVx + 2); }
   // Skips blank lines and comments.
   bool next_line() {
     while (lines_.next()) {
@@ -235,7 +272,9 @@ class XyzFrames {
   explicit XyzFrames(const std::filesystem::path& path) : lines_(path) {}
 
   std::optional<ParticleFrame> next() {
-    if (!lines_.next() || lines_.words().empty()) return std::nullopt;
+    do {
+      if (!lines_.next()) return std::nullopt;
+    } while (lines_.words().empty());
     const std::size_t particles = lines_.count(lines_.words().front());
     if (!lines_.next()) lines_.refuse_end();
     ParticleFrame frame;
@@ -346,8 +385,9 @@ class DumpFrames {
       } else if (item.starts_with("ITEM: BOX BOUNDS")) {
         corner = read_box(frame);
       } else if (item.starts_with("ITEM: ATOMS") && particles && frame.box) {
-        read_atoms(frame, *particles);
+        const ParticleTable table = read_atoms(frame, *particles);
         shift(frame, corner);
+        if (frame.dimension == 3) table.require_spheres(lines_);
         return frame;
       } else {
         lines_.refuse("unexpected line " + in_quotes(item.substr(0, 40)),
@@ -367,7 +407,10 @@ class DumpFrames {
 
   ParticleFrame::Vector read_box(ParticleFrame& frame) {
     const Words words = lines_.words();
-    if (words.size() != 6) lines_.refuse("the box is tilted", "give a rectangular box");
+    if (words.size() > 6) lines_.refuse("the box is tilted", "give a rectangular box");
+    if (words.size() < 6) {
+      lines_.refuse("the kinds of boundaries are missing", "write, say, ITEM: BOX BOUNDS pp pp ff");
+    }
     frame.box.emplace();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       frame.box->periodic[axis] = words[3 + axis] == "pp";
@@ -384,7 +427,7 @@ class DumpFrames {
   }
 
   // LAMMPS writes atoms in any order; they are sorted by their numbers.
-  void read_atoms(ParticleFrame& frame, std::size_t particles) {
+  ParticleTable read_atoms(ParticleFrame& frame, std::size_t particles) {
     static const std::map<std::string_view, int> kNames = {{"id", kId},
                                                            {"x", kX},
                                                            {"y", kX + 1},
@@ -398,7 +441,8 @@ class DumpFrames {
                                                            {"omegax", kOmega},
                                                            {"omegay", kOmega + 1},
                                                            {"omegaz", kOmega + 2},
-                                                           {"radius", kRadius}};
+                                                           {"radius", kRadius},
+                                                           {"diameter", kDiameter}};
     std::vector<int> columns;
     const Words words = lines_.words();
     for (std::size_t k = 2; k < words.size(); ++k) {
@@ -415,6 +459,7 @@ class DumpFrames {
     std::ranges::stable_sort(rows, {}, [](const auto& row) { return row[kId]; });
     for (const auto& row : rows) table.add(frame, row);
     begun_ = false;
+    return table;
   }
 
   Lines lines_;
@@ -540,17 +585,13 @@ ParticleFrame frame_of_h5md(const std::filesystem::path& path, std::optional<std
   return frame;
 }
 
-// Moves particles into the box along periodic axes.
-void wrap(ParticleFrame& frame) {
-  for (int axis = 0; axis < frame.dimension; ++axis) {
-    const double length = frame.box->lengths[axis];
-    if (!frame.box->periodic[axis]) continue;
-    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-      double& place = frame.positions[i][axis];
-      if (place >= 0.0 && place <= length) continue;
-      const double boxes = std::floor(place / length);
-      place = std::clamp(place - boxes * length, 0.0, length);
-      frame.images[i][axis] += boxes;
+void require_bounded_images(const ParticleFrame& frame, const std::filesystem::path& path) {
+  for (const ParticleFrame::Vector& image : frame.images) {
+    for (const double boxes : image) {
+      if (std::fabs(boxes) <= std::numeric_limits<int>::max() && std::floor(boxes) == boxes)
+        continue;
+      throw UserError({path.string()}, "a periodic image is no whole number of 32 bits",
+                      "give a file with smaller images");
     }
   }
 }
@@ -582,17 +623,6 @@ void require_sound(const ParticleFrame& frame, const std::filesystem::path& path
   }
 }
 
-void require_bounded_images(const ParticleFrame& frame, const std::filesystem::path& path) {
-  for (const ParticleFrame::Vector& image : frame.images) {
-    for (const double boxes : image) {
-      if (std::fabs(boxes) <= std::numeric_limits<int>::max() && std::floor(boxes) == boxes)
-        continue;
-      throw UserError({path.string()}, "a periodic image is no whole number of 32 bits",
-                      "give a file with smaller images");
-    }
-  }
-}
-
 }  // namespace
 
 ParticleFrame read_frame(const std::filesystem::path& path, TrajectoryFormat format,
@@ -615,9 +645,23 @@ ParticleFrame read_frame(const std::filesystem::path& path, TrajectoryFormat for
   ParticleFrame found = read();
   require_sound(found, path);
   found.images.resize(found.positions.size());
-  if (found.box) wrap(found);
-  require_bounded_images(found, path);
+  wrap_into_box(found, path);
   return found;
+}
+
+void wrap_into_box(ParticleFrame& frame, const std::filesystem::path& path) {
+  for (int axis = 0; frame.box && axis < frame.dimension; ++axis) {
+    const double length = frame.box->lengths[axis];
+    if (!frame.box->periodic[axis]) continue;
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+      double& place = frame.positions[i][axis];
+      if (place >= 0.0 && place <= length) continue;
+      const double boxes = std::floor(place / length);
+      place = std::clamp(place - boxes * length, 0.0, length);
+      frame.images[i][axis] += boxes;
+    }
+  }
+  require_bounded_images(frame, path);
 }
 
 }  // namespace clatter

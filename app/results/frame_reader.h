@@ -16,4 +16,8 @@ namespace clatter {
 ParticleFrame read_frame(const std::filesystem::path& path, TrajectoryFormat format,
                          std::optional<std::size_t> frame);
 
+/// Moves particles into the box along periodic axes, if the frame has a box. Throws UserError with
+/// the file of the frame if a periodic image is no whole number of 32 bits.
+void wrap_into_box(ParticleFrame& frame, const std::filesystem::path& path);
+
 }  // namespace clatter

@@ -1,6 +1,7 @@
 #include "app/results/h5md_trajectory.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -11,6 +12,7 @@
 #include "app/results/three_axes.h"
 #include "engine/error.h"
 #include "engine/scene/scene_keys.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -39,10 +41,11 @@ std::string_view raw_bytes(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
 }
 
-// Rebuilds the records of a complete file.
-void restore_records(const std::filesystem::path& path, std::size_t particles, bool spins) {
+// Writes the records of a complete file into a new file.
+void copy_records(const std::filesystem::path& path, std::size_t particles, bool spins,
+                  const std::filesystem::path& copy) {
   const H5mdReader reader(path);
-  GrowingFile records(h5md_records(path), 0);
+  GrowingFile records(copy, 0);
   for (std::size_t k = 0; k < reader.frames(); ++k) {
     std::vector<double> record = {reader.step(k), reader.time(k)};
     for (const std::string& name : h5md_quantities(spins)) {
@@ -53,6 +56,22 @@ void restore_records(const std::filesystem::path& path, std::size_t particles, b
     records.append(raw_bytes(record));
   }
   records.close();
+}
+
+// Rebuilds the records of a complete file, all or none. A part of them would hide the complete file
+// from the next attempt.
+void restore_records(const std::filesystem::path& path, std::size_t particles, bool spins) {
+  const std::filesystem::path target = h5md_records(path);
+  const NewFile made = new_file_beside(target);
+  if (!made.file) throw RunError("cannot write " + target.string() + ": " + std::strerror(errno));
+  try {
+    copy_records(path, particles, spins, made.path);
+    rename_synced(made.path, target);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(made.path, ignored);
+    throw;
+  }
 }
 
 void write_head(const H5::H5File& file) {

@@ -45,8 +45,7 @@ ParticleFrame frame_of_checkpoint(const std::string& file) {
   const Scene scene = parse_scene(checkpoint.scene, file, {}, StartFile::Skip);
   return with_dimension(scene.dimension(), [&](auto dimension) {
     constexpr int D = dimension;
-    const ScheduledRun<D> run(scene, checkpoint.seed, std::get<RunState<D>>(checkpoint.saved),
-                              interrupted);
+    const ScheduledRun<D> run(scene, checkpoint.seed, std::get<RunState<D>>(checkpoint.saved));
     const State<D> state = run.simulation().state();
     ParticleFrame frame;
     frame.dimension = D;
@@ -68,7 +67,7 @@ ParticleFrame frame_of_file(const ConvertOptions& options) {
   if (std::filesystem::is_directory(options.in, ignored)) {
     throw UserError({options.in}, "this is a folder", "give a file in it");
   }
-  if (is_checkpoint(options.in)) {
+  if (!is_special(options.in) && is_checkpoint(options.in)) {
     if (options.frame) {
       throw UserError({"--frame", 0, 0}, "a checkpoint has one state", "omit --frame");
     }
@@ -91,6 +90,7 @@ void add_box(ParticleFrame& frame, const ConvertOptions& options) {
                     "give the scene of the particles");
   }
   set_box(frame, scene);
+  wrap_into_box(frame, options.in);
 }
 
 template <int D>
@@ -144,11 +144,16 @@ void write_frame(const std::filesystem::path& path, TrajectoryFormat format,
     file->add(written);
     file->finish();
     rename_synced(made.path, target);
-  } catch (...) {
+  } catch (const RunError& error) {
     std::error_code ignored;
     std::filesystem::remove(made.path, ignored);
     std::filesystem::remove(made.path.string() + ".records", ignored);
-    throw;
+    std::string text = error.what();
+    const std::string hidden = made.path.string();
+    if (const std::size_t place = text.find(hidden); place != text.npos) {
+      text.replace(place, hidden.size(), path.string());
+    }
+    throw RunError(text);
   }
 }
 
@@ -159,9 +164,9 @@ int convert(const ConvertOptions& options) {
   const Output out{"OUT", options.out};
   require_distinct({&out, 1}, std::vector<std::filesystem::path>{options.in, options.scene});
   require_writable_file(options.out, "OUT");
-  catch_interrupts();
   ParticleFrame frame = frame_of_file(options);
   add_box(frame, options);
+  catch_interrupts();  // the new file is written whole, and a signal ends the reading at once
   with_dimension(frame.dimension, [&](auto dimension) {
     if (format == TrajectoryFormat::Csv) {
       write_file(options.out, state_to_csv(state_of<dimension>(frame)));

@@ -84,7 +84,8 @@ void require_selectable(const EventSelection& selection, const Scene& scene) {
   for (const std::uint32_t particle : selection.particles) {
     if (particle < count) continue;
     throw UserError({"--events-of", 0, 0}, "there is no particle " + std::to_string(particle),
-                    "particles are numbered from 0 to " + std::to_string(count - 1));
+                    count == 0 ? "the scene has no particles"
+                               : "particles are numbered from 0 to " + std::to_string(count - 1));
   }
   if (selection.region.empty()) return;
   const auto sides = static_cast<std::size_t>(2 * scene.dimension());

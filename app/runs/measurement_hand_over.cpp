@@ -11,7 +11,8 @@ namespace clatter {
 template <int D>
 bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>& model,
                     const Measure& measure) {
-  const bool same_spins = saved.spins.empty() != model.spins && same_inertia;
+  const bool same_spins =
+      saved.flights.empty() || (saved.spins.empty() != model.spins && same_inertia);
   const bool same_sums = measure.fields.empty() || same_spins;
   return same_sums && saved.gravity == model.gravity &&
          saved.wall_motions == wall_motions<D>(model);

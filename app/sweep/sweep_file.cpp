@@ -119,8 +119,9 @@ std::string value_of(const Range& range, int index) {
     value = range.to;
   } else if (index > 0) {
     const double share = static_cast<double>(index) / (range.count - 1);
-    value = range.logarithmic ? range.from * std::pow(range.to / range.from, share)
-                              : range.from + share * (range.to - range.from);
+    // Products of powers and shares stay finite where to / from or to - from do not.
+    value = range.logarithmic ? std::pow(range.from, 1.0 - share) * std::pow(range.to, share)
+                              : (1.0 - share) * range.from + share * range.to;
   }
   if (range.whole) return fmt::format("{:.0f}", value);
   const std::string text = fmt::format("{:.12g}", value);

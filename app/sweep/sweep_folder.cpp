@@ -91,7 +91,13 @@ bool can_hold_sweep(const std::filesystem::path& folder) {
 SceneText scene_of(const Sweep& sweep, const std::string& sweep_file) {
   const auto beside = std::filesystem::path(sweep_file).parent_path() / sweep.scene;
   if (is_file(beside)) return find_any_scene(beside.string());
-  SceneText scene = find_any_scene(sweep.scene);
+  SceneText scene;
+  try {
+    scene = find_any_scene(sweep.scene);
+  } catch (const UserError& error) {
+    throw UserError({sweep_file}, "the scene '" + sweep.scene + "': " + error.problem(),
+                    error.advice());
+  }
   if (scene.origin == Origin::Gallery) return scene;
   throw UserError({sweep_file}, "the scene '" + sweep.scene + "' is not in the folder of this file",
                   "give its path from there");

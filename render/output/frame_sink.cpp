@@ -8,8 +8,15 @@ namespace clatter {
 
 void require_folder_format(const std::filesystem::path& path) {
   std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return;
+  // A hidden file such as .mp4 has no extension in C++.
+  const std::string name = path.filename();
+  if (name == ".png" || Movie::knows(name)) {
+    throw UserError({path.string()}, "the name before the extension is missing",
+                    "give a name such as film" + name);
+  }
   const std::string extension = path.extension();
-  if (extension.empty() || std::filesystem::is_directory(path, ignored)) return;
+  if (extension.empty()) return;
   throw UserError({path.string()}, "the format " + extension + " is not supported",
                   "use .mp4, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
 }

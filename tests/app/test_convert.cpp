@@ -172,12 +172,20 @@ TEST_CASE("Convert: malformed text files are refused with the line") {
           "0 1\n0 1\n0 1\nITEM: ATOMS id xs ys zs\n1 0 0 0\n",
           {"a.dump:9: the positions are missing"});
   refused("a.csv", "", {"a.csv: the file has no header line"});
+  refused("a.dump",
+          "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS\n"
+          "0 9\n0 9\n0 9\nITEM: ATOMS id x y vx vy\n1 1 1 0 0\n",
+          {"a.dump:5: the kinds of boundaries are missing"});
+  refused("a.xyz", changed("radius:R:1", "vel:R:1"), {"a.xyz:2: the property \"vel\""});
   refused("a.csv", "x,y,vx\n", {"a.csv:1: the velocities are missing"});
+  refused("a.csv", "x;y;vx;vy\n", {"a.csv:1: unknown column \"x;y;vx;vy\"", "between commas"});
   refused("a.csv", "x,y,vx,vy,w\n", {"a.csv:1: unknown column \"w\""});
   refused("a.csv", "x,y,vx,vy\n1,2,3\n", {"a.csv:2: this line has 3 columns instead of 4"});
   refused("a.csv", "x,y,vx,vy\n1,2,3,inf\n", {"a.csv:2: \"inf\" is no finite number"});
   refused("a.csv", "time,x,y,vx,vy\n0,1,2,3,4\n0,3,4,3,4\n1,1,2,3,4\n",
           {"a.csv:4: the file ends within a frame"});
+  refused("a.csv", "time,x,y,vx,vy\n0,1,2,3,4\n1,1,2,3,4\n1,3,4,3,4\n2,1,2,3,4\n",
+          {"a.csv:5: the frame at time 1 has 2 particles instead of 1"});
   shell.write("b.xyz", good + good);
   check_refused(shell, "clatter convert b.xyz --frame 2 out.csv",
                 {"b.xyz: the file has 2 frames; give --frame from 0 to 1"});
@@ -188,6 +196,62 @@ TEST_CASE("Convert: malformed text files are refused with the line") {
   check_refused(shell, "cp b.xyz b.foo; clatter convert b.foo out.csv; e=$?; rm b.foo; exit $e",
                 {"IN: b.foo has no extension of a trajectory"});
   check_refused(shell, "clatter convert b.xyz out.csv --frame -1", {"--frame"});
+}
+
+TEST_CASE("Convert: no quantity is lost, doubled or invented") {
+  const Shell shell;
+  const auto refused = [&](const std::string& file, const std::string& text,
+                           const std::string& part) {
+    CAPTURE(text);
+    shell.write(file, text);
+    check_refused(shell, "clatter convert " + file + " out.csv", {part});
+  };
+  refused("a.csv", "x,y,x,vx,vy\n1,2,3,0,0\n", "a.csv:1: two columns are x; remove one of them");
+  refused("a.csv", "x,y,z,vx,vy\n1,2,3,0,0\n", "a.csv:1: the velocities of spheres lack vz");
+  refused("a.csv", "x,y,vx,vy,vz\n1,2,0,0,3\n", "a.csv:1: the positions of spheres lack z");
+  const auto dump = [](const std::string& columns, const std::string& atom) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n"
+           "0 9\nITEM: ATOMS " +
+           columns + "\n" + atom + "\n";
+  };
+  refused("a.dump", dump("x y z vx vy", "1 2 3 0 0"), "the velocities of spheres lack vz");
+  refused("a.dump", dump("x y vx vy vz", "1 2 0 0 3"), "the positions of spheres lack z");
+  refused("a.dump", dump("x x y vx vy", "1 1 2 0 0"), "a.dump:9: two columns are x");
+  refused("a.dump", dump("x y vx vy diameter", "1 2 0 0 2"),
+          "a.dump:10: the diameter is 2 instead of 1");
+  // Disks need no velocity along z.
+  shell.write("a.dump", dump("x y z vx vy diameter", "1 2 0 3 4 1"));
+  REQUIRE(shell.run("clatter convert a.dump a.csv").code == 0);
+  CHECK(shell.read("a.csv") == "x,y,vx,vy\n1,2,3,4\n");
+  // A byte order mark, and blank lines between frames.
+  shell.write("b.csv", "\xef\xbb\xbfx,y,vx,vy\r\n1,2,3,4\r\n");
+  REQUIRE(shell.run("clatter convert b.csv out.csv").code == 0);
+  CHECK(shell.read("out.csv") == shell.read("a.csv"));
+  std::string later = kFrame;
+  later.replace(later.find("X 1 2"), 5, "X 2 2");
+  shell.write("b.xyz", std::string(kFrame) + "\n \n" + later + "\n");
+  REQUIRE(shell.run("clatter convert b.xyz out.csv").code == 0);
+  CHECK(shell.read("out.csv") == "x,y,vx,vy\n2,2,0.5,0.25\n3,4,-0.5,0\n");
+}
+
+TEST_CASE("Convert: particles of a CSV are moved into the periodic box of the scene") {
+  const Shell shell;
+  shell.write("s.toml", "box.size = [8, 6]\nparticles.count = 1\n");
+  shell.write("a.csv", "x,y,vx,vy\n-1.5,14,1,0\n");
+  REQUIRE(shell.run("clatter convert a.csv a.xyz --scene s.toml").code == 0);
+  CHECK(says(shell.read("a.xyz"), "\nX 6.5 2 0 1 0 0 -1 2 0 0.5\n"));
+  shell.write("a.csv", "x,y,vx,vy\n1e17,3,1,0\n");
+  check_refused(shell, "clatter convert a.csv b.xyz --scene s.toml",
+                {"a.csv: a periodic image is no whole number of 32 bits"});
+}
+
+TEST_CASE("Convert: a pipe is refused, and a signal ends the reading of a scene at once") {
+  const Shell shell;
+  REQUIRE(shell.run("mkfifo pipe.csv pipe.toml").code == 0);
+  shell.write("a.csv", "x,y,vx,vy\n1,2,3,4\n");
+  check_refused(shell, "clatter convert pipe.csv out.csv", {"IN: pipe.csv is not a regular file"});
+  // timeout(1) has exit code 137 instead of 124 if its second signal, KILL, is needed.
+  CHECK(shell.run("timeout -k 5 0.5 clatter convert a.csv out.xyz --scene pipe.toml").code == 124);
 }
 
 TEST_CASE("Convert: damaged binary files are refused") {
@@ -229,7 +293,7 @@ TEST_CASE("Convert: a full disk leaves the earlier file") {
         shell.run("ulimit -f 20; clatter convert s.csv --scene vibrated out." + format);
     CAPTURE(full.err);
     CHECK(full.code == 1);
-    CHECK(says(full.err, "cannot write "));
+    CHECK(says(full.err, "cannot write out." + format));
     CHECK(shell.files() == before);
     CHECK(shell.read("out." + format) == "earlier");
   }

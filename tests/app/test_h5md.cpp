@@ -89,6 +89,20 @@ TEST_CASE("H5MD: a complete run continues, and a resumed run has the bytes of an
   }
 }
 
+TEST_CASE("H5MD: a complete run continues after an attempt that failed while it read the frames") {
+  const Shell shell;
+  shell.write("s.toml", kDisks);
+  const std::string run = kRun + "--trajectory t.h5md --every 0.1 ";
+  REQUIRE(shell.run(run + "--checkpoint c --until 9.5").code == 0);
+  const std::vector<std::string> before = shell.files();
+  const Outcome full = shell.run("ulimit -f 20; " + run + "--resume c --until 12");
+  CHECK(full.code == 1);
+  CHECK(says(full.err, "File too large"));
+  CHECK(shell.files() == before);
+  REQUIRE(shell.run(run + "--resume c --until 12").code == 0);
+  CHECK(frames_of(shell, "t.h5md").size() == 121);
+}
+
 TEST_CASE("H5MD: a full disk leaves a checkpoint, from which the file is completed") {
   const Shell shell;
   shell.write("s.toml", kDisks);

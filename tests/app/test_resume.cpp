@@ -47,6 +47,16 @@ TEST_CASE("Resume: a measurement that was interrupted or killed ends in the same
   CHECK(shell.run("diff -r whole resumed").code == 0);
 }
 
+TEST_CASE("Resume: a measurement of an empty box of rough disks ends in the same result") {
+  const Shell shell;
+  const std::string line =
+      "clatter measure vibrated --set particles.count=0 --set particles.friction=0.5 "
+      "--set measure.burn_in=1 --until 4 --quiet ";
+  REQUIRE(shell.run(line + "--out whole.json --checkpoint c").code == 0);
+  REQUIRE(shell.run(line + "--out again.json --resume c").code == 0);
+  CHECK(result_of(shell, "again.json") == result_of(shell, "whole.json"));
+}
+
 TEST_CASE("Resume: a measurement of a given accuracy ends in the same result") {
   const Shell shell;
   const std::string line = kRun + "--accuracy 0.5% ";

@@ -483,6 +483,11 @@ TEST_CASE("Sweep: the scene is beside the sweep file or in the gallery") {
   CHECK(says(elsewhere.err,
              "in/s.toml: the scene 'a.toml' is not in the folder of this file; give "
              "its path from there"));
+  for (const std::string name : {"", "nothing"}) {
+    shell.write("other.toml", "scene = \"" + name + "\"\n");
+    check_refused(shell, "clatter sweep other.toml --out d",
+                  {"other.toml: the scene '" + name + "': there is no such scene"});
+  }
   CHECK(shell.run("mv a.toml in; clatter sweep in/s.toml --out d --quiet").code == 0);
 }
 

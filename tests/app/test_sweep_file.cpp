@@ -40,6 +40,10 @@ TEST_CASE("Sweep file: ranges are linear or logarithmic, and whole between whole
   // 10 * 10^(k/3): 21.54, 46.42.
   CHECK(points_of("[axes]\na = { from = 10, to = 100, count = 4, scale = \"log\" }\n") ==
         std::vector<std::string>{"a=10", "a=22", "a=46", "a=100"});
+  CHECK(points_of("[axes]\na = { from = 1e-300, to = 1e300, count = 3, scale = \"log\" }\n") ==
+        std::vector<std::string>{"a=1e-300", "a=1.0", "a=1e+300"});
+  CHECK(points_of("[axes]\na = { from = -1e308, to = 1e308, count = 3 }\n") ==
+        std::vector<std::string>{"a=-1e+308", "a=0.0", "a=1e+308"});
   CHECK(points_of("[axes]\na = { from = 1e-3, to = 1e-1, count = 3, scale = \"log\" }\n") ==
         std::vector<std::string>{"a=0.001", "a=0.01", "a=0.1"});
   CHECK(points_of("[axes]\na = { from = 3, to = 1, count = 1 }\n") ==

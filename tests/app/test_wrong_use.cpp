@@ -31,6 +31,20 @@ TEST_CASE("Wrong use: an unknown flag is named before missing arguments") {
   check_refused(shell, "clatter render vibrated --out a.mp4 word", {"not expected: word"});
 }
 
+TEST_CASE("Wrong use: messages about flags have no words of the parser and no control characters") {
+  const Shell shell;
+  const std::string measure = "clatter measure vibrated ";
+  check_refused(shell, measure + "--out a.json --out b.json", {"--out is given 2 times; give it"});
+  check_refused(shell, measure + "--out", {"--out: the value is missing; give FILE.json; "});
+  check_refused(shell, measure + "--events e.csv --events-of 1,two",
+                {"--events-of: the value '1,two' is wrong; "});
+  check_refused(shell, "clatter render vibrated --out a.mp4 --backend $(printf '\\033[31m')",
+                {"--backend: '\\u001b[31m' is unknown"});
+  check_refused(shell, "clatter check vibrated \"$(printf 'two\nlines')\"", {"two\\u000alines"});
+  check_refused(shell, measure + "--set particles.count=0 --events e.csv --events-of 0",
+                {"there is no particle 0; the scene has no particles"});
+}
+
 TEST_CASE("Wrong use: mistakes in a scene are refused at their line and column") {
   const Shell shell;
   struct Mistake {
@@ -153,6 +167,14 @@ TEST_CASE("Wrong use: output that fails at the end gives exit code 1 and a messa
     CHECK(says(outcome.err, "cannot write /dev/full: "));
     CHECK(says(outcome.err, "; continue with --resume vibrated-seed1.checkpoint\n"));
   }
+}
+
+TEST_CASE("Outputs: a current folder that was removed is named in plain words") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "mkdir gone; cd gone; rmdir ../gone; clatter measure vibrated --until 1 --out a.json");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "clatter: cannot use a.checkpoint: No such file or directory\n"));
 }
 
 TEST_CASE("Outputs: one that fails costs no other, and a checkpoint has the results") {
@@ -478,6 +500,8 @@ TEST_CASE("Wrong use: impossible pictures and films are refused") {
   check_refused(shell, "clatter render vibrated", {"--out"});
   check_refused(shell, "clatter render vibrated --out x.avi",
                 {"x.avi: the format .avi is not supported; use .mp4"});
+  check_refused(shell, "clatter render vibrated --out .mp4",
+                {".mp4: the name before the extension is missing; give a name such as film.mp4"});
   const Outcome outcome =
       shell.run("DISPLAY= clatter render vibrated --backend glfw --out x.png --to 0.1");
   CHECK(outcome.code == 1);

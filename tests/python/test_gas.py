@@ -144,6 +144,13 @@ class Errors(unittest.TestCase):
         words = self.words(TypeError, clatter.load, "vibrated", particles__count=None)
         self.assertIn("NoneType", words)
 
+    def test_text_is_unicode_and_file_names_are_bytes(self):
+        self.words(UnicodeEncodeError, clatter.load, "vibrated", title="\ud800")
+        self.words(UnicodeEncodeError, clatter.load, "\ud800")
+        for name in ("\udcff.toml", b"\xff.toml"):
+            words = self.words(clatter.SceneError, clatter.load, name)
+            self.assertIn("\udcff.toml: there is no such scene;", words)
+
     def test_time_runs_forward(self):
         gas = clatter.load("cooling")
         gas.run_until(2.0)
