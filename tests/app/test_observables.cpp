@@ -173,7 +173,7 @@ TEST_CASE("Observables: JSON, CSV and HDF5 have the same tables") {
       for (const auto& [name, unit] : table.columns) {
         CAPTURE(name);
         ++columns;
-        CHECK(found.at(name).size() > 5);
+        CHECK(found.at(name).size() > 3);
         CHECK(csv.columns.at(name) == found.at(name));
         CHECK(csv.units.at(name) == unit);
         CHECK(datasets.at(name).at("values") == found.at(name));
@@ -286,11 +286,11 @@ TEST_CASE("Observables: settings without their observable are refused") {
     shell.write("p.toml", scene(2, "[\"probe\"]") + "[measure.probe]\n" + keys);
     check_refused(shell, region, told);
   };
-  check_region("lower = [1.0, 1.0, 1.0]\n", {"p.toml:19:9:", "3 numbers", "give 2"});
+  check_region("lower = [1.0, 1.0, 1.0]\n", {"p.toml:20:1:", "3 numbers", "give 2"});
   check_region("lower = [3.0, 1.0]\nupper = [2.0, 5.0]\n",
-               {"p.toml:20:9:", "from 3 to 2 along x", "lower < upper, both from 0 to 11"});
-  check_region("upper = [5.0, 9.5]\n", {"p.toml:19:9:", "along y", "from 0 to 9"});
-  check_region("lower = [-1.0, 0.0]\n", {"p.toml:19:9:", "measure.probe.lower"});
+               {"p.toml:21:1:", "from 3 to 2 along x", "lower < upper, both from 0 to 11"});
+  check_region("upper = [5.0, 9.5]\n", {"p.toml:20:1:", "along y", "from 0 to 9"});
+  check_region("lower = [-1.0, 0.0]\n", {"p.toml:20:1:", "measure.probe.lower"});
   check_refused(shell,
                 "clatter measure vibrated --set "
                 "'measure.observables=[\"radial_distribution_profile\"]' --set "
