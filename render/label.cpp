@@ -2,8 +2,7 @@
 
 namespace clatter {
 
-// Superscripts for "^2" and "^3"; empty for the unit "1".
-static std::string typeset(std::string unit) {
+std::string typeset(std::string unit) {
   if (unit == "1") return "";
   for (const auto& [plain, raised] : {std::pair("^2", "²"), {"^3", "³"}}) {
     for (auto at = unit.find(plain); at != std::string::npos; at = unit.find(plain)) {

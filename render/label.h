@@ -16,6 +16,8 @@ struct Label {
   bool operator==(const Label&) const = default;
 };
 
+/// A unit with superscripts for "^2" and "^3"; empty for the unit "1".
+std::string typeset(std::string unit);
 /// Label of the colour of the particles in `dimension` dimensions.
 Label label_of(ColourBy colour_by, int dimension = 2);
 /// Label of a field in `dimension` dimensions. A field without a component gets the label of the

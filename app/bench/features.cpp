@@ -94,7 +94,9 @@ class Trial {
          {&measure.radial_distribution.interval, &measure.velocity_distribution.interval,
           &measure.structure_factor.interval, &measure.clusters.interval,
           &measure.wall_power.interval, &measure.plane_current.interval,
-          &measure.local_density.interval, &measure.spin_distribution.interval}) {
+          &measure.local_density.interval, &measure.spin_distribution.interval,
+          &measure.probe.interval, &measure.collision_counts.interval,
+          &measure.radial_distribution_profile.interval}) {
       *each = interval;
     }
     for (TimeCorrelationSettings* settings :

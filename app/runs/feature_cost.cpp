@@ -53,9 +53,9 @@ struct ObservablePrice {
   ObservableKind kind;
   double surcharge;
 };
-constexpr std::array<ObservablePrice, 14> kObservablePrices = {
+constexpr std::array<ObservablePrice, 17> kObservablePrices = {
     {{ObservableKind::RadialDistribution, 0.7},
-     {ObservableKind::VelocityDistribution, 0.05},
+     {ObservableKind::VelocityDistribution, 0.09},
      {ObservableKind::FreeFlights, 0.17},
      {ObservableKind::Collisions, 0.22},
      {ObservableKind::WallHits, 0.12},
@@ -67,7 +67,10 @@ constexpr std::array<ObservablePrice, 14> kObservablePrices = {
      {ObservableKind::WallPower, 0.13},
      {ObservableKind::PlaneCurrent, 0.23},
      {ObservableKind::LocalDensity, 0.07},
-     {ObservableKind::SpinDistribution, 0.18}}};
+     {ObservableKind::SpinDistribution, 0.18},
+     {ObservableKind::Probe, 0.08},
+     {ObservableKind::CollisionCounts, 0.24},
+     {ObservableKind::RadialDistributionProfile, 1.5}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;

@@ -13,6 +13,7 @@
 #include "app/view/panels.h"
 #include "app/view/plots.h"
 #include "app/view/style.h"
+#include "app/view/table_plots.h"
 #include "app/view/top_bar.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_file.h"
@@ -187,11 +188,36 @@ void Gui::plots_drawer(float top, float width) {
       "mass, momentum and energy in the worst window. They start when the plots open, or when "
       "laws, averages or trails change. The engine then does about twice the work",
       profile_names(profile_axis()), profiled_, 0);
+  observable_plots(std::round(0.62f * width));
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
     draw_plot(plot, std::round(0.62f * width));
     ImGui::Spacing();
   }
   ImGui::End();
+}
+
+// The tables of the scene's observables, one of them plotted.
+void Gui::observable_plots(float height) {
+  const auto& tables = session_.frame().observables;
+  if (!tables) return;
+  if (tables->empty()) {
+    ImGui::TextDisabled("The observables of the scene have no values yet.");
+    return;
+  }
+  std::vector<std::string> titles;
+  for (const ResultTable& table : *tables) titles.push_back(table_title(table));
+  const auto known = std::ranges::find(titles, observable_);
+  int chosen = known == titles.end() ? 0 : static_cast<int>(known - titles.begin());
+  controls_.choice("plots.observable", "Observable",
+                   "A table of measure.observables, with bands of one standard error. Averages "
+                   "start with the run, and again when laws change",
+                   titles, chosen, 0);
+  const auto index = static_cast<std::size_t>(chosen);
+  observable_ = titles[index];
+  for (const LivePlot& plot : table_plots((*tables)[index], panel_theme(shown_view()))) {
+    draw_plot(plot, height);
+    ImGui::Spacing();
+  }
 }
 
 void Gui::viewport() {

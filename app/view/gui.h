@@ -46,6 +46,7 @@ class Gui {
   float top_panel();
   void left_panel(float top, float width);
   void plots_drawer(float top, float width);
+  void observable_plots(float height);
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
   Axis profile_axis() const;
   void viewport();
@@ -76,6 +77,7 @@ class Gui {
   History history_;
   int profiled_ = 0;  // index into profile_names()
   int profile_axis_ = 0;
+  std::string observable_;  // table_title() of the plotted table; unknown: the first
   std::optional<ProgramJob> film_;
   std::string film_file_;  // file of the film that is made
   GuiLayer gui_;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/results/theory_json.h"
+#include "app/view/plot_colours.h"
 #include "engine/scene/text.h"
 #include "render/label.h"
 
@@ -13,13 +14,6 @@ namespace clatter {
 
 namespace {
 
-// Colours for colour-blind readers (Okabe and Ito 2008).
-constexpr Colour kBlue = {0x56, 0xb4, 0xe9}, kOrange = {0xe6, 0x9f, 0x00},
-                 kGreen = {0x00, 0x9e, 0x73}, kRed = {0xd5, 0x5e, 0x00},
-                 kPurple = {0xcc, 0x79, 0xa7}, kYellow = {0xcf, 0xc0, 0x2a};
-
-// Of the curves along x, y and z.
-constexpr std::array<Colour, 3> kAxisColours = {kOrange, kBlue, kYellow};
 constexpr std::array<const char*, 3> kAxisNames = {"x", "y", "z"};
 
 // The theories of chapter 7 of docs/theory.md.

@@ -22,16 +22,31 @@ namespace {
 class DensityTable {
  public:
   DensityTable(std::string name, const std::string& unit, std::span<const ObservableSums> parts,
-               std::size_t total)
-      : table_{std::move(name),
-               {{"low", unit, {}}, {"high", unit, {}}, {"density", inverse(unit), {}}}},
+               std::vector<NamedBins> densities, std::size_t total)
+      : table_{std::move(name), {{"low", unit, {}}, {"high", unit, {}}}},
         parts_(parts),
-        total_(total) {}
+        densities_(std::move(densities)),
+        total_(total) {
+    for (const NamedBins& density : densities_) {
+      table_.columns.push_back({density.column, inverse(unit), {}});
+    }
+  }
 
-  void add(std::size_t counts, double low, double high) {
+  void add(std::size_t bin, double low, double high) {
     table_.columns[0].values.push_back(low);
     table_.columns[1].values.push_back(high);
-    append(table_.columns[2], ratio_of(parts_, counts, total_, high - low));
+    for (std::size_t k = 0; k < densities_.size(); ++k) {
+      append(table_.columns[2 + k],
+             ratio_of(parts_, densities_[k].first + bin, total_, high - low));
+    }
+  }
+
+  bool is_filled(std::size_t bin) const {
+    return std::ranges::any_of(densities_, [&](const NamedBins& density) {
+      return std::ranges::any_of(parts_, [&](const ObservableSums& part) {
+        return part.values[density.first + bin] > 0.0;
+      });
+    });
   }
 
   ResultTable table() && { return std::move(table_); }
@@ -39,23 +54,24 @@ class DensityTable {
  private:
   ResultTable table_;
   std::span<const ObservableSums> parts_;
+  std::vector<NamedBins> densities_;
   std::size_t total_;
 };
 
-bool is_filled(std::span<const ObservableSums> parts, std::size_t bin) {
-  return std::ranges::any_of(parts,
-                             [&](const ObservableSums& part) { return part.values[bin] > 0.0; });
+// The columns of a single histogram.
+std::vector<NamedBins> single(std::size_t first) {
+  return {{"density", first}};
 }
 
 // The table of all bins with counts.
 template <class Bins>
 ResultTable filled_bins(std::string name, const std::string& unit,
-                        std::span<const ObservableSums> parts, std::size_t first,
-                        std::size_t total) {
-  DensityTable densities(std::move(name), unit, parts, total);
+                        std::span<const ObservableSums> parts,
+                        const std::vector<NamedBins>& columns, std::size_t total) {
+  DensityTable densities(std::move(name), unit, parts, columns, total);
   for (std::size_t bin = 0; bin < Bins::kCount; ++bin) {
-    if (!is_filled(parts, first + bin)) continue;
-    densities.add(first + bin, Bins::edge(bin), Bins::edge(bin + 1));
+    if (!densities.is_filled(bin)) continue;
+    densities.add(bin, Bins::edge(bin), Bins::edge(bin + 1));
   }
   return std::move(densities).table();
 }
@@ -65,15 +81,15 @@ template <class Bins>
 ResultTable bins_in_range(std::string name, const std::string& unit,
                           std::span<const ObservableSums> parts, std::size_t first,
                           std::size_t total) {
+  DensityTable densities(std::move(name), unit, parts, single(first), total);
   std::size_t begin = Bins::kCount, end = 0;
   for (std::size_t bin = 0; bin < Bins::kCount; ++bin) {
-    if (!is_filled(parts, first + bin)) continue;
+    if (!densities.is_filled(bin)) continue;
     begin = std::min(begin, bin);
     end = bin + 1;
   }
-  DensityTable densities(std::move(name), unit, parts, total);
   for (std::size_t bin = begin; bin < end; ++bin) {
-    densities.add(first + bin, Bins::edge(bin), Bins::edge(bin + 1));
+    densities.add(bin, Bins::edge(bin), Bins::edge(bin + 1));
   }
   return std::move(densities).table();
 }
@@ -94,12 +110,18 @@ ResultTable count_histogram(std::string name, std::span<const ObservableSums> pa
 ResultTable signed_log_histogram(std::string name, const std::string& unit,
                                  std::span<const ObservableSums> parts, std::size_t first,
                                  std::size_t total) {
-  return filled_bins<SignedLogBins>(std::move(name), unit, parts, first, total);
+  return filled_bins<SignedLogBins>(std::move(name), unit, parts, single(first), total);
+}
+
+ResultTable signed_log_histogram(std::string name, const std::string& unit,
+                                 std::span<const ObservableSums> parts,
+                                 const std::vector<NamedBins>& densities, std::size_t total) {
+  return filled_bins<SignedLogBins>(std::move(name), unit, parts, densities, total);
 }
 
 ResultTable signed_count_histogram(std::string name, std::span<const ObservableSums> parts,
                                    std::size_t first, std::size_t total) {
-  return filled_bins<SignedCountBins>(std::move(name), "1", parts, first, total);
+  return filled_bins<SignedCountBins>(std::move(name), "1", parts, single(first), total);
 }
 
 ResultTable linear_histogram(std::string name, const std::string& unit,
@@ -108,9 +130,9 @@ ResultTable linear_histogram(std::string name, const std::string& unit,
   const auto edge = [&](std::size_t bin) {
     return low + (high - low) * static_cast<double>(bin) / static_cast<double>(bins);
   };
-  DensityTable densities(std::move(name), unit, parts, total);
+  DensityTable densities(std::move(name), unit, parts, single(first), total);
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    densities.add(first + bin, edge(bin), edge(bin + 1));
+    densities.add(bin, edge(bin), edge(bin + 1));
   }
   return std::move(densities).table();
 }

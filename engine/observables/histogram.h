@@ -2,10 +2,17 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/observables/observable.h"
 
 namespace clatter {
+
+/// The bins of a column of densities.
+struct NamedBins {
+  std::string column;
+  std::size_t first;  ///< index of the first count in the sums
+};
 
 /// The table of a histogram with LogBins: columns `low`, `high` and `density`, the share of the
 /// counts per unit of the quantity. The counts are values[first] to values[first + kCount - 1] of
@@ -23,6 +30,11 @@ ResultTable count_histogram(std::string name, std::span<const ObservableSums> pa
 ResultTable signed_log_histogram(std::string name, const std::string& unit,
                                  std::span<const ObservableSums> parts, std::size_t first,
                                  std::size_t total);
+
+/// The same with a column for the counts of each of `densities`, instead of `density`.
+ResultTable signed_log_histogram(std::string name, const std::string& unit,
+                                 std::span<const ObservableSums> parts,
+                                 const std::vector<NamedBins>& densities, std::size_t total);
 
 /// The same with SignedCountBins, as in count_histogram. Bins without counts have no row.
 ResultTable signed_count_histogram(std::string name, std::span<const ObservableSums> parts,

@@ -2,13 +2,16 @@
 
 #include "engine/observables/bond_order.h"
 #include "engine/observables/clusters.h"
+#include "engine/observables/collision_counts.h"
 #include "engine/observables/collision_statistics.h"
 #include "engine/observables/count_bins.h"
 #include "engine/observables/free_flights.h"
 #include "engine/observables/local_density.h"
 #include "engine/observables/log_bins.h"
 #include "engine/observables/plane_current.h"
+#include "engine/observables/probe.h"
 #include "engine/observables/radial_distribution.h"
+#include "engine/observables/radial_distribution_profile.h"
 #include "engine/observables/signed_bins.h"
 #include "engine/observables/spin_distribution.h"
 #include "engine/observables/structure_factor.h"
@@ -63,6 +66,13 @@ static std::unique_ptr<Observable> make_observable(ObservableKind kind, Simulati
       return std::make_unique<LocalDensity<D>>(simulation, measure.local_density);
     case ObservableKind::SpinDistribution:
       return std::make_unique<SpinDistribution<D>>(simulation, measure.spin_distribution);
+    case ObservableKind::Probe:
+      return std::make_unique<Probe<D>>(simulation, measure.probe);
+    case ObservableKind::CollisionCounts:
+      return std::make_unique<CollisionCounts<D>>(simulation);
+    case ObservableKind::RadialDistributionProfile:
+      return std::make_unique<RadialDistributionProfile<D>>(simulation,
+                                                            measure.radial_distribution_profile);
   }
   return nullptr;
 }
@@ -141,14 +151,18 @@ void Observables<D>::restore(ArchiveReader& io) {
 
 std::vector<std::string> observable_tables() {
   std::vector<std::string> names = {"radial_distribution",
+                                    "radial_distribution_profile",
                                     "velocity_distribution",
                                     "velocity_distribution.speed",
+                                    "velocity_distribution.tails",
                                     "free_flights.time",
                                     "free_flights.path",
                                     "collisions.impact_parameter",
                                     "collisions.normal_speed",
                                     "collisions.tangential_speed",
                                     "collisions.energy_loss",
+                                    "collision_counts.particle",
+                                    "collision_counts.pair",
                                     "mean_squared_displacement",
                                     "velocity_autocorrelation",
                                     "structure_factor",
@@ -158,6 +172,7 @@ std::vector<std::string> observable_tables() {
                                     "wall_power.total",
                                     "plane_current.number",
                                     "local_density.number",
+                                    "probe.series",
                                     "spin_distribution.components",
                                     "spin_distribution.cosine"};
   for (const char* side : kSideNames) {
@@ -194,7 +209,13 @@ double observables_memory(const Scene& scene) {
         bytes += sums(measure.radial_distribution.bins + 2.0, 2.0) + sample;
         break;
       case ObservableKind::VelocityDistribution:
-        bytes += sums(dimension * measure.velocity_distribution.bins + kBins, 3.0);
+        bytes +=
+            sums(dimension * (measure.velocity_distribution.bins + 2.0 * kBins) + kBins, 12.0) +
+            dimension * sizeof(double) * particles;
+        if (measure.velocity_distribution.region.lower ||
+            measure.velocity_distribution.region.upper) {
+          bytes += sample;
+        }
         break;
       case ObservableKind::SpinDistribution:
         bytes += sums(dimension * measure.spin_distribution.bins + 54.0, 4.0) + sample;
@@ -233,6 +254,17 @@ double observables_memory(const Scene& scene) {
         bytes += sums(CountBins::kCount + 3.0, 3.0) + sample +
                  sizeof(std::uint32_t) * measure.local_density.number_of_cells(scene.box);
         break;
+      case ObservableKind::Probe:
+        bytes += sums(9.0, 9.0) + sample + Probe<3>::kRows * (9.0 + 6.0) * sizeof(double);
+        break;
+      case ObservableKind::CollisionCounts:
+        bytes += sums(2.0 * CountBins::kCount + 5.0, 5.0) + CollisionCounts<3>::memory(particles);
+        break;
+      case ObservableKind::RadialDistributionProfile: {
+        const RadialProfileSettings& profile = measure.radial_distribution_profile;
+        bytes += sums(profile.slabs * (profile.bins + 1.0) + 1.0, 0.0) + sample;
+        break;
+      }
     }
   }
   return bytes;

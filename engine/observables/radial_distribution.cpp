@@ -6,14 +6,9 @@
 #include <limits>
 #include <numbers>
 
-namespace clatter {
+#include "engine/observables/region_of_centres.h"
 
-// The region of centres along an axis: the period, or the distance between wall planes.
-template <int D>
-static double room_of(const Model<D>& model, int axis) {
-  return model.periodic(axis) ? model.box[axis]
-                              : model.wall_plane(axis, 1) - model.wall_plane(axis, 0);
-}
+namespace clatter {
 
 // Sums: samples, g at contact times samples, pairs in each bin.
 struct RadialSums {
@@ -21,15 +16,6 @@ struct RadialSums {
   static constexpr std::size_t kContact = 1;
   static constexpr std::size_t kBins = 2;
 };
-
-// Beyond this distance expected_share() would need other terms.
-template <int D>
-static double longest_distance(const Model<D>& model, double range) {
-  for (int axis = 0; axis < D; ++axis) {
-    range = std::min(range, (model.periodic(axis) ? 0.5 : 1.0) * room_of(model, axis));
-  }
-  return range;
-}
 
 // Weights of the bins' values that give the value at contact of the parabola fitted to the bins
 // within kReach. Empty if these are too few.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "engine/observables/count_bins.h"
@@ -12,8 +13,9 @@ struct SignedLogBins {
   static constexpr std::size_t kCount = 2 * LogBins::kCount;
 
   static std::size_t of(double number) {
-    return number < 0.0 ? LogBins::kCount - 1 - LogBins::of(-number)
-                        : LogBins::kCount + LogBins::of(number);
+    // Without a branch, because signs are random: ~bin is -1 - bin.
+    const auto sign = static_cast<std::size_t>(number < 0.0);
+    return LogBins::kCount + (LogBins::of(std::fabs(number)) ^ (std::size_t{0} - sign));
   }
   /// Lower edge of a bin. The upper edge is that of the next bin.
   static double edge(std::size_t bin) {

@@ -1,113 +1,186 @@
 #include "engine/observables/velocity_distribution.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "engine/observables/histogram.h"
 #include "engine/observables/log_bins.h"
+#include "engine/observables/signed_bins.h"
 #include "engine/scene/scene_keys.h"
 
 namespace clatter {
 
 namespace {
 
-// Layout of the sums. The speed c is in units of sqrt(2 T/m).
+// Layout of the sums. The moments are relative to those of a Gaussian.
+template <int D>
 struct VelocitySums {
   static constexpr std::size_t kCount = 0;
-  static constexpr std::size_t kFourth = 1;                        // of c^4
-  static constexpr std::size_t kSixth = 2;                         // of c^6
-  static constexpr std::size_t kSpeeds = 3;                        // bins of |u|
-  static constexpr std::size_t kBins = kSpeeds + LogBins::kCount;  // of each axis in turn
+  static constexpr std::size_t kFourth = 1;   // of c^4 of the speed c in units of sqrt(2 T/m)
+  static constexpr std::size_t kSixth = 2;    // of c^6
+  static constexpr std::size_t kMoments = 3;  // second, third, fourth of each axis in turn
+  static constexpr std::size_t kSpeeds = kMoments + 3 * D;  // bins of |u|
+  static constexpr std::size_t kTails = kSpeeds + LogBins::kCount;
+  static constexpr std::size_t kBins = kTails + D * SignedLogBins::kCount;  // of each axis in turn
+
+  static constexpr std::size_t moments_of(std::size_t axis) { return kMoments + 3 * axis; }
+  static constexpr std::size_t tails_of(std::size_t axis) {
+    return kTails + axis * SignedLogBins::kCount;
+  }
 };
+
+// Factors that make the moments of Gaussian velocities those of a Gaussian, for any number of
+// particles. The sample's own T and mean velocity are used, so the velocities are on a sphere in n
+// dimensions (theory 11.5).
+struct MomentFactors {
+  double second, third, fourth, fourth_of_speed, sixth_of_speed;
+};
+
+template <int D>
+MomentFactors moment_factors(double count) {
+  const double n = D * (count - 1.0);
+  const double own = count / (count - 1.0);  // n over the mean square of all particles
+  const double fourth = own * own * (n + 2.0) / n;
+  const double sixth = own * own * own * (n + 2.0) * (n + 4.0) / (n * n);
+  return {own, own * std::sqrt(own), fourth, fourth * 4.0 / (D * (D + 2)),
+          sixth * 8.0 / (D * (D + 2) * (D + 4))};
+}
 
 }  // namespace
 
 template <int D>
+VelocityDistribution<D>::VelocityDistribution(const Simulation<D>& simulation,
+                                              const VelocityDistributionSettings& settings)
+    : simulation_(simulation),
+      range_(settings.range),
+      bins_(static_cast<std::size_t>(settings.bins)) {
+  if (settings.region.lower || settings.region.upper) {
+    region_.emplace(simulation.model(), settings.region, 0.0, 1.0);
+  }
+}
+
+template <int D>
 std::size_t VelocityDistribution<D>::size() const {
-  return VelocitySums::kBins + static_cast<std::size_t>(D * settings_.bins);
+  return VelocitySums<D>::kBins + D * bins_;
 }
 
 template <int D>
 std::size_t VelocityDistribution<D>::mean_size() const {
-  return VelocitySums::kSpeeds;
+  return VelocitySums<D>::kSpeeds;
+}
+
+template <int D>
+void VelocityDistribution<D>::find_velocities() {
+  velocities_.clear();
+  if (region_) {
+    const State<D> state = simulation_.state();
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      if (region_->contains(state.positions[i])) velocities_.push_back(state.velocities[i]);
+    }
+    return;
+  }
+  const double now = simulation_.base_time();
+  for (const Particle<D>& particle : simulation_.particles()) {
+    velocities_.push_back(particle.flight.velocity_at(now, simulation_.model().gravity));
+  }
 }
 
 template <int D>
 void VelocityDistribution<D>::sample() {
-  const auto& particles = simulation_.particles();
-  const auto count = static_cast<double>(particles.size());
-  const double now = simulation_.base_time();
-  const Vec<D>& gravity = simulation_.model().gravity;
+  using Sums = VelocitySums<D>;
+  find_velocities();
+  const auto count = static_cast<double>(velocities_.size());
   Vec<D> mean = Vec<D>::Zero();
-  for (const Particle<D>& particle : particles) mean += particle.flight.velocity_at(now, gravity);
+  for (const Vec<D>& velocity : velocities_) mean += velocity;
   mean /= count;
   double squares = 0.0;
-  for (const Particle<D>& particle : particles) {
-    squares += (particle.flight.velocity_at(now, gravity) - mean).squaredNorm();
-  }
+  for (const Vec<D>& velocity : velocities_) squares += (velocity - mean).squaredNorm();
   // The mean velocity takes D degrees of freedom.
   const double thermal = std::sqrt(squares / (D * (count - 1.0)));
   if (!std::isnormal(thermal)) return;
-  const double per_bin = settings_.bins / (2.0 * settings_.range);
+  const MomentFactors factors = moment_factors<D>(count);
+  const double per_bin = static_cast<double>(bins_) / (2.0 * range_);
   std::vector<double>& sums = sums_.values;
-  for (const Particle<D>& particle : particles) {
-    const Vec<D> scaled = (particle.flight.velocity_at(now, gravity) - mean) / thermal;
+  Vec<D> second = Vec<D>::Zero(), third = Vec<D>::Zero(), fourth = Vec<D>::Zero();
+  for (const Vec<D>& velocity : velocities_) {
+    const Vec<D> scaled = (velocity - mean) / thermal;
     const double square = 0.5 * scaled.squaredNorm();
-    sums[VelocitySums::kFourth] += square * square;
-    sums[VelocitySums::kSixth] += square * square * square;
-    sums[VelocitySums::kSpeeds + LogBins::of(scaled.norm())] += 1.0;
-    for (int axis = 0; axis < D; ++axis) {
-      const double bin = (scaled[axis] + settings_.range) * per_bin;
-      if (!(bin >= 0.0 && bin < settings_.bins)) continue;
-      sums[VelocitySums::kBins + static_cast<std::size_t>(axis * settings_.bins) +
-           static_cast<std::size_t>(bin)] += 1.0;
+    sums[Sums::kFourth] += factors.fourth_of_speed * square * square;
+    sums[Sums::kSixth] += factors.sixth_of_speed * square * square * square;
+    sums[Sums::kSpeeds + LogBins::of(scaled.norm())] += 1.0;
+    const Vec<D> squared = scaled.cwiseProduct(scaled);
+    second += squared;
+    third += squared.cwiseProduct(scaled);
+    fourth += squared.cwiseProduct(squared);
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const double component = scaled[static_cast<int>(axis)];
+      sums[Sums::tails_of(axis) + SignedLogBins::of(component)] += 1.0;
+      const double bin = (component + range_) * per_bin;
+      if (!(bin >= 0.0 && bin < static_cast<double>(bins_))) continue;
+      sums[Sums::kBins + axis * bins_ + static_cast<std::size_t>(bin)] += 1.0;
     }
   }
-  sums[VelocitySums::kCount] += count;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    double* const moments = &sums[Sums::moments_of(axis)];
+    moments[0] += factors.second * second[static_cast<int>(axis)];
+    moments[1] += factors.third * third[static_cast<int>(axis)];
+    moments[2] += factors.fourth * fourth[static_cast<int>(axis)];
+  }
+  sums[Sums::kCount] += count;
 }
 
-// (theory 11.5). The sample's own T and mean velocity are used, so the velocities are on a sphere
-// in n dimensions. The factors make a2 and a3 of a uniform distribution on it 0.
+static std::string axis_name(std::size_t axis) {
+  return std::string(kAxes[axis].name);
+}
+
+template <int D>
+ResultTable VelocityDistribution<D>::components(const ObservableParts& parts) const {
+  ResultTable table{"velocity_distribution", {{"low", "1", {}}, {"high", "1", {}}}};
+  for (std::size_t axis = 0; axis < D; ++axis) table.columns.push_back({axis_name(axis), "1", {}});
+  const double width = 2.0 * range_ / static_cast<double>(bins_);
+  for (std::size_t bin = 0; bin < bins_; ++bin) {
+    table.columns[0].values.push_back(-range_ + static_cast<double>(bin) * width);
+    table.columns[1].values.push_back(-range_ + static_cast<double>(bin + 1) * width);
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      append(table.columns[2 + axis],
+             ratio_of(parts.coarse, VelocitySums<D>::kBins + axis * bins_ + bin,
+                      VelocitySums<D>::kCount, width));
+    }
+  }
+  return table;
+}
+
 template <int D>
 ObservableResult VelocityDistribution<D>::result(const ObservableParts& parts) const {
-  const double count = static_cast<double>(simulation_.particles().size());
-  const double n = D * (count - 1.0);
-  const double own = count / (count - 1.0);  // n over the mean square of all particles
-  const double fourth_gauss = D * (D + 2) / 4.0 * n / (n + 2.0) / (own * own);
-  const double sixth_gauss =
-      D * (D + 2) * (D + 4) / 8.0 * n * n / ((n + 2.0) * (n + 4.0)) / (own * own * own);
-  Estimate a2 = ratio_of(parts.fine, VelocitySums::kFourth, VelocitySums::kCount, fourth_gauss);
+  using Sums = VelocitySums<D>;
+  Estimate a2 = ratio_of(parts.fine, Sums::kFourth, Sums::kCount);
   a2.mean -= 1.0;
   // <c^6> = <c^6>_Gauss (1 + 3 a2 - a3)
   std::vector<double> numerator, denominator;
   for (const ObservableSums& part : parts.fine) {
-    const std::vector<double>& sums = part.values;
-    numerator.push_back(3.0 * sums[VelocitySums::kFourth] / fourth_gauss -
-                        sums[VelocitySums::kSixth] / sixth_gauss);
-    denominator.push_back(sums[VelocitySums::kCount]);
+    numerator.push_back(3.0 * part.values[Sums::kFourth] - part.values[Sums::kSixth]);
+    denominator.push_back(part.values[Sums::kCount]);
   }
   Estimate a3 = ratio_of(numerator, denominator);
   a3.mean -= 2.0;
-
-  ResultTable table{"velocity_distribution", {{"low", "1", {}}, {"high", "1", {}}}};
-  for (int axis = 0; axis < D; ++axis) {
-    table.columns.push_back({std::string(kAxes[static_cast<std::size_t>(axis)].name), "1", {}});
-  }
-  const double width = 2.0 * settings_.range / settings_.bins;
-  for (int bin = 0; bin < settings_.bins; ++bin) {
-    table.columns[0].values.push_back(-settings_.range + bin * width);
-    table.columns[1].values.push_back(-settings_.range + (bin + 1) * width);
-    for (int axis = 0; axis < D; ++axis) {
-      const auto index =
-          VelocitySums::kBins + static_cast<std::size_t>(axis * settings_.bins + bin);
-      append(table.columns[static_cast<std::size_t>(2 + axis)],
-             ratio_of(parts.coarse, index, VelocitySums::kCount, width));
+  ObservableResult result{{components(parts)},
+                          {{"velocity_distribution.a2", a2}, {"velocity_distribution.a3", a3}}};
+  std::vector<NamedBins> axes;
+  constexpr std::array<const char*, 3> kMoments = {"second", "third", "fourth"};
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    axes.push_back({axis_name(axis), Sums::tails_of(axis)});
+    for (std::size_t moment = 0; moment < kMoments.size(); ++moment) {
+      result.means.emplace_back(
+          std::string("velocity_distribution.") + kMoments[moment] + "_moment_" + axis_name(axis),
+          ratio_of(parts.fine, Sums::moments_of(axis) + moment, Sums::kCount));
     }
   }
-  ResultTable speeds = log_histogram("velocity_distribution.speed", "1", parts.coarse,
-                                     VelocitySums::kSpeeds, VelocitySums::kCount);
-  return {{std::move(table), std::move(speeds)},
-          {{"velocity_distribution.a2", a2}, {"velocity_distribution.a3", a3}}};
+  result.tables.push_back(
+      signed_log_histogram("velocity_distribution.tails", "1", parts.coarse, axes, Sums::kCount));
+  result.tables.push_back(
+      log_histogram("velocity_distribution.speed", "1", parts.coarse, Sums::kSpeeds, Sums::kCount));
+  return result;
 }
 
 template class VelocityDistribution<2>;

@@ -1,22 +1,27 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/observable.h"
+#include "engine/observables/region.h"
 #include "engine/scene/observable_settings.h"
 
 namespace clatter {
 
-/// Distribution of the velocities relative to the mean velocity, in units of the thermal speed
-/// sqrt(T/m) of the same time (theory 11.4). Table "velocity_distribution" has a density for each
-/// axis, and table "velocity_distribution.speed" that of the speed. The means
-/// "velocity_distribution.a2" and ".a3" are the Sonine coefficients of the speed.
+/// Distribution of the velocities in the box or in a region, relative to their mean, in units of
+/// the thermal speed sqrt(T/m) of the same particles and time (theory 11.4). Table
+/// "velocity_distribution" has a density for each axis, "velocity_distribution.tails" the same in
+/// logarithmic bins, and "velocity_distribution.speed" that of the speed. The means
+/// "velocity_distribution.a2" and ".a3" are the Sonine coefficients of the speed,
+/// ".second_moment_x", ".third_moment_x", ".fourth_moment_x" and so on moments of the components.
 template <int D>
 class VelocityDistribution final : public Observable {
  public:
-  VelocityDistribution(const Simulation<D>& simulation, const DistributionSettings& settings)
-      : simulation_(simulation), settings_(settings) {}
+  VelocityDistribution(const Simulation<D>& simulation,
+                       const VelocityDistributionSettings& settings);
 
   std::size_t size() const override;
   std::size_t mean_size() const override;
@@ -24,8 +29,14 @@ class VelocityDistribution final : public Observable {
   ObservableResult result(const ObservableParts& parts) const override;
 
  private:
+  void find_velocities();
+  ResultTable components(const ObservableParts& parts) const;
+
   const Simulation<D>& simulation_;
-  DistributionSettings settings_;
+  double range_;
+  std::size_t bins_;
+  std::optional<Region<D>> region_;  // absent: the box
+  std::vector<Vec<D>> velocities_;   // of a sample
 };
 
 extern template class VelocityDistribution<2>;

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/measure/profile.h"
+#include "engine/observables/observable.h"
 #include "engine/publish/collision_lookahead.h"
 #include "engine/publish/live_profile.h"
 #include "engine/publish/snapshot.h"
@@ -44,7 +46,10 @@ struct Frame {
       started;                     ///< at the run's start; its start state may exist in no file
   std::optional<Profile> profile;  ///< since its request or the last change of laws, averages or
                                    ///< trails; absent: not requested
-  std::optional<ResidualProfile> residuals;         ///< as for `profile`
+  std::optional<ResidualProfile> residuals;  ///< as for `profile`
+  /// Tables of the scene's observables since the start or the last change of laws; nullptr: the
+  /// scene has none, or profiles are not requested.
+  std::shared_ptr<const std::vector<ResultTable>> observables;
   std::optional<ParticleCollision> last_collision;  ///< of the picked particle, since it was picked
   std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
   std::uint64_t seed = 1;

@@ -4,6 +4,7 @@
 
 #include "engine/dimension.h"
 #include "engine/measure/totals.h"
+#include "engine/publish/live_observables.h"
 #include "engine/publish/live_profile.h"
 #include "engine/publish/moving_sum.h"
 #include "engine/publish/scheduled_run.h"
@@ -29,7 +30,7 @@ class RunOf : public WatchedRun {
   void change(const std::vector<Override>& laws, double delay) override {
     run_.change(laws, delay);
   }
-  void show(const View& view) override { run_.show(view); }
+  void show(const View& view) override;
   void show_profile(Profiled what, Axis axis) override;
   void pick(std::optional<std::uint32_t> particle) override;
   void tell(Frame& frame, bool halted) override;
@@ -46,6 +47,7 @@ class RunOf : public WatchedRun {
   };
 
   void observe(Simulation<D>& simulation);
+  void observe_requested(Simulation<D>& simulation, double window);
   void close_window();
   std::optional<ParticleCollision> next_collision(bool halted);
   std::optional<ContactTimeError> contact_time_error() const;
@@ -62,6 +64,8 @@ class RunOf : public WatchedRun {
   Axis profile_axis_ = Axis::X;
   std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
   std::optional<LiveResiduals<D>> residuals_;
+  std::unique_ptr<LiveObservables<D>> observables_;  // absent: the scene has none
+  bool same_laws_ = false;  // the next simulation has the laws of the present one
   Tally tally_;
   Tally tally_at_laws_;  // at the last change of laws
   std::shared_ptr<const Scene> started_;
@@ -97,6 +101,22 @@ void RunOf<D>::observe(Simulation<D>& simulation) {
   const double window = run_.laws().view.window / kWindowParts;
   if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window, profile_axis_);
   if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window, profile_axis_);
+  observe_requested(simulation, window);
+}
+
+template <int D>
+void RunOf<D>::observe_requested(Simulation<D>& simulation, double window) {
+  const Measure& measure = run_.laws().measure;
+  if (measure.observables.empty()) return;
+  observables_ = same_laws_ ? std::make_unique<LiveObservables<D>>(simulation, *observables_)
+                            : std::make_unique<LiveObservables<D>>(simulation, measure, window);
+}
+
+template <int D>
+void RunOf<D>::show(const View& view) {
+  same_laws_ = true;
+  run_.show(view);
+  same_laws_ = false;
 }
 
 template <int D>
@@ -114,7 +134,9 @@ void RunOf<D>::show_profile(Profiled what, Axis axis) {
   if (what == profiled_ && axis == profile_axis_) return;
   profiled_ = what;
   profile_axis_ = axis;
+  same_laws_ = true;
   run_.renew();
+  same_laws_ = false;
 }
 
 template <int D>
@@ -168,6 +190,10 @@ void RunOf<D>::tell(Frame& frame, bool halted) {
   if (profile_) frame.profile = profile_->profile();
   frame.residuals.reset();
   if (residuals_) frame.residuals = residuals_->profile();
+  frame.observables.reset();
+  if (observables_ && profiled_ != Profiled::Nothing) {
+    frame.observables = observables_->tables(halted);
+  }
   frame.seed = run_.seed();
   frame.contact_time_error = contact_time_error();
   frame.ledger_residual = totals_->ledger_residual();

@@ -84,6 +84,14 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
             [&] { measure.profile_axis = Axis::X; });
   remove_if(flat && measure.plane_current.axis == Axis::Z, "measure.plane_current.axis",
             [&] { measure.plane_current.axis = Axis::X; });
+  remove_if(flat && measure.radial_distribution_profile.axis == Axis::Z,
+            "measure.radial_distribution_profile.axis",
+            [&] { measure.radial_distribution_profile.axis = Axis::X; });
+  const auto remove_region = [&](RegionSettings& region, const char* key) {
+    remove_if(region.lower || region.upper, key, [&] { region = {}; });
+  };
+  remove_region(measure.velocity_distribution.region, "region of measure.velocity_distribution");
+  remove_region(measure.probe.region, "region of measure.probe");
   remove_if(!flat && measure.observes(ObservableKind::BondOrder),
             "\"bond_order\" in measure.observables",
             [&] { std::erase(measure.observables, ObservableKind::BondOrder); });

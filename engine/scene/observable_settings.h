@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "engine/scene/view.h"
 
@@ -10,20 +11,23 @@ namespace clatter {
 
 /// Quantities that a run measures besides means and fields.
 enum class ObservableKind : std::uint8_t {
-  RadialDistribution,       ///< g(r)
-  VelocityDistribution,     ///< of the components, and Sonine coefficients
-  FreeFlights,              ///< times and lengths of paths between collisions of particles
-  Collisions,               ///< impact parameters, impact speeds and energy losses
-  WallHits,                 ///< normal speeds before and after, and energy gains
-  MeanSquaredDisplacement,  ///< of unwrapped positions
-  VelocityAutocorrelation,  ///< <v_k(0) v_k(t)>
-  StructureFactor,          ///< S(k)
-  Clusters,                 ///< sizes of clusters, and their growth
-  BondOrder,                ///< psi_6 of disks and its correlation in time
-  WallPower,                ///< distribution of the power of the walls
-  PlaneCurrent,             ///< net number of particles that cross a plane
-  LocalDensity,             ///< number of particles in cells
-  SpinDistribution          ///< of the components, and angles between spin and velocity
+  RadialDistribution,        ///< g(r)
+  VelocityDistribution,      ///< of the components, and Sonine coefficients
+  FreeFlights,               ///< times and lengths of paths between collisions of particles
+  Collisions,                ///< impact parameters, impact speeds and energy losses
+  WallHits,                  ///< normal speeds before and after, and energy gains
+  MeanSquaredDisplacement,   ///< of unwrapped positions
+  VelocityAutocorrelation,   ///< <v_k(0) v_k(t)>
+  StructureFactor,           ///< S(k)
+  Clusters,                  ///< sizes of clusters, and their growth
+  BondOrder,                 ///< psi_6 of disks and its correlation in time
+  WallPower,                 ///< distribution of the power of the walls
+  PlaneCurrent,              ///< net number of particles that cross a plane
+  LocalDensity,              ///< number of particles in cells
+  SpinDistribution,          ///< of the components, and angles between spin and velocity
+  Probe,                     ///< density, temperature and velocity in a region over time
+  CollisionCounts,           ///< of each particle and of pairs in intervals
+  RadialDistributionProfile  ///< g(r) in slabs along an axis
 };
 
 /// Settings of g(r).
@@ -33,10 +37,24 @@ struct RadialDistributionSettings {
   int bins = 200;         ///< between contact and the range
 };
 
-/// Settings of the distribution of velocities or spins.
+/// A region with edges along the axes. An edge at a side of the box includes all centres beyond it.
+struct RegionSettings {
+  std::optional<VecX> lower = {};  ///< [D] corner within the box; absent: see the observable
+  std::optional<VecX> upper = {};  ///< [D] opposite corner, above `lower`; absent likewise
+};
+
+/// Settings of the distribution of velocities.
+struct VelocityDistributionSettings {
+  double interval = 1.0;       ///< time between samples, > 0
+  double range = 6.0;          ///< largest component, in units of the thermal speed
+  int bins = 120;              ///< over both signs
+  RegionSettings region = {};  ///< of the particles; absent corners: those of the box
+};
+
+/// Settings of the distribution of spins.
 struct DistributionSettings {
   double interval = 1.0;  ///< time between samples, > 0
-  double range = 6.0;     ///< largest component, in units of the thermal speed or of the mean spin
+  double range = 6.0;     ///< largest component, in units of the root mean square
   int bins = 120;         ///< over both signs
 };
 
@@ -78,6 +96,26 @@ struct PlaneCurrentSettings {
   double interval = 1.0;  ///< time over which crossings are counted, > 0
   Axis axis = Axis::X;    ///< normal of the plane
   double position = 0.5;  ///< of the plane, as a share of the box along its normal
+};
+
+/// Settings of the probe.
+struct ProbeSettings {
+  double interval = 1.0;       ///< time between samples, > 0
+  RegionSettings region = {};  ///< absent corners: at 1/4 and 3/4 of each side of the box
+};
+
+/// Settings of the numbers of collisions.
+struct CollisionCountSettings {
+  double interval = 10.0;  ///< time over which collisions are counted, > 0
+};
+
+/// Settings of g(r) in slabs along an axis.
+struct RadialProfileSettings {
+  double interval = 1.0;  ///< time between samples, > 0
+  double range = 3.0;     ///< largest distance, above a diameter; shorter in small boxes
+  int bins = 40;          ///< between contact and the range
+  Axis axis = Axis::X;    ///< normal of the slabs
+  int slabs = 10;         ///< number of equal slabs of the region of centres
 };
 
 /// Settings of the number of particles in cells.

@@ -71,6 +71,12 @@ std::optional<double> Measure::sampling_interval(ObservableKind kind) const {
       return local_density.interval;
     case ObservableKind::SpinDistribution:
       return spin_distribution.interval;
+    case ObservableKind::Probe:
+      return probe.interval;
+    case ObservableKind::CollisionCounts:
+      return collision_counts.interval;
+    case ObservableKind::RadialDistributionProfile:
+      return radial_distribution_profile.interval;
     case ObservableKind::FreeFlights:
     case ObservableKind::Collisions:
     case ObservableKind::WallHits:

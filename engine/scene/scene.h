@@ -62,7 +62,7 @@ struct Measure {
   double width = 1.0;  ///< standard deviation of the Gaussian per axis, > 0
   std::vector<ObservableKind> observables = {};  ///< requested observables; empty: none
   RadialDistributionSettings radial_distribution = {};
-  DistributionSettings velocity_distribution = {};
+  VelocityDistributionSettings velocity_distribution = {};
   TimeCorrelationSettings mean_squared_displacement = {.interval = 1.0, .longest = 100.0};
   TimeCorrelationSettings velocity_autocorrelation = {};
   StructureFactorSettings structure_factor = {};
@@ -72,6 +72,9 @@ struct Measure {
   PlaneCurrentSettings plane_current = {};
   LocalDensitySettings local_density = {};
   DistributionSettings spin_distribution = {};
+  ProbeSettings probe = {};
+  CollisionCountSettings collision_counts = {};
+  RadialProfileSettings radial_distribution_profile = {};
 
   /// Whether an observable is requested.
   bool observes(ObservableKind kind) const {

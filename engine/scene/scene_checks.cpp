@@ -129,6 +129,31 @@ static void check_wave_vectors(const Scene& scene, const toml::table& root,
                   "choose at most " + number_text(largest));
 }
 
+/// Throws unless a region has a volume in the box. Absent corners are at `lower` and `upper` as
+/// shares of the box.
+static void check_region(const Scene& scene, const RegionSettings& region, const std::string& table,
+                         double lower, double upper, const toml::table& root,
+                         const std::string& file) {
+  const auto check_corner = [&](const std::optional<VecX>& corner, const std::string& key) {
+    if (!corner || corner->size() == scene.dimension()) return;
+    throw UserError(place_of(root, table + key, file),
+                    "the corner has " + std::to_string(corner->size()) + " numbers",
+                    "give " + std::to_string(scene.dimension()) + ", as in box.size");
+  };
+  check_corner(region.lower, ".lower");
+  check_corner(region.upper, ".upper");
+  const VecX low = region.lower.value_or(lower * scene.box);
+  const VecX high = region.upper.value_or(upper * scene.box);
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
+    if (low[axis] < high[axis] && high[axis] <= scene.box[axis]) continue;
+    throw UserError(place_of(root, table + (region.upper ? ".upper" : ".lower"), file),
+                    "the region from " + number_text(low[axis]) + " to " + number_text(high[axis]) +
+                        " along " + std::string(kAxes[static_cast<std::size_t>(axis)].name) +
+                        " is not in the box",
+                    "choose lower < upper, both from 0 to " + number_text(scene.box[axis]));
+  }
+}
+
 /// Throws if the box is too small for the observables, or a longest lag is shorter than its
 /// interval.
 static void check_observables(const Scene& scene, const toml::table& root,
@@ -136,10 +161,14 @@ static void check_observables(const Scene& scene, const toml::table& root,
   const Measure& measure = scene.measure;
   for (int axis = 0; axis < scene.dimension(); ++axis) {
     const double longest = scene.periodic(axis) ? 0.5 * scene.box[axis] : scene.box[axis] - 1.0;
-    if (!measure.observes(ObservableKind::RadialDistribution) || longest > 1.0) continue;
-    throw UserError(place_of(root, "measure.observables", file),
-                    "the box is too small for the distances of \"radial_distribution\"",
-                    "remove it, or choose sides above 2");
+    for (const ObservableKind kind :
+         {ObservableKind::RadialDistribution, ObservableKind::RadialDistributionProfile}) {
+      if (!measure.observes(kind) || longest > 1.0) continue;
+      throw UserError(place_of(root, "measure.observables", file),
+                      "the box is too small for the distances of \"" +
+                          std::string(name_of(kind, kObservables)) + '"',
+                      "remove it, or choose sides above 2");
+    }
   }
   const auto check_lags = [&](const std::string& name, const TimeCorrelationSettings& settings) {
     constexpr double kMostIntervals = 1e7;
@@ -162,6 +191,9 @@ static void check_observables(const Scene& scene, const toml::table& root,
                     "remove it");
   }
   if (measure.observes(ObservableKind::StructureFactor)) check_wave_vectors(scene, root, file);
+  check_region(scene, measure.velocity_distribution.region, "measure.velocity_distribution", 0.0,
+               1.0, root, file);
+  check_region(scene, measure.probe.region, "measure.probe", 0.25, 0.75, root, file);
   constexpr double kMostCells = 1e7;
   const LocalDensitySettings& density = measure.local_density;
   if (measure.observes(ObservableKind::LocalDensity) &&
@@ -201,6 +233,7 @@ static void check_axes(const Scene& scene, const toml::table& root, const std::s
   };
   check("measure.profile_axis", scene.measure.profile_axis);
   check("measure.plane_current.axis", scene.measure.plane_current.axis);
+  check("measure.radial_distribution_profile.axis", scene.measure.radial_distribution_profile.axis);
 }
 
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {

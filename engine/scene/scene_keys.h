@@ -176,7 +176,7 @@ inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
 inline constexpr std::array<Named<Kernel>, 2> kKernels = {
     {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
 
-inline constexpr std::array<Named<ObservableKind>, 14> kObservables = {
+inline constexpr std::array<Named<ObservableKind>, 17> kObservables = {
     {{"radial_distribution", ObservableKind::RadialDistribution},
      {"velocity_distribution", ObservableKind::VelocityDistribution},
      {"free_flights", ObservableKind::FreeFlights},
@@ -190,7 +190,10 @@ inline constexpr std::array<Named<ObservableKind>, 14> kObservables = {
      {"wall_power", ObservableKind::WallPower},
      {"plane_current", ObservableKind::PlaneCurrent},
      {"local_density", ObservableKind::LocalDensity},
-     {"spin_distribution", ObservableKind::SpinDistribution}}};
+     {"spin_distribution", ObservableKind::SpinDistribution},
+     {"probe", ObservableKind::Probe},
+     {"collision_counts", ObservableKind::CollisionCounts},
+     {"radial_distribution_profile", ObservableKind::RadialDistributionProfile}}};
 
 inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
 
@@ -364,7 +367,13 @@ inline constexpr auto kRadialDistributionKeys = key_table(
 inline constexpr auto kVelocityDistributionKeys = key_table(
     "measure", {{"interval", "t", "Time between samples of all velocities."},
                 {"range", "1", "Largest velocity component, in units of the thermal speed."},
-                {"bins", "1", "Number of equal bins between -`range` and `range`."}});
+                {"bins", "1", "Number of equal bins between -`range` and `range`."},
+                {"lower", "a",
+                 "Lower corner of the region of the particles. Without a value it is that of the "
+                 "box."},
+                {"upper", "a",
+                 "Upper corner of the region of the particles. Without a value it is that of the "
+                 "box."}});
 
 inline constexpr auto kStructureFactorKeys = key_table(
     "measure",
@@ -397,6 +406,28 @@ inline constexpr auto kLocalDensityKeys =
     key_table("measure", {{"interval", "t", "Time between samples."},
                           {"cell", "a", "Shortest edge of the cells, which fill the box."}});
 
+inline constexpr auto kProbeKeys = key_table(
+    "measure", {{"interval", "t", "Time between samples."},
+                {"lower", "a",
+                 "Lower corner of the region. Without a value it is at 1/4 of each side of the "
+                 "box."},
+                {"upper", "a",
+                 "Upper corner of the region. Without a value it is at 3/4 of each side of the "
+                 "box."}});
+
+inline constexpr auto kCollisionCountKeys =
+    key_table("measure", {{"interval", "t", "Time over which the collisions are counted."}});
+
+inline constexpr auto kRadialProfileKeys = key_table(
+    "measure",
+    {{"interval", "t", "Time between samples of the distances of all pairs."},
+     {"range", "a",
+      "Largest distance. In small boxes it is half the shortest period, or the shortest distance "
+      "between walls."},
+     {"bins", "1", "Number of equal bins between contact and `range`."},
+     {"axis", "", "Normal of the slabs. z is for spheres only."},
+     {"slabs", "1", "Number of equal slabs of the region of the centres."}});
+
 inline constexpr auto kTimeCorrelationKeys = key_table(
     "measure", {{"interval", "t", "Shortest lag. All particles are sampled at this interval."},
                 {"longest", "t", "Longest lag."},
@@ -412,9 +443,16 @@ void visit_time_correlation(Visitor& io, TimeCorrelationSettings& settings, Pres
   io.value(kTimeCorrelationKeys.at("lags"), settings.lags, between(2, 1000), presence);
 }
 
-/// The keys of a distribution.
+/// The keys of a region.
 template <const auto& keys, class Visitor>
-void visit_distribution(Visitor& io, DistributionSettings& settings, Presence presence) {
+void visit_region(Visitor& io, RegionSettings& region, Presence presence) {
+  io.value(keys.at("lower"), region.lower, at_least(0.0), presence);
+  io.value(keys.at("upper"), region.upper, above(0.0), presence);
+}
+
+/// The keys of a distribution.
+template <const auto& keys, class Visitor, class Settings>
+void visit_distribution(Visitor& io, Settings& settings, Presence presence) {
   io.value(keys.at("interval"), settings.interval, above(0.0), presence);
   io.value(keys.at("range"), settings.range, above(0.0), presence);
   io.value(keys.at("bins"), settings.bins, between(2, 100'000), presence);
@@ -435,8 +473,9 @@ void visit_observables(Visitor& io, Measure& measure) {
     io.value(kRadialDistributionKeys.at("bins"), settings.bins, between(10, 100'000), presence);
   });
   io.table("velocity_distribution", [&](auto& io) {
-    visit_distribution<kVelocityDistributionKeys>(
-        io, measure.velocity_distribution, presence_of(ObservableKind::VelocityDistribution));
+    const Presence presence = presence_of(ObservableKind::VelocityDistribution);
+    visit_distribution<kVelocityDistributionKeys>(io, measure.velocity_distribution, presence);
+    visit_region<kVelocityDistributionKeys>(io, measure.velocity_distribution.region, presence);
   });
   io.table("spin_distribution", [&](auto& io) {
     visit_distribution<kSpinDistributionKeys>(io, measure.spin_distribution,
@@ -484,6 +523,24 @@ void visit_observables(Visitor& io, Measure& measure) {
     io.value(kLocalDensityKeys.at("interval"), measure.local_density.interval, above(0.0),
              presence);
     io.value(kLocalDensityKeys.at("cell"), measure.local_density.cell, above(0.0), presence);
+  });
+  io.table("probe", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::Probe);
+    io.value(kProbeKeys.at("interval"), measure.probe.interval, above(0.0), presence);
+    visit_region<kProbeKeys>(io, measure.probe.region, presence);
+  });
+  io.table("collision_counts", [&](auto& io) {
+    io.value(kCollisionCountKeys.at("interval"), measure.collision_counts.interval, above(0.0),
+             presence_of(ObservableKind::CollisionCounts));
+  });
+  io.table("radial_distribution_profile", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::RadialDistributionProfile);
+    RadialProfileSettings& settings = measure.radial_distribution_profile;
+    io.value(kRadialProfileKeys.at("interval"), settings.interval, above(0.0), presence);
+    io.value(kRadialProfileKeys.at("range"), settings.range, above(1.0), presence);
+    io.value(kRadialProfileKeys.at("bins"), settings.bins, between(2, 1000), presence);
+    io.choice(kRadialProfileKeys.at("axis"), settings.axis, kAxes, presence);
+    io.value(kRadialProfileKeys.at("slabs"), settings.slabs, between(1, 200), presence);
   });
 }
 

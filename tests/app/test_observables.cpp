@@ -24,13 +24,15 @@ const char* const kAllOfSpheres =
     "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
     "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
     "\"structure_factor\", \"clusters\", \"wall_power\", \"plane_current\", "
-    "\"local_density\", \"spin_distribution\"]";
+    "\"local_density\", \"spin_distribution\", \"probe\", \"collision_counts\", "
+    "\"radial_distribution_profile\"]";
 
 const char* const kAllOfDisks =
     "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
     "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
     "\"structure_factor\", \"clusters\", \"bond_order\", \"wall_power\", \"plane_current\", "
-    "\"local_density\", \"spin_distribution\"]";
+    "\"local_density\", \"spin_distribution\", \"probe\", \"collision_counts\", "
+    "\"radial_distribution_profile\"]";
 
 // A gas without any symmetry, of disks or spheres.
 std::string scene(int dimension, const std::string& observables) {
@@ -108,6 +110,12 @@ std::vector<Expected> expected_tables(int dimension) {
       histogram("wall_power.total", power, "1/(" + power + ")"),
       histogram("plane_current.number", "1", "1"),
       histogram("local_density.number", "1", "1"),
+      {"velocity_distribution.tails", {{"low", "1"}, {"high", "1"}}, {"low", "high"}},
+      histogram("collision_counts.particle", "1", "1"),
+      histogram("collision_counts.pair", "1", "1"),
+      {"radial_distribution_profile",
+       {{"x_low", "a"}, {"x_high", "a"}, {"r", "a"}, {"g", "1"}},
+       {"x_low", "x_high", "r"}},
       {"spin_distribution.components", {{"low", "1"}, {"high", "1"}}, {"low", "high"}}};
   if (dimension == 2) {
     tables.push_back({"bond_order", {{"time", "t"}, {"correlation", "1"}}, {"time"}});
@@ -119,13 +127,23 @@ std::vector<Expected> expected_tables(int dimension) {
     for (const char* axis : {"x", "y", "z"}) spins.columns.emplace_back(axis, "1");
     tables.push_back(histogram("spin_distribution.cosine", "1", "1"));
   }
+  Expected& tails = *std::ranges::find(tables, "velocity_distribution.tails", &Expected::name);
+  Expected probe = {"probe.series",
+                    {{"time", "t"},
+                     {"density", dimension == 2 ? "1/a^2" : "1/a^3"},
+                     {"temperature", "m a^2/t^2"}},
+                    {"time", "density", "temperature"}};
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string name(1, "xyz"[axis]);
+    tails.columns.emplace_back(name, "1");
+    probe.columns.emplace_back("velocity_" + name, "a/t");
+    probe.without_errors.push_back("velocity_" + name);
     tables[1].columns.emplace_back(name, "1");
     tables[13].columns.emplace_back(name, "a^2");
     tables[13].columns.emplace_back("drift_" + name, "a");
     tables[14].columns.emplace_back(name, "a^2/t^2");
   }
+  tables.push_back(std::move(probe));
   return tables;
 }
 
@@ -155,7 +173,7 @@ TEST_CASE("Observables: JSON, CSV and HDF5 have the same tables") {
       for (const auto& [name, unit] : table.columns) {
         CAPTURE(name);
         ++columns;
-        CHECK(found.at(name).size() > 5);
+        CHECK(found.at(name).size() > 3);
         CHECK(csv.columns.at(name) == found.at(name));
         CHECK(csv.units.at(name) == unit);
         CHECK(datasets.at(name).at("values") == found.at(name));
@@ -263,6 +281,21 @@ TEST_CASE("Observables: settings without their observable are refused") {
                 "clatter measure vibrated --set 'measure.observables=[\"structure_factor\"]' --set "
                 "walls.bottom.kind=static --set walls.top.kind=static",
                 {"\"structure_factor\" needs a periodic axis"});
+  const std::string region = "clatter measure p.toml";
+  const auto check_region = [&](const std::string& keys, const std::vector<std::string>& told) {
+    shell.write("p.toml", scene(2, "[\"probe\"]") + "[measure.probe]\n" + keys);
+    check_refused(shell, region, told);
+  };
+  check_region("lower = [1.0, 1.0, 1.0]\n", {"p.toml:20:1:", "3 numbers", "give 2"});
+  check_region("lower = [3.0, 1.0]\nupper = [2.0, 5.0]\n",
+               {"p.toml:21:1:", "from 3 to 2 along x", "lower < upper, both from 0 to 11"});
+  check_region("upper = [5.0, 9.5]\n", {"p.toml:20:1:", "along y", "from 0 to 9"});
+  check_region("lower = [-1.0, 0.0]\n", {"p.toml:20:1:", "measure.probe.lower"});
+  check_refused(shell,
+                "clatter measure vibrated --set "
+                "'measure.observables=[\"radial_distribution_profile\"]' --set "
+                "measure.radial_distribution_profile.axis=z",
+                {"measure.radial_distribution_profile.axis", "cannot be \"z\""});
   check_refused(shell,
                 "clatter measure spheres_vibrated --set 'measure.observables=[\"bond_order\"]'",
                 {"\"bond_order\" is for disks only"});

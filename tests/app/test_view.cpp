@@ -381,6 +381,23 @@ TEST_CASE("Window: the gallery has the order of the list of scenes") {
   }
 }
 
+TEST_CASE("Window: the plots list the observables of the scene, of disks and of spheres") {
+  for (const char* scene : {"vibrated", "spheres_vibrated"}) {
+    const GuiDriver driver(std::string(scene) +
+                           " --set view.speed=10 --set "
+                           "'measure.observables=[\"probe\",\"collisions\"]'");
+    driver.key("p");
+    driver.click("plots.observable");
+    std::size_t told = driver.told();
+    driver.click("plots.observable.collisions, normal speed");
+    driver.wait_for("status", told);
+    // The list opens again with the same tables.
+    driver.click("plots.observable");
+    driver.click("plots.observable.probe, series");
+    CHECK(driver.wait_for("status")["run"] == 1);
+  }
+}
+
 TEST_CASE("Window: balance residuals are computed only while they are plotted") {
   const GuiDriver driver("--set view.speed=10");
   const auto told_residuals = [](const json& status) { return status.contains("residuals"); };

@@ -57,7 +57,10 @@ Measure with_observables(Measure measure) {
                          ObservableKind::WallPower,
                          ObservableKind::PlaneCurrent,
                          ObservableKind::LocalDensity,
-                         ObservableKind::SpinDistribution};
+                         ObservableKind::SpinDistribution,
+                         ObservableKind::Probe,
+                         ObservableKind::CollisionCounts,
+                         ObservableKind::RadialDistributionProfile};
   measure.mean_squared_displacement = {.interval = 0.3, .longest = 9.0, .lags = 4};
   return measure;
 }

@@ -82,15 +82,32 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(radial_interval == b.measure.radial_distribution.interval);
   CHECK(radial_range == b.measure.radial_distribution.range);
   CHECK(radial_bins == b.measure.radial_distribution.bins);
-  const auto check_distribution = [](const DistributionSettings& first,
-                                     const DistributionSettings& second) {
-    const auto& [interval, range, bins] = first;
-    CHECK(interval == second.interval);
-    CHECK(range == second.range);
-    CHECK(bins == second.bins);
+  const auto check_region = [](const RegionSettings& first, const RegionSettings& second) {
+    const auto& [lower, upper] = first;
+    CHECK(lower == second.lower);
+    CHECK(upper == second.upper);
   };
-  check_distribution(a.measure.velocity_distribution, b.measure.velocity_distribution);
-  check_distribution(a.measure.spin_distribution, b.measure.spin_distribution);
+  const auto& [velocity_interval, velocity_range, velocity_bins, velocity_region] =
+      a.measure.velocity_distribution;
+  CHECK(velocity_interval == b.measure.velocity_distribution.interval);
+  CHECK(velocity_range == b.measure.velocity_distribution.range);
+  CHECK(velocity_bins == b.measure.velocity_distribution.bins);
+  check_region(velocity_region, b.measure.velocity_distribution.region);
+  const auto& [spin_interval, spin_range, spin_bins] = a.measure.spin_distribution;
+  CHECK(spin_interval == b.measure.spin_distribution.interval);
+  CHECK(spin_range == b.measure.spin_distribution.range);
+  CHECK(spin_bins == b.measure.spin_distribution.bins);
+  const auto& [probe_interval, probe_region] = a.measure.probe;
+  CHECK(probe_interval == b.measure.probe.interval);
+  check_region(probe_region, b.measure.probe.region);
+  CHECK(a.measure.collision_counts.interval == b.measure.collision_counts.interval);
+  const auto& [slab_interval, slab_range, slab_bins, slab_axis, slabs] =
+      a.measure.radial_distribution_profile;
+  CHECK(slab_interval == b.measure.radial_distribution_profile.interval);
+  CHECK(slab_range == b.measure.radial_distribution_profile.range);
+  CHECK(slab_bins == b.measure.radial_distribution_profile.bins);
+  CHECK(slab_axis == b.measure.radial_distribution_profile.axis);
+  CHECK(slabs == b.measure.radial_distribution_profile.slabs);
   const auto check_lags = [](const TimeCorrelationSettings& first,
                              const TimeCorrelationSettings& second) {
     const auto& [interval, longest, count] = first;
@@ -184,9 +201,13 @@ Scene unusual_scene() {
                                ObservableKind::WallPower,
                                ObservableKind::PlaneCurrent,
                                ObservableKind::LocalDensity,
-                               ObservableKind::SpinDistribution};
+                               ObservableKind::SpinDistribution,
+                               ObservableKind::Probe,
+                               ObservableKind::CollisionCounts,
+                               ObservableKind::RadialDistributionProfile};
   scene.measure.radial_distribution = {.interval = 0.7, .range = 1.1, .bins = 17};
-  scene.measure.velocity_distribution = {.interval = 1e-3, .range = 0.1, .bins = 3};
+  scene.measure.velocity_distribution = {
+      .interval = 1e-3, .range = 0.1, .bins = 3, .region = {Vec2(0.25, 0.5), Vec2(7.0, 1.5)}};
   scene.measure.mean_squared_displacement = {.interval = 0.3, .longest = 2e6, .lags = 2};
   scene.measure.velocity_autocorrelation = {.interval = 0.2, .longest = 0.2, .lags = 999};
   scene.measure.clusters = {.interval = 8.0, .range = 1.01};
@@ -195,6 +216,10 @@ Scene unusual_scene() {
   scene.measure.wall_power = {.interval = 0.4};
   scene.measure.plane_current = {.interval = 0.6, .axis = Axis::Y, .position = 0.25};
   scene.measure.local_density = {.interval = 0.9, .cell = 2.2};
+  scene.measure.probe = {.interval = 0.45, .region = {Vec2(0.0, 1e-3), Vec2(1.0 / 3.0, 0.2)}};
+  scene.measure.collision_counts = {.interval = 5.5};
+  scene.measure.radial_distribution_profile = {
+      .interval = 2.25, .range = 1.2, .bins = 19, .axis = Axis::Y, .slabs = 7};
   scene.view = {.colour_by = ColourBy::Spin,
                 .field = Field(Quantity::Temperature, 0),
                 .window = 0.125,

@@ -1,0 +1,135 @@
+#include "engine/observables/probe.h"
+
+#include <limits>
+#include <string>
+
+#include "engine/scene/scene_keys.h"
+
+namespace clatter {
+
+namespace {
+
+// Layout of the sums over samples.
+struct ProbeSums {
+  static constexpr std::size_t kSamples = 0;
+  static constexpr std::size_t kNumber = 1;
+  static constexpr std::size_t kSquare = 2;    // of the number
+  static constexpr std::size_t kFreedoms = 3;  // degrees of freedom of the temperature
+  static constexpr std::size_t kEnergy = 4;    // twice the energy in them
+  static constexpr std::size_t kTime = 5;
+  static constexpr std::size_t kVelocity = 6;  // of all particles, along each axis
+};
+
+}  // namespace
+
+template <int D>
+Probe<D>::Probe(const Simulation<D>& simulation, const ProbeSettings& settings)
+    : simulation_(simulation), region_(simulation.model(), settings.region, 0.25, 0.75) {}
+
+template <int D>
+std::size_t Probe<D>::size() const {
+  return ProbeSums::kVelocity + D;
+}
+
+template <int D>
+std::size_t Probe<D>::mean_size() const {
+  return size();
+}
+
+template <int D>
+void Probe<D>::start() {
+  Observable::start();
+  rows_ = {};
+}
+
+template <int D>
+void Probe<D>::save(ArchiveWriter& io) {
+  Observable::save(io);
+  io(rows_);
+}
+
+template <int D>
+void Probe<D>::restore(ArchiveReader& io) {
+  Observable::restore(io);
+  io(rows_);
+  for (const ObservableSums& row : rows_.parts()) io.require(row.values.size() == size());
+}
+
+template <int D>
+void Probe<D>::sample() {
+  const State<D> state = simulation_.state();
+  double number = 0.0, squares = 0.0;
+  Vec<D> sum = Vec<D>::Zero();
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    if (!region_.contains(state.positions[i])) continue;
+    number += 1.0;
+    sum += state.velocities[i];
+  }
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    if (!region_.contains(state.positions[i])) continue;
+    squares += (state.velocities[i] - sum / number).squaredNorm();
+  }
+  ObservableSums row{std::vector<double>(size(), 0.0)};
+  row.values[ProbeSums::kSamples] = 1.0;
+  row.values[ProbeSums::kNumber] = number;
+  row.values[ProbeSums::kSquare] = number * number;
+  if (number > 1.0) row.values[ProbeSums::kFreedoms] = D * (number - 1.0);
+  row.values[ProbeSums::kEnergy] = squares;
+  row.values[ProbeSums::kTime] = simulation_.time();
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    row.values[ProbeSums::kVelocity + axis] = sum[static_cast<int>(axis)];
+  }
+  sums_ += row;
+  rows_.add(std::move(row));
+}
+
+static std::string velocity_name(std::size_t axis) {
+  return std::string("velocity_") + std::string(kAxes[axis].name);
+}
+
+// A row is the average over its samples. Without two particles it has no temperature.
+template <int D>
+ResultTable Probe<D>::series() const {
+  ResultTable table{"probe.series",
+                    {{"time", "t", {}},
+                     {"density", D == 2 ? "1/a^2" : "1/a^3", {}},
+                     {"temperature", "m a^2/t^2", {}}}};
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    table.columns.push_back({velocity_name(axis), "a/t", {}});
+  }
+  const auto ratio = [](double numerator, double denominator) {
+    return denominator > 0.0 ? numerator / denominator : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const ObservableSums& row : rows_.parts()) {
+    const std::vector<double>& sums = row.values;
+    const double samples = sums[ProbeSums::kSamples], number = sums[ProbeSums::kNumber];
+    table.columns[0].values.push_back(sums[ProbeSums::kTime] / samples);
+    table.columns[1].values.push_back(number / samples / region_.volume());
+    table.columns[2].values.push_back(ratio(sums[ProbeSums::kEnergy], sums[ProbeSums::kFreedoms]));
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      table.columns[3 + axis].values.push_back(ratio(sums[ProbeSums::kVelocity + axis], number));
+    }
+  }
+  return table;
+}
+
+template <int D>
+ObservableResult Probe<D>::result(const ObservableParts& parts) const {
+  ObservableResult result{
+      {series()},
+      {{"probe.density",
+        ratio_of(parts.fine, ProbeSums::kNumber, ProbeSums::kSamples, region_.volume())},
+       {"probe.number_variance", variance_of(parts.fine, ProbeSums::kSamples)},
+       {"probe.temperature", ratio_of(parts.fine, ProbeSums::kEnergy, ProbeSums::kFreedoms)}}};
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    result.means.emplace_back(
+        "probe." + velocity_name(axis),
+        ratio_of(parts.fine, ProbeSums::kVelocity + axis, ProbeSums::kNumber));
+  }
+  return result;
+}
+
+template class Probe<2>;
+template class Probe<3>;
+
+}  // namespace clatter

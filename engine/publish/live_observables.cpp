@@ -1,0 +1,64 @@
+#include "engine/publish/live_observables.h"
+
+#include <algorithm>
+
+namespace clatter {
+
+template <int D>
+LiveObservables<D>::LiveObservables(Simulation<D>& simulation, const Measure& measure,
+                                    double window)
+    : measure_(measure),
+      start_(simulation.time()),
+      window_(window),
+      observables_(simulation, measure_) {
+  observables_.start();
+  add_timers(simulation);
+}
+
+template <int D>
+LiveObservables<D>::LiveObservables(Simulation<D>& simulation, LiveObservables& before)
+    : measure_(before.measure_),
+      start_(before.start_),
+      window_(before.window_),
+      windows_(before.windows_),
+      told_(before.told_),
+      observables_(simulation, measure_),
+      tables_(before.tables_) {
+  ArchiveWriter saved;
+  before.observables_.save(saved);
+  ArchiveReader reader(saved.written(), "observables");
+  observables_.restore(reader);
+  add_timers(simulation);
+}
+
+// A sample at the end of a window belongs to it.
+template <int D>
+void LiveObservables<D>::add_timers(Simulation<D>& simulation) {
+  observables_.add_timers(start_);
+  simulation.every(
+      start_ + window_, window_,
+      [this](double) {
+        observables_.close_window();
+        ++windows_;
+      },
+      windows_);
+}
+
+template <int D>
+std::shared_ptr<const std::vector<ResultTable>> LiveObservables<D>::tables(bool now) {
+  constexpr std::uint64_t kShare = 20, kMost = 32;
+  const std::uint64_t wanted = now ? 1 : std::clamp<std::uint64_t>(told_ / kShare, 1, kMost);
+  if (windows_ < told_ + wanted) return tables_;
+  told_ = windows_;
+  std::vector<ResultTable> tables;
+  for (ObservableResult& result : observables_.results()) {
+    std::ranges::move(result.tables, std::back_inserter(tables));
+  }
+  tables_ = std::make_shared<const std::vector<ResultTable>>(std::move(tables));
+  return tables_;
+}
+
+template class LiveObservables<2>;
+template class LiveObservables<3>;
+
+}  // namespace clatter
