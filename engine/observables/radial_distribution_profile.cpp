@@ -134,7 +134,7 @@ double RadialDistributionProfile<D>::expected_share(std::size_t apart, double lo
 
 template <int D>
 void RadialDistributionProfile<D>::sample() {
-  const std::vector<Vec<D>> positions = simulation_.state().positions;
+  const std::vector<Vec<D>> positions = simulation_.positions();
   std::vector<double>& sums = sums_.values;
   sums[ProfileSums::kSamples] += 1.0;
   slab_of_.clear();
