@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 #include <regex>
+#include <system_error>
 
 #include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
@@ -123,6 +124,11 @@ int run_program(int argc, const char* const* argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     // For example, another process has removed the current folder.
     const std::string text = "cannot use " + error.path1().string() + ": " + error.code().message();
+    return report(text.c_str(), kFailed);
+  } catch (const std::system_error& error) {
+    const std::string text =
+        "cannot start a thread: " + error.code().message() +
+        "; end other programs, or raise the limits of the shell (ulimit -u, -v)";
     return report(text.c_str(), kFailed);
   } catch (const std::bad_alloc&) {
     return report("out of memory; give the scene fewer disks or cells", kFailed);

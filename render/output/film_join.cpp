@@ -12,11 +12,16 @@
 #include <map>
 #include <sstream>
 
-#include "engine/error.h"
 #include "engine/system/platform.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
+
+std::string with_install_advice(const RunError& error) {
+  const std::string words = error.what();
+  const bool missing = words.ends_with(std::strerror(ENOENT));
+  return words + (missing ? "; films need ffmpeg (apt install ffmpeg)" : "");
+}
 
 namespace {
 
@@ -120,7 +125,7 @@ std::vector<FilmPart> complete_parts(const std::filesystem::path& folder,
     try {
       listings.push_back(listing_of(part->second, "ffmpeg"));
     } catch (const RunError& error) {
-      throw RunError(std::string(error.what()) + kInstallEncoder);
+      throw RunError(with_install_advice(error));
     }
     parts.push_back({part->second, listings.back().pictures});
     next += parts.back().count;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/error.h"
 #include "engine/system/child_process.h"
 #include "engine/system/file_descriptor.h"
 #include "engine/system/write_file.h"
@@ -11,8 +12,8 @@
 
 namespace clatter {
 
-/// Fix to append to the error of an encoder that cannot start.
-inline constexpr const char* kInstallEncoder = "; films need ffmpeg (apt install ffmpeg)";
+/// The words of the error of an encoder that cannot start, with a fix if the encoder is missing.
+std::string with_install_advice(const RunError& error);
 
 /// A film file that is a part of a film.
 struct FilmPart {

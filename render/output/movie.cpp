@@ -180,7 +180,7 @@ void Movie::start_piece() {
         Interrupts::Shielded, options_.stop);
   } catch (const RunError& error) {
     unlink(piece.c_str());
-    fail(std::string(error.what()) + kInstallEncoder);
+    fail(with_install_advice(error));
   }
 }
 

@@ -177,6 +177,27 @@ TEST_CASE("Outputs: a current folder that was removed is named in plain words") 
   CHECK(says(outcome.err, "clatter: cannot use a.checkpoint: No such file or directory\n"));
 }
 
+TEST_CASE("Outputs: a system without files or threads is named, and not a missing program") {
+  const Shell shell;
+  const std::string render = "clatter render vibrated --to 0.2 --size 64x48 --quiet ";
+  bool failed = false;
+  for (int files = 5; files < 15; ++files) {
+    CAPTURE(files);
+    const Outcome outcome = shell.run("ulimit -n " + std::to_string(files) + "; " + render +
+                                      "--out film.gif --overwrite");
+    CAPTURE(outcome.err);
+    CHECK_FALSE(says(outcome.err, "films need ffmpeg"));
+    failed |= says(outcome.err, "cannot make a pipe to ffmpeg: Too many open files");
+  }
+  CHECK(failed);
+  if (is_sanitized()) return;
+  // A thread needs more address space for its stack than there is.
+  const Outcome outcome =
+      shell.run("ulimit -s 9000000; ulimit -v 6000000; " + render + "--out folder");
+  CHECK(outcome.code == 1);
+  CHECK(says(outcome.err, "clatter: cannot start a thread: Resource temporarily unavailable; end"));
+}
+
 TEST_CASE("Outputs: one that fails costs no other, and a checkpoint has the results") {
   const Shell shell;
   const std::string line =
