@@ -8,10 +8,11 @@ namespace clatter {
 
 namespace {
 
-template <std::size_t N>
-constexpr std::array<Colour, N> colours(const std::uint32_t (&rgb)[N]) {
-  std::array<Colour, N> result;
-  for (std::size_t i = 0; i < N; ++i) {
+using ColourMapCode = std::array<std::uint32_t, std::tuple_size_v<ColourMap>>;
+
+constexpr ColourMap colours(const ColourMapCode& rgb) {
+  ColourMap result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = {static_cast<std::uint8_t>(rgb[i] >> 16), static_cast<std::uint8_t>(rgb[i] >> 8),
                  static_cast<std::uint8_t>(rgb[i])};
   }
@@ -53,6 +54,22 @@ float linear_light(std::uint8_t channel) {
   return table[channel];
 }
 
+std::uint8_t encoded_light(double light) {
+  const double c = std::clamp(light, 0.0, 1.0);
+  const double channel = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * channel));
+}
+
+double luminance(Colour colour) {
+  return 0.2126 * linear_light(colour.red) + 0.7152 * linear_light(colour.green) +
+         0.0722 * linear_light(colour.blue);
+}
+
+double contrast_ratio(Colour a, Colour b) {
+  const auto [darker, lighter] = std::minmax({luminance(a), luminance(b)});
+  return (lighter + 0.05) / (darker + 0.05);
+}
+
 Colour mix(Colour a, Colour b, double t) {
   auto channel = [t](int from, int to) {
     return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
@@ -91,9 +108,7 @@ double ColourScale::strength(double value) const {
 Colour ColourScale::operator()(double value) const {
   const double steps = static_cast<double>(map.size() - 1) * place(value);
   const std::size_t index = std::min(static_cast<std::size_t>(steps), map.size() - 2);
-  Colour colour = mix(map[index], map[index + 1], steps - static_cast<double>(index));
-  colour.alpha = opacity;
-  return colour;
+  return mix(map[index], map[index + 1], steps - static_cast<double>(index));
 }
 
 }  // namespace clatter

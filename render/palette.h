@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "engine/scene/view.h"
 
@@ -21,11 +20,20 @@ struct Colour {
 /// Linear light of an sRGB channel, 0..1 (IEC 61966-2-1).
 float linear_light(std::uint8_t channel);
 
+/// The sRGB channel of linear light; light is clamped to 0..1.
+std::uint8_t encoded_light(double light);
+
+/// Relative luminance of a colour: 0 of black, 1 of white (WCAG 2.1).
+double luminance(Colour colour);
+
+/// Contrast ratio of two colours: 1 to 21 (WCAG 2.1).
+double contrast_ratio(Colour a, Colour b);
+
 /// Linear interpolation between `a` (t = 0) and `b` (t = 1) in sRGB.
 Colour mix(Colour a, Colour b, double t);
 
 /// Colours at equal steps from the lowest to the highest value, with linear interpolation.
-using ColourMap = std::span<const Colour>;
+using ColourMap = std::array<Colour, 17>;
 
 /// The map of a palette: viridis, inferno or cividis.
 ColourMap colour_map(Palette palette);
@@ -36,10 +44,9 @@ ColourMap diverging_map();
 /// Mapping from values to colours.
 struct ColourScale {
   ColourMap map;
-  double low = 0.0;            ///< value of the first colour of the map
-  double high = 1.0;           ///< value of the last colour, other than `low`
-  bool about_zero = false;     ///< 0 maps to the middle of the map, the larger end to its end
-  std::uint8_t opacity = 255;  ///< alpha of all colours
+  double low = 0.0;         ///< value of the first colour of the map
+  double high = 1.0;        ///< value of the last colour, other than `low`
+  bool about_zero = false;  ///< 0 maps to the middle of the map, the larger end to its end
 
   /// The colour of `value`, clamped to the ends.
   Colour operator()(double value) const;

@@ -19,6 +19,7 @@
 #include "engine/system/child_process.h"
 #include "engine/system/write_file.h"
 #include "render/context/context.h"
+#include "render/contrast_maps.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 #include "render/output/movie.h"
@@ -208,14 +209,14 @@ class Filming {
 
   void draw_parts(const Snapshot& snapshot, const Projection& projection) {
     const ThemeColours theme = theme_of(view_);
-    const ColourScale scale{colour_map(view_.palette), 0.0, 3.0};
+    const ColourScale scale{particle_map(view_.palette, theme.background), 0.0, 3.0};
     const Legends legends{Legend{label_of(view_.colour_by, D), scale, "auto"},
                           Legend{label_of(*view_.field, D), scale, "auto"},
                           {}};
     const DiskColours colours{view_.colour_by, scale, theme.disk};
     if constexpr (D == 2) {
       spend(times_, kHeatmap, gl_, [&] {
-        layers_.heatmap.draw(*snapshot.field, snapshot.box, projection, scale, theme.static_wall);
+        layers_.heatmap.draw(snapshot, projection, scale, view_.field_style, theme.static_wall);
       });
       spend(times_, kParticles, gl_,
             [&] { layers_.particles.draw(snapshot, projection, colours); });
@@ -225,7 +226,7 @@ class Filming {
       gl_.Enable(GL_DEPTH_TEST);
       spend(times_, kHeatmap, gl_, [&] {
         layers_.heatmap.draw(snapshot, slices_of(snapshot, view_), projection, eye, scale,
-                             theme.static_wall);
+                             view_.field_style, theme.static_wall);
       });
       spend(times_, kParticles, gl_, [&] {
         if (SphereLight::draws(eye, snapshot)) {

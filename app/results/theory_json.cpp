@@ -29,6 +29,32 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
                      scene.dimension()};
 }
 
+std::optional<Atmosphere> atmosphere(const Scene& scene) {
+  const Particles& particles = scene.particles;
+  if (!scene.gravity || particles.restitution != 1.0 || particles.count == 0 || scene.spins() ||
+      scene.bulk_drive) {
+    return std::nullopt;
+  }
+  Eigen::Index axis = 0;
+  const double gravity = scene.gravity->cwiseAbs().maxCoeff(&axis);
+  const bool down = (*scene.gravity)[axis] < 0.0;
+  const auto& floor = scene.walls[static_cast<std::size_t>(2 * axis + (down ? 0 : 1))];
+  const bool straight = gravity > 0.0 && scene.gravity->norm() == gravity;
+  if (!straight || !floor || floor->kind != WallKind::Thermal) return std::nullopt;
+  const bool at_rest = std::ranges::all_of(scene.walls, [&](const std::optional<Wall>& wall) {
+    if (!wall) return true;
+    if (wall->kind == WallKind::Thermal) return wall->temperature == floor->temperature;
+    return wall->kind == WallKind::Static && wall->restitution == 1.0;
+  });
+  if (!at_rest) return std::nullopt;
+  return Atmosphere{static_cast<double>(particles.count),
+                    scene.box.prod() / scene.box[axis],
+                    scene.box[axis],
+                    gravity,
+                    floor->temperature,
+                    scene.dimension()};
+}
+
 // (theory 7.5-7.16)
 static void add_vibrated(Json& json, const VibratedGas& gas, double start_temperature) {
   json["psi"] = gas.psi();
@@ -56,6 +82,12 @@ static bool is_homogeneous_gas(const Scene& scene) {
   return !walled && scene.particles.count > 1 && !scene.gravity;
 }
 
+std::optional<double> haff_rate(const Scene& scene) {
+  if (!is_homogeneous_gas(scene) || scene.spins() || scene.bulk_drive) return std::nullopt;
+  return haff_rate_periodic(scene.packing_fraction(), scene.particles.restitution,
+                            scene.particles.start.temperature, scene.dimension());
+}
+
 // Smooth particles, and rough particles with unlimited friction, so that beta is constant.
 static void add_homogeneous(Json& json, const Scene& scene) {
   const Particles& particles = scene.particles;
@@ -67,9 +99,8 @@ static void add_homogeneous(Json& json, const Scene& scene) {
   const double beta = rough ? particles.roughness.tangential_restitution_in_force() : -1.0;
   const RoughGas gas{particles.restitution, beta, particles.inertia, dimension};
   if (!scene.bulk_drive) {
-    if (!rough) {
-      json["haff_rate"] =
-          haff_rate_periodic(phi, particles.restitution, particles.start.temperature, dimension);
+    if (const auto rate = haff_rate(scene)) {
+      json["haff_rate"] = *rate;
     } else if (constant_beta) {
       json["temperature_ratio"] = gas.cooling_ratio();
     }

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "engine/physics/atmosphere.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/scene.h"
 
@@ -11,6 +12,15 @@ namespace clatter {
 /// The gas of the theory of vibrated boxes. Absent unless the scene has smooth disks between two
 /// equal walls, driven or static, without any other force.
 std::optional<VibratedGas> vibrated_gas(const Scene& scene);
+
+/// The atmosphere of a scene: smooth elastic particles that fall on a thermal floor. Absent unless
+/// the other walls are periodic, elastic and static, or as hot as the floor, and no other force
+/// acts.
+std::optional<Atmosphere> atmosphere(const Scene& scene);
+
+/// k of Haff's law in a periodic box (theory 6.6). Absent unless the scene has smooth particles
+/// that cool without any force.
+std::optional<double> haff_rate(const Scene& scene);
 
 /// The predictions of kinetic theory for a scene. Empty unless physics/theory.h covers the scene: a
 /// gas between two vibrated walls, or a gas in a periodic box.

@@ -37,6 +37,7 @@ Gui::Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, S
       gui_(gl) {}
 
 void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
+  profile_axis_ = static_cast<int>(scene.measure.profile_axis);
   session_.open(scene, seed, !until);
   if (until) session_.play_until(*until);
 }
@@ -179,7 +180,8 @@ void Gui::plots_drawer(float top, float width) {
     axes.emplace_back(kAxes[static_cast<std::size_t>(axis)].name);
   }
   int axis = static_cast<int>(profile_axis());
-  if (controls_.choice("plots.axis", "Profile along", "Axis of the profile", axes, axis, 0)) {
+  if (controls_.choice("plots.axis", "Profile along", "Axis of the profile", axes, axis,
+                       static_cast<int>(session_.opened().measure.profile_axis))) {
     profile_axis_ = axis;
   }
   controls_.choice(

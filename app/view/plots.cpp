@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "app/results/theory_json.h"
 #include "app/view/plot_colours.h"
@@ -16,7 +17,10 @@ namespace {
 
 constexpr std::array<const char*, 3> kAxisNames = {"x", "y", "z"};
 
-// The theories of chapter 7 of docs/theory.md.
+// The theories of chapters 6 and 7 of docs/theory.md.
+constexpr const char* kHaff = "Haff's law of a gas that stays homogeneous; clusters cool slower";
+constexpr const char* kAtmosphere =
+    "The pressure carries the weight above, with the equation of state of the elastic gas";
 constexpr const char* kSimple = "Theory that averages over all particles; dense gases differ";
 constexpr const char* kRefined =
     "Theory that averages over the particles that collide; neglects the dense layer at the walls";
@@ -39,6 +43,19 @@ Curve level(const char* name, const char* help, Colour colour, const std::vector
   return curve;
 }
 
+// Haff's law from the start, at equal steps of the logarithm of time.
+Curve haff_curve(const std::vector<Sample>& samples, double temperature, double rate) {
+  constexpr int kPoints = 24;
+  Curve curve{.name = "Haff", .colour = kGreen, .points = {}, .dashed = true, .help = kHaff};
+  if (samples.empty()) return curve;
+  const double first = samples.front().time, last = samples.back().time;
+  for (int k = 0; k <= kPoints; ++k) {
+    const double time = first * std::pow(last / first, 1.0 * k / kPoints);
+    curve.points.emplace_back(time, haff_temperature(temperature, rate, time));
+  }
+  return curve;
+}
+
 LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene, Colour plain) {
   LivePlot plot{"Temperature", "time t", false, false, {}, "m a²/t²"};
   for (int axis = 0; axis < scene.dimension(); ++axis) {
@@ -47,6 +64,11 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
   }
   plot.curves.push_back(
       over_time("T", plain, samples, [](const Sample& s) { return s.temperature.mean(); }));
+  // A law that changed has no Haff curve from the start.
+  if (const auto rate = haff_rate(scene); rate && *rate > 0.0 && scene.changes.empty()) {
+    plot.log_x = plot.log_y = true;
+    plot.curves.push_back(haff_curve(samples, scene.particles.start.temperature, *rate));
+  }
   if (const auto gas = vibrated_gas(scene); gas && gas->drive_speed > 0.0) {
     plot.curves.push_back(level("simple", kSimple, kRed, samples, gas->temperature_simple()));
     plot.curves.push_back(level("refined", kRefined, kGreen, samples, gas->temperature_refined()));
@@ -85,8 +107,25 @@ std::string along(Axis axis) {
   return std::string(kAxisNames[static_cast<std::size_t>(axis)]) + " in a";
 }
 
+// The density of the atmosphere of the scene along the axis of gravity, if it has one.
+std::optional<Curve> atmosphere_curve(const Scene& scene, Axis along) {
+  const auto air = atmosphere(scene);
+  const auto axis = static_cast<Eigen::Index>(along);
+  if (!air || (*scene.gravity)[axis] == 0.0) return std::nullopt;
+  Curve curve{.name = "atmosphere",
+              .colour = kGreen,
+              .points = air->profile(),
+              .dashed = true,
+              .help = kAtmosphere};
+  if ((*scene.gravity)[axis] > 0.0) {
+    for (Vec2& point : curve.points) point.x() = air->height - point.x();
+  }
+  return curve;
+}
+
 // A field along an axis, with its standard errors.
-LivePlot profile_plot(const Profile& profile, std::size_t chosen, int dimension) {
+LivePlot profile_plot(const Profile& profile, std::size_t chosen, const Scene& scene) {
+  const int dimension = scene.dimension();
   const Label label = label_of(profile.fields[chosen], dimension);
   LivePlot plot{"Profile", along(profile.axis), false, false, {}, label.unit};
   Curve curve{label.name, kBlue, {}};
@@ -96,6 +135,9 @@ LivePlot profile_plot(const Profile& profile, std::size_t chosen, int dimension)
     curve.errors.push_back(value.standard_error);
   }
   plot.curves.push_back(std::move(curve));
+  if (profile.fields[chosen] == Quantity::Density) {
+    if (auto law = atmosphere_curve(scene, profile.axis)) plot.curves.push_back(std::move(*law));
+  }
   return plot;
 }
 
@@ -188,7 +230,7 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   const int dimension = frame.scene->dimension();
   std::vector<LivePlot> plots;
   if (frame.profile && profiled < frame.profile->fields.size()) {
-    plots.push_back(profile_plot(*frame.profile, profiled, dimension));
+    plots.push_back(profile_plot(*frame.profile, profiled, *frame.scene));
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals, dimension));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));

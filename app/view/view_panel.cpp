@@ -111,9 +111,11 @@ static bool choose_heatmap(const Session& session, Controls& controls, View& vie
   bool changed = choose_field(session, controls, view);
   if (!view.field) return changed;
   changed |= choose(controls, "view.field_palette", "Palette of the heatmap",
-                    "For magnitudes; signed fields are blue below zero and red above", kPalettes,
-                    session.scene().dimension() == 2 ? "as the disks" : "as the spheres",
-                    view.field_palette, usual.field_palette);
+                    "For magnitudes; signed fields are blue below zero and red above",
+                    kFieldPalettes, view.field_palette, usual.field_palette);
+  changed |= choose(controls, "view.field_style", "Style of the heatmap",
+                    "smooth interpolates between cells, cells shows their exact values",
+                    kFieldStyles, view.field_style, usual.field_style);
   const auto& map = session.frame().snapshot.field;
   changed |= choose_range(controls, "view.field_range", "Range of the heatmap", view.field_range,
                           usual.field_range, [&] {

@@ -36,9 +36,7 @@ bool ScheduledRun<D>::run_until(double time, std::uint64_t collisions, std::uint
                                 const StopRequest& stop) {
   while (schedule_.next() <= time) {
     if (!simulation_->run_until(schedule_.next(), collisions, steps, stop)) return false;
-    Schedule changed = schedule_;
-    changed.advance();
-    change_laws(std::move(changed));
+    advance(schedule_);
   }
   return simulation_->run_until(time, collisions, steps, stop);
 }
@@ -82,29 +80,36 @@ template <int D>
 void ScheduledRun<D>::change_here(const std::vector<Override>& laws) {
   Schedule changed = schedule_;
   changed.add({.time = simulation_->time(), .set = laws});
-  changed.advance();
-  change_laws(std::move(changed));
+  advance(std::move(changed));
 }
 
+// Makes the next change of laws of `schedule`, which then replaces that of the run.
 template <int D>
-void ScheduledRun<D>::change_laws(Schedule changed) {
+void ScheduledRun<D>::advance(Schedule schedule) {
+  const Averages averages = schedule.ramps_next() ? Averages::Continue : Averages::Restart;
+  schedule.advance();
   go_on_as(
-      std::make_unique<Simulation<D>>(model_of<D>(changed.laws(), seed_), simulation_->save()));
-  schedule_ = std::move(changed);
+      std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), simulation_->save()),
+      averages);
+  schedule_ = std::move(schedule);
 }
 
 // Replaces the simulation by `next`, which has the same particles at the same time, and hands all
 // observers over.
 template <int D>
-void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next) {
+void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next, Averages averages) {
   if (on_change) on_change(*next);
-  if (shown_) shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_, shown_.get());
+  if (shown_) {
+    if (averages == Averages::Restart) shown_->drop_averages();
+    shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_, shown_.get());
+  }
   simulation_ = std::move(next);
 }
 
 template <int D>
 void ScheduledRun<D>::renew() {
-  go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), simulation_->save()));
+  go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), simulation_->save()),
+           Averages::Continue);
 }
 
 // A simulation keeps its observers for ever, so the observers of another view need a new

@@ -58,8 +58,9 @@ class ScheduledRun {
   /// returned true or after settle().
   void change_here(const std::vector<Override>& laws);
 
-  /// Adds to later snapshots the averages, flights and angles that the view needs. `exposure` >= 0
-  /// is the exposure time of a picture, in simulation time.
+  /// Adds to later snapshots the averages, flights and angles that the view needs. Averages begin
+  /// anew at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure time
+  /// of a picture, in simulation time.
   void show(const View& view, double exposure = 0.0);
   /// The same, continued from the result of save_shown() at this time of a run with the same scene,
   /// view and exposure. An empty `saved` starts new averages.
@@ -77,8 +78,11 @@ class ScheduledRun {
 
  private:
   void halt_at(double time);
-  void change_laws(Schedule changed);
-  void go_on_as(std::unique_ptr<Simulation<D>> next);
+  /// Averages of the view that continue or begin anew with another simulation.
+  enum class Averages { Continue, Restart };
+
+  void advance(Schedule schedule);
+  void go_on_as(std::unique_ptr<Simulation<D>> next, Averages averages);
 
   Schedule schedule_;
   std::uint64_t seed_;

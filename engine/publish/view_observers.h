@@ -28,6 +28,8 @@ class ViewObservers {
 
   /// The state that determines later pictures, together with simulation and view; empty: none.
   std::string save();
+  /// Ends the averages, so that observers which continue these begin new ones.
+  void drop_averages() { field_.reset(); }
   /// Writes the data of the view at the simulation's time into the snapshot.
   void publish(Snapshot& snapshot);
 

@@ -114,6 +114,11 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   // rejects their keys.
   if (!input.scene.spins()) input = read_keys(root, file, false);
   Scene& scene = input.scene;
+  if (scene.gravity && !root.at_path("measure.profile_axis")) {
+    Eigen::Index axis = 0;
+    scene.gravity->cwiseAbs().maxCoeff(&axis);
+    scene.measure.profile_axis = static_cast<Axis>(axis);
+  }
   check_scene(scene, root, file);
   const bool from_file = scene.particles.start.layout == Layout::File;
   if (from_file && start_file == StartFile::Skip) {

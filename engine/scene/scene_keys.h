@@ -158,6 +158,14 @@ inline constexpr std::array<Named<ColourBy>, 7> kColourings = {{{"none", ColourB
 
 inline constexpr std::array<Named<Palette>, 3> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};
+inline constexpr std::array<Named<FieldPalette>, 5> kFieldPalettes = {
+    {{"blue", FieldPalette::Blue},
+     {"grey", FieldPalette::Grey},
+     {"viridis", FieldPalette::Viridis},
+     {"inferno", FieldPalette::Inferno},
+     {"cividis", FieldPalette::Cividis}}};
+inline constexpr std::array<Named<FieldStyle>, 2> kFieldStyles = {
+    {{"smooth", FieldStyle::Smooth}, {"cells", FieldStyle::Cells}}};
 
 /// Quantities that arrows can show.
 inline constexpr std::array<Named<Quantity>, 2> kArrows = {
@@ -347,7 +355,7 @@ inline constexpr auto kMeasureKeys = key_table(
       "Spacing of the series of temperatures. The series starts at time 0."},
      {"fields", "", "Fields that are averaged, and residuals of the balance equations."},
      {"cells", "1", "Number of cells along each axis, for fields."},
-     {"profile_axis", "", "Axis of the profiles. z is for spheres only."},
+     {"profile_axis", "", "Axis of the profiles. With gravity the default is its axis. z is for spheres only."},
      {"estimator", "", "Estimator of the fields. It integrates every flight, or takes snapshots."},
      {"interval", "t", "Time between snapshots."},
      {"kernel", "",
@@ -629,7 +637,12 @@ inline constexpr auto kViewKeys = key_table(
      {"range", "",
       "Range of the particles' colours. auto follows the picture in the window. Films keep the "
       "range of their first averaging window. locked keeps the first range."},
-     {"field_palette", "", "Colours of the heatmap. Without a value `palette` applies."},
+     {"field_palette", "",
+      "Hues of the heatmap. Zero has the colour of the background. Particles stand out from all "
+      "hues. Quantities with a sign are blue and red."},
+     {"field_style", "",
+      "Drawing of the heatmap. smooth interpolates between cells. cells gives each cell the colour "
+      "of its exact value, and hatches cells without a value. A volume has cells."},
      {"field_range", "",
       "Range of the heatmap's colours. auto follows the picture in the window. Films keep the "
       "range of their first averaging window. locked keeps the range of the first whole window."},
@@ -670,7 +683,8 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.choice(kViewKeys.at("palette"), view.palette, kPalettes);
   const Limits colours = between(-ColourRange::kLargestEnd, ColourRange::kLargestEnd);
   io.value(kViewKeys.at("range"), view.range, colours);
-  io.choice(kViewKeys.at("field_palette"), view.field_palette, kPalettes);
+  io.choice(kViewKeys.at("field_palette"), view.field_palette, kFieldPalettes);
+  io.choice(kViewKeys.at("field_style"), view.field_style, kFieldStyles);
   io.value(kViewKeys.at("field_range"), view.field_range, colours);
   io.choice(kViewKeys.at("arrows"), view.arrows, kArrows);
   io.choice(kViewKeys.at("theme"), view.theme, kThemes);

@@ -37,6 +37,9 @@ class Schedule {
   /// Index of the next step's change.
   std::size_t next_change() const { return steps_.front().change; }
 
+  /// Whether the next change of laws is a step of a ramp.
+  bool ramps_next() const { return (*changes_)[next_change()].ramp.has_value(); }
+
   /// Number of steps of a ramp.
   static constexpr int kRampSteps = 64;
 

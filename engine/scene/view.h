@@ -19,6 +19,15 @@ enum class Axis { X, Y, Z };
 /// The colour maps for magnitudes.
 enum class Palette { Viridis, Inferno, Cividis };
 
+/// The colour maps for magnitudes of fields.
+enum class FieldPalette { Blue, Grey, Viridis, Inferno, Cividis };
+
+/// Drawing of a field between the centres of its cells.
+enum class FieldStyle {
+  Smooth,  ///< interpolated
+  Cells    ///< one colour per cell
+};
+
 /// The colours of background, letters, walls and lines.
 enum class Theme { Dark, Light, Projector };
 
@@ -73,21 +82,22 @@ struct Slice {
 struct View {
   ColourBy colour_by = ColourBy::Speed;
   std::optional<Field> field;              ///< the heatmap below the particles; absent: none
-  double window = 5.0;                     ///< averaging time of the live field, > 0
+  double window = 20.0;                    ///< averaging time of the live field, > 0
   Estimator estimator = Estimator::Exact;  ///< of the live field
   double interval = 0.1;  ///< between samples of the snapshot estimator, > 0 and at most the window
   double speed = 1.0;     ///< simulation time per second of film, > 0
-  Palette palette = Palette::Viridis;    ///< of the particles' magnitudes
-  ColourRange range;                     ///< of the particles' colours
-  std::optional<Palette> field_palette;  ///< of the heatmap's magnitudes; absent: as palette
-  ColourRange field_range;               ///< of the heatmap's colours
-  std::optional<Quantity> arrows;        ///< one of kArrows, averaged as the heatmap; absent: none
-  Theme theme = Theme::Dark;             ///< of background, letters, walls and lines
-  std::optional<Rgb> background;         ///< absent: as the theme
-  bool grid = false;             ///< lines over the box, spaced by the length of the scale bar
-  bool overlay = true;           ///< time, title, colour bar, scale bar
-  std::optional<double> trails;  ///< duration of the particles' trails, > 0; absent: none
-  std::optional<double> card;    ///< seconds of the title card at a film's start, > 0; absent: none
+  Palette palette = Palette::Viridis;               ///< of the particles' magnitudes
+  ColourRange range;                                ///< of the particles' colours
+  FieldPalette field_palette = FieldPalette::Blue;  ///< of the heatmap's magnitudes
+  FieldStyle field_style = FieldStyle::Smooth;      ///< of the heatmap; a volume has cells
+  ColourRange field_range;                          ///< of the heatmap's colours
+  std::optional<Quantity> arrows;  ///< one of kArrows, averaged as the heatmap; absent: none
+  Theme theme = Theme::Dark;       ///< of background, letters, walls and lines
+  std::optional<Rgb> background;   ///< absent: as the theme
+  bool grid = false;               ///< lines over the box, spaced by the length of the scale bar
+  bool overlay = true;             ///< time, title, colour bar, scale bar
+  std::optional<double> trails;    ///< duration of the particles' trails, > 0; absent: none
+  std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
   /// about the y axis towards x, elevation raises the viewer towards y.
   double azimuth = 30.0, elevation = 20.0;

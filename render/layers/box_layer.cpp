@@ -65,7 +65,7 @@ Pattern pattern_of(WallKind kind) {
 BoxLayer::BoxLayer(const Gl& gl) : gl_(&gl), faces_(gl, "side.frag"), lines_(gl) {}
 
 void BoxLayer::draw_sides(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                          const ThemeColours& theme) const {
+                          const WallColours& colours) const {
   const Program& program = faces_.use(snapshot.box, projection, eye);
   gl_->DepthMask(GL_FALSE);
   for (int side = 0; side < 6; ++side) {
@@ -80,14 +80,14 @@ void BoxLayer::draw_sides(const Snapshot& snapshot, const Projection& projection
     gl_->Uniform1i(program.uniform("u_pattern"), pattern_of(wall->kind));
     gl_->Uniform2f(program.uniform("u_extent"), extent.x(), extent.y());
     gl_->Uniform1f(program.uniform("u_advance"), std::floor(periods) - periods);
-    set_colour(*gl_, program, "u_colour", wall_colour(*wall, snapshot.temperature, theme));
+    set_colour(*gl_, program, "u_colour", colours.of(*wall));
     faces_.draw(rectangle, eye, extent);
   }
   gl_->DepthMask(GL_TRUE);
 }
 
 void BoxLayer::draw_edges(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                          const ThemeColours& theme, Sides sides) {
+                          const WallColours& colours, Sides sides) {
   const double width =
       projection.samples *
       std::max(1.0, 0.0016 * std::min(projection.size.width, projection.size.height));
@@ -103,8 +103,7 @@ void BoxLayer::draw_edges(const Snapshot& snapshot, const Projection& projection
       const std::array<Vec2, 4> corners = {
           rectangle.low, Vec2(rectangle.high.x(), rectangle.low.y()), rectangle.high,
           Vec2(rectangle.low.x(), rectangle.high.y())};
-      const Colour colour =
-          wall ? wall_colour(*wall, snapshot.temperature, theme) : theme.static_wall;
+      const Colour colour = wall ? colours.of(*wall) : colours.theme.static_wall;
       for (std::size_t k = 0; k < 4; ++k) {
         lines.push_back({place_in(rectangle, corners[k]), place_in(rectangle, corners[(k + 1) % 4]),
                          width, colour});

@@ -3,7 +3,7 @@
 #include "engine/publish/snapshot.h"
 #include "render/layers/face_layer.h"
 #include "render/layers/line_layer.h"
-#include "render/theme.h"
+#include "render/layers/wall_colours.h"
 
 namespace clatter {
 
@@ -18,10 +18,10 @@ class BoxLayer {
 
   /// Draws the sides that face the viewer from behind the spheres.
   void draw_sides(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                  const ThemeColours& theme) const;
+                  const WallColours& colours) const;
   /// Draws the edges of sides where no sphere hides them.
   void draw_edges(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                  const ThemeColours& theme, Sides sides = Sides::All);
+                  const WallColours& colours, Sides sides = Sides::All);
 
  private:
   const Gl* gl_;

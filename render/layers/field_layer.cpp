@@ -9,28 +9,20 @@ FieldLayer::FieldLayer(const Gl& gl)
     : gl_(&gl),
       program_(gl, "field.vert", "field.frag"),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)),
-      cells_(generate<Texture>(gl, gl.GenTextures)) {
-  gl.BindTexture(GL_TEXTURE_2D, cells_.id());
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+      texture_(gl) {}
+
+PlaneMap plane_of(const Snapshot& snapshot) {
+  const FieldMap& map = *snapshot.field;
+  return {
+      map.cells[0], map.cells[1], {!snapshot.walls[kLeft], !snapshot.walls[kBottom]}, map.values};
 }
 
-void FieldLayer::draw(const FieldMap& map, const Vec2& box, const Projection& projection,
-                      const ColourScale& scale, Colour gap) {
-  colours_.resize(map.values.size());
-  std::transform(map.values.begin(), map.values.end(), colours_.begin(), [&](double value) {
-    return std::isnan(value) ? Colour{0, 0, 0, 0} : scale(value);
-  });
-  gl_->ActiveTexture(GL_TEXTURE0);
-  gl_->BindTexture(GL_TEXTURE_2D, cells_.id());
-  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, map.cells[0], map.cells[1], 0, GL_RGBA,
-                  GL_UNSIGNED_BYTE, colours_.data());
-
+void FieldLayer::draw(const Snapshot& snapshot, const Projection& projection,
+                      const ColourScale& scale, FieldStyle style, Colour gap) {
+  texture_.bind(plane_of(snapshot), scale, style);
   const Size size = projection.size, drawn = projection.drawn();
   const Vec2 low = projection.pixels({0.0, 0.0});
-  const Vec2 high = projection.pixels(box);
+  const Vec2 high = projection.pixels(snapshot.box);
   program_.use();
   gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
   gl_->Uniform2f(program_.uniform("u_low"), low.x(), low.y());

@@ -38,12 +38,15 @@ float name_width(const Label& label, const Fonts& fonts) {
 }
 
 // One strip per pixel row, so that the colours of the map do not depend on the height of the bar.
-void draw_bar(ImDrawList& list, const ColourScale& scale, ImVec2 low, ImVec2 high) {
+// The frame keeps colours visible that equal the background.
+void draw_bar(ImDrawList& list, const ColourScale& scale, Colour frame, ImVec2 low, ImVec2 high) {
   for (float y = low.y; y < high.y; ++y) {
     const double share = (high.y - y - 0.5f) / (high.y - low.y);
     const Colour colour = scale(scale.low + share * (scale.high - scale.low));
     list.AddRectFilled(ImVec2(low.x, y), ImVec2(high.x, y + 1.0f), packed(colour));
   }
+  list.AddRect(ImVec2(low.x - 1.0f, low.y - 1.0f), ImVec2(high.x + 1.0f, high.y + 1.0f),
+               packed(frame));
 }
 
 float bar_width(const Legend& legend, const Fonts& fonts) {
@@ -88,7 +91,7 @@ void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
   draw_name(list, legend.label, fonts, theme, place);
   draw_text(list, *fonts.small, ImVec2(place.x, std::round(place.y + kNameHeight * unit)),
             theme.faint_ink(), unit_and_range(legend, legend.range.c_str()));
-  draw_bar(list, legend.scale, low, high);
+  draw_bar(list, legend.scale, theme.static_wall, low, high);
 
   const int count = std::clamp(static_cast<int>((high.y - low.y) / (2.2f * unit)), 1, 5);
   const auto [least, most] = std::minmax(legend.scale.low, legend.scale.high);

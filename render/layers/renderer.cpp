@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/camera_path.h"
+#include "render/contrast_maps.h"
 #include "render/label.h"
 #include "render/layers/space_lines.h"
 #include "render/theme.h"
@@ -13,24 +14,31 @@ namespace clatter {
 
 namespace {
 
-constexpr std::uint8_t kBelowColouredDisks = 115;  // alpha of a heatmap below coloured disks
-constexpr std::uint8_t kGrid = 140;                // alpha of the grid
-constexpr std::uint8_t kHatchOpacity = 70;         // alpha of the hatching of cells without a value
+constexpr std::uint8_t kGrid = 140;  // alpha of the grid
 
 Colour thin(Colour colour, std::uint8_t alpha) {
   colour.alpha = alpha;
   return colour;
 }
 
-// The palette without its darkest eighth, in which slow disks would blend into the background.
-ColourMap disk_map(const View& view, Sign sign) {
-  if (sign == Sign::Either) return diverging_map();
-  return colour_map(view.palette).subspan(2);
+ColourMap map_of(Sign sign, const View& view, Colour ground) {
+  return sign == Sign::Either ? signed_particle_map(ground) : particle_map(view.palette, ground);
 }
 
-ColourMap field_map(Field field, const View& view) {
-  if (sign_of(field) == Sign::Either) return diverging_map();
-  return colour_map(view.field_palette.value_or(view.palette));
+ColourMap map_of(Field field, const View& view, Colour ground) {
+  return sign_of(field) == Sign::Either ? signed_field_map(ground)
+                                        : field_map(view.field_palette, ground);
+}
+
+// A residual belongs to its own cell, so it is not smoothed.
+FieldStyle style_of(Field field, const View& view) {
+  return is_residual(field) ? FieldStyle::Cells : view.field_style;
+}
+
+// The colour of the hatching of cells without a value. Smooth fields have no hatching.
+Colour gap_colour(const ThemeColours& theme, FieldStyle style) {
+  constexpr std::uint8_t kHatch = 70;
+  return thin(theme.static_wall, style == FieldStyle::Cells ? kHatch : 0);
 }
 
 // The first colour is the smallest magnitude. For Sign::Either it is the smallest value.
@@ -56,6 +64,13 @@ double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
   std::vector<double> values(snapshot.count());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = disk_value(snapshot, colour_by, i);
   return robust_extent(std::move(values));
+}
+
+// The extent of the values that a heatmap shows.
+double field_extent(const Snapshot& snapshot, const View& view) {
+  const FieldMap& map = *snapshot.field;
+  const bool smooth = style_of(map.field, view) == FieldStyle::Smooth && map.cells.size() == 2;
+  return robust_extent(smooth ? smoothed(plane_of(snapshot)).values : map.values);
 }
 
 double arrow_extent(const ArrowMap& map) {
@@ -92,7 +107,7 @@ RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
   const auto end = [](double extent) { return extent > 0.0 ? round_up(extent) : 0.0; };
   RangeEnds ends;
   if (view.colour_by != ColourBy::None) ends.disks = end(disk_extent(snapshot, view.colour_by));
-  if (shows_field(snapshot, view)) ends.field = end(robust_extent(snapshot.field->values));
+  if (shows_field(snapshot, view)) ends.field = end(field_extent(snapshot, view));
   if (view.arrows && snapshot.arrows) ends.arrows = end(arrow_extent(*snapshot.arrows));
   return ends;
 }
@@ -138,19 +153,19 @@ void Renderer::fix(const RangeEnds& ends) {
 
 Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double scale) {
   const auto dimension = static_cast<int>(snapshot.box.size());
+  const Colour ground = theme_of(view).background;
   Legends legends;
   if (view.colour_by != ColourBy::None) {
     const Label label = label_of(view.colour_by, dimension);
     legends.disks = disk_range_.legend(
-        label, view.range, disk_map(view, label.sign),
+        label, view.range, map_of(label.sign, view, ground),
         [&] { return disk_extent(snapshot, view.colour_by); }, true);
   }
   if (shows_field(snapshot, view)) {
     const FieldMap& map = *snapshot.field;
     legends.field = field_range_.legend(
-        label_of(map.field, dimension), view.field_range, field_map(map.field, view),
-        [&] { return robust_extent(map.values); }, map.whole_window);
-    if (legends.disks && dimension == 2) legends.field->scale.opacity = kBelowColouredDisks;
+        label_of(map.field, dimension), view.field_range, map_of(map.field, view, ground),
+        [&] { return field_extent(snapshot, view); }, map.whole_window);
   }
   if (view.arrows && snapshot.arrows) {
     const Label label = label_of(snapshot.arrows->quantity, dimension);
@@ -201,12 +216,12 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
                           const Legends& legends, const ThemeColours& theme) {
   clear(projection, theme);
   if (legends.field && has_values(*snapshot.field)) {
-    field_.draw(*snapshot.field, snapshot.box, projection, legends.field->scale,
-                thin(theme.static_wall, kHatchOpacity));
+    const FieldStyle style = style_of(snapshot.field->field, view);
+    field_.draw(snapshot, projection, legends.field->scale, style, gap_colour(theme, style));
   }
   pause(projection);
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
-  walls_.draw(snapshot, projection, theme);
+  walls_.draw(snapshot, projection, wall_colours(theme, legends, view, 2));
   const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
                             theme.disk, transparent_ ? Blending::Encoded : Blending::Light};
   if (view.trails) trails_.draw(snapshot, projection, colours, *view.trails);
@@ -244,23 +259,25 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   const Eye eye(projection);
   const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
                             theme.disk, blending, -eye.axes().row(2).transpose()};
+  const WallColours walls = wall_colours(theme, legends, view, 3);
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
-  space_->box.draw_sides(snapshot, projection, eye, theme);
+  space_->box.draw_sides(snapshot, projection, eye, walls);
   const bool field = legends.field && has_values(*snapshot.field);
   const bool volume = field && view.volume > 0.0;
   std::vector<Slice> slices;
   if (field) {
     slices = slices_of(snapshot, view);
-    space_->slices.draw(snapshot, slices, projection, eye, legends.field->scale,
-                        thin(theme.static_wall, kHatchOpacity));
+    const FieldStyle style = style_of(snapshot.field->field, view);
+    space_->slices.draw(snapshot, slices, projection, eye, legends.field->scale, style,
+                        gap_colour(theme, style));
   }
   pause(projection);
   // Spheres without a shape and the volume have no depths, so edges behind them are drawn first.
   const bool light = SphereLight::draws(eye, snapshot);
   const bool depthless = light || volume;
   using Sides = BoxLayer::Sides;
-  if (depthless) space_->box.draw_edges(snapshot, projection, eye, theme, Sides::Far);
+  if (depthless) space_->box.draw_edges(snapshot, projection, eye, walls, Sides::Far);
   // All spheres without a shape are behind a plane across the view, and the others before it.
   if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
   // The volume would end at the faint parts of spheres in front of it.
@@ -274,7 +291,7 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
     pause(projection);
   }
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
-  space_->box.draw_edges(snapshot, projection, eye, theme, depthless ? Sides::Near : Sides::All);
+  space_->box.draw_edges(snapshot, projection, eye, walls, depthless ? Sides::Near : Sides::All);
   gl_->Disable(GL_DEPTH_TEST);
 }
 

@@ -4,7 +4,7 @@
 
 #include "engine/publish/snapshot.h"
 #include "render/layers/face_layer.h"
-#include "render/palette.h"
+#include "render/layers/field_texture.h"
 
 namespace clatter {
 
@@ -16,15 +16,16 @@ class SliceLayer {
  public:
   explicit SliceLayer(const Gl& gl);
 
-  /// Draws slices of the field of the snapshot.
+  /// Draws slices of the field of the snapshot. A smooth slice is a mean over neighbouring layers
+  /// of cells. `gap` is the colour of the hatching of cells without a value.
   void draw(const Snapshot& snapshot, const std::vector<Slice>& slices,
-            const Projection& projection, const Eye& eye, const ColourScale& scale, Colour gap);
+            const Projection& projection, const Eye& eye, const ColourScale& scale,
+            FieldStyle style, Colour gap);
 
  private:
   const Gl* gl_;
   FaceLayer faces_;
-  Texture cells_;
-  std::vector<Colour> colours_;  ///< of the cells of a slice; reused to avoid allocations
+  FieldTexture texture_;
 };
 
 }  // namespace clatter

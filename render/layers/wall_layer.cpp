@@ -20,17 +20,10 @@ struct Look {
   double advance = 0.0;  // displacement of a driven wall's teeth, world units
 };
 
-// Colour of a thermal wall from its temperature relative to the gas. The coldest wall is at 1/3 of
-// the palette, a wall as hot as the gas at 2/3, the hottest at its end.
-Colour thermal_colour(double wall_temperature, double gas_temperature) {
-  const double sum = wall_temperature + gas_temperature;
-  const ColourScale heat{colour_map(Palette::Inferno), -0.5, 1.0};
-  return heat(sum > 0.0 ? wall_temperature / sum : 0.5);
-}
-
-Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot, const ThemeColours& theme) {
-  if (!wall) return {kDashes, theme.static_wall};
-  const Colour colour = wall_colour(*wall, snapshot.temperature, theme);
+Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot,
+             const WallColours& colours) {
+  if (!wall) return {kDashes, colours.theme.static_wall};
+  const Colour colour = colours.of(*wall);
   switch (wall->kind) {
     case WallKind::Static:
       return {kHatch, colour};
@@ -86,12 +79,6 @@ double line_width(const Projection& projection) {
 
 }  // namespace
 
-Colour wall_colour(const Wall& wall, double gas_temperature, const ThemeColours& theme) {
-  if (wall.kind == WallKind::Static) return theme.static_wall;
-  if (wall.kind == WallKind::Thermal) return thermal_colour(wall.temperature, gas_temperature);
-  return theme.driven_wall;
-}
-
 double wall_thickness(Size size) {
   return std::max(6.0, std::round(0.025 * std::min(size.width, size.height)));
 }
@@ -124,7 +111,7 @@ WallLayer::WallLayer(const Gl& gl)
 }
 
 void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
-                     const ThemeColours& theme) const {
+                     const WallColours& colours) const {
   program_.use();
   const Size drawn = projection.drawn();
   gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
@@ -134,29 +121,29 @@ void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   for (Side side : {kLeft, kRight, kBottom, kTop}) {
     const auto& wall = snapshot.walls[side];
-    if (wall && wall->moves()) draw_place(side, snapshot, projection, theme);
+    if (wall && wall->moves()) draw_place(side, snapshot, projection, colours);
   }
-  for (Side side : {kLeft, kRight, kBottom, kTop}) draw_side(side, snapshot, projection, theme);
+  for (Side side : {kLeft, kRight, kBottom, kTop}) draw_side(side, snapshot, projection, colours);
 }
 
 void WallLayer::draw_place(Side side, const Snapshot& snapshot, const Projection& projection,
-                           const ThemeColours& theme) const {
+                           const WallColours& colours) const {
   const double line = line_width(projection);
   // Hides the heatmap behind the face, where there is no gas.
   const double moved_in = snapshot.wall_displacement[side] * projection.scale();
   if (moved_in > 0.0) {
     draw_band(band(side, snapshot, projection, 0.0, moved_in, Ends::Straight), kPlain,
-              theme.background);
+              colours.theme.background);
   }
-  Colour place = theme.static_wall;
+  Colour place = colours.theme.static_wall;
   place.alpha = 0x60;
   draw_band(band(side, snapshot, projection, moved_in, moved_in + line, Ends::Straight), kPlain,
             place);
 }
 
 void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection& projection,
-                          const ThemeColours& theme) const {
-  const Look look = look_of(snapshot.walls[side], snapshot, theme);
+                          const WallColours& colours) const {
+  const Look look = look_of(snapshot.walls[side], snapshot, colours);
   const double thickness = thickness_of(projection);
   const double line = line_width(projection);
   const bool is_line = look.pattern == kDashes;

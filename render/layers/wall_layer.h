@@ -5,8 +5,7 @@
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
-#include "render/palette.h"
-#include "render/theme.h"
+#include "render/layers/wall_colours.h"
 
 namespace clatter {
 
@@ -25,9 +24,6 @@ Faces faces_of(const Snapshot& snapshot);
 /// The faces at their outermost positions.
 Faces outermost_faces(const Snapshot& snapshot);
 
-/// Colour of a wall. That of a thermal wall follows from its temperature relative to the gas.
-Colour wall_colour(const Wall& wall, double gas_temperature, const ThemeColours& theme);
-
 /// Draws the sides of the box. The teeth of a driven wall move into the box at half its drive
 /// speed, the speed of the equivalent moving wall. A saw-tooth or sinusoidal wall moves over a line
 /// at the side of the box. A thermal wall glows, a static wall is hatched, a periodic border is
@@ -44,13 +40,13 @@ class WallLayer {
 
   /// Draws the four sides of the snapshot's box.
   void draw(const Snapshot& snapshot, const Projection& projection,
-            const ThemeColours& theme) const;
+            const WallColours& colours) const;
 
  private:
   void draw_place(Side side, const Snapshot& snapshot, const Projection& projection,
-                  const ThemeColours& theme) const;
+                  const WallColours& colours) const;
   void draw_side(Side side, const Snapshot& snapshot, const Projection& projection,
-                 const ThemeColours& theme) const;
+                 const WallColours& colours) const;
   void draw_band(const std::array<Vertex, 4>& corners, int pattern, Colour colour) const;
 
   const Gl* gl_;

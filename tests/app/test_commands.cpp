@@ -24,10 +24,10 @@ TEST_CASE("Commands: scenes lists the gallery, one valid scene a line") {
   }
 }
 
-TEST_CASE("Commands: scenes are listed by name") {
+TEST_CASE("Commands: the list of scenes begins with those that explain themselves") {
   const Shell shell;
-  const Outcome sorted = shell.run("clatter scenes | cut -d' ' -f1 | LC_ALL=C sort -c");
-  CHECK(sorted.err.empty());
+  const Outcome first = shell.run("clatter scenes | cut -d' ' -f1 | head -3");
+  CHECK(first.out == "cradle\nshaker\nvibrated\n");
 }
 
 TEST_CASE("Commands: the titles of the list of scenes begin in one column") {
@@ -54,7 +54,7 @@ TEST_CASE("Commands: check prints a scene that it prints again unchanged") {
 
 TEST_CASE("Commands: check prints the used and unused features of a scene, and its cost") {
   const Shell shell;
-  const std::string plain = shell.run("clatter check cooling").err;
+  const std::string plain = shell.run("clatter check equilibrium").err;
   CAPTURE(plain);
   CHECK(says(plain, "\n  feature       bytes per particle  CPU time  in this scene\n"));
   CHECK(std::regex_search(plain, std::regex("\n  particles +[1-9][0-9]* +x1  yes\n")));

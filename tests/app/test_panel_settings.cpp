@@ -70,8 +70,8 @@ TEST_CASE("Panels: every word of a list sets its own key to itself") {
        {List{"view.colour_by", {"none", "speed", "velocity x", "spin"}},
         List{"view.palette", {"viridis", "inferno"}},
         List{"view.field", {"density", "velocity y", "temperature x"}},
-        List{"view.field_palette", {"viridis", "cividis"}}, List{"view.arrows", {"velocity"}},
-        List{"view.theme", {"dark", "projector"}},
+        List{"view.field_palette", {"grey", "cividis"}}, List{"view.field_style", {"cells"}},
+        List{"view.arrows", {"velocity"}}, List{"view.theme", {"dark", "projector"}},
         List{"walls.left", {"static", "thermal", "sawtooth", "sinusoidal"}},
         List{"walls.right", {"driven", "thermal"}}, List{"walls.bottom", {"sawtooth"}},
         List{"walls.top", {"static"}}}) {
@@ -99,8 +99,6 @@ TEST_CASE("Panels: the first item of a list removes the feature") {
   const json before = settings(driver);
   choose(driver, "view.arrows", "none");
   CHECK(changes(before, settings(driver)) == Places{"/view/arrows"});
-  choose(driver, "view.field_palette", "as the disks");
-  CHECK_FALSE(settings(driver).contains("/view/field_palette"));
   choose(driver, "view.field", "none");
   CHECK_FALSE(settings(driver).contains("/view/field"));
   // The opposite side becomes periodic too.
@@ -112,13 +110,11 @@ TEST_CASE("Panels: the first item of a list removes the feature") {
 }
 
 TEST_CASE("Panels: \"none\" is also a name in scenes, as in the lists") {
-  const Scene scene = parse_scene(
-      "[particles]\ncount = 5\n[view]\nfield = 'density'\narrows = 'velocity'\n"
-      "field_palette = 'none'\n",
-      "", {{"view.field", "\"none\""}, {"view.arrows", "\"none\""}});
+  const Scene scene =
+      parse_scene("[particles]\ncount = 5\n[view]\nfield = 'density'\narrows = 'velocity'\n", "",
+                  {{"view.field", "\"none\""}, {"view.arrows", "\"none\""}});
   CHECK_FALSE(scene.view.field);
   CHECK_FALSE(scene.view.arrows);
-  CHECK_FALSE(scene.view.field_palette);
 }
 
 TEST_CASE("Panels: ranges are automatic, locked or given from the one number to the other") {

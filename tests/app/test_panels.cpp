@@ -78,6 +78,8 @@ TEST_CASE("Panels: every name is beside the value of its own key, in its unit") 
                                "{ stress xy }",
                                "Palette of the heatmap",
                                "{ inferno }",
+                               "Style of the heatmap",
+                               "{ smooth }",
                                "Range of the heatmap",
                                "{ given }",
                                "{ -4.5 } { 6.75 }",

@@ -326,6 +326,58 @@ TEST_CASE("Plots: a profile has its field's name, unit, values and errors over t
   CHECK(profiled_by(told.size()) == Profiled::Balances);
 }
 
+TEST_CASE("Plots: the density of an atmosphere stands beside its law") {
+  TwoFrames frames;
+  *frames.scene = load_scene("barometer");
+  Profile profile;
+  profile.axis = Axis::Y;
+  profile.edges = {0.0, 20.0, 40.0};
+  profile.fields = {Quantity::Density, Quantity::Temperature};
+  profile.values = {{{0.3, 0.01}, {0.1, 0.01}}, {{3.0, 0.1}, {3.0, 0.1}}};
+  frames.end.profile = profile;
+  const Curve law = curve_of(frames.plot("Profile"), "atmosphere");
+  CHECK(law.dashed);
+  CHECK_FALSE(law.help.empty());
+  CHECK(law.points.front().x() == 0.5);
+  CHECK(law.points.back().x() == doctest::Approx(39.5));
+  // The pressures of floor and lid differ by the weight, N g/Lx = 200/30 (Henderson 1975).
+  const auto pressure = [](double rho) {
+    const double phi = 0.25 * std::numbers::pi * rho;
+    return 3.0 * rho * (1.0 + phi * phi / 8.0) / std::pow(1.0 - phi, 2);
+  };
+  CHECK(pressure(law.points.front().y()) - pressure(law.points.back().y()) ==
+        doctest::Approx(200.0 / 30.0));
+  // Other fields and axes have no such law, and gases that lose energy neither.
+  CHECK(frames.plot("Profile", 1).curves.size() == 1);
+  frames.end.profile->axis = Axis::X;
+  CHECK(frames.plot("Profile").curves.size() == 1);
+  frames.end.profile->axis = Axis::Y;
+  frames.scene->particles.restitution = 0.99;
+  CHECK(frames.plot("Profile").curves.size() == 1);
+}
+
+TEST_CASE("Plots: a gas that cools has Haff's law on logarithmic axes") {
+  TwoFrames frames;
+  *frames.scene = load_scene("cooling");
+  const double start = frames.scene->particles.start.temperature;
+  const double rate = theory_json(*frames.scene).at("haff_rate");
+  const LivePlot plot = frames.plot("Temperature");
+  check_axes(plot, "time t", "m a²/t²", true, true);
+  const Curve& haff = curve_of(plot, "Haff");
+  CHECK(haff.dashed);
+  CHECK(haff.points.front().x() == doctest::Approx(9.0));
+  CHECK(haff.points.back().x() == doctest::Approx(11.0));
+  for (const Vec2& point : haff.points) {
+    CHECK(point.y() == doctest::Approx(start / std::pow(1.0 + rate * point.x(), 2)));
+  }
+  // Other laws since the start, or no losses: no such law.
+  frames.scene->changes = {{.time = 1.0, .set = {{"particles.restitution", "0.9"}}}};
+  CHECK_FALSE(frames.plot("Temperature").log_x);
+  frames.scene->changes.clear();
+  frames.scene->particles.restitution = 1.0;
+  CHECK_FALSE(frames.plot("Temperature").log_x);
+}
+
 TEST_CASE("Plots: balance residuals stand under their equation's name, in magnitude") {
   TwoFrames frames;
   frames.end.residuals = ResidualProfile{

@@ -35,8 +35,8 @@ struct GalleryHash {
 constexpr GalleryHash kGallery[] = {
     {"barometer.toml", 0x6a2395a17e31fee7},
     {"collapse.toml", 0x4bf763996dd1b7ee},
-    {"conduction.toml", 0x4742c3cdb52cce7c},
-    {"cooling.toml", 0xc2d485f5299d3cbe},
+    {"conduction.toml", 0x6ec3c4ab107498dd},
+    {"cooling.toml", 0x002cb0c2ab369464},
     {"cradle.toml", 0x0d76ddcebd38d99e},
     {"dense.toml", 0xa8462d63d5bf47fa},
     {"equilibrium.toml", 0x2f6ceb84347bc73e},

@@ -9,6 +9,7 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
+#include "render/contrast_maps.h"
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 #include "tests/support/messages.h"
@@ -117,7 +118,7 @@ std::string disagreement(const Image& image, const Snapshot& snapshot, const Cam
   if (spots.size() != snapshot.count()) {
     return "there are " + std::to_string(spots.size()) + " spots";
   }
-  const ColourScale scale{colour_map(Palette::Viridis).subspan(2), 0.0, kFastest};
+  const ColourScale scale{particle_map(Palette::Viridis, {255, 255, 255}), 0.0, kFastest};
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
     const Vec2 centre = projection.pixels(snapshot.positions.col(i));
     const auto spot = std::ranges::find_if(

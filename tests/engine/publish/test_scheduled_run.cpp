@@ -102,7 +102,7 @@ TEST_CASE("ScheduledRun: spheres change their laws, and resume, to the bit") {
   CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
 }
 
-TEST_CASE("ScheduledRun: the live field continues across changes") {
+TEST_CASE("ScheduledRun: the live field continues with another simulation") {
   const Scene scene = vibrated();
   ScheduledRun<2> plain(scene, 14), changing(scene, 14);
   plain.show(scene.view);
@@ -110,13 +110,46 @@ TEST_CASE("ScheduledRun: the live field continues across changes") {
   for (int part = 1; part <= 50; ++part) {
     plain.run_until(0.1 * part);
     changing.run_until(0.1 * part);
-    changing.change({{"particles.restitution", "0.9"}});
+    changing.renew();
   }
   const FieldMap a = *plain.snapshot().field, b = *changing.snapshot().field;
   REQUIRE(a.values.size() == b.values.size());
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     CHECK(b.values[i] == doctest::Approx(a.values[i]).epsilon(1e-9));
   }
+}
+
+TEST_CASE("ScheduledRun: the live field begins anew at a change, and continues in a ramp") {
+  const auto at_four = [](const std::optional<Change>& change) {
+    Scene scene = load_scene("vibrated", {{"view.window", "8.0"}});
+    if (change) scene.changes = {*change};
+    ScheduledRun<2> run(scene, 14);
+    run.show(scene.view);
+    run.run_until(4.0);
+    return *run.snapshot().field;
+  };
+  const std::vector<Override> same = {{"particles.restitution", "0.9"}};
+  const FieldMap plain = at_four({});
+  const FieldMap ramped =
+      at_four(Change{.time = 2.0, .set = same, .ramp = Ramp::Linear, .until = 3.5});
+  for (std::size_t i = 0; i < plain.values.size(); ++i) {
+    CHECK(ramped.values[i] == doctest::Approx(plain.values[i]).epsilon(1e-9));
+  }
+  // The average of the last two time units alone.
+  const FieldMap changed = at_four(Change{.time = 2.0, .set = same});
+  const Scene scene = load_scene("vibrated", {{"view.window", "8.0"}});
+  ScheduledRun<2> late(scene, 14);
+  late.run_until(2.0);
+  late.show(scene.view);
+  late.run_until(4.0);
+  const FieldMap alone = *late.snapshot().field;
+  REQUIRE(changed.values.size() == alone.values.size());
+  double difference = 0.0;
+  for (std::size_t i = 0; i < alone.values.size(); ++i) {
+    CHECK(changed.values[i] == doctest::Approx(alone.values[i]).epsilon(1e-9));
+    difference = std::max(difference, std::fabs(changed.values[i] - plain.values[i]));
+  }
+  CHECK(difference > 0.1);
 }
 
 TEST_CASE("ScheduledRun: pictures show flights and angles if asked to, and particles turn on") {
@@ -165,7 +198,7 @@ TEST_CASE("ScheduledRun: the shown field may change while it runs, and does not 
   CHECK(watched.simulation().state_hash() == plain.simulation().state_hash());
 }
 
-TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
+TEST_CASE("ScheduledRun: arrows and balances continue across the steps of ramps") {
   View view = vibrated().view;
   view.arrows = Quantity::HeatFlux;
   for (const Field field : {Quantity::Temperature, Quantity::BalanceEnergy}) {
@@ -173,7 +206,10 @@ TEST_CASE("ScheduledRun: arrows and balances continue across changes") {
     const auto at_ten = [&](const std::vector<double>& times) {
       Scene scene = vibrated();
       for (const double time : times) {
-        scene.changes.push_back({.time = time, .set = {{"particles.restitution", "0.9"}}});
+        scene.changes.push_back({.time = time,
+                                 .set = {{"particles.restitution", "0.9"}},
+                                 .ramp = Ramp::Linear,
+                                 .until = time + 0.1});
       }
       ScheduledRun<2> run(scene, 15);
       run.show(view);

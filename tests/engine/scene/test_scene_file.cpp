@@ -134,6 +134,7 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
   CHECK(a.view.field_palette == b.view.field_palette);
+  CHECK(a.view.field_style == b.view.field_style);
   CHECK(a.view.field_range == b.view.field_range);
   CHECK(a.view.arrows == b.view.arrows);
   CHECK(a.view.theme == b.view.theme);
@@ -226,7 +227,8 @@ Scene unusual_scene() {
                 .speed = 1e-7,
                 .palette = Palette::Inferno,
                 .range = {ColourRange::Given, {-1.5, 2.0}},
-                .field_palette = Palette::Cividis,
+                .field_palette = FieldPalette::Cividis,
+                .field_style = FieldStyle::Cells,
                 .field_range = {ColourRange::Locked},
                 .arrows = Quantity::HeatFlux,
                 .theme = Theme::Projector,
@@ -364,6 +366,7 @@ TEST_CASE("Scene file: no key takes the value of another") {
     palette = "inferno"
     range = [-18, 19]
     field_palette = "cividis"
+    field_style = "cells"
     field_range = [20, 21]
     arrows = "heat_flux"
     theme = "light"
@@ -411,7 +414,8 @@ TEST_CASE("Scene file: no key takes the value of another") {
   CHECK(view.speed == 17.0);
   CHECK(view.palette == Palette::Inferno);
   CHECK(view.range == ColourRange{ColourRange::Given, {-18.0, 19.0}});
-  CHECK(view.field_palette == Palette::Cividis);
+  CHECK(view.field_palette == FieldPalette::Cividis);
+  CHECK(view.field_style == FieldStyle::Cells);
   CHECK(view.field_range == ColourRange{ColourRange::Given, {20.0, 21.0}});
   CHECK(view.arrows == Quantity::HeatFlux);
   CHECK(view.theme == Theme::Light);
@@ -526,9 +530,10 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("fields": ["velocity", "temperature", "temperature_x", "temperature_y"], )"
       R"("cells": [20, 20], "profile_axis": "x", "estimator": "exact", "kernel": "box", )"
       R"("observables": []}, )"
-      R"("view": {"colour_by": "speed", "window": 5.0, "estimator": "exact", "speed": 1.0, )"
+      R"("view": {"colour_by": "speed", "window": 20.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
-      R"("range": "auto", "field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
+      R"("range": "auto", "field_palette": "blue", "field_style": "smooth", )"
+      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
 }
 
 TEST_CASE(
@@ -669,4 +674,21 @@ TEST_CASE("Scene: colours and fields of spins return with the spins, unless they
   CHECK(replaced.view.field == Quantity::Density);
   CHECK(replaced.view.speed == 7.5);
   CHECK(replaced.measure.fields.front() == Quantity::Temperature);
+}
+
+TEST_CASE("Scene file: profiles are along gravity, unless the scene has another axis") {
+  const auto axis_of = [](const std::string& keys) {
+    return parse_scene("particles.count = 5\n" + keys, "s.toml").measure.profile_axis;
+  };
+  CHECK(axis_of("") == Axis::X);
+  CHECK(axis_of("gravity.acceleration = [0.2, -1.0]\n") == Axis::Y);
+  CHECK(axis_of("gravity.acceleration = [1.0, 0.0]\n") == Axis::X);
+  CHECK(axis_of("gravity.acceleration = [0.2, -1.0]\nmeasure.profile_axis = \"x\"\n") == Axis::X);
+  CHECK(axis_of("box.size = [9, 9, 9]\ngravity.acceleration = [0.0, 0.0, -1.0]\n") == Axis::Z);
+  for (const char* name : {"barometer", "shaker", "spheres_leidenfrost"}) {
+    CAPTURE(std::string(name));
+    const auto measure = load_scene(name).measure;
+    CHECK(measure.profile_axis == Axis::Y);
+    CHECK(measure.cells[1] > 20);
+  }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "render/contrast_maps.h"
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
@@ -18,7 +19,8 @@ TEST_CASE("Renderer: a fixed range decides the colour, and the picture is opaque
   view.overlay = false;
   view.range = {ColourRange::Given, {0.0, 2000.0}};
   const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
-  CHECK(difference(pixel(image, 50, 50), Colour{0x47, 0x2d, 0x7b}) <= 1);
+  const Colour slowest = particle_map(view.palette, kDarkTheme.background).front();
+  CHECK(difference(pixel(image, 50, 50), slowest) <= 1);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
 }
 
@@ -106,7 +108,7 @@ View view_of(Field field) {
 
 TEST_CASE("Renderer: the colours of a heatmap follow, or are locked, or are given") {
   const auto context = open_context(Backend::Osmesa);
-  const ColourMap map = colour_map(Palette::Viridis);
+  const ColourMap map = field_map(FieldPalette::Blue, kDarkTheme.background);
   View view = view_of(Quantity::Temperature);
   const auto colours = [&] {
     Renderer renderer(context->gl());
@@ -137,7 +139,7 @@ TEST_CASE("Renderer: a heatmap without any value, as before the first average, i
   };
   const Image none = drawn(std::nan(""), std::nan(""));
   for (int x = 5; x < 95; ++x) REQUIRE(pixel(none, x, 50) == kDarkTheme.background);
-  CHECK(difference(none, drawn(0.0, std::nan(""))) > 20);
+  CHECK(difference(none, drawn(1.0, std::nan(""))) > 20);
 }
 
 TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
@@ -152,7 +154,8 @@ TEST_CASE("Renderer: fixed ranges stop following, but given ones still hold") {
   CHECK(ends.arrows == 0.0);
   Renderer renderer(context->gl());
   renderer.fix(ends);
-  const Colour top = colour_map(Palette::Viridis).back(), middle = colour_map(Palette::Viridis)[8];
+  const ColourMap map = field_map(FieldPalette::Blue, kDarkTheme.background);
+  const Colour top = map.back(), middle = map[8];
   CHECK(field_colour(renderer, context->gl(), view, 100.0, true) == top);
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true) == middle);
   view.field_range = {ColourRange::Locked};
@@ -175,26 +178,27 @@ TEST_CASE("Renderer: another field locks a range of its own") {
   field_colour(renderer, context->gl(), view, 100.0, true);
   view.field = Quantity::Density;
   CHECK(field_colour(renderer, context->gl(), view, 1.0, true) ==
-        colour_map(Palette::Viridis).back());
+        field_map(FieldPalette::Blue, kDarkTheme.background).back());
 }
 
 TEST_CASE(
-    "Renderer: magnitudes have the palette, their bright end far from zero; signed fields have "
-    "two") {
+    "Renderer: magnitudes have the palette, its end far from zero; signed fields have two ends") {
   const auto context = open_context(Backend::Osmesa);
   const auto colour = [&](Field field, double value) {
     Renderer renderer(context->gl());
     View view = view_of(field);
-    view.field_palette = Palette::Inferno;
+    view.field_palette = FieldPalette::Inferno;
     return field_colour(renderer, context->gl(), view, value, true);
   };
-  CHECK(colour(Quantity::Density, 1.0) == colour_map(Palette::Inferno).back());
-  CHECK(colour(Field(Quantity::Stress, 0, 0), -1.0) == colour_map(Palette::Inferno).back());
-  CHECK(colour(Quantity::Dissipation, -1.0) == colour_map(Palette::Inferno).back());
+  const Colour end = field_map(FieldPalette::Inferno, kDarkTheme.background).back();
+  CHECK(colour(Quantity::Density, 1.0) == end);
+  CHECK(colour(Field(Quantity::Stress, 0, 0), -1.0) == end);
+  CHECK(colour(Quantity::Dissipation, -1.0) == end);
+  const ColourMap signs = signed_field_map(kDarkTheme.background);
   for (const Field field : {Field(Quantity::Velocity, 0), Field(Quantity::Stress, 0, 1),
                             Field(Quantity::HeatFlux, 1), Field(Quantity::Spin)}) {
-    CHECK(colour(field, 1.0) == diverging_map().back());
-    CHECK(colour(field, -1.0) == diverging_map().front());
+    CHECK(colour(field, 1.0) == signs.back());
+    CHECK(colour(field, -1.0) == signs.front());
   }
 }
 

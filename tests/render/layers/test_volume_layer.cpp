@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "render/contrast_maps.h"
 #include "tests/render/picture.h"
 
 namespace clatter {
@@ -67,8 +68,9 @@ double opacity_of(double depth) {
   return 1.0 - std::exp(-depth);
 }
 
-// Viridis at 0.5 and at its end.
-constexpr Colour kMiddle{0x21, 0x90, 0x8c}, kEnd{0xfd, 0xe7, 0x25};
+// The map of the default palette on black, and its colours at half the range and at its end.
+const ColourMap kMap = field_map(FieldPalette::Blue, {0, 0, 0});
+const Colour kMiddle = kMap[8], kEnd = kMap.back();
 
 }  // namespace
 
@@ -169,6 +171,7 @@ TEST_CASE("Volume layer: it is in front of the sphere or slice where a ray ends"
     Snapshot halves = box_with(1.0, {1, 1, 2});
     halves.field->values[0] = 0.5;
     View sliced = view;
+    sliced.field_style = FieldStyle::Cells;
     sliced.slices = {{Axis::Z, 1.0}};
     CHECK(difference(pixel(draw(halves, front, sliced), 120, 90),
                      blend(kEnd, opacity_of(kExtinction * 2.0),

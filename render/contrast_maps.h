@@ -1,0 +1,24 @@
+#pragma once
+
+#include "render/palette.h"
+
+namespace clatter {
+
+/// Colour maps that depend on the ground, the colour of the background. A field rises from the
+/// ground in few steps of lightness. Every particle differs from its ground, and the slowest
+/// particle differs from every field by a contrast ratio of 3 at least.
+
+/// For magnitudes of particles: the hues of the palette. Particles are lighter than a dark ground
+/// and darker than a light one, the faster the lighter.
+ColourMap particle_map(Palette palette, Colour ground);
+
+/// For signed values of particles: blue below zero, grey at zero, red above.
+ColourMap signed_particle_map(Colour ground);
+
+/// For magnitudes of fields: the ground at zero, then the hues of the palette.
+ColourMap field_map(FieldPalette palette, Colour ground);
+
+/// For signed fields: blue below zero, the ground at zero, red above.
+ColourMap signed_field_map(Colour ground);
+
+}  // namespace clatter
