@@ -144,21 +144,22 @@ template <int D>
   }
 }
 
+#if defined(__x86_64__)
 // The same with wider vectors, with equal results.
 template <int D>
 [[gnu::target("avx2")]] void RadialDistribution<D>::count_all_avx2() {
   count_all();
 }
+#endif
 
 template <int D>
 void RadialDistribution<D>::sample() {
   cells_.sort(simulation_.state().positions);
   samples_ += 1.0;
-  if (__builtin_cpu_supports("avx2")) {
-    count_all_avx2();
-  } else {
-    count_all();
-  }
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return count_all_avx2();
+#endif
+  count_all();
 }
 
 template <int D>

@@ -36,7 +36,9 @@ class RadialDistribution final : public Observable {
 
   void count_pairs(std::size_t particle, const std::vector<Range>& ranges);
   void count_all();
+#if defined(__x86_64__)
   void count_all_avx2();
+#endif
   double edge(std::size_t bin) const;
   double expected_share(double low, double high) const;
 
