@@ -1,4 +1,3 @@
-#version 330 core
 // A field with one colour per cell. Hatching distinguishes cells without a value from all values.
 
 in vec2 v_place;
