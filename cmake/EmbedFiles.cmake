@@ -3,26 +3,28 @@
 # The list of files may be empty. The assembler's .incbin reads the bytes, so that a large font costs
 # no compile time.
 function(embed_files target table)
-  set(assembly ".section .rodata\n")
+  set(assembly "")
   set(declarations "")
   set(entries "")
   set(index 0)
   foreach(file ${ARGN})
     get_filename_component(name ${file} NAME)
     set(symbol "clatter_${table}_${index}")
-    string(APPEND assembly ".global ${symbol}, ${symbol}_end\n${symbol}:\n.incbin \"${file}\"\n"
-                           "${symbol}_end:\n")
-    string(APPEND declarations "extern const char ${symbol}[], ${symbol}_end[];\n")
-    string(APPEND entries
-           "      {\"${name}\", {${symbol}, static_cast<std::size_t>(${symbol}_end - ${symbol})}},\n")
+    string(APPEND assembly "DATA(${symbol})\n.incbin \"${file}\"\nEND(${symbol})\n"
+                           "DATA(${symbol}_size)\n.long .L${symbol}_end - ${symbol}\n"
+                           "END(${symbol}_size)\n")
+    string(APPEND declarations
+           "extern const char ${symbol}[];\nextern const std::uint32_t ${symbol}_size;\n")
+    string(APPEND entries "      {\"${name}\", {${symbol}, ${symbol}_size}},\n")
     math(EXPR index "${index} + 1")
   endforeach()
-  string(APPEND assembly ".section .note.GNU-stack,\"\",@progbits\n")
 
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${table})
-  file(CONFIGURE OUTPUT ${base}_bytes.S CONTENT "${assembly}")
+  # The macros of embed.h are for ELF or for WebAssembly.
+  file(CONFIGURE OUTPUT ${base}_bytes.S CONTENT "#include \"cmake/embed.h\"\n${assembly}")
   file(CONFIGURE OUTPUT ${base}.cpp CONTENT
 "#include <array>
+#include <cstdint>
 
 #include \"engine/embedded_file.h\"
 

@@ -1,4 +1,3 @@
-#version 330 core
 // An arrow with an antialiased edge and a rim that separates it from the picture below.
 
 in vec2 v_place;         // coordinates along and across the arrow, from its tail, pixels

@@ -1,4 +1,3 @@
-#version 330 core
 // An arrow, drawn as an instance of a rectangle around it.
 
 layout(location = 0) in vec2 a_tail;  // pixels

@@ -1,7 +1,6 @@
-#version 330 core
 // Average of a supersampled picture over the samples of each pixel, in linear light.
 
-uniform sampler2D u_picture;  // fetches return linear values
+uniform sampler2D u_picture;  // fetches return linear values, in OpenGL ES stored sRGB values
 uniform int u_samples;        // samples per pixel along each axis
 uniform bool u_transparent;   // whether the stored sRGB colours are premultiplied by alpha
 uniform bool u_light_in;      // whether the picture is light times opacity, and opacity
@@ -21,6 +20,9 @@ vec3 light_of(vec3 c) {
 // Light times opacity of a sample, and its opacity.
 vec4 sample_at(ivec2 place) {
   vec4 c = texelFetch(u_picture, place, 0);
+#ifdef GL_ES
+  if (!u_light_in) c.rgb = light_of(c.rgb);
+#endif
   if (u_transparent && !u_light_in && c.a > 0.0) c.rgb = c.a * light_of(srgb(c.rgb) / c.a);
   return c;
 }

@@ -1,4 +1,3 @@
-#version 330 core
 // A disk with an antialiased edge and a darker rim. The result depends only on the pixel position,
 // so points and squares give the same picture.
 

@@ -1,4 +1,3 @@
-#version 330 core
 // A disk, drawn as a point of one vertex. It must not exceed the largest point of the driver.
 
 layout(location = 0) in vec2 a_centre;  // pixels

@@ -1,4 +1,3 @@
-#version 330 core
 // A disk, drawn as an instance of a square, for disks larger than the largest point of the driver.
 
 layout(location = 0) in vec2 a_centre;  // pixels

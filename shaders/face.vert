@@ -1,4 +1,3 @@
-#version 330 core
 // A rectangle in space: a side of the box, or a slice.
 
 layout(location = 0) in vec3 a_position;  // view coordinates, see render/eye.h

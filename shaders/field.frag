@@ -1,4 +1,3 @@
-#version 330 core
 // A field. Hatching distinguishes places without a value from all values.
 
 in vec2 v_place;

@@ -1,4 +1,3 @@
-#version 330 core
 // A rectangle of the picture, such as the box.
 
 uniform vec2 u_size;  // size of the picture, pixels

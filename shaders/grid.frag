@@ -1,4 +1,3 @@
-#version 330 core
 // A square grid over the box.
 
 uniform vec2 u_low;      // lower left corner of the box, pixels

@@ -1,4 +1,3 @@
-#version 330 core
 // Triangles of Dear ImGui: a colour times a texture, usually the font atlas.
 
 in vec2 v_texture_place;

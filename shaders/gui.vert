@@ -1,4 +1,3 @@
-#version 330 core
 // Triangles of Dear ImGui. The origin of its coordinates is the upper left corner.
 
 layout(location = 0) in vec2 a_position;

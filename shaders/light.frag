@@ -1,4 +1,3 @@
-#version 330 core
 // Blends light over a picture.
 
 uniform sampler2D u_light;  // linear light times opacity, and opacity; may exceed 1

@@ -1,7 +1,6 @@
-#version 330 core
 // A line with antialiased edges, dashed if u_dash is not 0.
 
-noperspective in vec3 v_place;  // across, along and half the width, pixels
+in vec3 v_place;  // across, along and half the width, pixels
 flat in vec4 v_colour;
 
 uniform float u_dash;  // period of the dashes, pixels; 0: none

@@ -1,4 +1,3 @@
-#version 330 core
 // A line in space, drawn as a strip of constant width on the picture.
 
 layout(location = 0) in vec3 a_position;  // pixels, and depth 0..1
@@ -7,7 +6,7 @@ layout(location = 2) in vec4 a_colour;
 
 uniform vec2 u_size;  // size of the picture, pixels
 
-noperspective out vec3 v_place;
+out vec3 v_place;
 flat out vec4 v_colour;
 
 void main() {

@@ -1,4 +1,3 @@
-#version 330 core
 // A side of the box with a faint pattern that shows the kind of its wall.
 
 in vec2 v_place;  // world units from the low corner of the side

@@ -1,4 +1,3 @@
-#version 330 core
 // A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
 // planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output is
 // sRGB values instead of linear light. With MARKED spheres have marks that turn with them. These are macros, because drivers without branches would

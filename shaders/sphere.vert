@@ -1,4 +1,3 @@
-#version 330 core
 // A sphere, drawn as an instance of the rectangle that contains it on the picture.
 
 layout(location = 0) in vec3 a_centre;     // view coordinates, see render/eye.h

@@ -1,4 +1,3 @@
-#version 330 core
 // Time average of the light of a disk in uniform straight motion. A disk at rest looks as in
 // disk.frag.
 

@@ -1,4 +1,3 @@
-#version 330 core
 // A disk in straight motion, drawn as an instance of a rectangle around the swept area.
 
 layout(location = 0) in vec2 a_start;  // centre of the disk at the start of the way, pixels

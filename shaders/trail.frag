@@ -1,4 +1,3 @@
-#version 330 core
 // A straight segment of a trail, with round ends and a soft edge.
 
 in vec2 v_place;           // coordinates along and across the segment, from its start, pixels

@@ -1,4 +1,3 @@
-#version 330 core
 // A straight segment of a trail, drawn as an instance of a rectangle around it.
 
 layout(location = 0) in vec2 a_start;    // pixels

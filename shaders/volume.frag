@@ -1,4 +1,3 @@
-#version 330 core
 // A field as a fog that emits and absorbs light. Each cell is uniform, so the light of a ray is an
 // exact sum over its cells. The ray ends at the surface in the depth buffer.
 

@@ -1,4 +1,3 @@
-#version 330 core
 // The band of a wall, with a pattern that shows the kind of the wall.
 
 in vec2 v_place;  // coordinates along the wall and outward from its face, pixels

@@ -1,4 +1,3 @@
-#version 330 core
 // A wall, drawn as a band outside a side of the box.
 
 layout(location = 0) in vec2 a_position;  // pixels

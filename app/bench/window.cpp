@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/system/exit_code.h"
+#include "app/view/desktop.h"
 #include "app/view/gui.h"
 #include "engine/scene/scene_file.h"
 #include "engine/system/write_file.h"
@@ -69,7 +70,8 @@ std::vector<double> picture_times(const Scene& scene, Size size) {
   const GlfwContext context;
   const Gl gl = idle_gl();
   ScriptLog log("");
-  WindowInput input(context.window());
+  WindowInput input;
+  Desktop desktop(context.window(), input);
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
@@ -81,7 +83,7 @@ std::vector<double> picture_times(const Scene& scene, Size size) {
       ++published;
       glfwPostEmptyEvent();
     });
-    Gui gui(context.window(), gl, input, worker, log);
+    Gui gui(desktop, gl, input, worker, log);
     gui.open(scene, 1);
     for (int picture = 0, seen = 0; picture < kWarmUp + kPictures; ++picture) {
       while (published == seen) glfwWaitEventsTimeout(0.1);

@@ -1,18 +1,18 @@
 #include "app/view/gallery.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <utility>
 
 #include "engine/scene/scene_file.h"
 
 namespace clatter {
 
-Gallery::Gallery(const Gl& gl) : thumbnails_(gl, [] { glfwPostEmptyEvent(); }) {
+Gallery::Gallery(const Gl& gl, std::function<void()> on_ready)
+    : thumbnails_(gl, std::move(on_ready)) {
   for (const EmbeddedFile& file : embedded_scenes()) {
     const Scene scene = load_gallery_scene(file);
     entries_.push_back({&file, std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace clatter {
 /// The gallery: a list of the built-in scenes, in the order of `clatter scenes`.
 class Gallery {
  public:
-  explicit Gallery(const Gl& gl);
+  /// Calls `on_ready` when the picture of a scene is ready to be drawn, possibly on another thread.
+  Gallery(const Gl& gl, std::function<void()> on_ready);
 
   /// Draws the gallery over a window of `width` x `height`. Arrow keys move the selection, Enter
   /// chooses. Returns the chosen scene; null: none.

@@ -1,7 +1,5 @@
 #include "app/view/gui.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -25,15 +23,15 @@ static constexpr float kPanelWidth = 17.0f;     // usual width of a panel, in te
 static constexpr float kPanelShare = 0.175f;    // width of a panel over the width of the window
 static constexpr float kLectureLetters = 1.6f;  // scale of the text in lecture mode
 
-Gui::Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, ScriptLog& log)
-    : window_(window),
+Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, ScriptLog& log)
+    : host_(host),
       gl_(&gl),
       input_(input),
       log_(log),
-      session_(worker, log),
+      session_(engine, log),
       controls_(session_, log),
       viewport_(gl),
-      gallery_(gl),
+      gallery_(gl, [&host] { host.wake(); }),
       gui_(gl) {}
 
 void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
@@ -45,9 +43,8 @@ void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> unt
 // Reads the scale of the window and loads the fonts for it.
 void Gui::begin() {
   constexpr float kTextSize = 14.0f;
-  float scale = 1.0f;
-  glfwGetWindowContentScale(window_, &scale, nullptr);
-  const float size = std::round((panels_.lecture ? kLectureLetters : 1.0f) * kTextSize * scale);
+  const float size =
+      std::round((panels_.lecture ? kLectureLetters : 1.0f) * kTextSize * host_.content_scale());
   if (size != text_size_) {
     text_size_ = size;
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -68,7 +65,7 @@ void Gui::draw() {
   }
   if (title_ != session_.opened().title) {
     title_ = session_.opened().title;
-    glfwSetWindowTitle(window_, (title_ + " – clatter").c_str());
+    host_.set_title(title_ + " – clatter");
   }
   watch_film();
   use_keys();
@@ -142,12 +139,16 @@ void Gui::left_panel(float top, float width) {
   box_panel(session_, controls_);
   view_panel(session_, controls_);
   accuracy_panel(session_, controls_);
-  switch (record_panel(controls_, film_ ? std::optional(film_->done()) : std::nullopt)) {
+  switch (record_panel(controls_, host_.has_processes(),
+                       film_ ? std::optional(film_->done()) : std::nullopt)) {
     case Recording::Screenshot:
       screenshot();
       break;
     case Recording::SaveScene:
       save_scene();
+      break;
+    case Recording::CopyLink:
+      copy_link();
       break;
     case Recording::CopyCommand:
       copy_command();
@@ -310,20 +311,6 @@ View Gui::shown_view() const {
 void Gui::open_gallery_scene(const EmbeddedFile& scene) {
   panels_.gallery = false;
   open(load_gallery_scene(scene), session_.frame().seed);
-}
-
-void Gui::toggle_full_screen() {
-  GLFWwindow* window = window_;
-  auto& [x, y, width, height] = windowed_;
-  if (glfwGetWindowMonitor(window)) {
-    glfwSetWindowMonitor(window, nullptr, x, y, width, height, 0);
-    return;
-  }
-  glfwGetWindowPos(window, &x, &y);
-  glfwGetWindowSize(window, &width, &height);
-  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  const GLFWvidmode* mode = glfwGetVideoMode(monitor);
-  glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 }  // namespace clatter

@@ -7,6 +7,7 @@
 #include "app/view/controls.h"
 #include "app/view/gallery.h"
 #include "app/view/history.h"
+#include "app/view/host.h"
 #include "app/view/messages.h"
 #include "app/view/panel_visibility.h"
 #include "app/view/script_log.h"
@@ -16,17 +17,17 @@
 #include "app/view/window_input.h"
 #include "render/layers/gui_layer.h"
 
-struct GLFWwindow;
-
 namespace clatter {
 
 /// Content of the window: viewport, panels, keyboard and mouse.
 class Gui {
  public:
-  Gui(GLFWwindow* window, const Gl& gl, WindowInput& input, Worker& worker, ScriptLog& log);
+  Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, ScriptLog& log);
 
   /// Starts a scene. With `until` it stops at that simulation time.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
+  /// Shows a message.
+  void tell(const std::string& message) { session_.tell(message); }
   /// Handles the input and draws the next picture of the window.
   void draw();
   /// True while the window redraws without input: a film is being made, or a message is shown.
@@ -54,7 +55,6 @@ class Gui {
   void log_handles(const WindowMap& map) const;
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
-  void toggle_full_screen();
   void fix_range();
   void face_preset(char key);
   void screenshot();
@@ -62,10 +62,11 @@ class Gui {
   std::string save_scene();
   std::vector<std::string> film_arguments(const std::string& scene) const;
   void copy_command();
+  void copy_link();
   void film();
   void watch_film();
 
-  GLFWwindow* window_;
+  Host& host_;
   const Gl* gl_;
   WindowInput& input_;
   ScriptLog& log_;
@@ -83,13 +84,12 @@ class Gui {
   GuiLayer gui_;
   PanelVisibility panels_;
   MessageNote message_;
-  std::string title_;                 // title of the window; empty: name of the program
-  std::uint64_t drawn_views_ = 0;     // Session::views() at the last picture
-  bool told_gallery_ = false;         // the script log has the gallery as open
-  float text_size_ = 0.0f;            // size of the loaded fonts, pixels; 0: none
-  float scale_ = 1.0f;                // pixels per window unit
-  Area area_;                         // area of the viewport
-  std::array<int, 4> windowed_ = {};  // x, y, width and height before full screen
+  std::string title_;              // title of the window; empty: name of the program
+  std::uint64_t drawn_views_ = 0;  // Session::views() at the last picture
+  bool told_gallery_ = false;      // the script log has the gallery as open
+  float text_size_ = 0.0f;         // size of the loaded fonts, pixels; 0: none
+  float scale_ = 1.0f;             // pixels per window unit
+  Area area_;                      // area of the viewport
 };
 
 }  // namespace clatter

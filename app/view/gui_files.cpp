@@ -1,5 +1,3 @@
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "app/runs/picture_scene.h"
 #include "app/system/exit_code.h"
 #include "app/view/gui.h"
+#include "app/view/link.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
 #include "engine/system/write_file.h"
@@ -58,6 +57,7 @@ void Gui::screenshot() {
     const std::string name = free_name(".png");
     const Scene scene = recorded_beside(name);
     write_png(name, viewport_.picture(), picture_texts(scene, session_.frame().seed));
+    host_.deliver(name);
     log_.event("screenshot", {{"file", name}});
     session_.tell("Screenshot: " + name);
   } catch (const std::exception& error) {
@@ -70,6 +70,7 @@ std::string Gui::save_scene() {
   try {
     const std::string name = free_name(".toml");
     write_file(name, scene_to_toml(recorded_beside(name)));
+    host_.deliver(name);
     log_.event("saved", {{"file", name}});
     session_.tell("Saved: " + name);
     return name;
@@ -100,9 +101,21 @@ void Gui::copy_command() {
   for (const std::string& word : film_arguments(name)) {
     command += (command.empty() ? "" : " ") + word;
   }
-  glfwSetClipboardString(window_, command.c_str());
+  host_.copy(command);
   log_.event("command", {{"line", command}});
   session_.tell("Copied: " + command);
+}
+
+void Gui::copy_link() {
+  if (!session_.frame().scene) return;
+  try {
+    const std::string link = host_.link_to(link_of(session_.recorded(), session_.frame().seed));
+    host_.copy(link);
+    log_.event("link", {{"link", link}});
+    session_.tell("The link is in the clipboard");
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
 }
 
 void Gui::film() {

@@ -32,7 +32,7 @@ void Gui::use_function_key(const KeyPress& press) {
     case GLFW_KEY_F2:
       return screenshot();
     case GLFW_KEY_F11:
-      return toggle_full_screen();
+      return host_.toggle_full_screen();
     default:
       return;
   }
@@ -41,7 +41,7 @@ void Gui::use_function_key(const KeyPress& press) {
 void Gui::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
   // Who types a name into the gallery before the search is active must not restart the gas.
-  if (panels_.gallery && press.letter() != 'g' && press.letter() != 'h') return;
+  if (panels_.gallery && press.letter != 'g' && press.letter != 'h') return;
   switch (press.key) {
     case GLFW_KEY_TAB:
       return panels_.toggle_panels();
@@ -52,7 +52,7 @@ void Gui::use_key(const KeyPress& press) {
     default:
       break;
   }
-  switch (press.letter()) {
+  switch (press.letter) {
     case 'f':
       return viewport_.fit();
     case 'g':
@@ -72,12 +72,12 @@ void Gui::use_key(const KeyPress& press) {
       panels_.lesson = !panels_.lesson;
       return;
     default:
-      return face_preset(press.letter());
+      return face_preset(press.letter);
   }
 }
 
 void Gui::use_control_key(const KeyPress& press) {
-  switch (press.letter()) {
+  switch (press.letter) {
     case 'z':
       return press.shift ? session_.redo() : session_.undo();
     case 'y':
@@ -86,8 +86,7 @@ void Gui::use_control_key(const KeyPress& press) {
       save_scene();
       return;
     case 'q':
-      glfwSetWindowShouldClose(window_, GLFW_TRUE);
-      return;
+      return host_.close();
     default:
       return;
   }

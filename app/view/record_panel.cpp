@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-Recording record_panel(Controls& controls, std::optional<double> filmed) {
+Recording record_panel(Controls& controls, bool films, std::optional<double> filmed) {
   if (!group("Record")) return Recording::None;
   Recording asked = Recording::None;
   const float width = ImGui::GetContentRegionAvail().x;
@@ -15,6 +15,14 @@ Recording record_panel(Controls& controls, std::optional<double> filmed) {
   }
   if (controls.button("save", "Save scene", "The scene with all changes so far (Ctrl+S)", width)) {
     asked = Recording::SaveScene;
+  }
+  if (!films) {
+    if (controls.button("link", "Copy link", "A link that opens this scene with all changes so far",
+                        width)) {
+      asked = Recording::CopyLink;
+    }
+    ImGui::Spacing();
+    return asked;
   }
   if (filmed) {
     const std::string label = fmt::format("Stop film, {:.0f} %###film", 100.0 * *filmed);

@@ -20,7 +20,7 @@ static constexpr double kFramesPerSecond = 60.0;
 
 void Session::send(Command command) {
   ++sent_;
-  worker_.send(std::move(command));
+  engine_.send(std::move(command));
 }
 
 static nlohmann::json status(const Frame& frame) {
@@ -46,7 +46,7 @@ static nlohmann::json status(const Frame& frame) {
 }
 
 bool Session::update() {
-  if (!worker_.frames().update()) return false;
+  if (!engine_.frames().update()) return false;
   const Frame& now = frame();
   if (now.messages > messages_) {
     messages_ = now.messages;

@@ -31,12 +31,12 @@ struct Edit {
 /// engine and never waits for the engine.
 class Session {
  public:
-  Session(Worker& worker, ScriptLog& log) : worker_(worker), log_(log) {}
+  Session(EngineLink& engine, ScriptLog& log) : engine_(engine), log_(log) {}
 
   /// Takes the newest frame. Returns true if there was a new one.
   bool update();
   /// The newest frame. Its run is 0 before the first frame.
-  const Frame& frame() const { return worker_.frames().front(); }
+  const Frame& frame() const { return engine_.frames().front(); }
   /// The scene with the latest settings, as the panels show it.
   const Scene& scene() const { return scene_; }
   /// The scene as it was opened.
@@ -113,7 +113,7 @@ class Session {
   void start(const OpenedScene& opened, const char* event);
   Scene restarted() const;
 
-  Worker& worker_;
+  EngineLink& engine_;
   ScriptLog& log_;
   Scene scene_;
   Scene opened_;

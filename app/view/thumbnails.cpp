@@ -30,7 +30,8 @@ GLuint Thumbnails::of(const EmbeddedFile& scene) {
   if (found != textures_.end()) return found->second ? found->second->id() : 0;
   if (!making_) {
     making_ = &scene;
-    snapshot_ = std::async(std::launch::async, [this, &scene] {
+    constexpr auto kAnyThread = std::launch::async | std::launch::deferred;
+    snapshot_ = std::async(kAnyThread, [this, &scene] {
       Snapshot snapshot = snapshot_of_scene(scene);
       on_ready_();
       return snapshot;
@@ -40,7 +41,8 @@ GLuint Thumbnails::of(const EmbeddedFile& scene) {
 }
 
 void Thumbnails::finish() {
-  if (!making_ || snapshot_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!making_ || snapshot_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout)
+    return;
   const EmbeddedFile& scene = *std::exchange(making_, nullptr);
   textures_[scene.name];
   try {

@@ -15,7 +15,8 @@
 namespace clatter {
 
 /// Small pictures of scenes, each a few seconds after the start. A worker thread simulates one
-/// scene at a time. The calling thread draws the picture.
+/// scene at a time, or the calling thread where threads are missing. The calling thread draws the
+/// picture.
 class Thumbnails {
  public:
   static constexpr Size kSize = {192, 144};  ///< size of the pictures

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/view/desktop.h"
 #include "app/view/gui.h"
 #include "engine/error.h"
 #include "render/context/glfw_context.h"
@@ -97,12 +98,13 @@ static void show(const WindowOptions& options) {
   fit_to_screen(window);
   glfwSwapInterval(1);
   ScriptLog log(options.script_log);
-  WindowInput input(window);
+  WindowInput input;
+  Desktop desktop(window, input);
   const DearImGui imgui(window);
   const double rate = refresh_rate();
   Worker worker(rate, [] { glfwPostEmptyEvent(); });
   {
-    Gui gui(window, context.gl(), input, worker, log);
+    Gui gui(desktop, context.gl(), input, worker, log);
     gui.open(options.scene, options.seed, options.until);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;

@@ -3,30 +3,24 @@
 #include <string>
 #include <vector>
 
-struct GLFWwindow;
-
 namespace clatter {
 
 /// A key press with its modifiers.
 struct KeyPress {
-  int key = 0;  ///< GLFW key code
+  int key = 0;      ///< GLFW key code
+  char letter = 0;  ///< lower-case letter of the key in the current keyboard layout; 0: no letter
   bool shift = false;
   bool ctrl = false;
-
-  /// Lower-case letter of the key in the current keyboard layout; 0: no letter.
-  char letter() const;
 };
 
 /// Key presses and dropped files of a window. Dear ImGui samples the state of the keys once per
 /// frame, and so misses a key that was released before.
 class WindowInput {
  public:
-  /// Installs the callbacks of the window. Must precede the set-up of Dear ImGui, whose callbacks
-  /// call these.
-  explicit WindowInput(GLFWwindow* window);
-  WindowInput(const WindowInput&) = delete;
-  WindowInput& operator=(const WindowInput&) = delete;
-
+  /// Adds a key press.
+  void press(const KeyPress& press) { presses_.push_back(press); }
+  /// Adds a dropped file.
+  void drop(const std::string& path) { dropped_.push_back(path); }
   /// The keys pressed since the last call, in order.
   std::vector<KeyPress> take_presses();
   /// The files dropped since the last call.

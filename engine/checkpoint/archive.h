@@ -99,7 +99,7 @@ class Archive {
     auto index = static_cast<std::uint8_t>(variant.index());
     self().number(index);
     self().choose(variant, index);
-    std::visit([this](auto& value) { item(value); }, variant);
+    std::visit([this](auto& value) { this->item(value); }, variant);
   }
 };
 

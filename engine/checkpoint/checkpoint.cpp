@@ -1,6 +1,8 @@
 #include "engine/checkpoint/checkpoint.h"
 
+#include <algorithm>
 #include <fstream>
+#include <limits>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
@@ -34,7 +36,8 @@ struct Head {
 
 constexpr std::size_t kHeadBytes = sizeof(std::uint32_t) + sizeof(std::uint64_t);
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
-constexpr std::size_t kLargest = 1'000'000'000'000;
+constexpr std::size_t kLargest =
+    std::min<std::uint64_t>(1'000'000'000'000, std::numeric_limits<std::size_t>::max() / 2);
 
 template <class Archive>
 void visit(Archive& io, Head& head) {

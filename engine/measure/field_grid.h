@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 #include "engine/dynamics/model.h"
@@ -23,7 +25,7 @@ template <int D>
 class FieldGrid {
  public:
   /// One number per axis.
-  using Cell = std::array<long, D>;
+  using Cell = std::array<std::int64_t, D>;
 
   FieldGrid(const Model<D>& model, const IntVec<D>& cells)
       : box_(model.box),
@@ -39,8 +41,9 @@ class FieldGrid {
   std::size_t size() const { return static_cast<std::size_t>(cells_.prod()); }
   /// Whether a cell is in the box or in a periodic image that particles can reach.
   bool is_near(const Cell& cell) const {
-    constexpr long kFarthest = 1L << 40;
-    return std::ranges::all_of(cell, [](long k) { return -kFarthest < k && k < kFarthest; });
+    constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
+    return std::ranges::all_of(cell,
+                               [&](std::int64_t k) { return -kFarthest < k && k < kFarthest; });
   }
   /// Edge lengths of a cell.
   const Vec<D>& widths() const { return widths_; }
@@ -53,7 +56,7 @@ class FieldGrid {
   [[gnu::always_inline]] Cell cell_at(const Vec<D>& r) const {
     Cell cell;
     for (int axis = 0; axis < D; ++axis) {
-      cell[axis] = static_cast<long>(std::floor(r[axis] * per_width_[axis]));
+      cell[axis] = static_cast<std::int64_t>(std::floor(r[axis] * per_width_[axis]));
     }
     return cell;
   }
@@ -90,7 +93,7 @@ class FieldGrid {
     Cell cell;
     for (int axis = 0; axis < D; ++axis) {
       const auto count = static_cast<std::size_t>(cells_[axis]);
-      cell[axis] = static_cast<long>(index % count);
+      cell[axis] = static_cast<std::int64_t>(index % count);
       index /= count;
     }
     return cell;
@@ -128,10 +131,10 @@ class FieldGrid {
       return;
     }
     std::array<Borders, D> borders;
-    long crossings = 0;
+    std::int64_t crossings = 0;
     for (int axis = 0; axis < D; ++axis) {
       if (cell[axis] == last[axis]) continue;
-      crossings += std::labs(last[axis] - cell[axis]);
+      crossings += std::abs(last[axis] - cell[axis]);
       borders[axis] = {last[axis] > cell[axis] ? 1 : -1,
                        along[axis] != 0.0 ? 1.0 / along[axis] : 0.0};
       find_next(axis, cell, from, last, borders[axis]);
@@ -221,10 +224,11 @@ class FieldGrid {
                                             : (border - from[axis]) * borders.per_length;
   }
 
-  std::size_t folded(int axis, long cell) const {
-    const long n = cells_[axis];
+  std::size_t folded(int axis, std::int64_t cell) const {
+    const std::int64_t n = cells_[axis];
     if (cell >= 0 && cell < n) return static_cast<std::size_t>(cell);
-    const long inside = periodic_[axis] ? ((cell % n) + n) % n : std::clamp(cell, 0L, n - 1);
+    const std::int64_t inside =
+        periodic_[axis] ? ((cell % n) + n) % n : std::clamp<std::int64_t>(cell, 0, n - 1);
     return static_cast<std::size_t>(inside);
   }
 

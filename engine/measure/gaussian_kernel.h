@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,8 +60,8 @@ class GaussianKernel {
     typename FieldGrid<D>::Cell high = grid_.cell_at(a.cwiseMax(b) + reach);
     for (int axis = 0; axis < D; ++axis) {
       if (grid_.periodic(axis)) continue;
-      low[axis] = std::max(low[axis], 0L);
-      high[axis] = std::min(high[axis], grid_.cells()[axis] - 1L);
+      low[axis] = std::max<std::int64_t>(low[axis], 0);
+      high[axis] = std::min<std::int64_t>(high[axis], grid_.cells()[axis] - 1);
     }
     for (typename FieldGrid<D>::Cell cell = low; cell[D - 1] <= high[D - 1];) {
       visit(grid_.centre_of(cell), grid_.index_of(cell));

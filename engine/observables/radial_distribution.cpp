@@ -119,10 +119,21 @@ template <typename Real>
   });
 }
 
-// The same with wider vectors, with equal results.
+#if defined(__x86_64__)
 template <int D>
 template <typename Real>
 [[gnu::target("avx2")]] void RadialDistribution<D>::count_all_avx2() {
+  count_all<Real>();
+}
+#endif
+
+// Wider vectors have equal results.
+template <int D>
+template <typename Real>
+void RadialDistribution<D>::count() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return count_all_avx2<Real>();
+#endif
   count_all<Real>();
 }
 
@@ -130,12 +141,7 @@ template <int D>
 void RadialDistribution<D>::sample() {
   cells_.sort(simulation_.positions());
   samples_ += 1.0;
-  const bool avx2 = __builtin_cpu_supports("avx2");
-  if (single_precision_) {
-    avx2 ? count_all_avx2<float>() : count_all<float>();
-  } else {
-    avx2 ? count_all_avx2<double>() : count_all<double>();
-  }
+  single_precision_ ? count<float>() : count<double>();
 }
 
 template <int D>

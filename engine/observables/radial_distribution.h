@@ -34,9 +34,13 @@ class RadialDistribution final : public Observable {
 
   // Distances have the precision of Real.
   template <typename Real>
+  void count();
+  template <typename Real>
   [[gnu::always_inline]] inline void count_all();
+#if defined(__x86_64__)
   template <typename Real>
   void count_all_avx2();
+#endif
   double edge(std::size_t bin) const;
   double expected_share(double low, double high) const;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "engine/observables/count_bins.h"
 #include "engine/observables/log_bins.h"
@@ -30,7 +31,7 @@ struct SignedCountBins {
   static constexpr std::size_t kCount = 2 * CountBins::kCount;
 
   /// The bin of a number between -2^32 and 2^32.
-  static std::size_t of(long number) {
+  static std::size_t of(std::int64_t number) {
     return number < 0
                ? CountBins::kCount - 1 - CountBins::of(static_cast<std::uint64_t>(-number - 1))
                : CountBins::kCount + CountBins::of(static_cast<std::uint64_t>(number));

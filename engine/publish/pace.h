@@ -20,6 +20,8 @@ class Pace {
       : frame_(std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1.0 / frames_per_second))) {}
 
+  /// Sets the real time of a frame, for a display whose pictures come at varying times.
+  void set_frame(Clock::duration frame) { frame_ = frame; }
   /// Sets the simulation time per second, > 0.
   void set_speed(double speed);
   /// The speed of set_speed(), initially 1.

@@ -16,8 +16,6 @@ namespace clatter {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Whether two commands set the same laws, so that only the later one counts. The user may drag a
 // slider faster than a large gas can change its laws.
 bool supersedes(const Command& later, const Command& earlier) {
@@ -26,39 +24,62 @@ bool supersedes(const Command& later, const Command& earlier) {
   return a && b && std::ranges::equal(a->laws, b->laws, {}, &Override::key, &Override::key);
 }
 
-// The work of the engine's thread.
-class Work {
+}  // namespace
+
+// The work of the engine, on its thread or in slices.
+class EngineWork {
+  using Clock = Pace::Clock;
+
  public:
-  Work(double frames_per_second, CommandQueue<Command>& commands, TripleBuffer<Frame>& frames,
-       const std::function<void()>& on_publish)
+  EngineWork(double frames_per_second, CommandQueue<Command>& commands, TripleBuffer<Frame>& frames,
+             std::function<void()> on_publish)
       : commands_(commands),
         frames_(frames),
-        on_publish_(on_publish),
+        on_publish_(std::move(on_publish)),
         frame_seconds_(1.0 / frames_per_second),
         pace_(frames_per_second) {}
 
+  // Runs until the queue of commands is closed.
   void run() {
     while (!commands_.closed()) {
-      const std::vector<Command> asked = commands_.take();
-      for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
-        if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) {
-          attempt([&] { std::visit([this](const auto& command) { obey(command); }, asked[i]); });
-        }
-        ++handled_;
-      }
-      if (!asked.empty()) publish();
+      obey_all();
       if (!moves()) {
         commands_.wait();
       } else if (plays_) {
-        play();
+        const Pace::Goal goal = pace_.next(Clock::now(), time());
+        if (play(goal.time, goal.due)) commands_.wait_until(goal.due);
       } else {
-        step();
+        step(frame_seconds_);
       }
     }
   }
 
- private:
+  // Does the work for a frame after the real time `elapsed` since the last one, until about `due`.
+  void run_slice(Clock::duration elapsed, Clock::time_point due) {
+    obey_all();
+    if (!moves()) return;
+    if (plays_) {
+      pace_.set_frame(elapsed);
+      play(pace_.next(Clock::now(), time()).time, due);
+    } else {
+      step(std::chrono::duration<double>(due - Clock::now()).count());
+    }
+  }
+
   bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
+
+ private:
+  void obey_all() {
+    const std::vector<Command> asked = commands_.take();
+    for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
+      if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) {
+        attempt([&] { std::visit([this](const auto& command) { obey(command); }, asked[i]); });
+      }
+      ++handled_;
+    }
+    if (!asked.empty()) publish();
+  }
+
   double time() { return watched_->time(); }
 
   void tell(const std::string& message) {
@@ -175,18 +196,18 @@ class Work {
     }
   }
 
-  void play() {
-    const Pace::Goal goal = pace_.next(Clock::now(), time());
-    const bool arrived = advance(std::min(goal.time, until_), kNoLimit, goal.due);
+  // Runs up to `goal`, but at most until about `due`. Returns whether it arrived and still plays.
+  bool play(double goal, Clock::time_point due) {
+    const bool arrived = advance(std::min(goal, until_), kNoLimit, due);
     if (arrived && time() >= until_) halt();
     publish();
-    if (arrived && plays_) commands_.wait_until(goal.due);
+    return arrived && plays_;
   }
 
-  // Runs at full speed, with a frame at intervals.
-  void step() {
+  // Runs at full speed for some seconds of real time, before a frame.
+  void step(double seconds) {
     const auto due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(frame_seconds_));
+                                        std::chrono::duration<double>(seconds));
     if (step_to_) {
       if (advance(*step_to_, kNoLimit, due)) halt();
     } else {
@@ -245,7 +266,7 @@ class Work {
 
   CommandQueue<Command>& commands_;
   TripleBuffer<Frame>& frames_;
-  const std::function<void()>& on_publish_;
+  std::function<void()> on_publish_;
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
@@ -266,7 +287,23 @@ class Work {
   std::uint64_t events_then_ = 0;
 };
 
-}  // namespace
+static constexpr double kFramesOfSlices = 60.0;  // per second; a single step has this duration
+
+SlicedWorker::SlicedWorker()
+    : work_(std::make_unique<EngineWork>(kFramesOfSlices, commands_, frames_, [] {})) {}
+
+SlicedWorker::~SlicedWorker() = default;
+
+void SlicedWorker::work(std::chrono::milliseconds budget) {
+  constexpr std::chrono::milliseconds kLongest{100};
+  const auto now = Pace::Clock::now();
+  const auto elapsed = std::min<Pace::Clock::duration>(now - std::exchange(last_, now), kLongest);
+  work_->run_slice(elapsed, now + budget);
+}
+
+bool SlicedWorker::busy() {
+  return commands_.pending() || work_->moves();
+}
 
 Worker::Worker(double frames_per_second, std::function<void()> on_publish)
     : thread_([this, frames_per_second, on_publish = std::move(on_publish)] {
@@ -279,7 +316,7 @@ Worker::~Worker() {
 }
 
 void Worker::work(double frames_per_second, const std::function<void()>& on_publish) {
-  Work(frames_per_second, commands_, frames_, on_publish).run();
+  EngineWork(frames_per_second, commands_, frames_, on_publish).run();
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;

@@ -21,10 +21,14 @@ namespace {
   throw RunError("cannot write " + path.string() + ": " + std::strerror(error));
 }
 
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
 // Devices and pipes are written without sync, because they may not support it.
 bool write_into(const std::filesystem::path& path, std::string_view bytes) {
   FileDescriptor file(open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  return file && file.write_all(std::as_bytes(std::span(bytes))) && file.close();
+  return file && file.write_all(bytes_of(bytes)) && file.close();
 }
 
 bool sync_file(const std::filesystem::path& path) {
@@ -117,7 +121,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes,
                 const std::filesystem::path& previous) {
   if (const std::optional<int> own = own_descriptor(path)) {
     FileDescriptor file(dup(*own));
-    if (!file || !file.write_all(std::as_bytes(std::span(bytes)))) throw_unwritable(path, errno);
+    if (!file || !file.write_all(bytes_of(bytes))) throw_unwritable(path, errno);
     return;
   }
   if (is_special(path)) {
@@ -129,7 +133,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes,
   NewFile part = new_file_beside(target);
   if (!part.file) throw_unwritable(path, errno);
   const bool written =
-      part.file.write_all(std::as_bytes(std::span(bytes))) && part.file.sync() && part.file.close();
+      part.file.write_all(bytes_of(bytes)) && part.file.sync() && part.file.close();
   // Another run may have moved the previous file.
   if (written && (previous.empty() || rename_file(target, previous) || errno == ENOENT) &&
       rename_file(part.path, target) && sync_folder_of(target)) {

@@ -9,13 +9,14 @@
 
 namespace clatter {
 
-EglContext::EglContext() : library_("libEGL.so.1", "libegl1") {
+EglContext::EglContext(Api api) : library_("libEGL.so.1", "libegl1") {
   display_ = open_any_display();
   if (display_ == EGL_NO_DISPLAY) fail("neither a surfaceless display nor a device");
   try {
-    make_context();
+    make_context(api);
     auto address_of = library_.function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
-    gl_ = load_gl([&](const char* symbol) { return reinterpret_cast<void*>(address_of(symbol)); });
+    gl_ = load_gl([&](const char* symbol) { return reinterpret_cast<void*>(address_of(symbol)); },
+                  api);
   } catch (...) {
     release();
     throw;
@@ -55,7 +56,7 @@ EGLDisplay EglContext::open_any_display() const {
   return display;
 }
 
-void EglContext::make_context() {
+void EglContext::make_context(Api api) {
   auto bind_api = library_.function<decltype(&eglBindAPI)>("eglBindAPI");
   auto choose_config = library_.function<decltype(&eglChooseConfig)>("eglChooseConfig");
   auto create_surface =
@@ -63,11 +64,12 @@ void EglContext::make_context() {
   auto create_context = library_.function<decltype(&eglCreateContext)>("eglCreateContext");
   auto make_current = library_.function<decltype(&eglMakeCurrent)>("eglMakeCurrent");
 
-  const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                           EGL_NONE};
+  const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                           api == Api::Es ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
-  if (!bind_api(EGL_OPENGL_API) || !choose_config(display_, wanted, &config, 1, &count) || !count) {
+  if (!bind_api(api == Api::Es ? EGL_OPENGL_ES_API : EGL_OPENGL_API) ||
+      !choose_config(display_, wanted, &config, 1, &count) || !count) {
     fail("the display does not offer OpenGL");
   }
   const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
@@ -80,8 +82,13 @@ void EglContext::make_context() {
                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                             EGL_NONE};
-  context_ = create_context(display_, config, EGL_NO_CONTEXT, version);
-  if (context_ == EGL_NO_CONTEXT) fail("no OpenGL 3.3 core context");
+  const EGLint version_of_es[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0,
+                                  EGL_NONE};
+  context_ =
+      create_context(display_, config, EGL_NO_CONTEXT, api == Api::Es ? version_of_es : version);
+  if (context_ == EGL_NO_CONTEXT) {
+    fail(api == Api::Es ? "no OpenGL ES 3.0 context" : "no OpenGL 3.3 core context");
+  }
   if (!make_current(display_, surface_, surface_, context_)) fail("the context cannot be current");
 }
 

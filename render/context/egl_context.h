@@ -14,8 +14,9 @@ namespace clatter {
 /// device.
 class EglContext final : public GlContext {
  public:
-  /// Creates the context and makes it current. Throws RunError if EGL or OpenGL 3.3 is missing.
-  EglContext();
+  /// Creates the context and makes it current. Throws RunError if EGL or this version of OpenGL is
+  /// missing.
+  explicit EglContext(Api api = Api::Desktop);
   ~EglContext() override;
 
   const char* name() const override { return "egl"; }
@@ -26,7 +27,7 @@ class EglContext final : public GlContext {
   /// The initialised display of a platform; EGL_NO_DISPLAY: none.
   EGLDisplay open_display(EGLenum platform, void* native) const;
   EGLDisplay open_any_display() const;
-  void make_context();
+  void make_context(Api api);
   void release();
   [[noreturn]] void fail(const char* what) const;
 

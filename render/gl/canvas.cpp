@@ -7,42 +7,64 @@
 
 namespace clatter {
 
-Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
-    : gl_(&gl),
-      size_(size),
-      colour_(generate<Texture>(gl, gl.GenTextures)),
-      framebuffer_(generate<Framebuffer>(gl, gl.GenFramebuffers)) {
-  const int largest = largest_side(gl);
-  if (std::max(size.width, size.height) > largest) {
-    throw RunError("a picture of " + std::to_string(size.width) + "x" +
-                   std::to_string(size.height) + " pixels is too large: at most " +
-                   std::to_string(largest) + " a side");
-  }
-  gl.BindTexture(GL_TEXTURE_2D, colour_.id());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, format, size.width, size.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                nullptr);
+// A texture of depths; none without depth.
+static std::optional<Texture> depths_of(const Gl& gl, Size size, Depth depth) {
+  if (depth == Depth::None) return std::nullopt;
+  Texture depths = generate<Texture>(gl, gl.GenTextures);
+  gl.BindTexture(GL_TEXTURE_2D, depths.id());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size.width, size.height, 0,
+                GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  const auto attach_colours = [&] {
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return depths;
+}
+
+static Size checked(const Gl& gl, Size size) {
+  const int largest = Canvas::largest_side(gl);
+  if (std::max(size.width, size.height) <= largest) return size;
+  throw RunError("a picture of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                 " pixels is too large: at most " + std::to_string(largest) + " a side");
+}
+
+// ES encodes whatever is drawn into an sRGB format.
+static GLint stored_format(const Gl& gl, GLint format) {
+  return gl.api == Api::Es && format == GL_SRGB8_ALPHA8 ? GL_RGBA8 : format;
+}
+
+Canvas::Target::Target(const Gl& gl, Size size, GLint format, const std::optional<Texture>& depth)
+    : colour(generate<Texture>(gl, gl.GenTextures)),
+      framebuffer(generate<Framebuffer>(gl, gl.GenFramebuffers)) {
+  const bool is_float = format == GL_RGBA16F || format == GL_RGBA32F;
+  gl.BindTexture(GL_TEXTURE_2D, colour.id());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, format, size.width, size.height, 0, GL_RGBA,
+                is_float ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  const auto attach = [&](GLenum point, const Texture& texture) {
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture.id(), 0);
   };
-  if (depth == Depth::Buffer) {
-    colours_ = generate<Framebuffer>(gl, gl.GenFramebuffers);
-    bind_colours();
-    attach_colours();
+  if (depth) {
+    colours = generate<Framebuffer>(gl, gl.GenFramebuffers);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, colours->id());
+    attach(GL_COLOR_ATTACHMENT0, colour);
   }
-  bind();
-  attach_colours();
-  if (depth == Depth::Buffer) {
-    depth_ = generate<Texture>(gl, gl.GenTextures);
-    gl.BindTexture(GL_TEXTURE_2D, depth_->id());
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size.width, size.height, 0,
-                  GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_->id(), 0);
-  }
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  attach(GL_COLOR_ATTACHMENT0, colour);
+  if (depth) attach(GL_DEPTH_ATTACHMENT, *depth);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw RunError("this OpenGL cannot draw off screen");
   }
+}
+
+Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
+    : gl_(&gl),
+      size_(checked(gl, size)),
+      depth_(depths_of(gl, size, depth)),
+      stored_(gl, size, stored_format(gl, format), depth_) {}
+
+void Canvas::choose_light(bool on) {
+  if (on && !light_) light_.emplace(*gl_, size_, GL_SRGB8_ALPHA8, depth_);
+  in_light_ = on;
 }
 
 int Canvas::largest_side(const Gl& gl) {
@@ -52,11 +74,12 @@ int Canvas::largest_side(const Gl& gl) {
 }
 
 void Canvas::bind() const {
-  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, target().framebuffer.id());
 }
 
 void Canvas::bind_colours() const {
-  gl_->BindFramebuffer(GL_FRAMEBUFFER, colours_->id());
+  const Target& here = target();
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, (here.colours ? *here.colours : here.framebuffer).id());
 }
 
 Image Canvas::read() const {
@@ -74,7 +97,7 @@ Image Canvas::read() const {
 }
 
 void Canvas::copy_to(GLuint framebuffer, int x, int y) const {
-  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target().framebuffer.id());
   gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   gl_->BlitFramebuffer(0, 0, size_.width, size_.height, x, y, x + size_.width, y + size_.height,
                        GL_COLOR_BUFFER_BIT, GL_NEAREST);

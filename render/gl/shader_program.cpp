@@ -50,25 +50,30 @@ Shader compile_shader(const Gl& gl, GLenum stage, std::string_view file, std::st
   throw RunError(name_file_and_line(log, file));
 }
 
-// The source with macros defined after its first line, "#version ...". Line numbers stay.
-static std::string with_defines(std::string_view source, std::string_view defines) {
-  const std::size_t end = source.find('\n') + 1;
-  std::string text(source.substr(0, end));
+// The source for an API, with macros. Messages of the compiler have the lines of the file.
+static std::string whole_source(Api api, std::string_view source, std::string_view defines = {}) {
+  std::string text = api == Api::Desktop ? "#version 330 core\n"
+                                         : "#version 300 es\n"
+                                           "precision highp float;\n"
+                                           "precision highp int;\n"
+                                           "precision highp sampler2D;\n"
+                                           "precision highp sampler3D;\n";
   while (!defines.empty()) {
     const std::string_view name = defines.substr(0, defines.find(' '));
     text += "#define " + std::string(name) + "\n";
     defines.remove_prefix(std::min(defines.size(), name.size() + 1));
   }
-  return text + "#line 2\n" + std::string(source.substr(end));
+  return text + "#line 1\n" + std::string(source);
 }
 
 Program::Program(const Gl& gl, std::string_view vertex_file, std::string_view fragment_file,
                  std::string_view defines)
     : gl_(&gl), program_(gl, gl.CreateProgram()) {
-  const Shader vertex =
-      compile_shader(gl, GL_VERTEX_SHADER, vertex_file, embedded_shader(vertex_file));
-  const Shader fragment = compile_shader(gl, GL_FRAGMENT_SHADER, fragment_file,
-                                         with_defines(embedded_shader(fragment_file), defines));
+  const Shader vertex = compile_shader(gl, GL_VERTEX_SHADER, vertex_file,
+                                       whole_source(gl.api, embedded_shader(vertex_file)));
+  const Shader fragment =
+      compile_shader(gl, GL_FRAGMENT_SHADER, fragment_file,
+                     whole_source(gl.api, embedded_shader(fragment_file), defines));
   gl.AttachShader(program_.id(), vertex.id());
   gl.AttachShader(program_.id(), fragment.id());
   gl.LinkProgram(program_.id());

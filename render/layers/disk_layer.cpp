@@ -23,7 +23,8 @@ double reach_pixels(const Snapshot& snapshot, const Projection& projection) {
 
 double largest_point_of(const Gl& gl) {
   std::array<GLfloat, 2> range = {};
-  gl.GetFloatv(GL_POINT_SIZE_RANGE, range.data());
+  constexpr GLenum kPointSizeRangeOfEs = 0x846D;  // GL_ALIASED_POINT_SIZE_RANGE
+  gl.GetFloatv(gl.api == Api::Es ? kPointSizeRangeOfEs : GL_POINT_SIZE_RANGE, range.data());
   return range[1];
 }
 
@@ -136,7 +137,7 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
                       marked ? static_cast<float>(snapshot.angles[i]) : 0.0f,
                       light_of(colours.of(snapshot, i))});
   });
-  if (colours.blending == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, colours.blending == Blending::Light);
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, disks_.size() * sizeof(Disk), disks_.data(), GL_STREAM_DRAW);
 
@@ -145,7 +146,7 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
     // OpenGL drops points with their centre outside the viewport, so the viewport has a margin.
     set_uniforms(point_, snapshot, projection, colours.blending,
                  static_cast<int>(reach_pixels(snapshot, projection)) + 1);
-    gl_->Enable(GL_PROGRAM_POINT_SIZE);
+    if (gl_->api == Api::Desktop) gl_->Enable(GL_PROGRAM_POINT_SIZE);  // ES: always on
     gl_->BindVertexArray(points_.id());
     gl_->DrawArrays(GL_POINTS, 0, count);
   } else {
@@ -153,7 +154,7 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
     gl_->BindVertexArray(squares_.id());
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
   }
-  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, false);
   gl_->Viewport(0, 0, projection.drawn().width, projection.drawn().height);
 }
 

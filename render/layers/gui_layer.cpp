@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace clatter {
 
@@ -17,14 +18,18 @@ GuiLayer::GuiLayer(const Gl& gl)
   gl.BindVertexArray(array_.id());
   gl.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
-  auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
-  gl.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(ImDrawVert),
-                         offset(offsetof(ImDrawVert, pos)));
-  gl.VertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(ImDrawVert),
-                         offset(offsetof(ImDrawVert, uv)));
-  gl.VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(ImDrawVert),
-                         offset(offsetof(ImDrawVert, col)));
   for (GLuint attribute : {0, 1, 2}) gl.EnableVertexAttribArray(attribute);
+}
+
+// Makes vertex `first` of the buffer the vertex 0 of later draw calls.
+void GuiLayer::read_from(std::size_t first) const {
+  const auto read = [&](GLuint attribute, GLint size, GLenum type, std::size_t offset) {
+    gl_->VertexAttribPointer(attribute, size, type, type == GL_UNSIGNED_BYTE, sizeof(ImDrawVert),
+                             reinterpret_cast<const void*>(first * sizeof(ImDrawVert) + offset));
+  };
+  read(0, 2, GL_FLOAT, offsetof(ImDrawVert, pos));
+  read(1, 2, GL_FLOAT, offsetof(ImDrawVert, uv));
+  read(2, 4, GL_UNSIGNED_BYTE, offsetof(ImDrawVert, col));
 }
 
 void GuiLayer::upload(ImFontAtlas& atlas) {
@@ -60,6 +65,8 @@ void GuiLayer::draw_list(const ImDrawList& list, const ImDrawData& data) const {
                   GL_STREAM_DRAW);
   const ImVec2 scale = data.FramebufferScale;
   const float height = data.DisplaySize.y * scale.y;
+  unsigned first = 0;
+  read_from(first);
   for (const ImDrawCmd& command : list.CmdBuffer) {
     const ImVec4& clip = command.ClipRect;
     const float left = (clip.x - data.DisplayPos.x) * scale.x;
@@ -72,10 +79,10 @@ void GuiLayer::draw_list(const ImDrawList& list, const ImDrawData& data) const {
                  static_cast<GLsizei>(right - left), static_cast<GLsizei>(bottom - top));
     gl_->BindTexture(GL_TEXTURE_2D,
                      static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
-    gl_->DrawElementsBaseVertex(
-        GL_TRIANGLES, command.ElemCount,
-        sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)), command.VtxOffset);
+    if (std::exchange(first, command.VtxOffset) != command.VtxOffset) read_from(first);
+    gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
+                      sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)));
   }
 }
 

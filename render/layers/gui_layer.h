@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "render/gl/shader_program.h"
 
 struct ImDrawData;
@@ -23,6 +25,7 @@ class GuiLayer {
   void draw(const ImDrawData& data) const;
 
  private:
+  void read_from(std::size_t first) const;
   void draw_list(const ImDrawList& list, const ImDrawData& data) const;
 
   const Gl* gl_;

@@ -9,6 +9,7 @@ LightLayer::LightLayer(const Gl& gl)
       areas_(generate<Texture>(gl, gl.GenTextures)) {
   gl.BindTexture(GL_TEXTURE_2D, areas_.id());
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 void LightLayer::begin(Size size, GLenum equation) {
@@ -59,9 +60,9 @@ void LightLayer::draw(GLuint light, int margin, const Projection& projection, co
   gl_->Uniform1i(program_.uniform("u_encoded"), blending == Blending::Encoded);
   gl_->BindVertexArray(vertices_.id());
   gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (blending == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, blending == Blending::Light);
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, false);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 

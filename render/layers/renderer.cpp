@@ -204,7 +204,8 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   GLint target = 0;
   gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   const bool disks = snapshot.box.size() == 2;
-  if (samples_ == 1 && target != 0 && disks) {
+  const bool own_canvas = gl_->api == Api::Es;  // for blend_in_light()
+  if (samples_ == 1 && target != 0 && disks && !own_canvas) {
     draw_world(snapshot, projection, view, legends, theme);
   } else {
     draw_averaged(snapshot, projection, view, legends, theme, static_cast<GLuint>(target));
@@ -224,9 +225,11 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   walls_.draw(snapshot, projection, wall_colours(theme, legends, view, 2));
   const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
                             theme.disk, transparent_ ? Blending::Encoded : Blending::Light};
+  blend_in_light(true);
   if (view.trails) trails_.draw(snapshot, projection, colours, *view.trails);
   pause(projection);
   disks_.draw(snapshot, projection, colours);
+  blend_in_light(false);
   pause(projection);
   if (legends.arrows) {
     arrows_.draw(*snapshot.arrows, projection, projection.samples * legends.arrows->pixels,
@@ -241,6 +244,14 @@ void Renderer::pause(const Projection& projection) const {
   if (1.0 * drawn.width * drawn.height <= kLarge) return;
   gl_->Finish();
   stop_.check();
+}
+
+// OpenGL ES: the layers between two calls blend in linear light. OpenGL has a switch instead, see
+// encode_light().
+void Renderer::blend_in_light(bool on) {
+  if (gl_->api == Api::Desktop || transparent_) return;
+  if (!light_copy_) light_copy_.emplace(*gl_);
+  light_copy_->blend_in_light(*fine_, on);
 }
 
 void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
@@ -278,6 +289,7 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   const bool depthless = light || volume;
   using Sides = BoxLayer::Sides;
   if (depthless) space_->box.draw_edges(snapshot, projection, eye, walls, Sides::Far);
+  blend_in_light(true);
   // All spheres without a shape are behind a plane across the view, and the others before it.
   if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
   // The volume would end at the faint parts of spheres in front of it.
@@ -290,6 +302,7 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
     fine_->bind();
     pause(projection);
   }
+  blend_in_light(false);
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
   space_->box.draw_edges(snapshot, projection, eye, walls, depthless ? Sides::Near : Sides::All);
   gl_->Disable(GL_DEPTH_TEST);

@@ -7,6 +7,7 @@
 #include "engine/stop_request.h"
 #include "render/camera.h"
 #include "render/colour_range.h"
+#include "render/gl/light_copy.h"
 #include "render/layers/arrow_layer.h"
 #include "render/layers/average_layer.h"
 #include "render/layers/box_layer.h"
@@ -92,6 +93,7 @@ class Renderer {
                   const Eye& eye);
   void draw_spheres(const Snapshot& snapshot, const Projection& projection, const View& view,
                     const Legends& legends, const ThemeColours& theme);
+  void blend_in_light(bool on);
   void clear(const Projection& projection, const ThemeColours& theme);
   void pause(const Projection& projection) const;
   Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
@@ -106,8 +108,9 @@ class Renderer {
   int samples_;
   bool transparent_;
   StopRequest stop_;
-  std::optional<Canvas> fine_;     ///< supersampled picture; absent: not drawn yet
-  std::optional<Canvas> exposed_;  ///< sum of an exposure of spheres; absent: not drawn yet
+  std::optional<Canvas> fine_;           ///< supersampled picture; absent: not drawn yet
+  std::optional<Canvas> exposed_;        ///< sum of an exposure of spheres; absent: not drawn yet
+  std::optional<LightCopy> light_copy_;  ///< OpenGL ES; absent: not used yet
   AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;

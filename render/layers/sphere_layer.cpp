@@ -219,14 +219,14 @@ void SphereLayer::draw(const Snapshot& snapshot, const Projection& projection, c
   for (const Program* program : {&programs.uncut, &programs.cut}) {
     set_uniforms(*program, snapshot, projection, eye, slab, ghosts);
   }
-  if (blending_ == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, blending_ == Blending::Light);
   gl_->BindVertexArray(vertices_.id());
   for (const Run& run : runs_) {
     (run.cut ? programs.cut : programs.uncut).use();
     read_from(run.first);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, run.count);
   }
-  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, false);
 }
 
 }  // namespace clatter

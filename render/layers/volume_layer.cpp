@@ -8,10 +8,11 @@
 namespace clatter {
 
 // The light of a cell. The last channel is its share of the largest extinction coefficient.
-static Light fog_of(double value, const ColourScale& scale) {
-  if (std::isnan(value)) return {0, 0, 0, 0};
-  Light fog = light_of(scale(value));
-  fog[3] = static_cast<std::uint16_t>(std::lround(65535.0 * scale.strength(value)));
+static Eigen::Array4f fog_of(double value, const ColourScale& scale) {
+  if (std::isnan(value)) return Eigen::Array4f::Zero();
+  const Light light = light_of(scale(value));
+  Eigen::Array4f fog = Eigen::Array4f(light[0], light[1], light[2], 0.0f) / 65535.0f;
+  fog[3] = static_cast<float>(scale.strength(value));
   return fog;
 }
 
@@ -23,6 +24,7 @@ VolumeLayer::VolumeLayer(const Gl& gl, Blending blending)
       cells_(generate<Texture>(gl, gl.GenTextures)) {
   gl.BindTexture(GL_TEXTURE_3D, cells_.id());
   gl.TexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 void VolumeLayer::draw(const Snapshot& snapshot, const View& view, const Projection& projection,
@@ -37,8 +39,8 @@ void VolumeLayer::draw(const Snapshot& snapshot, const View& view, const Project
   gl_->BindTexture(GL_TEXTURE_2D, depths);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_3D, cells_.id());
-  gl_->TexImage3D(GL_TEXTURE_3D, 0, GL_RGBA16, map.cells[0], map.cells[1], map.cells[2], 0, GL_RGBA,
-                  GL_UNSIGNED_SHORT, fog_.data());
+  gl_->TexImage3D(GL_TEXTURE_3D, 0, GL_RGBA32F, map.cells[0], map.cells[1], map.cells[2], 0,
+                  GL_RGBA, GL_FLOAT, fog_.data());
 
   program_.use();
   set_eye(*gl_, program_, box, projection, eye);
@@ -55,9 +57,9 @@ void VolumeLayer::draw(const Snapshot& snapshot, const View& view, const Project
   gl_->Uniform1f(program_.uniform("u_nearest"), Eye::kNearest);
   gl_->BindVertexArray(vertices_.id());
   gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (blending_ == Blending::Light) gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, blending_ == Blending::Light);
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+  encode_light(*gl_, false);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 

@@ -28,7 +28,7 @@ class VolumeLayer {
   Program program_;
   VertexArray vertices_;  ///< no attributes: the shader computes the corners
   Texture cells_;
-  std::vector<Light> fog_;  ///< [cells_z][cells_y][cells_x]; reused to avoid allocations
+  std::vector<Eigen::Array4f> fog_;  ///< [cells_z][cells_y][cells_x]; reused to avoid allocations
 };
 
 }  // namespace clatter

@@ -10,6 +10,7 @@
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/camera_path.h"
+#include "render/context/egl_context.h"
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
@@ -220,6 +221,17 @@ TEST_CASE("Golden pictures: EGL draws them") {
     context = open_context(Backend::Egl);
   } catch (const RunError& error) {
     MESSAGE("[skipped] no EGL here: " << error.what());
+    return;
+  }
+  compare(context->gl());
+}
+
+TEST_CASE("Golden pictures: OpenGL ES 3.0 draws them, as WebGL 2 does") {
+  std::unique_ptr<GlContext> context;
+  try {
+    context = std::make_unique<EglContext>(Api::Es);
+  } catch (const RunError& error) {
+    MESSAGE("[skipped] " << error.what());
     return;
   }
   compare(context->gl());

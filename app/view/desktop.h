@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+
+#include "app/view/host.h"
+#include "app/view/window_input.h"
+
+struct GLFWwindow;
+
+namespace clatter {
+
+/// A window of GLFW on a desktop.
+class Desktop final : public Host {
+ public:
+  /// Installs callbacks that fill `input`. Must precede the set-up of Dear ImGui, whose callbacks
+  /// call these.
+  Desktop(GLFWwindow* window, WindowInput& input);
+
+  float content_scale() const override;
+  void set_title(const std::string& title) override;
+  void copy(const std::string& text) override;
+  void toggle_full_screen() override;
+  void close() override;
+  void deliver(const std::string&) override {}
+  void wake() override;
+  std::string link_to(const std::string&) const override { return {}; }
+  bool has_processes() const override { return true; }
+
+ private:
+  GLFWwindow* window_;
+  std::array<int, 4> windowed_ = {};  // x, y, width and height before full screen
+};
+
+}  // namespace clatter

@@ -1,0 +1,193 @@
+// The functions that page.js calls. One page has one window. Lengths are pixels of the device.
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <emscripten.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "app/view/gui.h"
+#include "app/view/link.h"
+#include "app/web/page_host.h"
+#include "engine/error.h"
+#include "render/context/web_context.h"
+#include "render/layers/gui_context.h"
+
+namespace clatter {
+
+namespace {
+
+// Dear ImGui numbers keys by this table.
+void map_keys(ImGuiIO& io) {
+  constexpr struct {
+    ImGuiKey_ own;
+    int key;
+  } kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+               {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+               {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+               {ImGuiKey_UpArrow, GLFW_KEY_UP},
+               {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+               {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+               {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+               {ImGuiKey_Home, GLFW_KEY_HOME},
+               {ImGuiKey_End, GLFW_KEY_END},
+               {ImGuiKey_Delete, GLFW_KEY_DELETE},
+               {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+               {ImGuiKey_Space, GLFW_KEY_SPACE},
+               {ImGuiKey_Enter, GLFW_KEY_ENTER},
+               {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+               {ImGuiKey_A, GLFW_KEY_A},
+               {ImGuiKey_C, GLFW_KEY_C},
+               {ImGuiKey_V, GLFW_KEY_V},
+               {ImGuiKey_X, GLFW_KEY_X},
+               {ImGuiKey_Y, GLFW_KEY_Y},
+               {ImGuiKey_Z, GLFW_KEY_Z}};
+  for (const auto& [own, key] : kKeys) io.KeyMap[own] = key;
+}
+
+class Page {
+ public:
+  explicit Page(bool logs) : log_(logs ? "/dev/stdout" : "") {
+    ImGuiIO& io = ImGui::GetIO();
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    map_keys(io);
+  }
+
+  void open(const char* fragment, std::optional<double> until) {
+    try {
+      open(read_link(fragment), until);
+    } catch (const std::exception& error) {
+      if (!opened_) open(read_link(""), until);
+      gui_.tell(error.what());
+    }
+  }
+
+  void resize(float width, float height) {
+    ImGui::GetIO().DisplaySize = ImVec2(width, height);
+    settle();
+  }
+
+  void point(float x, float y, int buttons, float wheel) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = ImVec2(x, y);
+    // A button that is released before the next picture is seen as pressed in it.
+    for (int k = 0; k < 3; ++k) {
+      held_[k] = (buttons >> k & 1) != 0;
+      pressed_[k] |= held_[k];
+    }
+    io.MouseWheel += wheel;
+    settle();
+  }
+
+  void use_key(const KeyPress& press, bool down, bool repeated) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeysDown[press.key] = down;
+    io.KeyShift = press.shift;
+    io.KeyCtrl = press.ctrl;
+    if (down && (!repeated || press.key == GLFW_KEY_PERIOD)) input_.press(press);
+    settle();
+  }
+
+  void type(const char* text) {
+    ImGui::GetIO().AddInputCharactersUTF8(text);
+    settle();
+  }
+
+  void drop(const char* path) {
+    input_.drop(path);
+    settle();
+  }
+
+  // Draws a picture. Returns whether the next one may differ without input.
+  bool draw() {
+    constexpr std::chrono::milliseconds kBudget{12};
+    engine_.work(kBudget);
+    ImGuiIO& io = ImGui::GetIO();
+    const auto now = Clock::now();
+    const double since = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    io.DeltaTime = static_cast<float>(std::clamp(since, 1e-4, 0.1));
+    for (int k = 0; k < 3; ++k) io.MouseDown[k] = std::exchange(pressed_[k], held_[k]);
+    gui_.draw();
+    if (left_ > 0) --left_;
+    return engine_.busy() || gui_.changes() || left_ > 0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Panels need several pictures after an event to settle.
+  void settle() { left_ = 4; }
+
+  void open(const LinkedScene& linked, std::optional<double> until) {
+    gui_.open(linked.scene, linked.seed, until);
+    opened_ = true;
+    settle();
+  }
+
+  PageHost host_;
+  WebContext context_{"#canvas"};
+  ScriptLog log_;
+  WindowInput input_;
+  GuiContext imgui_ = make_gui_context();
+  CurrentContext current_{imgui_.get()};
+  SlicedWorker engine_;
+  Gui gui_{host_, context_.gl(), input_, engine_, log_};
+  bool held_[3] = {}, pressed_[3] = {};  // mouse buttons now, and since the last picture
+  bool opened_ = false;
+  int left_ = 0;
+  Clock::time_point last_ = Clock::now();
+};
+
+std::unique_ptr<Page> page;
+
+std::optional<double> limit(double until) {
+  return std::isnan(until) ? std::nullopt : std::optional(until);
+}
+
+}  // namespace
+
+}  // namespace clatter
+
+using clatter::page;
+
+extern "C" {
+
+// Shows the scene of a link up to a simulation time, NaN for none. Returns an error message; empty:
+// none.
+EMSCRIPTEN_KEEPALIVE const char* clatter_start(const char* fragment, double until, int logs) {
+  static std::string failure;
+  try {
+    page = std::make_unique<clatter::Page>(logs != 0);
+    page->open(fragment, clatter::limit(until));
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  return failure.c_str();
+}
+EMSCRIPTEN_KEEPALIVE void clatter_open(const char* fragment, double until) {
+  page->open(fragment, clatter::limit(until));
+}
+EMSCRIPTEN_KEEPALIVE int clatter_draw() {
+  return page->draw();
+}
+EMSCRIPTEN_KEEPALIVE void clatter_resize(double width, double height) {
+  page->resize(static_cast<float>(width), static_cast<float>(height));
+}
+EMSCRIPTEN_KEEPALIVE void clatter_point(double x, double y, int buttons, double wheel) {
+  page->point(static_cast<float>(x), static_cast<float>(y), buttons, static_cast<float>(wheel));
+}
+EMSCRIPTEN_KEEPALIVE void clatter_key(int key, int letter, int shift, int ctrl, int down,
+                                      int repeated) {
+  page->use_key({key, static_cast<char>(letter), shift != 0, ctrl != 0}, down != 0, repeated != 0);
+}
+EMSCRIPTEN_KEEPALIVE void clatter_type(const char* text) {
+  page->type(text);
+}
+EMSCRIPTEN_KEEPALIVE void clatter_drop(const char* path) {
+  page->drop(path);
+}
+}

@@ -1,0 +1,223 @@
+// The page around the window of clatter: input, size, files and links. clatter.js runs the C++ code,
+// whose functions are in page.cpp. Positions are pixels of the device.
+'use strict';
+
+const canvas = document.getElementById('canvas');
+const note = document.getElementById('note');
+const query = new URLSearchParams(location.search);
+const log = [];  // lines of the script log, with ?log
+
+// ---- drawing: only while something moves, and never in a hidden tab ----
+
+let ready = false;
+let asked = 0;
+
+function draw() {
+  asked = 0;
+  let moves = false;
+  try {
+    moves = Module._clatter_draw() !== 0;
+  } catch (error) {
+    ready = false;
+    note.textContent = 'The program stopped: ' + error + '. Reload the page to start again.';
+    return;
+  }
+  if (moves) wake();
+}
+
+function wake() {
+  if (ready && !asked) asked = requestAnimationFrame(draw);
+}
+
+// ---- what the program asks of the page ----
+
+function save(name, bytes) {
+  const types = {png: 'image/png', csv: 'text/csv', toml: 'application/toml'};
+  const link = document.createElement('a');
+  const type = types[name.split('.').pop()] || 'application/octet-stream';
+  link.href = URL.createObjectURL(new Blob([bytes], {type}));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+var Module = {
+  page: {
+    scale: () => devicePixelRatio,
+    title: (text) => { document.title = text; },
+    copy: (text) => { navigator.clipboard?.writeText(text).catch(() => {}); },
+    fullScreen: () => {
+      if (document.fullscreenElement) document.exitFullscreen();
+      else document.documentElement.requestFullscreen?.().catch(() => {});
+    },
+    deliver: (file) => save(file, Module.FS.readFile(file)),
+    wake,
+    link: (fragment) => location.href.split(/[?#]/)[0] + '#' + fragment,
+  },
+  print: (line) => { log.push(line); },
+  printErr: (line) => { console.warn(line); },
+  stdin: () => null,
+  onAbort: (what) => { note.textContent = 'The program stopped: ' + what; },
+  onRuntimeInitialized: start,
+};
+
+function text_of(name, ...values) {
+  const types = values.map((value) => typeof value === 'string' ? 'string' : 'number');
+  return Module.ccall(name, 'string', types, values);
+}
+
+// ---- size ----
+
+function resize() {
+  const box = canvas.getBoundingClientRect();
+  canvas.width = Math.max(1, Math.round(box.width * devicePixelRatio));
+  canvas.height = Math.max(1, Math.round(box.height * devicePixelRatio));
+  Module._clatter_resize(canvas.width, canvas.height);
+  wake();
+}
+
+// ---- pointers: mouse, pen and touch; two fingers move and zoom ----
+
+const fingers = new Map();
+let pinch = null;  // middle and distance of two fingers
+
+function point(x, y, buttons, wheel = 0) {
+  Module._clatter_point(x * devicePixelRatio, y * devicePixelRatio, buttons, wheel);
+  wake();
+}
+
+function pinched() {
+  const [a, b] = [...fingers.values()];
+  return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y)};
+}
+
+function on_pointer(event) {
+  const touch = event.pointerType === 'touch';
+  if (event.type === 'pointerdown') {
+    canvas.focus();
+    canvas.setPointerCapture(event.pointerId);
+    if (touch) fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+  } else if (event.type === 'pointermove') {
+    if (fingers.has(event.pointerId)) {
+      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    }
+  } else {
+    fingers.delete(event.pointerId);
+  }
+  if (fingers.size === 2) {
+    const now = pinched();
+    const right = 2;
+    // A zoom step of the wheel is a factor of .85.
+    const wheel = pinch ? Math.log(now.apart / pinch.apart) / -Math.log(0.85) : 0;
+    point(now.x, now.y, right, wheel);
+    pinch = now;
+  } else if (fingers.size < 2) {
+    pinch = null;
+    // DOM: left, right, middle are 1, 2, 4, as for Dear ImGui.
+    const buttons = touch ? fingers.size : event.buttons;
+    point(event.clientX, event.clientY, buttons);
+  }
+  event.preventDefault();
+}
+
+function on_wheel(event) {
+  const lines = event.deltaMode === 0 ? event.deltaY / 100 : event.deltaY / 3;
+  point(event.clientX, event.clientY, event.buttons, -lines);
+  event.preventDefault();
+}
+
+// ---- keys: the codes of GLFW, which the window uses ----
+
+const special = {
+  Space: 32, Quote: 39, Comma: 44, Minus: 45, Period: 46, Slash: 47, Semicolon: 59, Equal: 61,
+  BracketLeft: 91, Backslash: 92, BracketRight: 93, Escape: 256, Enter: 257, Tab: 258,
+  Backspace: 259, Insert: 260, Delete: 261, ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264,
+  ArrowUp: 265, PageUp: 266, PageDown: 267, Home: 268, End: 269, F1: 290, F2: 291, F11: 300,
+};
+
+function code_of(event) {
+  if (/^Key[A-Z]$/.test(event.code)) return event.code.charCodeAt(3);
+  if (/^Digit[0-9]$/.test(event.code)) return event.code.charCodeAt(5);
+  if (event.code === 'NumpadEnter') return special.Enter;
+  return special[event.code] || 0;
+}
+
+function on_key(event) {
+  const code = code_of(event);
+  const letter = /^[a-z]$/i.test(event.key) ? event.key.toLowerCase().charCodeAt(0) : 0;
+  const ctrl = event.ctrlKey || event.metaKey;
+  const down = event.type === 'keydown';
+  if (code) Module._clatter_key(code, letter, event.shiftKey, ctrl, down, event.repeat);
+  if (down && !ctrl && !event.altKey && [...event.key].length === 1) {
+    text_of('clatter_type', event.key);
+  }
+  wake();
+  // The keys of the browser itself keep their meaning: reload, search, new tab.
+  const own = !ctrl || 'zys'.includes(event.key.toLowerCase());
+  if (code && own && !event.altKey && event.code !== 'F11') event.preventDefault();
+}
+
+// ---- dropped scenes and pictures ----
+
+async function on_drop(event) {
+  event.preventDefault();
+  const largest = 20e6;  // bytes
+  for (const file of event.dataTransfer.files) {
+    if (file.size > largest) continue;
+    const path = '/dropped/' + file.name.replace(/[^\w.-]/g, '_');
+    Module.FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
+    text_of('clatter_drop', path);
+  }
+  wake();
+}
+
+// ---- start ----
+
+function fragment() {
+  return location.hash.slice(1);
+}
+
+// Simulation time at which the gas pauses; NaN: none.
+function until() {
+  if (query.has('until')) return Number(query.get('until'));
+  return matchMedia('(prefers-reduced-motion: reduce)').matches ? 0 : NaN;
+}
+
+function start() {
+  Module.FS.mkdir('/dropped');
+  const failure = text_of('clatter_start', fragment(), until(), +query.has('log'));
+  if (failure) {
+    note.textContent = failure;
+    return;
+  }
+  ready = true;
+  note.textContent = '';
+  resize();
+  new ResizeObserver(resize).observe(canvas);
+  for (const kind of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) {
+    canvas.addEventListener(kind, on_pointer);
+  }
+  canvas.addEventListener('wheel', on_wheel, {passive: false});
+  canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  addEventListener('keydown', on_key);
+  addEventListener('keyup', on_key);
+  addEventListener('dragover', (event) => event.preventDefault());
+  addEventListener('drop', on_drop);
+  addEventListener('hashchange', () => {
+    text_of('clatter_open', fragment(), until());
+    wake();
+  });
+  canvas.addEventListener('webglcontextlost', () => {
+    ready = false;
+    note.textContent = 'The graphics of this page were lost. Reload it to start again.';
+  });
+  canvas.focus();
+}
+
+// Vectors of WebAssembly: a module with the instruction v128.const.
+const with_vectors = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1,
+  0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
+if (typeof WebAssembly !== 'object' || !WebAssembly.validate(with_vectors)) {
+  note.textContent = 'This browser has no vectors of WebAssembly. Browsers of 2023 and later have.';
+  Module.onRuntimeInitialized = () => {};
+}

@@ -1,0 +1,68 @@
+#pragma once
+
+// Parts of C++20 that the standard library of emscripten 3.1 (libc++ 13) lacks, from the libraries
+// range-v3, fast_float and fmt. Every source of the page includes this file first. A later
+// emscripten needs neither this file nor these libraries.
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <range/v3/algorithm.hpp>
+
+namespace std {
+
+namespace ranges {
+using ::ranges::adjacent_find;
+using ::ranges::all_of;
+using ::ranges::any_of;
+using ::ranges::binary_search;
+using ::ranges::copy;
+using ::ranges::copy_if;
+using ::ranges::count;
+using ::ranges::count_if;
+using ::ranges::equal;
+using ::ranges::fill;
+using ::ranges::find;
+using ::ranges::find_if;
+using ::ranges::is_sorted;
+using ::ranges::lower_bound;
+using ::ranges::max;
+using ::ranges::max_element;
+using ::ranges::minmax;
+using ::ranges::none_of;
+using ::ranges::nth_element;
+using ::ranges::replace;
+using ::ranges::reverse;
+using ::ranges::sort;
+using ::ranges::stable_sort;
+using ::ranges::transform;
+using ::ranges::upper_bound;
+}  // namespace ranges
+
+template <class To, class From>
+constexpr To bit_cast(const From& value) noexcept {
+  return __builtin_bit_cast(To, value);
+}
+
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+  const auto [end, error] = fast_float::from_chars(first, last, value);
+  return {end, error};
+}
+
+/// The fewest digits that give the same number. The exponent appears where fmt writes one.
+inline to_chars_result to_chars(char* first, char* last, double value) {
+  const auto [end, size] = fmt::format_to_n(first, last - first, "{}", value);
+  if (size > static_cast<size_t>(last - first)) return {last, errc::value_too_large};
+  return {end, errc()};
+}
+
+inline to_chars_result to_chars(char* first, char* last, double value, chars_format, int digits) {
+  const auto [end, size] = fmt::format_to_n(first, last - first, "{:.{}g}", value, digits);
+  if (size > static_cast<size_t>(last - first)) return {last, errc::value_too_large};
+  return {end, errc()};
+}
+
+}  // namespace std

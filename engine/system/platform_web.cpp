@@ -1,0 +1,40 @@
+#include <cerrno>
+
+#include "engine/system/platform.h"
+
+namespace clatter {
+
+void prefer_huge_pages(void*, std::size_t) {}
+
+// WebAssembly addresses 4 GB. Browsers may give less, and a page of a phone much less.
+double machine_memory() {
+  return 1e9;
+}
+
+double heap_bytes() {
+  return 0.0;
+}
+
+void return_unused_memory() {}
+
+void restart_peak_memory() {}
+
+FileDescriptor nameless_file() {
+  errno = ENOSYS;
+  return FileDescriptor();
+}
+
+std::optional<Pipe> make_pipe() {
+  errno = ENOSYS;
+  return std::nullopt;
+}
+
+std::string name_while_open(const FileDescriptor&, const std::string& path) {
+  return path;
+}
+
+std::string this_program(const std::string& name) {
+  return name;
+}
+
+}  // namespace clatter

@@ -1,0 +1,65 @@
+#include <doctest/doctest.h>
+
+#include "app/view/link.h"
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
+
+using namespace clatter;
+
+// The message of the error of a link.
+static std::string mistake_in(const std::string& fragment) {
+  try {
+    read_link(fragment);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST_CASE("Link: a fragment names a scene of the gallery, keys with their values, and a seed") {
+  const LinkedScene linked =
+      read_link("vibrated&particles.restitution=0.6&view.field=temperature&seed=7");
+  CHECK(linked.scene.title == "Vibrated box");
+  CHECK(linked.scene.particles.restitution == 0.6);
+  CHECK(linked.scene.view.field == Quantity::Temperature);
+  CHECK(linked.seed == 7);
+  CHECK(read_link("").scene.title == "Vibrated box");
+  CHECK(read_link("").seed == 1);
+}
+
+TEST_CASE("Link: escapes of browsers stand for their characters") {
+  CHECK(read_link("vibrated&box.size=%5B30%2C%2020%5D").scene.box == Vec2(30.0, 20.0));
+}
+
+TEST_CASE("Link: a copied link has the scene with its changes") {
+  const LinkedScene first = read_link("conduction&particles.restitution=0.75&seed=3");
+  const std::string fragment = link_of(first.scene, first.seed);
+  const LinkedScene second = read_link(fragment);
+  CHECK(scene_to_toml(second.scene) == scene_to_toml(first.scene));
+  CHECK(second.seed == 3);
+  // Only letters that no browser, chat or mail program escapes.
+  CHECK(
+      fragment.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
+                                 "=&") == std::string::npos);
+}
+
+TEST_CASE("Link: a mistake is reported with a suggestion") {
+  CHECK(mistake_in("vibrate").find("try \"vibrated\"") != std::string::npos);
+  CHECK(mistake_in("vibrated&particles.restitutoin=1").find("restitution") != std::string::npos);
+  CHECK(mistake_in("vibrated&seed=x").find("no whole number") != std::string::npos);
+  CHECK(mistake_in("vibrated&view.field").find("has no value") != std::string::npos);
+}
+
+TEST_CASE("Link: scenes that a page cannot open are refused") {
+  CHECK(mistake_in("vibrated&box.size=[9e4,9e4]&particles.count=100001").find("at most 100000") !=
+        std::string::npos);
+  CHECK(mistake_in("vibrated&box.size=[9e4,9e4]&particles.count=100000") == "none");
+  CHECK(mistake_in("scene=AAAA").find("damaged") != std::string::npos);
+  CHECK(mistake_in("scene=*").find("damaged") != std::string::npos);
+  // A file of the machine is never read.
+  CHECK_THROWS_AS(link_of(load_scene("cradle"), 1), UserError);
+  Scene scene = load_scene("vibrated");
+  scene.particles.start.layout = Layout::File;
+  scene.particles.start.file = "/dev/zero";
+  CHECK(mistake_in("vibrated&particles.start.file=/dev/zero") != "none");
+}

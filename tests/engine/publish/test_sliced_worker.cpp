@@ -1,0 +1,72 @@
+#include <doctest/doctest.h>
+
+#include <thread>
+
+#include "engine/publish/worker.h"
+#include "engine/scene/scene_file.h"
+
+using namespace clatter;
+using namespace std::chrono_literals;
+
+// Works until a frame satisfies the condition; false after many slices.
+static bool work_until(SlicedWorker& engine, const std::function<bool(const Frame&)>& holds) {
+  for (int slice = 0; slice < 10'000; ++slice) {
+    engine.work(2ms);
+    engine.frames().update();
+    if (holds(engine.frames().front())) return true;
+  }
+  return false;
+}
+
+TEST_CASE("SlicedWorker: a gas in slices has the state of the engine's thread") {
+  const Scene scene = load_scene("vibrated");
+  constexpr double kEnd = 3.0;
+
+  SlicedWorker sliced;
+  sliced.send(command::Open{scene, 1, false});
+  sliced.send(command::SetSpeed{100.0});
+  sliced.send(command::Play{true, kEnd});
+  const auto halted = [](const Frame& frame) {
+    return !frame.plays && frame.snapshot.time == kEnd;
+  };
+  REQUIRE(work_until(sliced, halted));
+  const auto hash = sliced.frames().front().state_hash;
+  REQUIRE(hash);
+
+  Worker worker(60.0);
+  worker.send(command::Open{scene, 1, false});
+  worker.send(command::SetSpeed{100.0});
+  worker.send(command::Play{true, kEnd});
+  do {
+    std::this_thread::sleep_for(1ms);
+    worker.frames().update();
+  } while (!halted(worker.frames().front()));
+  CHECK(worker.frames().front().state_hash == hash);
+}
+
+TEST_CASE("SlicedWorker: it is busy with commands and with a moving gas only") {
+  SlicedWorker engine;
+  CHECK_FALSE(engine.busy());
+  engine.send(command::Open{load_scene("vibrated"), 1, true});
+  CHECK(engine.busy());
+  engine.work(2ms);
+  CHECK(engine.busy());
+  engine.send(command::Play{false});
+  engine.work(2ms);
+  CHECK_FALSE(engine.busy());
+}
+
+TEST_CASE("SlicedWorker: a delay of more than 100 ms is dropped") {
+  SlicedWorker engine;
+  engine.send(command::Open{load_scene("vibrated"), 1, true});
+  engine.send(command::SetSpeed{1.0});
+  engine.work(1s);
+  engine.frames().update();
+  const double before = engine.frames().front().snapshot.time;
+  std::this_thread::sleep_for(300ms);
+  engine.work(1s);
+  engine.frames().update();
+  const double after = engine.frames().front().snapshot.time;
+  CHECK(after > before);
+  CHECK(after <= before + 0.1 + 1e-9);
+}

@@ -1,0 +1,130 @@
+// A headless Chromium, controlled by the DevTools protocol through pipes, and a server of files.
+// Needs nothing but node.
+
+import {spawn} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {createServer} from 'node:http';
+import {tmpdir} from 'node:os';
+import {extname, join, normalize} from 'node:path';
+
+const kinds = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css',
+               '.wasm': 'application/wasm'};
+
+/// Serves the files of a folder. Resolves to {address, close}.
+export function serve(folder) {
+  const server = createServer((request, response) => {
+    const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
+    const file = join(folder, path.endsWith('/') ? path + 'index.html' : path);
+    try {
+      const bytes = readFileSync(file);
+      response.writeHead(200, {'Content-Type': kinds[extname(file)] || 'application/octet-stream'});
+      response.end(bytes);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  return new Promise((resolve) => server.listen(0, '127.0.0.1', () => resolve({
+    address: `http://127.0.0.1:${server.address().port}/`,
+    close: () => server.close(),
+  })));
+}
+
+export const sleep = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+
+/// A browser with one tab.
+export class Browser {
+  static async start(program = process.env.CHROMIUM || 'chromium', flags = []) {
+    const browser = new Browser();
+    browser.profile = mkdtempSync(join(tmpdir(), 'clatter-chromium-'));
+    browser.process = spawn(program, [
+      '--headless', '--no-sandbox', '--disable-quic', '--no-first-run',
+      '--disable-background-networking', '--disable-component-update', '--disable-sync',
+      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+      '--remote-debugging-pipe', `--user-data-dir=${browser.profile}`, ...flags, 'about:blank',
+    ], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+    browser.answers = new Map();
+    browser.events = [];
+    browser.last = 0;
+    browser.listen();
+    const {targetInfos} = await browser.send('Target.getTargets');
+    const {targetId} = targetInfos.find((target) => target.type === 'page');
+    const {sessionId} = await browser.send('Target.attachToTarget', {targetId, flatten: true});
+    browser.session = sessionId;
+    for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await browser.send(domain + '.enable');
+    return browser;
+  }
+
+  listen() {
+    let text = '';
+    this.process.stdio[4].on('data', (bytes) => {
+      text += bytes;
+      const messages = text.split('\0');
+      text = messages.pop();
+      for (const message of messages.map((one) => JSON.parse(one))) {
+        const answer = this.answers.get(message.id);
+        this.answers.delete(message.id);
+        if (!answer) this.events.push(message);
+        else if (message.error) answer.reject(new Error(JSON.stringify(message.error)));
+        else answer.resolve(message.result);
+      }
+    });
+  }
+
+  send(method, params = {}) {
+    const id = ++this.last;
+    const message = {id, method, params, sessionId: this.session};
+    this.process.stdio[3].write(JSON.stringify(message) + '\0');
+    return new Promise((resolve, reject) => this.answers.set(id, {resolve, reject}));
+  }
+
+  /// The value of an expression in the page.
+  async value(expression) {
+    const {result, exceptionDetails} = await this.send(
+        'Runtime.evaluate', {expression, returnByValue: true, awaitPromise: true});
+    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description || expression);
+    return result.value;
+  }
+
+  /// Opens an address and waits until `ready` holds in the page.
+  async open(address, ready = 'ready', seconds = 60) {
+    // Another fragment alone would not load the page again.
+    await this.send('Page.navigate', {url: 'about:blank'});
+    await this.send('Page.navigate', {url: address});
+    await this.until(ready, seconds);
+  }
+
+  /// Waits until an expression of the page is true, and returns its value.
+  async until(expression, seconds = 60) {
+    const end = Date.now() + 1000 * seconds;
+    for (;;) {
+      const value = await this.value(`(() => { try { return ${expression}; } catch { return false; } })()`);
+      if (value) return value;
+      if (Date.now() > end) throw new Error(`after ${seconds} s it does not hold: ${expression}`);
+      await sleep(50);
+    }
+  }
+
+  resize(width, height, scale = 1, mobile = false) {
+    return this.send('Emulation.setDeviceMetricsOverride',
+                     {width, height, deviceScaleFactor: scale, mobile});
+  }
+
+  mouse(type, x, y, buttons = 0) {
+    return this.send('Input.dispatchMouseEvent',
+                     {type, x, y, buttons, button: buttons || type === 'mouseReleased' ? 'left' : 'none',
+                      clickCount: 1});
+  }
+
+  /// The picture of the page as PNG.
+  async picture() {
+    const {data} = await this.send('Page.captureScreenshot', {format: 'png'});
+    return Buffer.from(data, 'base64');
+  }
+
+  async stop() {
+    await this.send('Browser.close').catch(() => {});
+    await new Promise((done) => { this.process.on('exit', done); setTimeout(done, 3000); });
+    this.process.kill('SIGKILL');
+    rmSync(this.profile, {recursive: true, force: true, maxRetries: 5});
+  }
+}
