@@ -30,8 +30,11 @@ acceleration = [0.1, -0.2, 0.3]
 fields = ["density", "temperature_z", "velocity"]
 cells = [10, 8, 6]
 profile_axis = "z"
-observables = ["plane_current"]
+observables = ["plane_current", "probe", "velocity_distribution", "radial_distribution_profile"]
 plane_current = { axis = "z" }
+probe = { lower = [1.0, 2.0, 3.0] }
+velocity_distribution = { upper = [4.0, 4.0, 4.0] }
+radial_distribution_profile = { axis = "z" }
 [view]
 colour_by = "depth"
 field = "temperature_z"
@@ -55,9 +58,11 @@ set = { "gravity.acceleration" = [0.0, 0.0, 1.0] }
 TEST_CASE("Change of dimension: spheres become disks, without the keys of z") {
   const auto [disks, removed] = change_dimension(deep_scene(), 2);
   CHECK(removed == Keys{"walls.back", "walls.front", "gravity.acceleration along z",
-                        "measure.profile_axis", "measure.plane_current.axis", "measure.fields",
-                        "view.colour_by", "view.field", "view.slab", "view.slices", "view.volume",
-                        "view.camera", "change"});
+                        "measure.profile_axis", "measure.plane_current.axis",
+                        "measure.radial_distribution_profile.axis",
+                        "region of measure.velocity_distribution", "region of measure.probe",
+                        "measure.fields", "view.colour_by", "view.field", "view.slab",
+                        "view.slices", "view.volume", "view.camera", "change"});
   // 90 disks fill 90 pi/6 / 480 = 0.0982 of an area of 720, in the ratio of 10 to 8.
   CHECK(disks.box == VecX(Vec2(30.0, 24.0)));
   CHECK(disks.particles.count == 90);
