@@ -180,7 +180,9 @@ static void check_observables(const Scene& scene, const toml::table& root,
     }
     if (settings.longest > kMostIntervals * settings.interval) {
       throw UserError(place, "the longest lag has more than 1e7 intervals",
-                      "choose at most " + number_text(kMostIntervals * settings.interval));
+                      "choose a lag of at most " + number_text(kMostIntervals * settings.interval) +
+                          ", or an interval of at least " +
+                          number_text(settings.longest / kMostIntervals));
     }
   };
   check_lags("mean_squared_displacement", measure.mean_squared_displacement);

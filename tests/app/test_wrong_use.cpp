@@ -126,6 +126,12 @@ TEST_CASE("Wrong use: runs that would fill the memory or never end are refused")
                 "--set measure.interval=1e-300",
                 {"measure.interval", "1e7 samples", "choose at least"});
   check_refused(shell, "clatter measure vibrated --set measure.duration=1e308", {"samples"});
+  check_refused(shell,
+                "clatter measure vibrated "
+                "--set 'measure.observables=[\"velocity_autocorrelation\"]' "
+                "--set measure.velocity_autocorrelation.interval=1e-9",
+                {"measure.velocity_autocorrelation.interval: the longest lag has more than 1e7 "
+                 "intervals; choose a lag of at most 0.01, or an interval of at least 1e-06"});
   check_refused(shell, "clatter render vibrated --out x.png --set view.window=1e-20",
                 {"view.window", "choose at least"});
 }
