@@ -50,9 +50,24 @@ find_file(CLATTER_FONT DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu NO_
 if(NOT CLATTER_FONT)
   string(APPEND missing "\n  DejaVuSans.ttf: apt install fonts-dejavu-core")
 endif()
+find_program(CLATTER_PYFTSUBSET pyftsubset NO_CMAKE_FIND_ROOT_PATH)
+if(NOT CLATTER_PYFTSUBSET)
+  string(APPEND missing "\n  pyftsubset: apt install fonttools")
+endif()
 if(missing)
   message(FATAL_ERROR "These packages are missing (./run web installs them on Debian):${missing}")
 endif()
+
+# The page has the Latin and Greek letters and the signs of the typeface: a third of its bytes.
+set(subset ${CMAKE_BINARY_DIR}/font/DejaVuSans.ttf)
+if(NOT EXISTS ${subset})
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/font)
+  execute_process(COMMAND ${CLATTER_PYFTSUBSET} ${CLATTER_FONT} --output-file=${subset}
+                          --unicodes=20-17F,370-3FF,2000-209F,2190-22FF,25A0-25FF
+                          --layout-features= --no-hinting
+                  COMMAND_ERROR_IS_FATAL ANY)
+endif()
+set(CLATTER_FONT ${subset})
 
 function(header_library name)
   add_library(${name} INTERFACE IMPORTED)

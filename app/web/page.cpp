@@ -111,6 +111,10 @@ class Page {
     const double since = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
     io.DeltaTime = static_cast<float>(std::clamp(since, 1e-4, 0.1));
     for (int k = 0; k < 3; ++k) io.MouseDown[k] = std::exchange(pressed_[k], held_[k]);
+    // Browsers clear the canvas before its first draw call, but not before a copy into it.
+    const Gl& gl = context_.gl();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
     gui_.draw();
     if (left_ > 0) --left_;
     return engine_.busy() || gui_.changes() || left_ > 0;

@@ -147,6 +147,23 @@ test('hostile fragments give a message or a scene, and the page stays alive', as
   assert.deepEqual(complaints(), []);
 });
 
+test('the picture of a halted gas stays when the panels are drawn again', async () => {
+  await open('vibrated&view.field=density', '&until=1');
+  await browser.until('log.some((line) => JSON.parse(line).time === 1)');
+  await sleep(1000);
+  const colours = async () => (await browser.value(`(() => {
+    Module._clatter_draw();
+    const gl = canvas.getContext('webgl2');
+    const pixels = new Uint8Array(4 * 400 * 400);
+    gl.readPixels(620, 100, 400, 400, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return new Set(new Uint32Array(pixels.buffer)).size;
+  })()`));
+  assert.ok(await colours() > 100);
+  await browser.mouse('mouseMoved', 700, 300);
+  await sleep(1000);
+  assert.ok(await colours() > 100);
+});
+
 test('a hidden tab, and a halted gas, use no pictures', async () => {
   await open('vibrated', '&until=0');
   await sleep(1500);
