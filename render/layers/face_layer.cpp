@@ -17,9 +17,9 @@ Vec3 place_in(const Rectangle3& rectangle, const Vec2& place) {
   return position;
 }
 
-FaceLayer::FaceLayer(const Gl& gl, const char* fragment_file)
+FaceLayer::FaceLayer(const Gl& gl, const char* fragment_file, const char* defines)
     : gl_(&gl),
-      program_(gl, "face.vert", fragment_file),
+      program_(gl, "face.vert", fragment_file, defines),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
   gl.BindVertexArray(vertices_.id());

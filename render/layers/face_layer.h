@@ -23,8 +23,8 @@ Vec3 place_in(const Rectangle3& rectangle, const Vec2& place);
 /// Draws rectangles in space with a fragment shader of their own.
 class FaceLayer {
  public:
-  /// `fragment_file` is the fragment shader for face.vert.
-  FaceLayer(const Gl& gl, const char* fragment_file);
+  /// `fragment_file` is the fragment shader for face.vert, with `defines` as for Program.
+  FaceLayer(const Gl& gl, const char* fragment_file, const char* defines = "");
 
   /// Makes the program current, and sets the uniforms of the view of a box.
   const Program& use(const Vec3& box, const Projection& projection, const Eye& eye) const;

@@ -7,7 +7,8 @@ namespace clatter {
 
 FieldLayer::FieldLayer(const Gl& gl)
     : gl_(&gl),
-      program_(gl, "field.vert", "field.frag"),
+      smooth_(gl, "field.vert", "field.frag"),
+      hatched_(gl, "field.vert", "field.frag", "HATCHED"),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       texture_(gl) {}
 
@@ -23,17 +24,19 @@ void FieldLayer::draw(const Snapshot& snapshot, const Projection& projection,
   const Size size = projection.size, drawn = projection.drawn();
   const Vec2 low = projection.pixels({0.0, 0.0});
   const Vec2 high = projection.pixels(snapshot.box);
-  program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
-  gl_->Uniform2f(program_.uniform("u_low"), low.x(), low.y());
-  gl_->Uniform2f(program_.uniform("u_high"), high.x(), high.y());
-  gl_->Uniform1i(program_.uniform("u_cells"), 0);
-  set_colour(*gl_, program_, "u_gap", gap);
+  const Program& program = style == FieldStyle::Cells ? hatched_ : smooth_;
+  program.use();
+  gl_->Uniform2f(program.uniform("u_size"), drawn.width, drawn.height);
+  gl_->Uniform2f(program.uniform("u_low"), low.x(), low.y());
+  gl_->Uniform2f(program.uniform("u_high"), high.x(), high.y());
+  gl_->Uniform1i(program.uniform("u_cells"), 0);
+  set_colour(*gl_, program, "u_gap", gap);
   gl_->Uniform1f(
-      program_.uniform("u_period"),
+      program.uniform("u_period"),
       projection.samples * std::max(5.0, std::round(std::min(size.width, size.height) / 90.0)));
   gl_->BindVertexArray(vertices_.id());
   gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  texture_.unbind();
 }
 
 }  // namespace clatter

@@ -22,7 +22,7 @@ class FieldLayer {
 
  private:
   const Gl* gl_;
-  Program program_;
+  Program smooth_, hatched_;
   VertexArray vertices_;  ///< no attributes: the shader computes the corners
   FieldTexture texture_;
 };

@@ -1,5 +1,6 @@
 #include "render/layers/field_texture.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clatter {
@@ -36,6 +37,15 @@ void FieldTexture::bind(const PlaneMap& map, const ColourScale& scale, FieldStyl
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap(1));
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, map.width, map.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                   colours_.data());
+  // Opaque colours need no blending, which takes much of the time on a processor.
+  const bool opaque = std::ranges::all_of(colours_, [](Colour c) { return c.alpha == 255; });
+  if (opaque) gl_->Disable(GL_BLEND);
+  gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void FieldTexture::unbind() const {
+  gl_->Enable(GL_BLEND);
+  gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 }  // namespace clatter

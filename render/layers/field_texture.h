@@ -14,8 +14,11 @@ class FieldTexture {
  public:
   explicit FieldTexture(const Gl& gl);
 
-  /// Binds the colours of a map in this style.
+  /// Binds the colours of a map in this style, and the blending for them. To be followed by
+  /// unbind() after drawing.
   void bind(const PlaneMap& map, const ColourScale& scale, FieldStyle style);
+  /// Restores the usual blending of layers.
+  void unbind() const;
 
  private:
   const Gl* gl_;

@@ -12,7 +12,8 @@ std::vector<Slice> slices_of(const Snapshot& snapshot, const View& view) {
   return {{Axis::Z, 0.5 * snapshot.box.z()}};
 }
 
-SliceLayer::SliceLayer(const Gl& gl) : gl_(&gl), faces_(gl, "field.frag"), texture_(gl) {}
+SliceLayer::SliceLayer(const Gl& gl)
+    : gl_(&gl), faces_(gl, "field.frag", "HATCHED"), texture_(gl) {}
 
 // The layer of cells across an axis.
 static PlaneMap layer_of(const Snapshot& snapshot, int axis, int layer) {
@@ -74,6 +75,7 @@ void SliceLayer::draw(const Snapshot& snapshot, const std::vector<Slice>& slices
     faces_.draw(
         {axis, slice.position, Vec2(0.0, 0.0), Vec2(snapshot.box[first], snapshot.box[second])},
         eye, Vec2(1.0, 1.0));
+    texture_.unbind();
   }
 }
 

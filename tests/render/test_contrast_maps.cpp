@@ -43,7 +43,8 @@ std::vector<Colour> slowest(Colour ground) {
 TEST_CASE("Contrast maps: contrast ratios are those of WCAG 2.1") {
   // By hand: the luminance of #777777 is ((0x77/255 + 0.055)/1.055)^2.4 = 0.18447.
   CHECK(contrast_ratio({0, 0, 0}, {255, 255, 255}) == doctest::Approx(21.0));
-  CHECK(contrast_ratio({0x77, 0x77, 0x77}, {255, 255, 255}) == doctest::Approx(1.05 / 0.23447).epsilon(1e-4));
+  CHECK(contrast_ratio({0x77, 0x77, 0x77}, {255, 255, 255}) ==
+        doctest::Approx(1.05 / 0.23447).epsilon(1e-4));
   CHECK(contrast_ratio({0, 0, 255}, {0, 0, 0}) == doctest::Approx((0.0722 + 0.05) / 0.05));
   for (const int channel : {0, 10, 11, 128, 255}) {
     const auto value = static_cast<std::uint8_t>(channel);
