@@ -111,7 +111,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {kParticles + "[view]\ncamera = [{ width = 1e-300 }]\n",
        "s.toml:4:13: 'view.camera.width' cannot be 1e-300; give a number between 0.001 and 1e+09"},
       {kParticles + "[view]\nestimator = \"snapshot\"\ninterval = 1e-300\n",
-       "s.toml:5:1: 'view.interval' cannot be 1e-300; give a number between 5e-06 and 5"},
+       "s.toml:5:1: 'view.interval' cannot be 1e-300; give a number between 2e-05 and 20"},
       {kParticles + "[view]\nbackground = \"#12345\"\n",
        "s.toml:4:1: 'view.background' cannot be \"#12345\"; give a colour as \"#rrggbb\", for "
        "instance \"#ffffff\""},
