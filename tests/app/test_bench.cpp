@@ -242,8 +242,8 @@ TEST_CASE("Bench: the table of features has a rate for each") {
   REQUIRE(outcome.code == 0);
   CHECK(outcome.err.starts_with("50 disks, phi = 0.3; 7 rounds of 10000 collisions each"));
   const json table = json::parse(shell.read("t.json"));
-  REQUIRE(table.size() == 30);
-  CHECK(std::ranges::count(outcome.out, '\n') == 31);
+  REQUIRE(table.size() == 33);
+  CHECK(std::ranges::count(outcome.out, '\n') == 34);
   check_columns(outcome.out, table, "with Mcoll/s rate",
                 {{"million_collisions_per_cpu_second", " %.3f"}, {"rate_over_bare", " %.3f"}});
   const std::vector<Feature> rows = features();

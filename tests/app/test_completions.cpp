@@ -116,7 +116,7 @@ TEST_CASE("Completions: zsh and fish offer the values of each kind of flag") {
         " -a '(__fish_complete_directories)'\n",
         "measure' -l set -d 'Change a key of the scene, as in --set particles.count=500' -r -f"
         " -a 'schema= title= ",
-        "measure' -F -a 'barometer collapse ", "help keys' -f -a 'schema title "}) {
+        "measure' -F -a 'cradle shaker ", "help keys' -f -a 'schema title "}) {
     CAPTURE(line);
     CHECK(says(fish, start + line));
   }

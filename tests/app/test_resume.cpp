@@ -360,8 +360,9 @@ TEST_CASE("Resume: a checkpoint that does not fit is refused") {
 TEST_CASE("Resume: a collapse leaves results, a checkpoint and the command that continues") {
   const Shell shell;
   const std::string scene =
-      "cooling --set particles.restitution=0.1 --set particles.count=300 "
-      "--set box.size=[25,25] --set measure.series_interval=0.125 --until 1000 ";
+      "equilibrium --set particles.restitution=0.1 --set particles.count=300 "
+      "--set box.size=[25,25] --set measure.burn_in=0 --set measure.series_interval=0.125 "
+      "--until 1000 ";
   const Outcome stopped = shell.run("clatter measure " + scene + "--quiet --out r.json");
   CHECK(stopped.code == 3);
   CHECK(says(stopped.err, "inelastic collapse"));

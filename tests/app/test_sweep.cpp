@@ -249,7 +249,7 @@ TEST_CASE("Sweep: a seed that is added with the axes in another order belongs to
 TEST_CASE("Sweep: failed runs are listed with their reasons, and do not stop the others") {
   const Shell shell;
   // The collapse of a cooling gas, and a box that is too small for a combination of values.
-  shell.write("s.toml", R"(scene = "cooling"
+  shell.write("s.toml", R"(scene = "equilibrium"
 [set]
 "measure.burn_in" = 0.0
 "measure.duration" = 1000.0
