@@ -59,7 +59,8 @@ Colour toned(Colour colour, double to) {
 // Linear interpolation of light, from `a` to `b`.
 Colour blend(Colour a, Colour b, double share) {
   const auto channel = [&](std::uint8_t from, std::uint8_t to) {
-    return encoded_light(std::lerp(linear_light(from), linear_light(to), share));
+    const double light_from = linear_light(from), light_to = linear_light(to);
+    return encoded_light(std::lerp(light_from, light_to, share));
   };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue)};
 }

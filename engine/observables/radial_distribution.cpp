@@ -107,7 +107,8 @@ template <typename Real>
   const auto diameter = static_cast<Real>(simulation_.model().diameter);
   const auto per_distance = static_cast<Real>(1.0 / width_);
   const auto last = static_cast<Real>(kBinShare * bins_);
-  cells_.each_run([&](std::size_t, const typename NearCells<D>::Run& run) [[gnu::always_inline]] {
+  cells_.each_run([&](std::size_t,
+                      const typename NearCells<D>::Run& run) __attribute__((always_inline)) {
     const std::size_t pairs = (run.end - run.begin + kLanes - 1) / kLanes * kLanes;
     if (bins_of_pairs_.size() < pairs) bins_of_pairs_.resize(pairs);
     std::array<const double*, D> others;

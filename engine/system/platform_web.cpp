@@ -1,6 +1,14 @@
+#include <spawn.h>
+
 #include <cerrno>
 
 #include "engine/system/platform.h"
+
+// A page has no processes. The C library of emscripten declares this function without a definition.
+extern "C" int posix_spawnp(pid_t*, const char*, const posix_spawn_file_actions_t*,
+                            const posix_spawnattr_t*, char* const*, char* const*) {
+  return ENOSYS;
+}
 
 namespace clatter {
 
