@@ -54,7 +54,7 @@ struct ObservablePrice {
   double surcharge;
 };
 constexpr std::array<ObservablePrice, 17> kObservablePrices = {
-    {{ObservableKind::RadialDistribution, 0.7},
+    {{ObservableKind::RadialDistribution, 0.42},
      {ObservableKind::VelocityDistribution, 0.09},
      {ObservableKind::FreeFlights, 0.17},
      {ObservableKind::Collisions, 0.22},
@@ -62,15 +62,15 @@ constexpr std::array<ObservablePrice, 17> kObservablePrices = {
      {ObservableKind::MeanSquaredDisplacement, 0.35},
      {ObservableKind::VelocityAutocorrelation, 0.1},
      {ObservableKind::StructureFactor, 7.8},
-     {ObservableKind::Clusters, 0.54},
-     {ObservableKind::BondOrder, 0.72},
+     {ObservableKind::Clusters, 0.46},
+     {ObservableKind::BondOrder, 0.58},
      {ObservableKind::WallPower, 0.13},
      {ObservableKind::PlaneCurrent, 0.23},
      {ObservableKind::LocalDensity, 0.07},
      {ObservableKind::SpinDistribution, 0.18},
-     {ObservableKind::Probe, 0.08},
-     {ObservableKind::CollisionCounts, 0.24},
-     {ObservableKind::RadialDistributionProfile, 1.5}}};
+     {ObservableKind::Probe, 0.07},
+     {ObservableKind::CollisionCounts, 0.28},
+     {ObservableKind::RadialDistributionProfile, 0.68}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;
