@@ -58,8 +58,8 @@ class ScheduledRun {
   /// returned true or after settle().
   void change_here(const std::vector<Override>& laws);
 
-  /// Adds to later snapshots the averages, flights and angles that the view needs. Averages begin
-  /// anew at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure time
+  /// Adds to later snapshots the averages, flights and angles that the view needs. Averages
+  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure time
   /// of a picture, in simulation time.
   void show(const View& view, double exposure = 0.0);
   /// The same, continued from the result of save_shown() at this time of a run with the same scene,
@@ -78,7 +78,7 @@ class ScheduledRun {
 
  private:
   void halt_at(double time);
-  /// Averages of the view that continue or begin anew with another simulation.
+  /// Averages of the view that continue or restart with another simulation.
   enum class Averages { Continue, Restart };
 
   void advance(Schedule schedule);

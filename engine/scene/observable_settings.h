@@ -40,7 +40,7 @@ struct RadialDistributionSettings {
 /// A region with edges along the axes. An edge at a side of the box includes all centres beyond it.
 struct RegionSettings {
   std::optional<VecX> lower = {};  ///< [D] corner within the box; absent: see the observable
-  std::optional<VecX> upper = {};  ///< [D] opposite corner, above `lower`; absent likewise
+  std::optional<VecX> upper = {};  ///< [D] opposite corner, above `lower`; absent: as for `lower`
 };
 
 /// Settings of the distribution of velocities.

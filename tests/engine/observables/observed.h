@@ -24,6 +24,16 @@ Measured observed(const Scene& scene, Measure measure, ObservableKind kind, doub
   return measurement.result();
 }
 
+/// A gas between walls of two temperatures along x, periodic along the other axes, with sides
+/// without symmetry.
+template <int D>
+Scene heated_gas() {
+  Scene scene = gas(D == 2 ? VecX(Vec2(11.0, 7.0)) : VecX(Vec<3>(7.0, 5.0, 6.0)), 30, 0.9);
+  scene.walls[kLeft] = {.kind = WallKind::Thermal, .temperature = 0.5};
+  scene.walls[kRight] = {.kind = WallKind::Thermal, .temperature = 4.0};
+  return scene;
+}
+
 /// A table by name. Throws if it is absent.
 inline ResultTable table_of(const Measured& measured, const std::string& name) {
   for (const ResultTable& table : measured.tables()) {

@@ -21,16 +21,6 @@ using Space = std::integral_constant<int, 3>;
 constexpr double kInterval = 0.7;
 constexpr int kSamples = 60;
 
-// A gas between walls of two temperatures along x, periodic along the other axes, with sides
-// without symmetry.
-template <int D>
-Scene heated_gas() {
-  Scene scene = gas(D == 2 ? VecX(Vec2(11.0, 7.0)) : VecX(Vec<3>(7.0, 5.0, 6.0)), 30, 0.9);
-  scene.walls[kLeft] = {.kind = WallKind::Thermal, .temperature = 0.5};
-  scene.walls[kRight] = {.kind = WallKind::Thermal, .temperature = 4.0};
-  return scene;
-}
-
 template <int D>
 Measured fluctuations(const Scene& scene, const Measure& measure, ObservableKind kind) {
   return observed<D>(scene, measure, kind, kSamples * kInterval, 3);

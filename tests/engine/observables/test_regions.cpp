@@ -18,15 +18,6 @@ using Space = std::integral_constant<int, 3>;
 constexpr double kInterval = 0.7;
 constexpr int kSamples = 60;
 
-// A gas between walls of two temperatures along x, periodic along the other axes.
-template <int D>
-Scene heated_gas() {
-  Scene scene = gas(D == 2 ? VecX(Vec2(11.0, 7.0)) : VecX(Vec<3>(7.0, 5.0, 6.0)), 30, 0.9);
-  scene.walls[kLeft] = {.kind = WallKind::Thermal, .temperature = 0.5};
-  scene.walls[kRight] = {.kind = WallKind::Thermal, .temperature = 4.0};
-  return scene;
-}
-
 // Velocities of the particles between two corners.
 template <int D>
 std::vector<Vec<D>> velocities_in(const State<D>& state, const VecX& lower, const VecX& upper) {

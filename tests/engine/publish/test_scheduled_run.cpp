@@ -119,7 +119,7 @@ TEST_CASE("ScheduledRun: the live field continues with another simulation") {
   }
 }
 
-TEST_CASE("ScheduledRun: the live field begins anew at a change, and continues in a ramp") {
+TEST_CASE("ScheduledRun: the live field restarts at a change, and continues in a ramp") {
   const auto at_four = [](const std::optional<Change>& change) {
     Scene scene = load_scene("vibrated", {{"view.window", "8.0"}});
     if (change) scene.changes = {*change};
