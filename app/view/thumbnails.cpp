@@ -14,7 +14,7 @@ namespace clatter {
 // The gas of a scene after a few seconds on screen; the number of events is limited.
 static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
   constexpr double kSeconds = 20.0;
-  constexpr std::uint64_t kMaxSteps = 300'000;
+  constexpr std::uint64_t kMaxSteps = 60'000;
   const Scene scene = load_gallery_scene(file);
   return with_dimension(scene.dimension(), [&](auto dimension) {
     ScheduledRun<dimension> run(scene, 1);
