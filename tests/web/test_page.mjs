@@ -167,7 +167,7 @@ test('the picture of a halted gas stays when the panels are drawn again', async 
   assert.ok(await colours() > 100);
 });
 
-test('a hidden tab, and a halted gas, use no pictures', async () => {
+test('a halted gas uses no pictures', async () => {
   await open('vibrated', '&until=0');
   await sleep(1500);
   await browser.value('void (globalThis.pictures = 0)');
