@@ -15,18 +15,18 @@ static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Numbers of cells along each axis, so that cells are nearly cubes. The shortest edge comes first:
 // a narrow box then gets more cells along its long edges.
 template <int D>
-static IntVec<D> choose_counts(const Model<D>& model, double cells) {
+static IntVec<D> choose_counts(const Vec<D>& box, double diameter, double cells) {
   std::array<int, D> axes;
   std::iota(axes.begin(), axes.end(), 0);
   std::stable_sort(axes.begin(), axes.end(),
-                   [&](int a, int b) { return model.box[a] < model.box[b]; });
+                   [&](int a, int b) { return box[a] < box[b]; });
   cells = std::max(1.0, cells);
-  double volume = model.box.prod();
+  double volume = box.prod();
   IntVec<D> counts;
   for (int k = 0; k < D; ++k) {
-    const double length = model.box[axes[k]];
+    const double length = box[axes[k]];
     const double edge =
-        std::max(std::pow(volume / cells, 1.0 / (D - k)), kMinWidth * model.diameter);
+        std::max(std::pow(volume / cells, 1.0 / (D - k)), kMinWidth * diameter);
     const double count = std::max(1.0, std::floor(length / edge));
     counts[axes[k]] = static_cast<int>(count);
     cells = std::max(1.0, cells / count);
@@ -36,24 +36,37 @@ static IntVec<D> choose_counts(const Model<D>& model, double cells) {
 }
 
 template <int D>
-CellGrid<D>::CellGrid(const Model<D>& model, double cells)
-    : cells_(cells), counts_(choose_counts(model, cells)) {
+CellGrid<D>::CellGrid(const Subdomain<D>& subdomain, double diameter, double cells)
+    : diameter_(diameter) {
+  reset(subdomain, cells);
+}
+
+template <int D>
+void CellGrid<D>::reset(const Subdomain<D>& subdomain, double cells) {
+  subdomain_ = subdomain;
+  open_ = subdomain.open();
+  cells_ = cells;
+  const Vec<D> extent = subdomain.upper - subdomain.lower;
+  counts_ = choose_counts<D>(extent, diameter_, cells);
   int stride = 1;
   for (int axis = 0; axis < D; ++axis) {
     const int count = counts_[axis];
-    widths_[axis] = model.box[axis] / count;
-    overhangs_[axis] = 0.5 * std::max(0.0, widths_[axis] - kMinWidth * model.diameter);
+    widths_[axis] = extent[axis] / count;
+    overhangs_[axis] = 0.5 * std::max(0.0, widths_[axis] - kMinWidth * diameter_);
+    auto& borders = borders_[axis];
+    borders.clear();
     for (int cell = 0; cell < count; ++cell) {
-      borders_[axis].push_back(cell * widths_[axis] - overhangs_[axis]);
-      borders_[axis].push_back((cell + 1) * widths_[axis] + overhangs_[axis]);
+      borders.push_back(subdomain.lower[axis] + (cell * widths_[axis] - overhangs_[axis]));
+      borders.push_back(subdomain.lower[axis] + ((cell + 1) * widths_[axis] + overhangs_[axis]));
     }
     strides_[axis] = stride;
     auto& places = places_[axis];
-    places.resize(static_cast<std::size_t>(count) + 2);
+    places.assign(static_cast<std::size_t>(count) + 2, Place{});
     for (int cell = 0; cell < count; ++cell) {
       places[static_cast<std::size_t>(cell) + 1].index = static_cast<std::uint32_t>(cell * stride);
     }
-    if (model.periodic(axis)) {
+    const auto end = [&](int upper) { return subdomain.ends[static_cast<std::size_t>(2 * axis + upper)]; };
+    if (end(0) == End::Periodic) {
       // Seen from beyond the low border, the box is one length higher; from beyond the high border,
       // one length lower.
       const auto wrap = [&](unsigned bits) {
@@ -61,18 +74,18 @@ CellGrid<D>::CellGrid(const Model<D>& model, double cells)
       };
       places.front() = {places[static_cast<std::size_t>(count)].index, wrap(0b01)};
       places.back() = {places[1].index, wrap(0b11)};
-    } else {
-      borders_[axis].front() = -kInfinity;
-      borders_[axis].back() = kInfinity;
     }
+    if (end(0) == End::Wall) borders.front() = -kInfinity;
+    if (end(1) == End::Wall) borders.back() = kInfinity;
     stride *= count;
   }
-  lists_.resize(static_cast<std::size_t>(stride));
+  lists_.assign(static_cast<std::size_t>(stride), List{});
+  continuations_ = {};
 }
 
 template <int D>
 IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
-  return cell_of<D>(position, widths_, counts_);
+  return cell_of<D>(position - subdomain_.lower, widths_, counts_);
 }
 
 template <int D>
@@ -119,7 +132,7 @@ Vec<D> CellGrid<D>::leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t
 }
 
 template <int D>
-bool CellGrid<D>::fit(const Model<D>& model, double particles, double near) {
+bool CellGrid<D>::fit(double particles, double near) {
   // Thresholds of the crowding: other particles near a particle per neighbouring cell, in cells for
   // the mean density. It is 1 for evenly spread points. Between kEven and kCrowded the cells stay
   // as they are (hysteresis).
@@ -134,7 +147,7 @@ bool CellGrid<D>::fit(const Model<D>& model, double particles, double near) {
   const bool fine = crowding > (cells_ > particles ? kEven : kCrowded);
   const double wanted = particles * (fine ? std::min(crowding / kWanted, kMax) : 1.0);
   if (std::max(wanted, cells_) < kWorthwhile * std::min(wanted, cells_)) return false;
-  *this = CellGrid(model, wanted);
+  *this = CellGrid(subdomain_, diameter_, wanted);
   return true;
 }
 

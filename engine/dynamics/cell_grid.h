@@ -12,6 +12,7 @@
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/near_list.h"
+#include "engine/dynamics/subdomain.h"
 #include "engine/physics/fall_time.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/neighbour.h"
@@ -31,8 +32,11 @@ namespace clatter {
 template <int D>
 class CellGrid {
  public:
-  /// An empty grid over the box, of about so many cells, each wider than a diameter.
-  CellGrid(const Model<D>& model, double cells);
+  /// An empty grid over a subdomain, of about so many cells, each wider than a diameter.
+  CellGrid(const Subdomain<D>& subdomain, double diameter, double cells);
+  /// The same over the whole box.
+  CellGrid(const Model<D>& model, double cells)
+      : CellGrid(whole_box<D>(model), model.diameter, cells) {}
 
   /// Puts a particle into a cell.
   void insert(std::uint32_t particle, const IntVec<D>& cell);
@@ -44,7 +48,7 @@ class CellGrid {
 
   /// Number of cells along each axis.
   const IntVec<D>& counts() const { return counts_; }
-  /// The cell that holds a position inside the box.
+  /// The cell that holds a position inside the subdomain.
   IntVec<D> cell_at(const Vec<D>& position) const;
   /// The cell next to one along an axis, on the side of `step` = +1 or -1, across the periodic
   /// border.
@@ -52,6 +56,14 @@ class CellGrid {
     cell[axis] += step;
     if (cell[axis] < 0 || cell[axis] == counts_[axis]) cell[axis] -= step * counts_[axis];
     return cell;
+  }
+  /// Whether a particle that crosses a border of its cell leaves the subdomain.
+  bool leaves_subdomain(const IntVec<D>& cell, std::uint32_t border) const {
+    if (!open_) return false;
+    const auto [axis, step] = crossing_of(border);
+    const IntVec<D> next = neighbour(cell, axis, step);
+    const End end = subdomain_.ends[static_cast<std::size_t>(2 * axis + (step > 0))];
+    return end == End::Open && next[axis] != cell[axis] + step;
   }
   /// Coordinate at which a particle leaves cell number `cell` through its upper or lower border,
   /// overhang included. Infinite at a wall, which has no cell beyond it.
@@ -67,7 +79,8 @@ class CellGrid {
   /// Least distance of a particle in a cell from the lower or upper end of the box.
   double distance_from_end(const IntVec<D>& cell, int axis, bool upper) const {
     const int cells = upper ? counts_[axis] - 1 - cell[axis] : cell[axis];
-    return cells * widths_[axis] - overhangs_[axis];
+    const double beyond = subdomain_.to_box_end[static_cast<std::size_t>(2 * axis + upper)];
+    return beyond + cells * widths_[axis] - overhangs_[axis];
   }
   /// The exits of a particle from its cell along each axis. `image` is in whole box lengths, from
   /// the cell's frame to the flight's frame.
@@ -80,7 +93,9 @@ class CellGrid {
   /// Adapts the number of cells to a sum over all particles of the numbers near each. Cells for the
   /// mean density have long lists in clusters; finer cells shorten these lists, up to a limit of
   /// memory. Returns whether the number has changed; the grid then is empty.
-  bool fit(const Model<D>& model, double particles, double near);
+  bool fit(double particles, double near);
+  /// Empties the grid and lays it over another subdomain. Keeps the memory of its lists.
+  void reset(const Subdomain<D>& subdomain, double cells);
 
   /// The list of a cell.
   const List& near(const IntVec<D>& cell) const { return lists_[index(cell)]; }
@@ -102,7 +117,7 @@ class CellGrid {
   // A cell along one axis. There is one more beyond either end.
   static constexpr std::uint32_t kNone = List::kNone;
   struct Place {
-    std::uint32_t index = kNone;  // this axis' part of the index of its list; kNone: a wall
+    std::uint32_t index = kNone;  // this axis' part of the index of its list; kNone: no cell
     Neighbour wrap = 0;           // wrap of a particle within the box, seen from there
   };
   struct Block {
@@ -119,7 +134,10 @@ class CellGrid {
   Exit exit_falling(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
                     const IntVec<D>& cell, int axis, double now) const;
 
-  double cells_;  // requested
+  Subdomain<D> subdomain_;
+  bool open_;        // whether particles can leave the subdomain
+  double diameter_;  // of the particles
+  double cells_;     // requested
   IntVec<D> counts_;
   IntVec<D> strides_;
   Vec<D> widths_;

@@ -24,6 +24,12 @@ class Neighbourhood {
     if (has_lists(model, particles)) lists_.emplace(model, particles);
   }
 
+  /// Empties the neighbourhood and lays cells for a number of particles over a subdomain.
+  void reset(const Subdomain<D>& subdomain, double particles) {
+    lists_.reset();
+    grid_.reset(subdomain, particles);
+  }
+
   /// The largest and the least capacity of a list. Lists of particles exist in 3D only.
   static constexpr int kCapacity = CellGrid<D>::kCapacity;
   static constexpr int kLeastCapacity = D == 2 ? kCapacity : NeighbourLists<D>::kCapacity;
@@ -42,13 +48,13 @@ class Neighbourhood {
   /// Adapts the number of cells to the crowding, from the plans of all particles. Returns whether
   /// the grid is now empty.
   template <typename Plans>
-  bool fit(const Model<D>& model, const Plans& plans) {
+  bool fit(const Plans& plans) {
     if (by_particle()) return false;
     double near = 0.0;
     for (const auto& plan : plans) {
       near += static_cast<double>(grid_.continuations().count(grid_.near(plan.cell)));
     }
-    return grid_.fit(model, static_cast<double>(plans.size()), near);
+    return grid_.fit(static_cast<double>(plans.size()), near);
   }
 
   /// The first list of the particles near a particle in a cell.
@@ -90,6 +96,12 @@ class Neighbourhood {
     exits[0] = lists_->template exit<kFalling>(model, flight, image, number, now);
     return exits;
   }
+  /// Whether a particle that crosses a border of its cell leaves all cells.
+  bool leaves_all(const IntVec<D>& cell, std::uint32_t border) const {
+    return !by_particle() && grid_.leaves_subdomain(cell, border);
+  }
+  /// Removes a particle from its cell.
+  void remove(std::uint32_t particle, const IntVec<D>& cell) { grid_.remove(particle, cell); }
   /// Moves a particle to its next cell or region. Returns its shift to another periodic image, in
   /// box lengths.
   Vec<D> leave(const Model<D>& model, const ParticleArray<D>& particles, std::uint32_t number,

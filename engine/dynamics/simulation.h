@@ -8,15 +8,10 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/clock.h"
-#include "engine/dynamics/event_queue.h"
-#include "engine/dynamics/large_array.h"
+#include "engine/dynamics/event_loop.h"
 #include "engine/dynamics/model.h"
-#include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/observer.h"
-#include "engine/dynamics/particle.h"
-#include "engine/dynamics/prediction.h"
 #include "engine/dynamics/run_state.h"
-#include "engine/dynamics/watchdog.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -55,12 +50,12 @@ class Simulation {
   /// The state that determines the run's future, together with the model and the timers.
   RunState<D> save() const;
   /// Reports every event from now on to an observer, which must outlive the simulation.
-  void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
+  void add_observer(Observer<D>& observer) { loop_.add_observer(observer); }
 
   /// Simulation time up to which events have been processed.
-  double time() const { return clock_.absolute(now_); }
+  double time() const { return clock_.absolute(base_time()); }
   /// The same on the moving base, as observers see it.
-  double base_time() const { return now_; }
+  double base_time() const { return loop_.now(); }
   /// [N] positions of all particles at time(), wrapped into the box, in original order.
   std::vector<Vec<D>> positions() const;
   /// All particles evaluated at time(), wrapped into the box; nothing is advanced.
@@ -75,21 +70,23 @@ class Simulation {
   double spin_energy() const;
   /// Displacement, velocity and acceleration of a wall at time(), from its rest position along its
   /// inward normal.
-  WallState wall(int side) const { return boundary_.wall(side, now_); }
+  WallState wall(int side) const { return boundary_.wall(side, base_time()); }
   /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the
   /// diameter; 0: none. Checks all particles. Throws Interrupted.
-  double deepest_overlap(const StopRequest& stop = {}) const;
+  double deepest_overlap(const StopRequest& stop = {}) const {
+    return loop_.deepest_overlap(stop);
+  }
 
   /// The laws of the run.
   const Model<D>& model() const { return model_; }
   /// [N] stored states, in original order; each since the particle's last physical event.
-  const ParticleArray<D>& particles() const { return particles_; }
+  const ParticleArray<D>& particles() const { return loop_.particles(); }
   /// [N] angular velocities, in original order; empty without spins.
-  const LargeArray<Spin<D>>& spins() const { return spins_; }
+  const LargeArray<Spin<D>>& spins() const { return loop_.spins(); }
   /// Events since the start.
-  const EventCounts& counts() const { return counts_; }
+  const EventCounts& counts() const { return loop_.counts(); }
   /// Extremes of the run's checks since the start.
-  const RunChecks& checks() const { return checks_; }
+  const RunChecks& checks() const { return loop_.checks(); }
 
  private:
   struct Timer {
@@ -99,74 +96,21 @@ class Simulation {
     std::function<void(double)> action;
   };
 
-  struct Motion {
-    Vec<D> r;  // of the centre
-    Vec<D> v;
-  };
-
-  /// Reason why advance() returned.
-  enum class Halt { Time, Limit, BaseMoved };
-
-  Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
   Timer* due_timer(double stop);
   void fire(Timer& timer);
-  void process(Event event);
-  void collide(std::uint32_t first, std::uint32_t second);
-  void hit_wall(std::uint32_t number, int side);
-  void kick();
   double next_kick() const;
-  bool within_contact_time(std::uint32_t number) const;
-  bool is_too_fast(std::uint32_t number) const;
-  [[noreturn]] void stop_at_collapse() const;
-  [[noreturn]] void stop_at_divergence() const;
-  void enter_next_cell(std::uint32_t number);
-  [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
-  void carry_remainder(std::uint32_t number, Vec<D>& position);
-  [[gnu::always_inline]] inline void renew_flight(std::uint32_t number, const Vec<D>& position,
-                                                  const Vec<D>& velocity);
-  [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
-  void place_all(const StopRequest& stop = {});
-  void plan_all(const StopRequest& stop = {});
   void move_base();
-  bool is_current(const Event& event) const;
-  void prefetch_ahead();
-  template <typename Visit>
-  void visit_searches(const Event& event, const Visit& visit) const;
-  Spin<D> spin(std::uint32_t number) const;
-  ParticleChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
-                              const Impulse<D>& gain) const;
-  void add_spin(std::uint32_t number, const Spin<D>& gain);
+  void attend_to(typename EventLoop<D>::Halt halt);
 
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double now_ = 0.0;  // on the clock's base
-  ParticleArray<D> particles_;
-  LargeArray<Spin<D>> spins_;           // [N], or empty
-  LargeArray<double> last_collisions_;  // [N] times on the base; empty without a t_c
-  LargeArray<Vec<D>> remainders_;  // [N] rounding errors of positions in long boxes; else empty
-  LargeArray<Plan<D>> plans_;
-  Neighbourhood<D> near_;
-  Prediction<D> prediction_;
-  EventQueue queue_;
-  std::uint64_t until_base_moves_;    // physical events left
-  double start_speed_;                // of the fastest particle at the start
-  double fastest_;                    // speed limit, see fastest_speed()
-  std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
-  std::int64_t prefetched_bucket_ = 0;
-  std::vector<Observer<D>*> observers_;
-  std::deque<Timer> timers_;  // keep their addresses while an action adds timers
-  double kick_origin_;        // simulation time from which kicks are counted
+  double start_speed_;    // of the fastest particle at the start
+  double kick_origin_;    // simulation time from which kicks are counted
   std::uint64_t kicks_since_origin_;
-  EventCounts counts_;
-  RunChecks checks_;
+  std::deque<Timer> timers_;  // keep their addresses while an action adds timers
+  EventLoop<D> loop_;
 };
-
-template <int D>
-void Simulation<D>::schedule(std::uint32_t particle) {
-  const Plan<D>& plan = plans_[particle];
-  if (plan.time < kNever) queue_.push({plan.time, particle, plan.partner});
-}
 
 extern template class Simulation<2>;
 extern template class Simulation<3>;

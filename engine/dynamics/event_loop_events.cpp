@@ -4,15 +4,15 @@
 
 #include "engine/dynamics/collision_rules.h"
 #include "engine/dynamics/prefetch.h"
-#include "engine/dynamics/simulation.h"
+#include "engine/dynamics/event_loop.h"
 #include "engine/physics/random.h"
 
-// The effects of events on particles; simulation.cpp has the event loop.
+// The effects of events on particles; event_loop.cpp has the loop.
 
 namespace clatter {
 
 template <int D>
-void Simulation<D>::enter_next_cell(std::uint32_t number) {
+void EventLoop<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
   particles_.move_image(number,
                         near_.leave(model_, particles_, number, plan.cell, plan.partner, now_));
@@ -24,7 +24,7 @@ void Simulation<D>::enter_next_cell(std::uint32_t number) {
 // Position and velocity of a particle at its event. The case without gravity comes first, because
 // its result is ready sooner.
 template <int D>
-typename Simulation<D>::Motion Simulation<D>::motion_now(std::uint32_t number) {
+typename EventLoop<D>::Motion EventLoop<D>::motion_now(std::uint32_t number) {
   const Flight<D>& flight = particles_[number].flight;
   Motion motion{flight.r + flight.v * (now_ - flight.time), flight.v};
   if (model_.has_gravity()) {
@@ -37,7 +37,7 @@ typename Simulation<D>::Motion Simulation<D>::motion_now(std::uint32_t number) {
 // Compensated summation of flights: adds the accumulated rounding errors of the positions,
 // including the current one.
 template <int D>
-void Simulation<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
+void EventLoop<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
   const Flight<D>& flight = particles_[number].flight;
   const double dt = now_ - flight.time;
   const Vec<D> way = (flight.v + model_.gravity * (0.5 * dt)) * dt;
@@ -51,7 +51,7 @@ void Simulation<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
 // cold gas at a driven wall. It then would move noticeably within the rounding of times. In this
 // case the base moves at once.
 template <int D>
-void Simulation<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
+void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
                                  const Vec<D>& velocity) {
   constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
   if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
@@ -62,23 +62,23 @@ void Simulation<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
 }
 
 template <int D>
-Spin<D> Simulation<D>::spin(std::uint32_t number) const {
+Spin<D> EventLoop<D>::spin(std::uint32_t number) const {
   return spins_.empty() ? Spin<D>(Spin<D>::Zero()) : spins_[number];
 }
 
 template <int D>
-void Simulation<D>::add_spin(std::uint32_t number, const Spin<D>& gain) {
+void EventLoop<D>::add_spin(std::uint32_t number, const Spin<D>& gain) {
   if (!spins_.empty()) spins_[number] += gain;
 }
 
 template <int D>
-bool Simulation<D>::within_contact_time(std::uint32_t number) const {
+bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
   return !last_collisions_.empty() && now_ - last_collisions_[number] < *model_.contact_time;
 }
 
 // The record of one particle's change for observers.
 template <int D>
-ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& position,
+ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& position,
                                            const Vec<D>& velocity, const Impulse<D>& gain) const {
   const double half_inertia = 0.5 * moment_of_inertia(model_.inertia, model_.diameter);
   const Spin<D> w = spin(number);
@@ -90,13 +90,8 @@ ParticleChange<D> Simulation<D>::change_of(std::uint32_t number, const Vec<D>& p
 }
 
 template <int D>
-void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
-  // The lists arrive while the collision is computed; the processor would not load them this early
-  // by itself.
-  for (const std::uint32_t particle : {first, second}) {
-    near_.prefetch_near(particle, plans_[particle].cell);
-  }
-  const Vec<D> shift = plans_[first].image.template cast<double>().cwiseProduct(model_.box);
+void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image) {
+  const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
   const auto [r_a, v_a] = motion_now(first);
   const auto [r_b, v_b] = motion_now(second);
   const Vec<D> x = (r_a - r_b) + shift;
@@ -135,13 +130,10 @@ void Simulation<D>::collide(std::uint32_t first, std::uint32_t second) {
   ++counts_.pair_collisions;
   counts_.elasticised += outcome.elasticised;
   if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
-  prediction_.plan({first, &plans_[first]}, {second, &plans_[second]}, now_);
-  schedule(first);
-  schedule(second);
 }
 
 template <int D>
-void Simulation<D>::hit_wall(std::uint32_t number, int side) {
+void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   const int axis = side / 2;
   auto [r, v] = motion_now(number);
   const double place = boundary_.touching_place(side, now_);
@@ -169,12 +161,10 @@ void Simulation<D>::hit_wall(std::uint32_t number, int side) {
   ++counts_.wall_collisions;
   counts_.elasticised_wall += elastic;
   if (!last_collisions_.empty()) last_collisions_[number] = now_;
-  prediction_.plan({number, &plans_[number]}, now_);
-  schedule(number);
 }
 
 template <int D>
-void Simulation<D>::kick() {
+void EventLoop<D>::kick() {
   const auto count = static_cast<std::uint32_t>(particles_.size());
   const auto kick_number = static_cast<std::uint32_t>(counts_.kicks);
   std::vector<Impulse<D>> gains(count);
@@ -196,29 +186,27 @@ void Simulation<D>::kick() {
     add_spin(i, gains[i].spin);
   }
   ++counts_.kicks;
-  ++kicks_since_origin_;
-  move_base();
 }
 
-template void Simulation<2>::enter_next_cell(std::uint32_t);
-template void Simulation<3>::enter_next_cell(std::uint32_t);
-template Spin<2> Simulation<2>::spin(std::uint32_t) const;
-template Spin<3> Simulation<3>::spin(std::uint32_t) const;
-template void Simulation<2>::add_spin(std::uint32_t, const Spin<2>&);
-template void Simulation<3>::add_spin(std::uint32_t, const Spin<3>&);
-template void Simulation<2>::carry_remainder(std::uint32_t, Vec2&);
-template void Simulation<3>::carry_remainder(std::uint32_t, Vec<3>&);
-template bool Simulation<2>::within_contact_time(std::uint32_t) const;
-template bool Simulation<3>::within_contact_time(std::uint32_t) const;
-template ParticleChange<2> Simulation<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
+template void EventLoop<2>::enter_next_cell(std::uint32_t);
+template void EventLoop<3>::enter_next_cell(std::uint32_t);
+template Spin<2> EventLoop<2>::spin(std::uint32_t) const;
+template Spin<3> EventLoop<3>::spin(std::uint32_t) const;
+template void EventLoop<2>::add_spin(std::uint32_t, const Spin<2>&);
+template void EventLoop<3>::add_spin(std::uint32_t, const Spin<3>&);
+template void EventLoop<2>::carry_remainder(std::uint32_t, Vec2&);
+template void EventLoop<3>::carry_remainder(std::uint32_t, Vec<3>&);
+template bool EventLoop<2>::within_contact_time(std::uint32_t) const;
+template bool EventLoop<3>::within_contact_time(std::uint32_t) const;
+template ParticleChange<2> EventLoop<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
                                                     const Impulse<2>&) const;
-template ParticleChange<3> Simulation<3>::change_of(std::uint32_t, const Vec<3>&, const Vec<3>&,
+template ParticleChange<3> EventLoop<3>::change_of(std::uint32_t, const Vec<3>&, const Vec<3>&,
                                                     const Impulse<3>&) const;
-template void Simulation<2>::collide(std::uint32_t, std::uint32_t);
-template void Simulation<3>::collide(std::uint32_t, std::uint32_t);
-template void Simulation<2>::hit_wall(std::uint32_t, int);
-template void Simulation<3>::hit_wall(std::uint32_t, int);
-template void Simulation<2>::kick();
-template void Simulation<3>::kick();
+template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, const IntVec<2>&);
+template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, const IntVec<3>&);
+template void EventLoop<2>::hit_wall(std::uint32_t, int);
+template void EventLoop<3>::hit_wall(std::uint32_t, int);
+template void EventLoop<2>::kick();
+template void EventLoop<3>::kick();
 
 }  // namespace clatter

@@ -1,0 +1,289 @@
+#include "engine/dynamics/event_loop.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/dynamics/collapse.h"
+#include "engine/dynamics/prefetch.h"
+#include "engine/error.h"
+
+// The loop and its calendar; event_loop_events.cpp has the effects of events on particles.
+
+namespace clatter {
+
+// The base moves after this many physical events per particle. Each move predicts the events of all
+// particles again, so moves must be rare. They are frequent enough that times on the base stay
+// below a few ten mean free times. See also renew_flight().
+static constexpr std::uint64_t kEventsPerBase = 32;
+// Measured numbers of particles from which prefetching pays: of the next plans, once the data no
+// longer fit an L2 cache of 1 MB; of cell lists; and of the particles on these lists, whose many
+// cache misses then overlap.
+static constexpr std::size_t kPrefetchPlansFrom = 4000;
+static constexpr std::size_t kPrefetchListsFrom = 16000;
+static constexpr std::size_t kPrefetchNeighboursFrom = 40000;
+
+// A sinusoidal wall moves out of the box by less than the box side. Positions farther out are
+// errors, and have no cells. The number of a periodic image is an int.
+template <int D>
+static bool is_inside(const Model<D>& model, const Vec<D>& r) {
+  constexpr double kMostImages = 1 << 30;
+  for (int axis = 0; axis < D; ++axis) {
+    const double side = model.box[axis];
+    const double beyond = model.periodic(axis) ? kMostImages : 1.0;
+    if (!(-beyond * side < r[axis] && r[axis] < (1.0 + beyond) * side)) return false;
+  }
+  return r.allFinite();
+}
+
+// Whether the run may collapse or diverge: collisions can dissipate energy, walls can add energy
+// without limit, or particles can come to rest on walls.
+template <int D>
+static bool may_collapse(const Model<D>& model) {
+  bool may = model.dissipates();
+  for (const auto& wall : model.walls) {
+    if (!wall) continue;
+    const bool holds = wall->kind == WallKind::Thermal && wall->temperature == 0.0;
+    may = may || model.has_gravity() || holds || wall->moves() || wall->restitution != 1.0 ||
+          wall->roughness.any();
+  }
+  return may;
+}
+
+template <int D>
+EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunState<D>&& saved)
+    : model_(model),
+      boundary_(boundary),
+      now_(saved.now),
+      particles_(saved.flights.size()),
+      spins_(saved.spins.begin(), saved.spins.end()),
+      last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
+      remainders_(saved.remainders.begin(), saved.remainders.end()),
+      near_(model, static_cast<double>(particles_.size())),
+      prediction_(model, boundary, particles_, near_),
+      until_base_moves_(saved.until_base_moves),
+      fastest_(fastest_speed<D>(model, saved.start_speed)),
+      counts_(saved.counts),
+      checks_(saved.checks) {
+  spins_.resize(model.spins ? particles_.size() : 0, Spin<D>::Zero());
+  last_collisions_.resize(model.contact_time ? particles_.size() : 0, -kNever);
+  remainders_.resize(model.box.maxCoeff() > kLongBox * model.diameter ? particles_.size() : 0,
+                     Vec<D>::Zero());
+  if (may_collapse(model)) {
+    watchdog_.emplace(particles_.size(), now_, saved.mean_collision_time);
+  }
+  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.flight(i) = saved.flights[i];
+  saved.flights.clear();
+  saved.flights.shrink_to_fit();  // before lists and calendar take their memory
+}
+
+template <int D>
+void EventLoop<D>::save_to(RunState<D>& saved) const {
+  saved.now = now_;
+  saved.flights.reserve(particles_.size());
+  for (const Particle<D>& particle : particles_) saved.flights.push_back(particle.flight);
+  saved.spins.assign(spins_.begin(), spins_.end());
+  saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
+  saved.remainders.assign(remainders_.begin(), remainders_.end());
+  saved.until_base_moves = until_base_moves_;
+  if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
+  saved.counts = counts_;
+  saved.checks = checks_;
+}
+
+template <int D>
+void EventLoop<D>::place(const StopRequest& stop) {
+  plans_.resize(particles_.size());
+  place_once(stop);
+  if (near_.fit(plans_)) place_once(stop);
+}
+
+template <int D>
+void EventLoop<D>::place_once(const StopRequest& stop) {
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
+    const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
+    if (!is_inside<D>(model_, r)) {
+      throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
+    }
+    const Vec<D> image = model_.image_index(r);
+    particles_.set_image(i, image);
+    plans_[i].cell = near_.place(i, r - image.cwiseProduct(model_.box));
+  }
+}
+
+template <int D>
+void EventLoop<D>::plan(const StopRequest& stop) {
+  std::vector<Event> events;
+  events.reserve(particles_.size());
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
+    prediction_.plan({i, &plans_[i]}, now_);
+    const Plan<D>& plan = plans_[i];
+    if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
+  }
+  queue_.rebuild(events);
+}
+
+// Predictions are repeated, not shifted. So every contact time remains a function of the two stored
+// states alone.
+template <int D>
+void EventLoop<D>::move_base() {
+  const double shift = now_;
+  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.flight(i).time -= shift;
+  for (double& time : last_collisions_) time -= shift;
+  now_ = 0.0;
+  until_base_moves_ =
+      std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * particles_.size());
+  if (near_.fit(plans_)) place_once({});
+  plan();
+  if (watchdog_) watchdog_->on_base_moved(shift);
+  for (Observer<D>* observer : observers_) observer->on_base_moved(shift);
+}
+
+template <int D>
+bool EventLoop<D>::is_current(const Event& event) const {
+  const Plan<D>& plan = plans_[event.particle];
+  return (plan.time == event.time) & (plan.partner == event.partner);
+}
+
+template <int D>
+typename EventLoop<D>::Halt EventLoop<D>::advance(double stop, std::uint64_t collisions,
+                                                    std::uint64_t steps) {
+  const auto live = [this](const Event& event) { return is_current(event); };
+  const bool prefetch = particles_.size() >= kPrefetchPlansFrom;
+  while (counts_.collisions() < collisions && counts_.steps() < steps) {
+    const Event* next = queue_.top(live);
+    if (!next || next->time > stop) return Halt::Time;
+    const Event event = *next;
+    queue_.pop();
+    if (prefetch && queue_.bucket() != prefetched_bucket_) prefetch_ahead();
+    const std::uint64_t before = counts_.collisions();
+    process(event);
+    const bool stands_still = watchdog_ && counts_.collisions() != before &&
+                              watchdog_->sees_collapse(now_, event.particle, event.partner);
+    const bool diverges = event.partner >= kWall && is_too_fast(event.particle);
+    if (diverges) return Halt::Diverges;
+    if (stands_still) return Halt::StandsStill;
+    if (base_due()) return Halt::BaseDue;
+  }
+  return Halt::Limit;
+}
+
+// Called after wall events, because only walls make speeds grow without bound.
+template <int D>
+bool EventLoop<D>::is_too_fast(std::uint32_t number) const {
+  return fastest_ < kNever && particles_[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
+}
+
+template <int D>
+void EventLoop<D>::process(Event event) {
+  checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
+  now_ = std::max(now_, event.time);
+  if (event.partner >= kCellBorder) {
+    enter_next_cell(event.particle);
+  } else if (event.partner >= kWall) {
+    hit_wall(event.particle, static_cast<int>(event.partner - kWall));
+    prediction_.plan({event.particle, &plans_[event.particle]}, now_);
+    schedule(event.particle);
+  } else if (plans_[event.particle].partner_flight != particles_[event.partner].flight.number) {
+    ++counts_.stale;
+    prediction_.plan({event.particle, &plans_[event.particle]}, now_);
+    schedule(event.particle);
+  } else {
+    // The lists arrive while the collision is computed; the processor would not load them this
+    // early by itself.
+    for (const std::uint32_t particle : {event.particle, event.partner}) {
+      near_.prefetch_near(particle, plans_[particle].cell);
+    }
+    collide(event.particle, event.partner, plans_[event.particle].image);
+    prediction_.plan({event.particle, &plans_[event.particle]},
+                     {event.partner, &plans_[event.partner]}, now_);
+    schedule(event.particle);
+    schedule(event.partner);
+  }
+}
+
+template <int D>
+double EventLoop<D>::deepest_overlap(const StopRequest& stop) const {
+  double deepest = 0.0;
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    stop.check();
+    const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
+    near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
+      if (j <= i) return;
+      const Vec<D> image = particles_.image(j) - particles_.image(i) - wrap;
+      const Vec<D> x =
+          r - particles_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
+      deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
+    });
+    for (int side = 0; side < 2 * D; ++side) {
+      if (!model_.walls[side]) continue;
+      const double place = boundary_.touching_place(side, now_);
+      const double beyond = Boundary<D>::inward(side) * (place - r[side / 2]);
+      deepest = std::max(deepest, beyond / model_.diameter);
+    }
+  }
+  return deepest;
+}
+
+// Prefetches data of coming events in stages. A small gas fetches the plans of the next bucket
+// only. A larger gas first fetches particles and plans, and one bucket later the cell lists that
+// the events read or change. The largest gases then fetch the particles on these lists. Each stage
+// finds in the cache the data that the stage before fetched.
+template <int D>
+void EventLoop<D>::prefetch_ahead() {
+  prefetched_bucket_ = queue_.bucket();
+  if (particles_.size() < kPrefetchListsFrom) {
+    queue_.look_ahead(1, [&](const Event& event) { prefetch(plans_[event.particle]); });
+    return;
+  }
+  const bool neighbours = particles_.size() >= kPrefetchNeighboursFrom;
+  queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
+    prefetch(particles_[event.particle]);
+    prefetch(plans_[event.particle]);
+    if (event.partner >= kWall) return;
+    prefetch(particles_[event.partner]);
+    prefetch(plans_[event.partner]);
+  });
+  queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
+    if (!is_current(event)) return;
+    if (event.partner >= kCellBorder) {
+      near_.prefetch_crossing(plans_[event.particle].cell, event.partner);
+    }
+    visit_searches(event, [this](std::uint32_t particle, const IntVec<D>& cell) {
+      near_.prefetch_near(particle, cell);
+    });
+  });
+  if (!neighbours) return;
+  queue_.look_ahead(1, [&](const Event& event) {
+    if (!is_current(event)) return;
+    if (event.partner >= kCellBorder) near_.prefetch_search(event.particle);
+    visit_searches(event, [this](std::uint32_t particle, const IntVec<D>& cell) {
+      const NearListView list = near_.near(particle, cell);
+      for (int k = 0; k < list.capacity; ++k) {
+        const Neighbour neighbour = list.neighbours[k];
+        if (neighbour != kNobody) prefetch(particles_[particle_of<D>(neighbour)]);
+      }
+    });
+  });
+}
+
+// Visits the particles of an event that search for partners, and their cells.
+template <int D>
+template <typename Visit>
+void EventLoop<D>::visit_searches(const Event& event, const Visit& visit) const {
+  const IntVec<D>& cell = plans_[event.particle].cell;
+  if (event.partner >= kCellBorder) {
+    visit(event.particle, near_.cell_after(cell, event.partner));
+    return;
+  }
+  visit(event.particle, cell);
+  if (event.partner < kWall) visit(event.partner, plans_[event.partner].cell);
+}
+
+template class EventLoop<2>;
+template class EventLoop<3>;
+
+}  // namespace clatter

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/dynamics/boundary.h"
+#include "engine/dynamics/event_queue.h"
+#include "engine/dynamics/large_array.h"
+#include "engine/dynamics/model.h"
+#include "engine/dynamics/neighbourhood.h"
+#include "engine/dynamics/observer.h"
+#include "engine/dynamics/particle.h"
+#include "engine/dynamics/prediction.h"
+#include "engine/dynamics/run_state.h"
+#include "engine/dynamics/watchdog.h"
+#include "engine/stop_request.h"
+
+namespace clatter {
+
+/// Least number of physical events between two moves of the base.
+inline constexpr std::uint64_t kMinEventsPerBase = 64;
+
+/// Particles, their plans, and the calendar of their events, which it processes in order. Times are
+/// on a base that it moves.
+template <int D>
+class EventLoop {
+ public:
+  /// Reason why advance() returned.
+  enum class Halt { Time, Limit, BaseDue, Diverges, StandsStill };
+
+  /// Takes the particles of a saved run; afterwards `saved` has none. `model` and `boundary` must
+  /// outlive the loop.
+  EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunState<D>&& saved);
+  EventLoop(const EventLoop&) = delete;
+  EventLoop& operator=(const EventLoop&) = delete;
+
+  /// Puts all particles into cells. Throws PhysicalStop if a particle is outside of the box. Throws
+  /// Interrupted.
+  void place(const StopRequest& stop = {});
+  /// Plans the next event of every particle. Throws Interrupted.
+  void plan(const StopRequest& stop = {});
+  /// Processes events up to and at a time on the base. Halts earlier once the counts have reached
+  /// so many collisions or steps, or when the base is due to move. Also halts at a particle whose
+  /// speed diverges and at inelastic collapse.
+  Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
+  /// Sets the time to a later one before the next event.
+  void skip_to(double time) { now_ = std::max(now_, time); }
+  /// Bulk driving kicks all particles. Then the base must move.
+  void kick();
+  /// Whether the base must move before the next event: its number of events is reached, or a
+  /// particle has become too fast for the precision of times.
+  bool base_due() const { return until_base_moves_ == 0; }
+  /// Makes the current time the base. The boundary has already moved its base.
+  void move_base();
+  /// Reports every event from now on to an observer.
+  void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
+  /// Adds the particles, times, counts and checks to a saved run.
+  void save_to(RunState<D>& saved) const;
+
+  /// Time on the base up to which events have been processed.
+  double now() const { return now_; }
+  /// [N] see Simulation::particles.
+  const ParticleArray<D>& particles() const { return particles_; }
+  /// [N] see Simulation::spins.
+  const LargeArray<Spin<D>>& spins() const { return spins_; }
+  /// Events since the start of the run.
+  const EventCounts& counts() const { return counts_; }
+  /// Extremes since the start of the run.
+  const RunChecks& checks() const { return checks_; }
+  /// Detects collapse; absent if the gas cannot collapse or diverge.
+  const std::optional<Watchdog>& watchdog() const { return watchdog_; }
+  /// See Simulation::deepest_overlap.
+  double deepest_overlap(const StopRequest& stop) const;
+
+ private:
+  struct Motion {
+    Vec<D> r;  // of the centre
+    Vec<D> v;
+  };
+
+  void process(Event event);
+  void collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image);
+  void hit_wall(std::uint32_t number, int side);
+  bool within_contact_time(std::uint32_t number) const;
+  bool is_too_fast(std::uint32_t number) const;
+  void enter_next_cell(std::uint32_t number);
+  [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
+  void carry_remainder(std::uint32_t number, Vec<D>& position);
+  [[gnu::always_inline]] inline void renew_flight(std::uint32_t number, const Vec<D>& position,
+                                                  const Vec<D>& velocity);
+  [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
+  void place_once(const StopRequest& stop);
+  bool is_current(const Event& event) const;
+  void prefetch_ahead();
+  template <typename Visit>
+  void visit_searches(const Event& event, const Visit& visit) const;
+  Spin<D> spin(std::uint32_t number) const;
+  ParticleChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
+                              const Impulse<D>& gain) const;
+  void add_spin(std::uint32_t number, const Spin<D>& gain);
+
+  const Model<D>& model_;
+  const Boundary<D>& boundary_;
+  double now_;  // on the base
+  ParticleArray<D> particles_;
+  LargeArray<Spin<D>> spins_;           // [N], or empty
+  LargeArray<double> last_collisions_;  // [N] times on the base; empty without a t_c
+  LargeArray<Vec<D>> remainders_;  // [N] rounding errors of positions in long boxes; else empty
+  LargeArray<Plan<D>> plans_;
+  Neighbourhood<D> near_;
+  Prediction<D> prediction_;
+  EventQueue queue_;
+  std::uint64_t until_base_moves_;    // physical events left
+  double fastest_;                    // speed limit, see fastest_speed()
+  std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
+  std::int64_t prefetched_bucket_ = 0;
+  std::vector<Observer<D>*> observers_;
+  EventCounts counts_;
+  RunChecks checks_;
+};
+
+template <int D>
+void EventLoop<D>::schedule(std::uint32_t particle) {
+  const Plan<D>& plan = plans_[particle];
+  if (plan.time < kNever) queue_.push({plan.time, particle, plan.partner});
+}
+
+extern template class EventLoop<2>;
+extern template class EventLoop<3>;
+
+}  // namespace clatter
