@@ -51,41 +51,82 @@ static bool may_collapse(const Model<D>& model) {
   return may;
 }
 
+// The particles of a saved run, with the data that the model needs. `saved` then has no flights:
+// their memory is free before lists and calendar take theirs.
+template <int D>
+static ParticleStates<D> states_of(const Model<D>& model, RunState<D>& saved) {
+  const std::size_t count = saved.flights.size();
+  ParticleStates<D> gas{ParticleArray<D>(count),
+                        {saved.spins.begin(), saved.spins.end()},
+                        {saved.last_collisions.begin(), saved.last_collisions.end()},
+                        {saved.remainders.begin(), saved.remainders.end()}};
+  for (std::size_t i = 0; i < count; ++i) gas.particles.flight(i) = saved.flights[i];
+  gas.fit(model, count);
+  saved.flights = {};
+  return gas;
+}
+
 template <int D>
 EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunState<D>&& saved)
     : model_(model),
       boundary_(boundary),
       now_(saved.now),
-      particles_(saved.flights.size()),
-      spins_(saved.spins.begin(), saved.spins.end()),
-      last_collisions_(saved.last_collisions.begin(), saved.last_collisions.end()),
-      remainders_(saved.remainders.begin(), saved.remainders.end()),
-      near_(model, static_cast<double>(particles_.size())),
-      prediction_(model, boundary, particles_, near_),
+      gas_(states_of<D>(model, saved)),
+      near_(model, static_cast<double>(gas_.particles.size())),
+      prediction_(model, boundary, gas_.particles, near_),
       until_base_moves_(saved.until_base_moves),
       fastest_(fastest_speed<D>(model, saved.start_speed)),
       counts_(saved.counts),
       checks_(saved.checks) {
-  spins_.resize(model.spins ? particles_.size() : 0, Spin<D>::Zero());
-  last_collisions_.resize(model.contact_time ? particles_.size() : 0, -kNever);
-  remainders_.resize(model.box.maxCoeff() > kLongBox * model.diameter ? particles_.size() : 0,
-                     Vec<D>::Zero());
   if (may_collapse(model)) {
-    watchdog_.emplace(particles_.size(), now_, saved.mean_collision_time);
+    watchdog_.emplace(gas_.particles.size(), now_, saved.mean_collision_time);
   }
-  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.flight(i) = saved.flights[i];
-  saved.flights.clear();
-  saved.flights.shrink_to_fit();  // before lists and calendar take their memory
+}
+
+template <int D>
+EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary)
+    : model_(model),
+      boundary_(boundary),
+      now_(0.0),
+      near_(model, 1.0),
+      prediction_(model, boundary, gas_.particles, near_),
+      until_base_moves_(kNoLimit),
+      fastest_(kNever) {}
+
+template <int D>
+void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain,
+                        TileRecord<D>& record, double time) {
+  const std::size_t count = record.members.size();
+  now_ = time;
+  record_ = &record;
+  until_base_moves_ = kNoLimit;
+  counts_ = {};
+  checks_ = {};
+  gas_.particles.resize(count);
+  gas_.fit(model_, count);
+  plans_.assign(count, Plan<D>{});
+  near_.reset(subdomain, static_cast<double>(count));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto& member = record.members[i];
+    const std::uint32_t number = member.number;
+    gas_.particles.flight(i) = gas.particles[number].flight;
+    gas_.particles.set_image(i, member.image);
+    if (!gas_.spins.empty()) gas_.spins[i] = gas.spins[number];
+    if (!gas_.last_collisions.empty()) gas_.last_collisions[i] = gas.last_collisions[number];
+    if (!gas_.remainders.empty()) gas_.remainders[i] = gas.remainders[number];
+    plans_[i].cell = near_.place(i, member.home);
+  }
+  plan();
 }
 
 template <int D>
 void EventLoop<D>::save_to(RunState<D>& saved) const {
   saved.now = now_;
-  saved.flights.reserve(particles_.size());
-  for (const Particle<D>& particle : particles_) saved.flights.push_back(particle.flight);
-  saved.spins.assign(spins_.begin(), spins_.end());
-  saved.last_collisions.assign(last_collisions_.begin(), last_collisions_.end());
-  saved.remainders.assign(remainders_.begin(), remainders_.end());
+  saved.flights.reserve(gas_.particles.size());
+  for (const Particle<D>& particle : gas_.particles) saved.flights.push_back(particle.flight);
+  saved.spins.assign(gas_.spins.begin(), gas_.spins.end());
+  saved.last_collisions.assign(gas_.last_collisions.begin(), gas_.last_collisions.end());
+  saved.remainders.assign(gas_.remainders.begin(), gas_.remainders.end());
   saved.until_base_moves = until_base_moves_;
   if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
   saved.counts = counts_;
@@ -94,21 +135,21 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
 
 template <int D>
 void EventLoop<D>::place(const StopRequest& stop) {
-  plans_.resize(particles_.size());
+  plans_.resize(gas_.particles.size());
   place_once(stop);
   if (near_.fit(plans_)) place_once(stop);
 }
 
 template <int D>
 void EventLoop<D>::place_once(const StopRequest& stop) {
-  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     stop.check();
-    const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
+    const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
     if (!is_inside<D>(model_, r)) {
       throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
     }
     const Vec<D> image = model_.image_index(r);
-    particles_.set_image(i, image);
+    gas_.particles.set_image(i, image);
     plans_[i].cell = near_.place(i, r - image.cwiseProduct(model_.box));
   }
 }
@@ -116,8 +157,8 @@ void EventLoop<D>::place_once(const StopRequest& stop) {
 template <int D>
 void EventLoop<D>::plan(const StopRequest& stop) {
   std::vector<Event> events;
-  events.reserve(particles_.size());
-  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+  events.reserve(gas_.particles.size());
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     stop.check();
     prediction_.plan({i, &plans_[i]}, now_);
     const Plan<D>& plan = plans_[i];
@@ -131,15 +172,39 @@ void EventLoop<D>::plan(const StopRequest& stop) {
 template <int D>
 void EventLoop<D>::move_base() {
   const double shift = now_;
-  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.flight(i).time -= shift;
-  for (double& time : last_collisions_) time -= shift;
+  for (std::size_t i = 0; i < gas_.particles.size(); ++i) gas_.particles.flight(i).time -= shift;
+  for (double& time : gas_.last_collisions) time -= shift;
   now_ = 0.0;
   until_base_moves_ =
-      std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * particles_.size());
-  if (near_.fit(plans_)) place_once({});
-  plan();
+      std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * gas_.particles.size());
   if (watchdog_) watchdog_->on_base_moved(shift);
   for (Observer<D>* observer : observers_) observer->on_base_moved(shift);
+}
+
+template <int D>
+void EventLoop<D>::plan_again() {
+  if (plans_.empty()) {
+    place();
+  } else if (near_.fit(plans_)) {
+    place_once({});
+  }
+  plan();
+}
+
+template <int D>
+void EventLoop<D>::note_all_strays() {
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
+    if (gas_.particles[i].flight.number >= kNoFlight) continue;
+    note_stray(i, gas_.particles[i].flight.at(now_, model_.gravity));
+  }
+}
+
+template <int D>
+void EventLoop<D>::drop_plans() {
+  plans_ = {};
+  near_.reset(whole_box<D>(model_), 1.0);
+  std::vector<Event> none;
+  queue_.rebuild(none);
 }
 
 template <int D>
@@ -152,7 +217,7 @@ template <int D>
 typename EventLoop<D>::Halt EventLoop<D>::advance(double stop, std::uint64_t collisions,
                                                     std::uint64_t steps) {
   const auto live = [this](const Event& event) { return is_current(event); };
-  const bool prefetch = particles_.size() >= kPrefetchPlansFrom;
+  const bool prefetch = gas_.particles.size() >= kPrefetchPlansFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
     const Event* next = queue_.top(live);
     if (!next || next->time > stop) return Halt::Time;
@@ -161,20 +226,48 @@ typename EventLoop<D>::Halt EventLoop<D>::advance(double stop, std::uint64_t col
     if (prefetch && queue_.bucket() != prefetched_bucket_) prefetch_ahead();
     const std::uint64_t before = counts_.collisions();
     process(event);
-    const bool stands_still = watchdog_ && counts_.collisions() != before &&
-                              watchdog_->sees_collapse(now_, event.particle, event.partner);
-    const bool diverges = event.partner >= kWall && is_too_fast(event.particle);
-    if (diverges) return Halt::Diverges;
-    if (stands_still) return Halt::StandsStill;
-    if (base_due()) return Halt::BaseDue;
+    const Halt halt = after(event, counts_.collisions() != before);
+    if (halt != Halt::Limit) return halt;
   }
   return Halt::Limit;
+}
+
+// Whether the loop must halt after an event.
+template <int D>
+[[gnu::always_inline]] inline typename EventLoop<D>::Halt EventLoop<D>::after(const Event& event,
+                                                                              bool collided) {
+  const bool stands_still =
+      watchdog_ && collided && watchdog_->sees_collapse(now_, event.particle, event.partner);
+  if (event.partner >= kWall && is_too_fast(event.particle)) return Halt::Diverges;
+  if (stands_still) return Halt::StandsStill;
+  return base_due() ? Halt::BaseDue : Halt::Limit;
+}
+
+template <int D>
+bool EventLoop<D>::is_next(const ForeseenEvent<D>& foreseen) const {
+  const auto& [event, flight, partner_flight, image] = foreseen;
+  return gas_.particles[event.particle].flight.number == flight &&
+         (event.partner >= kWall ||
+          gas_.particles[event.partner].flight.number == partner_flight);
+}
+
+template <int D>
+typename EventLoop<D>::Halt EventLoop<D>::process_foreseen(const ForeseenEvent<D>& foreseen) {
+  const Event& event = foreseen.event;
+  checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
+  now_ = std::max(now_, event.time);
+  if (event.partner >= kWall) {
+    hit_wall(event.particle, static_cast<int>(event.partner - kWall));
+  } else {
+    collide(event.particle, event.partner, foreseen.image);
+  }
+  return after(event, true);
 }
 
 // Called after wall events, because only walls make speeds grow without bound.
 template <int D>
 bool EventLoop<D>::is_too_fast(std::uint32_t number) const {
-  return fastest_ < kNever && particles_[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
+  return fastest_ < kNever && gas_.particles[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
 }
 
 template <int D>
@@ -184,10 +277,11 @@ void EventLoop<D>::process(Event event) {
   if (event.partner >= kCellBorder) {
     enter_next_cell(event.particle);
   } else if (event.partner >= kWall) {
+    if (record_) note(event, IntVec<D>::Zero());
     hit_wall(event.particle, static_cast<int>(event.partner - kWall));
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);
-  } else if (plans_[event.particle].partner_flight != particles_[event.partner].flight.number) {
+  } else if (plans_[event.particle].partner_flight != gas_.particles[event.partner].flight.number) {
     ++counts_.stale;
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);
@@ -197,6 +291,7 @@ void EventLoop<D>::process(Event event) {
     for (const std::uint32_t particle : {event.particle, event.partner}) {
       near_.prefetch_near(particle, plans_[particle].cell);
     }
+    if (record_) note(event, plans_[event.particle].image);
     collide(event.particle, event.partner, plans_[event.particle].image);
     prediction_.plan({event.particle, &plans_[event.particle]},
                      {event.partner, &plans_[event.partner]}, now_);
@@ -208,14 +303,14 @@ void EventLoop<D>::process(Event event) {
 template <int D>
 double EventLoop<D>::deepest_overlap(const StopRequest& stop) const {
   double deepest = 0.0;
-  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     stop.check();
-    const Vec<D> r = particles_[i].flight.at(now_, model_.gravity);
+    const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
     near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
       if (j <= i) return;
-      const Vec<D> image = particles_.image(j) - particles_.image(i) - wrap;
+      const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
       const Vec<D> x =
-          r - particles_[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
+          r - gas_.particles[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
       deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
     });
     for (int side = 0; side < 2 * D; ++side) {
@@ -235,16 +330,16 @@ double EventLoop<D>::deepest_overlap(const StopRequest& stop) const {
 template <int D>
 void EventLoop<D>::prefetch_ahead() {
   prefetched_bucket_ = queue_.bucket();
-  if (particles_.size() < kPrefetchListsFrom) {
+  if (gas_.particles.size() < kPrefetchListsFrom) {
     queue_.look_ahead(1, [&](const Event& event) { prefetch(plans_[event.particle]); });
     return;
   }
-  const bool neighbours = particles_.size() >= kPrefetchNeighboursFrom;
+  const bool neighbours = gas_.particles.size() >= kPrefetchNeighboursFrom;
   queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
-    prefetch(particles_[event.particle]);
+    prefetch(gas_.particles[event.particle]);
     prefetch(plans_[event.particle]);
     if (event.partner >= kWall) return;
-    prefetch(particles_[event.partner]);
+    prefetch(gas_.particles[event.partner]);
     prefetch(plans_[event.partner]);
   });
   queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
@@ -264,7 +359,7 @@ void EventLoop<D>::prefetch_ahead() {
       const NearListView list = near_.near(particle, cell);
       for (int k = 0; k < list.capacity; ++k) {
         const Neighbour neighbour = list.neighbours[k];
-        if (neighbour != kNobody) prefetch(particles_[particle_of<D>(neighbour)]);
+        if (neighbour != kNobody) prefetch(gas_.particles[particle_of<D>(neighbour)]);
       }
     });
   });

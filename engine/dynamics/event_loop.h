@@ -12,9 +12,11 @@
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/observer.h"
-#include "engine/dynamics/particle.h"
+#include "engine/dynamics/particle_states.h"
 #include "engine/dynamics/prediction.h"
+#include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/run_state.h"
+#include "engine/dynamics/tile_record.h"
 #include "engine/dynamics/watchdog.h"
 #include "engine/stop_request.h"
 
@@ -34,8 +36,16 @@ class EventLoop {
   /// Takes the particles of a saved run; afterwards `saved` has none. `model` and `boundary` must
   /// outlive the loop.
   EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunState<D>&& saved);
+  /// An empty loop for tiles of the gas of another loop, see load().
+  EventLoop(const Model<D>& model, const Boundary<D>& boundary);
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
+
+  /// Takes the members of `record` from the gas of another loop, at a time on its base, and plans
+  /// their events. The run from there adds to the record. A particle that leaves the subdomain has
+  /// no more events, and its flight gets a number that no flight of the gas has.
+  void load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain, TileRecord<D>& record,
+            double time);
 
   /// Puts all particles into cells. Throws PhysicalStop if a particle is outside of the box. Throws
   /// Interrupted.
@@ -46,6 +56,19 @@ class EventLoop {
   /// so many collisions or steps, or when the base is due to move. Also halts at a particle whose
   /// speed diverges and at inelastic collapse.
   Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
+  /// Whether the foreseen event begins with the current flights of its particles.
+  bool is_next(const ForeseenEvent<D>& foreseen) const;
+  /// Processes a foreseen event instead of a planned one. Returns Limit if nothing needs attention.
+  Halt process_foreseen(const ForeseenEvent<D>& foreseen);
+  /// Prefetches the particles of an event.
+  void prefetch_particles(const Event& event) const {
+    prefetch(gas_.particles[event.particle]);
+    if (event.partner < kWall) prefetch(gas_.particles[event.partner]);
+  }
+  /// Adds the current distances of all members to the record of a tile.
+  void note_all_strays();
+  /// Frees the memory of cells and plans.
+  void drop_plans();
   /// Sets the time to a later one before the next event.
   void skip_to(double time) { now_ = std::max(now_, time); }
   /// Bulk driving kicks all particles. Then the base must move.
@@ -53,8 +76,13 @@ class EventLoop {
   /// Whether the base must move before the next event: its number of events is reached, or a
   /// particle has become too fast for the precision of times.
   bool base_due() const { return until_base_moves_ == 0; }
-  /// Makes the current time the base. The boundary has already moved its base.
+  /// Physical events until the base moves.
+  std::uint64_t until_base_moves() const { return until_base_moves_; }
+  /// Makes the current time the base. The boundary has already moved its base. Plans are invalid
+  /// until plan_again().
   void move_base();
+  /// Plans the next events of all particles anew, in cells that fit the crowding.
+  void plan_again();
   /// Reports every event from now on to an observer.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
   /// Adds the particles, times, counts and checks to a saved run.
@@ -62,10 +90,12 @@ class EventLoop {
 
   /// Time on the base up to which events have been processed.
   double now() const { return now_; }
+  /// All particles.
+  const ParticleStates<D>& gas() const { return gas_; }
   /// [N] see Simulation::particles.
-  const ParticleArray<D>& particles() const { return particles_; }
+  const ParticleArray<D>& particles() const { return gas_.particles; }
   /// [N] see Simulation::spins.
-  const LargeArray<Spin<D>>& spins() const { return spins_; }
+  const LargeArray<Spin<D>>& spins() const { return gas_.spins; }
   /// Events since the start of the run.
   const EventCounts& counts() const { return counts_; }
   /// Extremes since the start of the run.
@@ -82,6 +112,10 @@ class EventLoop {
   };
 
   void process(Event event);
+  Halt after(const Event& event, bool collided);
+  void retire(std::uint32_t number);
+  void note_stray(std::uint32_t number, const Vec<D>& position);
+  void note(const Event& event, const IntVec<D>& image);
   void collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image);
   void hit_wall(std::uint32_t number, int side);
   bool within_contact_time(std::uint32_t number) const;
@@ -105,10 +139,7 @@ class EventLoop {
   const Model<D>& model_;
   const Boundary<D>& boundary_;
   double now_;  // on the base
-  ParticleArray<D> particles_;
-  LargeArray<Spin<D>> spins_;           // [N], or empty
-  LargeArray<double> last_collisions_;  // [N] times on the base; empty without a t_c
-  LargeArray<Vec<D>> remainders_;  // [N] rounding errors of positions in long boxes; else empty
+  ParticleStates<D> gas_;
   LargeArray<Plan<D>> plans_;
   Neighbourhood<D> near_;
   Prediction<D> prediction_;
@@ -118,6 +149,7 @@ class EventLoop {
   std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
   std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
+  TileRecord<D>* record_ = nullptr;  // of a tile; null for the whole gas
   EventCounts counts_;
   RunChecks checks_;
 };

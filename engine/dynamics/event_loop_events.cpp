@@ -14,23 +14,59 @@ namespace clatter {
 template <int D>
 void EventLoop<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
-  particles_.move_image(number,
-                        near_.leave(model_, particles_, number, plan.cell, plan.partner, now_));
+  if (near_.leaves_all(plan.cell, plan.partner)) [[unlikely]]
+    return retire(number);
+  gas_.particles.move_image(number,
+                        near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
+}
+
+// Removes a particle that leaves the subdomain. Plans of others to meet it become stale.
+template <int D>
+void EventLoop<D>::retire(std::uint32_t number) {
+  Plan<D>& plan = plans_[number];
+  near_.remove(number, plan.cell);
+  plan.time = kNever;
+  Flight<D>& flight = gas_.particles.flight(number);
+  flight.number += kNoFlight;
+  note_stray(number, flight.at(now_, model_.gravity));
+}
+
+// Records how far a particle of a tile is from its place at the start.
+template <int D>
+void EventLoop<D>::note_stray(std::uint32_t number, const Vec<D>& position) {
+  auto& member = record_->members[number];
+  const Vec<D> place = position - gas_.particles.image(number).cwiseProduct(model_.box);
+  const Vec<D> way = (place - member.home).cwiseProduct(record_->cut);
+  member.strayed = std::max(member.strayed, way.squaredNorm());
+}
+
+// Records a collision in a tile, if the tile owns its particle of the lowest number.
+template <int D>
+void EventLoop<D>::note(const Event& event, const IntVec<D>& image) {
+  const auto& [time, particle, partner] = event;
+  const bool pair = partner < kWall;
+  const auto& members = record_->members;
+  if (!members[pair ? std::min(particle, partner) : particle].own) return;
+  record_->events.push_back({{time, members[particle].number,
+                              pair ? members[partner].number : partner},
+                             gas_.particles[particle].flight.number,
+                             pair ? gas_.particles[partner].flight.number : 0,
+                             image});
 }
 
 // Position and velocity of a particle at its event. The case without gravity comes first, because
 // its result is ready sooner.
 template <int D>
 typename EventLoop<D>::Motion EventLoop<D>::motion_now(std::uint32_t number) {
-  const Flight<D>& flight = particles_[number].flight;
+  const Flight<D>& flight = gas_.particles[number].flight;
   Motion motion{flight.r + flight.v * (now_ - flight.time), flight.v};
   if (model_.has_gravity()) {
     motion = {flight.at(now_, model_.gravity), flight.velocity_at(now_, model_.gravity)};
   }
-  if (!remainders_.empty()) carry_remainder(number, motion.r);
+  if (!gas_.remainders.empty()) carry_remainder(number, motion.r);
   return motion;
 }
 
@@ -38,12 +74,12 @@ typename EventLoop<D>::Motion EventLoop<D>::motion_now(std::uint32_t number) {
 // including the current one.
 template <int D>
 void EventLoop<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
-  const Flight<D>& flight = particles_[number].flight;
+  const Flight<D>& flight = gas_.particles[number].flight;
   const double dt = now_ - flight.time;
   const Vec<D> way = (flight.v + model_.gravity * (0.5 * dt)) * dt;
-  const Vec<D> left_out = remainders_[number] + ((flight.r - position) + way);
+  const Vec<D> left_out = gas_.remainders[number] + ((flight.r - position) + way);
   const Vec<D> rounded = position + left_out;
-  remainders_[number] = left_out - (rounded - position);
+  gas_.remainders[number] = left_out - (rounded - position);
   position = rounded;
 }
 
@@ -55,25 +91,26 @@ void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
                                  const Vec<D>& velocity) {
   constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
   if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
+  if (record_) note_stray(number, position);
   const Vec<D> boxes = model_.image_index(position);
-  Flight<D>& flight = particles_.flight(number);
+  Flight<D>& flight = gas_.particles.flight(number);
   flight = {position - boxes.cwiseProduct(model_.box), velocity, now_, flight.number + 1};
-  particles_.move_image(number, -boxes);
+  gas_.particles.move_image(number, -boxes);
 }
 
 template <int D>
 Spin<D> EventLoop<D>::spin(std::uint32_t number) const {
-  return spins_.empty() ? Spin<D>(Spin<D>::Zero()) : spins_[number];
+  return gas_.spins.empty() ? Spin<D>(Spin<D>::Zero()) : gas_.spins[number];
 }
 
 template <int D>
 void EventLoop<D>::add_spin(std::uint32_t number, const Spin<D>& gain) {
-  if (!spins_.empty()) spins_[number] += gain;
+  if (!gas_.spins.empty()) gas_.spins[number] += gain;
 }
 
 template <int D>
 bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
-  return !last_collisions_.empty() && now_ - last_collisions_[number] < *model_.contact_time;
+  return !gas_.last_collisions.empty() && now_ - gas_.last_collisions[number] < *model_.contact_time;
 }
 
 // The record of one particle's change for observers.
@@ -82,7 +119,7 @@ ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& po
                                            const Vec<D>& velocity, const Impulse<D>& gain) const {
   const double half_inertia = 0.5 * moment_of_inertia(model_.inertia, model_.diameter);
   const Spin<D> w = spin(number);
-  ParticleChange<D> change{number, particles_[number].flight, position, velocity, w, gain};
+  ParticleChange<D> change{number, gas_.particles[number].flight, position, velocity, w, gain};
   // Without the rounding of a difference of two squares.
   change.energy = 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
                   half_inertia * gain.spin.dot(gain.spin + 2.0 * w);
@@ -103,7 +140,7 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   // Grazing particles may recede at contact by rounding. Then no momentum passes between them. The
   // event still counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
-  if (x.dot(g) < 0.0 && spins_.empty() && last_collisions_.empty()) {
+  if (x.dot(g) < 0.0 && gas_.spins.empty() && gas_.last_collisions.empty()) {
     outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution, model_.diameter);
   } else if (x.dot(g) < 0.0) {
     const bool elastic = within_contact_time(first) || within_contact_time(second);
@@ -129,7 +166,7 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   add_spin(second, gain.spin);
   ++counts_.pair_collisions;
   counts_.elasticised += outcome.elasticised;
-  if (!last_collisions_.empty()) last_collisions_[first] = last_collisions_[second] = now_;
+  if (!gas_.last_collisions.empty()) gas_.last_collisions[first] = gas_.last_collisions[second] = now_;
 }
 
 template <int D>
@@ -143,12 +180,14 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   // would sink into the wall by rounding.
   if (!model_.walls[side]->moves()) {
     r[axis] = place;
-    if (!remainders_.empty()) remainders_[number][axis] = 0.0;
+    if (!gas_.remainders.empty()) gas_.remainders[number][axis] = 0.0;
   }
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
-                      {v, spin(number), number, particles_[number].flight.number}, elastic);
+                      {v, spin(number), record_ ? record_->members[number].number : number,
+                       gas_.particles[number].flight.number},
+                      elastic);
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
     const WallCollision<D> collision{now_, side,
@@ -157,15 +196,15 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   }
   --until_base_moves_;
   renew_flight(number, r, departure.velocity);
-  if (!spins_.empty()) spins_[number] = departure.spin;
+  if (!gas_.spins.empty()) gas_.spins[number] = departure.spin;
   ++counts_.wall_collisions;
   counts_.elasticised_wall += elastic;
-  if (!last_collisions_.empty()) last_collisions_[number] = now_;
+  if (!gas_.last_collisions.empty()) gas_.last_collisions[number] = now_;
 }
 
 template <int D>
 void EventLoop<D>::kick() {
-  const auto count = static_cast<std::uint32_t>(particles_.size());
+  const auto count = static_cast<std::uint32_t>(gas_.particles.size());
   const auto kick_number = static_cast<std::uint32_t>(counts_.kicks);
   std::vector<Impulse<D>> gains(count);
   Vec<D> mean = Vec<D>::Zero();
@@ -190,12 +229,18 @@ void EventLoop<D>::kick() {
 
 template void EventLoop<2>::enter_next_cell(std::uint32_t);
 template void EventLoop<3>::enter_next_cell(std::uint32_t);
+template void EventLoop<2>::note(const Event&, const IntVec<2>&);
+template void EventLoop<3>::note(const Event&, const IntVec<3>&);
 template Spin<2> EventLoop<2>::spin(std::uint32_t) const;
 template Spin<3> EventLoop<3>::spin(std::uint32_t) const;
 template void EventLoop<2>::add_spin(std::uint32_t, const Spin<2>&);
 template void EventLoop<3>::add_spin(std::uint32_t, const Spin<3>&);
 template void EventLoop<2>::carry_remainder(std::uint32_t, Vec2&);
 template void EventLoop<3>::carry_remainder(std::uint32_t, Vec<3>&);
+template void EventLoop<2>::retire(std::uint32_t);
+template void EventLoop<3>::retire(std::uint32_t);
+template void EventLoop<2>::note_stray(std::uint32_t, const Vec2&);
+template void EventLoop<3>::note_stray(std::uint32_t, const Vec<3>&);
 template bool EventLoop<2>::within_contact_time(std::uint32_t) const;
 template bool EventLoop<3>::within_contact_time(std::uint32_t) const;
 template ParticleChange<2> EventLoop<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,

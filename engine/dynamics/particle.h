@@ -29,6 +29,12 @@ class ParticleArray {
   /// Particles at rest at the origin.
   explicit ParticleArray(std::size_t count = 0) : particles_(count) {}
 
+  /// Changes the number of particles. The images of all become invalid.
+  void resize(std::size_t count) {
+    particles_.resize(count);
+    far_images_.clear();
+  }
+
   /// Number of particles.
   std::size_t size() const { return particles_.size(); }
   /// Whether there are no particles.

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "engine/dynamics/large_array.h"
+#include "engine/dynamics/model.h"
 #include "engine/dynamics/particle.h"
+#include "engine/physics/pair_contact.h"
 #include "engine/physics/spin.h"
 #include "engine/vec.h"
 
@@ -12,10 +15,20 @@ namespace clatter {
 /// All data of particles that physical events change.
 template <int D>
 struct ParticleStates {
-  ParticleArray<D> particles;          ///< [N] since each particle's last physical event
-  LargeArray<Spin<D>> spins;           ///< [N] angular velocities, or empty
-  LargeArray<double> last_collisions;  ///< [N] times on the base; empty without a t_c
-  LargeArray<Vec<D>> remainders;  ///< [N] rounding errors of positions in long boxes; else empty
+  ParticleArray<D> particles;           ///< [N] stored states
+  LargeArray<Spin<D>> spins;            ///< [N] angular velocities; empty without spins
+  LargeArray<double> last_collisions;   ///< [N] times on the base; empty without a t_c
+  LargeArray<Vec<D>> remainders;        ///< [N] rounding errors of positions; empty unless the
+                                        ///< box is longer than kLongBox
+
+  /// Gives the optional arrays the length that the model needs for a number of particles. New
+  /// elements mean no spin, no collision and no error.
+  void fit(const Model<D>& model, std::size_t count) {
+    spins.resize(model.spins ? count : 0, Spin<D>::Zero());
+    last_collisions.resize(model.contact_time ? count : 0, -kNever);
+    remainders.resize(model.box.maxCoeff() > kLongBox * model.diameter ? count : 0,
+                      Vec<D>::Zero());
+  }
 };
 
 }  // namespace clatter

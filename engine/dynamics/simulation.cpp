@@ -139,6 +139,76 @@ void Simulation<D>::move_base() {
   clock_.advance(loop_.now());
   boundary_.move_base(clock_);
   loop_.move_base();
+  choose_way();
+}
+
+// Chooses how events are found from now to the next move of the base. There all plans are made
+// again anyway, so a change of the way costs nothing.
+template <int D>
+void Simulation<D>::choose_way() {
+  in_tiles_ = foresight_ != nullptr;
+  if (in_tiles_) {
+    loop_.drop_plans();
+    foresight_->restart(loop_.now());
+  } else {
+    loop_.plan_again();
+  }
+}
+
+template <int D>
+void Simulation<D>::use_threads(int threads) {
+  constexpr std::size_t kLeast = 50'000;  // particles for which tiles pay
+  if (threads < 2 || particles().size() < kLeast) return;
+  use_threads(threads, {});
+}
+
+template <int D>
+void Simulation<D>::use_threads(int threads, const typename Foresight<D>::Sizes& sizes) {
+  foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads, sizes);
+  choose_way();
+}
+
+template <int D>
+typename EventLoop<D>::Halt Simulation<D>::advance(double stop, std::uint64_t collisions,
+                                                   std::uint64_t steps) {
+  return in_tiles_ ? follow_foresight(stop, collisions, steps)
+                   : loop_.advance(stop, collisions, steps);
+}
+
+template <int D>
+typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::uint64_t collisions,
+                                                            std::uint64_t steps) {
+  using Halt = typename EventLoop<D>::Halt;
+  constexpr std::size_t kAhead = 12;  // events whose particles are prefetched
+  const auto is_next = [this](const ForeseenEvent<D>& event) { return loop_.is_next(event); };
+  while (counts().collisions() < collisions && counts().steps() < steps) {
+    const ForeseenEvent<D>* next = foresight_->next(is_next);
+    if (!next) {
+      if (foresight_->end() >= stop) return Halt::Time;
+      if (!foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves())) {
+        in_tiles_ = false;
+        loop_.plan_again();
+        return Halt::Limit;
+      }
+      continue;
+    }
+    if (next->event.time > stop) return Halt::Time;
+    foresight_->look_past(kAhead, [this](const ForeseenEvent<D>& later) {
+      loop_.prefetch_particles(later.event);
+    });
+    const Halt halt = loop_.process_foreseen(*next);
+    foresight_->pop();
+    if (halt != Halt::Limit) return halt;
+  }
+  return Halt::Limit;
+}
+
+template <int D>
+double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
+  if (!in_tiles_) return loop_.deepest_overlap(stop);
+  EventLoop<D> placed(model_, boundary_, save());
+  placed.place(stop);
+  return placed.deepest_overlap(stop);
 }
 
 // The base moves before the run stops, so that the state is valid.
@@ -164,7 +234,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
     const Halt halt =
-        loop_.advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook));
+        advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook));
     attend_to(halt);
     if (halt == Halt::Limit && (counts().collisions() >= collisions || counts().steps() >= steps)) {
       return false;

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/event_loop.h"
+#include "engine/dynamics/foresight.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/run_state.h"
@@ -33,6 +35,14 @@ class Simulation {
   Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
+
+  /// Uses up to so many threads from now on. Large gases then run in tiles, see Foresight. The run
+  /// has the same bits with any number of threads.
+  void use_threads(int threads);
+  /// The same with other sizes of tiles, and for a gas of any size.
+  void use_threads(int threads, const typename Foresight<D>::Sizes& sizes);
+  /// The tiles with which the gas runs now; null: it runs as a whole.
+  const Foresight<D>* foresight() const { return in_tiles_ ? foresight_.get() : nullptr; }
 
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or
@@ -73,9 +83,7 @@ class Simulation {
   WallState wall(int side) const { return boundary_.wall(side, base_time()); }
   /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the
   /// diameter; 0: none. Checks all particles. Throws Interrupted.
-  double deepest_overlap(const StopRequest& stop = {}) const {
-    return loop_.deepest_overlap(stop);
-  }
+  double deepest_overlap(const StopRequest& stop = {}) const;
 
   /// The laws of the run.
   const Model<D>& model() const { return model_; }
@@ -101,6 +109,10 @@ class Simulation {
   double next_kick() const;
   void move_base();
   void attend_to(typename EventLoop<D>::Halt halt);
+  void choose_way();
+  typename EventLoop<D>::Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
+  typename EventLoop<D>::Halt follow_foresight(double stop, std::uint64_t collisions,
+                                               std::uint64_t steps);
 
   Model<D> model_;
   Clock clock_;
@@ -110,6 +122,8 @@ class Simulation {
   std::uint64_t kicks_since_origin_;
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;
+  std::unique_ptr<Foresight<D>> foresight_;  // null: one thread, or a small gas
+  bool in_tiles_ = false;                    // whether foresight_ finds the events
 };
 
 extern template class Simulation<2>;

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/dynamics/boundary.h"
+#include "engine/dynamics/event_loop.h"
+#include "engine/dynamics/foreseen_event.h"
+#include "engine/dynamics/large_array.h"
+#include "engine/dynamics/model.h"
+#include "engine/dynamics/particle_states.h"
+#include "engine/dynamics/subdomain.h"
+#include "engine/dynamics/tile_record.h"
+#include "engine/physics/flight.h"
+
+namespace clatter {
+
+/// Finds the collisions of a large gas on several threads, before the run reaches their times.
+/// Tiles of the box, each with a halo of copies, run alone for a window of time. A certificate then
+/// proves that each tile's own particles had their true collisions; see docs/parallel.md. So the
+/// run processes the same events, in the same order, as without foresight.
+template <int D>
+class Foresight {
+ public:
+  /// Sizes of tiles and windows. They affect the speed only.
+  struct Sizes {
+    double tile = 16'000.0;    ///< particles that a tile owns
+    double collisions = 2.5;   ///< of a particle in a window
+    double halo = 10.0;        ///< width of the first window's halos, in diameters
+  };
+  /// Work since the construction.
+  struct Work {
+    std::uint64_t windows = 0;
+    std::uint64_t tiles = 0;    ///< runs of tiles
+    std::uint64_t redone = 0;   ///< of these, runs with a larger halo
+    std::uint64_t own = 0;      ///< collisions of own particles
+    std::uint64_t all = 0;      ///< collisions of all particles, copies included
+  };
+
+  /// Foresight for a number of particles. `model` and `boundary` must outlive it.
+  Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles, int threads,
+            const Sizes& sizes);
+  Foresight(const Foresight&) = delete;
+  Foresight& operator=(const Foresight&) = delete;
+
+  /// Number of tiles into which the box divides.
+  std::size_t tiles() const { return tiles_.size(); }
+  /// Drops all foreseen events. The next window begins at a time on the base.
+  void restart(double time);
+  /// Time on the base up to which events are foreseen.
+  double end() const { return end_; }
+  /// Finds the events after end(), of about so many particles' mean collisions, but not beyond
+  /// `horizon`. `gas` has had all earlier events. Aims at `most` events. Returns false if tiles got
+  /// no certificate.
+  bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most);
+  /// The next event, or null up to end(). `is_next(event)` returns whether an event begins with the
+  /// current flights of its particles.
+  template <typename IsNext>
+  const ForeseenEvent<D>* next(const IsNext& is_next);
+  /// Removes the event that next() returned.
+  void pop();
+  /// Calls visit(event) for the event `ahead` places after the next one, so that the caller can
+  /// prefetch its data.
+  template <typename Visit>
+  void look_past(std::size_t ahead, const Visit& visit) const {
+    if (at_ + ahead < events_.size()) visit(events_[at_ + ahead]);
+  }
+  /// Work so far.
+  const Work& work() const { return work_; }
+
+ private:
+  // A particle of a halo after the run of its tile.
+  struct Copy {
+    std::uint32_t number;
+    float strayed;   // largest distance from home
+    float distance;  // of its home from the core
+    Flight<D> end;
+  };
+  struct Tile {
+    IntVec<D> from, to;  // blocks of its core
+    double halo = 0.0;
+    double width = 0.0;  // least width of the halo
+    std::vector<Copy> copies;
+    std::vector<ForeseenEvent<D>> events;
+    double farthest = 0.0;  // way of an own particle
+    double exposure = 0.0;  // largest way of an own particle minus its depth in the core
+    std::uint64_t collisions = 0;
+    bool overrun = false;   // whether the run had too many events
+    bool certified = false;
+  };
+  // The loop of one thread, which runs one tile after another.
+  struct Bench {
+    Bench(const Model<D>& model, const Boundary<D>& boundary) : loop(model, boundary) {}
+    EventLoop<D> loop;
+    TileRecord<D> record;
+    std::vector<std::uint64_t> keys, sorted;  // numbers of members, and their places
+    std::vector<typename TileRecord<D>::Member> unsorted;
+    std::vector<std::uint32_t> offsets;
+  };
+
+  void in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work);
+  void sort_into_blocks(const ParticleStates<D>& gas);
+  Subdomain<D> subdomain_of(Tile& tile) const;
+  void gather(const ParticleStates<D>& gas, const Tile& tile, const Subdomain<D>& subdomain,
+              Bench& bench) const;
+  void run(const ParticleStates<D>& gas, double end, std::uint64_t most, Tile& tile, Bench& bench);
+  void certify(Tile& tile, double farthest, double bend) const;
+  void merge(double start, double end);
+
+  const Model<D>& model_;
+  const Boundary<D>& boundary_;
+  Sizes sizes_;
+  double halo_;
+  IntVec<D> tile_counts_;
+  IntVec<D> block_counts_;
+  Vec<D> block_widths_;
+  Vec<D> cut_;  // 1 along axes with several tiles
+  std::vector<Tile> tiles_;
+  std::vector<std::unique_ptr<Bench>> benches_;  // of each thread
+  LargeArray<std::uint32_t> block_of_;           // [N]
+  LargeArray<std::uint32_t> order_;              // [N] numbers of particles, by block
+  std::vector<std::uint32_t> first_;             // [blocks + 1] places in order_
+  LargeArray<Flight<D>> ends_;                   // [N] last flights of the window
+  LargeArray<float> strayed_;                    // [N]
+  double end_ = 0.0;
+  double rate_ = 0.0;  // collisions per time; 0: unknown
+  LargeArray<ForeseenEvent<D>> events_;
+  std::size_t at_ = 0;  // of the next event
+  // Events that come after a simultaneous one by rounding, although their times are earlier.
+  std::vector<ForeseenEvent<D>> waiting_;
+  bool from_waiting_ = false;
+  Work work_;
+};
+
+template <int D>
+template <typename IsNext>
+const ForeseenEvent<D>* Foresight<D>::next(const IsNext& is_next) {
+  from_waiting_ = false;
+  if (!waiting_.empty()) [[unlikely]] {
+    const auto sooner = [](const auto& a, const auto& b) { return before(b.event, a.event); };
+    std::ranges::stable_sort(waiting_, sooner);
+    for (std::size_t k = waiting_.size(); k-- > 0;) {
+      if (!is_next(waiting_[k])) continue;
+      std::rotate(waiting_.begin() + static_cast<std::ptrdiff_t>(k),
+                  waiting_.begin() + static_cast<std::ptrdiff_t>(k) + 1, waiting_.end());
+      from_waiting_ = true;
+      return &waiting_.back();
+    }
+  }
+  for (; at_ < events_.size(); ++at_) {
+    if (is_next(events_[at_])) return &events_[at_];
+    waiting_.push_back(events_[at_]);
+  }
+  return nullptr;
+}
+
+extern template class Foresight<2>;
+extern template class Foresight<3>;
+
+}  // namespace clatter
