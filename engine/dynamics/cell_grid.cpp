@@ -96,6 +96,28 @@ void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell) {
 }
 
 template <int D>
+void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> starts(lists_.size() + 1);
+  for (const IntVec<D>& cell : cells) ++starts[index(cell) + 1];
+  for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
+  order.resize(cells.size());
+  std::vector<std::uint32_t> places(starts.begin(), starts.end() - 1);
+  for (std::uint32_t k = 0; k < cells.size(); ++k) order[places[index(cells[k])]++] = k;
+  IntVec<D> cell = IntVec<D>::Zero();
+  for (List& list : lists_) {
+    visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t near, Neighbour wrap) {
+      // The wrap of this cell seen from there is the negative of that of there seen from here.
+      constexpr Neighbour kOnes = D == 2 ? 0b0101u << kParticleBits<2> : 0b010101u << kParticleBits<3>;
+      const Neighbour opposite = wrap ^ ((wrap & kOnes) << 1);
+      for (std::uint32_t particle = starts[near]; particle < starts[near + 1]; ++particle) {
+        continuations_.put_on(list, particle | opposite);
+      }
+    });
+    for (int axis = 0; axis < D && ++cell[axis] == counts_[axis]; ++axis) cell[axis] = 0;
+  }
+}
+
+template <int D>
 void CellGrid<D>::remove(std::uint32_t particle, const IntVec<D>& cell) {
   visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
     continuations_.take_off(lists_[list], particle | wrap);

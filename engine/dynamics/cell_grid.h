@@ -40,6 +40,9 @@ class CellGrid {
 
   /// Puts a particle into a cell.
   void insert(std::uint32_t particle, const IntVec<D>& cell);
+  /// Puts particles into their cells, in an empty grid. Numbers them by cell: the new particle k is
+  /// the element order[k] of `cells`.
+  void fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order);
   /// Removes a particle from its cell.
   void remove(std::uint32_t particle, const IntVec<D>& cell);
   /// Moves a particle from its cell to the neighbour along an axis, on the side of `step` = +1 or

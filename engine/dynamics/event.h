@@ -40,13 +40,16 @@ struct Event {
 };
 
 /// Total order of events: by time, then by kind (particles, walls, cell borders), then by particle
-/// numbers. Both orders of a pair are the same event.
-inline bool before(const Event& a, const Event& b) {
+/// numbers. Both orders of a pair are the same event. `numbers` has the original numbers of the
+/// particles; null: they are the particles' own.
+inline bool before(const Event& a, const Event& b, const std::uint32_t* numbers = nullptr) {
   if (a.time != b.time) return a.time < b.time;
-  const auto rank = [](const Event& e) {
+  const auto rank = [numbers](const Event& e) {
     const int kind = e.partner < kWall ? 0 : e.partner < kCellBorder ? 1 : 2;
-    const bool swap = kind == 0 && e.partner < e.particle;
-    return std::tuple(kind, swap ? e.partner : e.particle, swap ? e.particle : e.partner);
+    const std::uint32_t particle = numbers ? numbers[e.particle] : e.particle;
+    const std::uint32_t partner = numbers && kind == 0 ? numbers[e.partner] : e.partner;
+    const bool swap = kind == 0 && partner < particle;
+    return std::tuple(kind, swap ? partner : particle, swap ? particle : partner);
   };
   return rank(a) < rank(b);
 }

@@ -93,30 +93,62 @@ EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary)
       until_base_moves_(kNoLimit),
       fastest_(kNever) {}
 
+// Changes the order of a list: element k becomes the one at order[k].
+template <typename T>
+static void reorder(std::vector<T>& list, const std::vector<std::uint32_t>& order) {
+  std::vector<T> ordered;
+  ordered.reserve(list.size());
+  for (const std::uint32_t k : order) ordered.push_back(list[k]);
+  list = std::move(ordered);
+}
+
 template <int D>
 void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain,
                         TileRecord<D>& record, double time) {
-  const std::size_t count = record.members.size();
+  constexpr std::size_t kAhead = 16;
+  const std::size_t count = record.numbers.size();
   now_ = time;
   record_ = &record;
+  lower_ = subdomain.lower;
   until_base_moves_ = kNoLimit;
   counts_ = {};
   checks_ = {};
   gas_.particles.resize(count);
   gas_.fit(model_, count);
-  plans_.assign(count, Plan<D>{});
+  plans_.resize(count);
   near_.reset(subdomain, static_cast<double>(count));
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto& member = record.members[i];
-    const std::uint32_t number = member.number;
-    gas_.particles.flight(i) = gas.particles[number].flight;
-    gas_.particles.set_image(i, member.image);
-    if (!gas_.spins.empty()) gas_.spins[i] = gas.spins[number];
-    if (!gas_.last_collisions.empty()) gas_.last_collisions[i] = gas.last_collisions[number];
-    if (!gas_.remainders.empty()) gas_.remainders[i] = gas.remainders[number];
-    plans_[i].cell = near_.place(i, member.home);
+  std::vector<IntVec<D>> cells(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    Vec<D> home;
+    for (int axis = 0; axis < D; ++axis) home[axis] = lower_[axis] + double{record.strays[k].home[axis]};
+    cells[k] = near_.cell_at(home);
   }
+  near_.fill(cells, by_cell_);
+  reorder(record.numbers, by_cell_);
+  reorder(record.own, by_cell_);
+  reorder(record.images, by_cell_);
+  reorder(record.strays, by_cell_);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) prefetch(gas.particles[record.numbers[i + kAhead]]);
+    gas_.copy(i, gas, record.numbers[i]);
+    gas_.particles.set_image(i, record.images[i]);
+    plans_[i].cell = cells[by_cell_[i]];
+  }
+  queue_.order_by(record.numbers.data());
+  prediction_.order_by(record.numbers.data());
   plan();
+}
+
+template <int D>
+void EventLoop<D>::adopt(ParticleStates<D>& later, double time, std::uint64_t pair_collisions,
+                         std::uint64_t wall_collisions, const RunChecks& checks) {
+  std::swap(gas_, later);
+  now_ = std::max(now_, time);
+  counts_.pair_collisions += pair_collisions;
+  counts_.wall_collisions += wall_collisions;
+  until_base_moves_ -= pair_collisions + wall_collisions;
+  checks_.deepest_overlap = std::max(checks_.deepest_overlap, checks.deepest_overlap);
+  checks_.clock_steps_back = std::max(checks_.clock_steps_back, checks.clock_steps_back);
 }
 
 template <int D>
@@ -272,16 +304,19 @@ bool EventLoop<D>::is_too_fast(std::uint32_t number) const {
 
 template <int D>
 void EventLoop<D>::process(Event event) {
+  const RunChecks before = checks_;
   checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
   now_ = std::max(now_, event.time);
   if (event.partner >= kCellBorder) {
     enter_next_cell(event.particle);
   } else if (event.partner >= kWall) {
-    if (record_) note(event, IntVec<D>::Zero());
+    const bool own = !record_ || note(event, IntVec<D>::Zero());
     hit_wall(event.particle, static_cast<int>(event.partner - kWall));
+    if (!own) checks_ = before;
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);
-  } else if (plans_[event.particle].partner_flight != gas_.particles[event.partner].flight.number) {
+  } else if (plans_[event.particle].partner_flight !=
+             gas_.particles[event.partner].flight.number) {
     ++counts_.stale;
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);
@@ -291,8 +326,9 @@ void EventLoop<D>::process(Event event) {
     for (const std::uint32_t particle : {event.particle, event.partner}) {
       near_.prefetch_near(particle, plans_[particle].cell);
     }
-    if (record_) note(event, plans_[event.particle].image);
+    const bool own = !record_ || note(event, plans_[event.particle].image);
     collide(event.particle, event.partner, plans_[event.particle].image);
+    if (!own) checks_ = before;
     prediction_.plan({event.particle, &plans_[event.particle]},
                      {event.partner, &plans_[event.partner]}, now_);
     schedule(event.particle);

@@ -41,9 +41,10 @@ class EventLoop {
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  /// Takes the members of `record` from the gas of another loop, at a time on its base, and plans
-  /// their events. The run from there adds to the record. A particle that leaves the subdomain has
-  /// no more events, and its flight gets a number that no flight of the gas has.
+  /// Takes the particles of `record` from the gas of another loop, at a time on its base, and plans
+  /// their events. Orders them by cells. The run from there adds to the record. A particle that
+  /// leaves the subdomain has no more events, and its flight gets a number that no flight of the
+  /// gas has.
   void load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain, TileRecord<D>& record,
             double time);
 
@@ -65,8 +66,13 @@ class EventLoop {
     prefetch(gas_.particles[event.particle]);
     if (event.partner < kWall) prefetch(gas_.particles[event.partner]);
   }
-  /// Adds the current distances of all members to the record of a tile.
+  /// Adds the current ways of all particles to the record of a tile.
   void note_all_strays();
+  /// Whether somebody needs all events in order: an observer or the watchdog.
+  bool is_watched() const { return !observers_.empty() || watchdog_.has_value(); }
+  /// Exchanges all particles' data with their data after a number of further collisions.
+  void adopt(ParticleStates<D>& later, double time, std::uint64_t pair_collisions,
+             std::uint64_t wall_collisions, const RunChecks& checks);
   /// Frees the memory of cells and plans.
   void drop_plans();
   /// Sets the time to a later one before the next event.
@@ -115,7 +121,7 @@ class EventLoop {
   Halt after(const Event& event, bool collided);
   void retire(std::uint32_t number);
   void note_stray(std::uint32_t number, const Vec<D>& position);
-  void note(const Event& event, const IntVec<D>& image);
+  bool note(const Event& event, const IntVec<D>& image);
   void collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image);
   void hit_wall(std::uint32_t number, int side);
   bool within_contact_time(std::uint32_t number) const;
@@ -150,6 +156,8 @@ class EventLoop {
   std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
   TileRecord<D>* record_ = nullptr;  // of a tile; null for the whole gas
+  Vec<D> lower_ = Vec<D>::Zero();    // corner of the tile's subdomain
+  std::vector<std::uint32_t> by_cell_;  // order of the tile's particles
   EventCounts counts_;
   RunChecks checks_;
 };

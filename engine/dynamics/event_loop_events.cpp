@@ -34,27 +34,36 @@ void EventLoop<D>::retire(std::uint32_t number) {
   note_stray(number, flight.at(now_, model_.gravity));
 }
 
-// Records how far a particle of a tile is from its place at the start.
+// Records the way of a particle of a tile from its place at the start.
 template <int D>
 void EventLoop<D>::note_stray(std::uint32_t number, const Vec<D>& position) {
-  auto& member = record_->members[number];
-  const Vec<D> place = position - gas_.particles.image(number).cwiseProduct(model_.box);
-  const Vec<D> way = (place - member.home).cwiseProduct(record_->cut);
-  member.strayed = std::max(member.strayed, way.squaredNorm());
+  auto& stray = record_->strays[number];
+  const Vec<D> place = position - gas_.particles.image(number).cwiseProduct(model_.box) - lower_;
+  float squared_way = 0.0f;
+  for (int axis = 0; axis < D; ++axis) {
+    const float way = record_->cut[axis] * (static_cast<float>(place[axis]) - stray.home[axis]);
+    squared_way += way * way;
+  }
+  stray.squared_way = std::max(stray.squared_way, squared_way);
 }
 
-// Records a collision in a tile, if the tile owns its particle of the lowest number.
+// Records a collision in a tile. Returns whether it belongs to the tile.
 template <int D>
-void EventLoop<D>::note(const Event& event, const IntVec<D>& image) {
+bool EventLoop<D>::note(const Event& event, const IntVec<D>& image) {
   const auto& [time, particle, partner] = event;
   const bool pair = partner < kWall;
-  const auto& members = record_->members;
-  if (!members[pair ? std::min(particle, partner) : particle].own) return;
-  record_->events.push_back({{time, members[particle].number,
-                              pair ? members[partner].number : partner},
-                             gas_.particles[particle].flight.number,
-                             pair ? gas_.particles[partner].flight.number : 0,
-                             image});
+  TileRecord<D>& record = *record_;
+  bool own = record.own[particle];
+  if (pair && own != record.own[partner]) {
+    own = record.own[record.numbers[particle] < record.numbers[partner] ? particle : partner];
+  }
+  if (!own) return false;
+  ++(pair ? record.pair_collisions : record.wall_collisions);
+  if (record.keeps_events) {
+    record.events.push_back({event, gas_.particles[particle].flight.number,
+                             pair ? gas_.particles[partner].flight.number : 0, image});
+  }
+  return true;
 }
 
 // Position and velocity of a particle at its event. The case without gravity comes first, because
@@ -185,7 +194,7 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
-                      {v, spin(number), record_ ? record_->members[number].number : number,
+                      {v, spin(number), record_ ? record_->numbers[number] : number,
                        gas_.particles[number].flight.number},
                       elastic);
   if (!observers_.empty()) {
@@ -229,8 +238,8 @@ void EventLoop<D>::kick() {
 
 template void EventLoop<2>::enter_next_cell(std::uint32_t);
 template void EventLoop<3>::enter_next_cell(std::uint32_t);
-template void EventLoop<2>::note(const Event&, const IntVec<2>&);
-template void EventLoop<3>::note(const Event&, const IntVec<3>&);
+template bool EventLoop<2>::note(const Event&, const IntVec<2>&);
+template bool EventLoop<3>::note(const Event&, const IntVec<3>&);
 template Spin<2> EventLoop<2>::spin(std::uint32_t) const;
 template Spin<3> EventLoop<3>::spin(std::uint32_t) const;
 template void EventLoop<2>::add_spin(std::uint32_t, const Spin<2>&);

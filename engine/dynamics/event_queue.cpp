@@ -28,8 +28,9 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   if (events.empty()) return;
 
   const auto last = events.begin() + static_cast<std::ptrdiff_t>(first);
-  std::nth_element(events.begin(), last, events.end(), before);
-  origin_ = std::min_element(events.begin(), last + 1, before)->time;
+  const auto sooner = [](const Event& a, const Event& b) { return a.time < b.time; };
+  std::nth_element(events.begin(), last, events.end(), sooner);
+  origin_ = std::min_element(events.begin(), last + 1, sooner)->time;
   const double width = 5.0 * (last->time - origin_) / static_cast<double>(first + 1);
   per_width_ = width > 0.0 && std::isfinite(1.0 / width) ? 1.0 / width : 1.0;
 
@@ -56,23 +57,23 @@ void EventQueue::put_away(const Event& event) {
 
 // Inserts the last event into the others, which are sorted with the earliest last. Returns the
 // number of events that it passes.
-static std::size_t insert_last(Event* events, std::size_t size) {
+static std::size_t insert_last(Event* events, std::size_t size, const std::uint32_t* numbers) {
   const Event event = events[size - 1];
   std::size_t at = size - 1;
-  for (; at > 0 && before(events[at - 1], event); --at) events[at] = events[at - 1];
+  for (; at > 0 && before(events[at - 1], event, numbers); --at) events[at] = events[at - 1];
   events[at] = event;
   return size - 1 - at;
 }
 
 // Exchanges two events unless the later one comes first. Branch-free, because the order is
 // unpredictable.
-static void put_later_first(Event& a, Event& b) {
+static void put_later_first(Event& a, Event& b, const std::uint32_t* numbers) {
   using Words = std::array<std::uint64_t, 2>;
   static_assert(sizeof(Words) == sizeof(Event));
   const bool tied = a.time == b.time;
   bool exchange = a.time < b.time;
   if (tied) [[unlikely]]
-    exchange = before(a, b);
+    exchange = before(a, b, numbers);
   const std::uint64_t mask = -std::uint64_t{exchange};
   auto of_a = std::bit_cast<Words>(a), of_b = std::bit_cast<Words>(b);
   for (int k = 0; k < 2; ++k) {
@@ -89,11 +90,11 @@ void EventQueue::sort_current() {
   if (current_.size() <= kFew) {
     Event* const events = current_.data();
     for (std::size_t end = current_.size(); end >= 2; --end) {
-      for (std::size_t k = 1; k < end; ++k) put_later_first(events[k - 1], events[k]);
+      for (std::size_t k = 1; k < end; ++k) put_later_first(events[k - 1], events[k], numbers_);
     }
   } else {
     std::sort(current_.begin(), current_.end(),
-              [](const Event& a, const Event& b) { return before(b, a); });
+              [this](const Event& a, const Event& b) { return before(b, a, numbers_); });
   }
 }
 
@@ -101,7 +102,7 @@ void EventQueue::sort_current() {
 // crowd it. The calendar is then rebuilt before the crowding has cost more than a rebuild.
 void EventQueue::push_current(Event event) {
   current_.push_back(event);
-  moved_aside_ += insert_last(current_.data(), current_.size());
+  moved_aside_ += insert_last(current_.data(), current_.size(), numbers_);
   constexpr std::size_t kCrowd = 64;
   if (current_.size() > kCrowd && moved_aside_ > 8 * (current_.size() + beyond_current())) {
     thin_out();

@@ -21,6 +21,9 @@ class EventQueue {
   EventQueue(const EventQueue&) = delete;
   EventQueue& operator=(const EventQueue&) = delete;
 
+  /// Orders simultaneous events by these original numbers of the particles, which must outlive the
+  /// queue. Null: by the particles' own numbers.
+  void order_by(const std::uint32_t* numbers) { numbers_ = numbers; }
   /// Replaces the contents; chooses the bucket width from the density of the first events.
   void rebuild(std::vector<Event>& events);
 
@@ -77,6 +80,7 @@ class EventQueue {
   void add_to_row(const Event& event, std::int64_t bucket);
   Chunk* add_chunk(Chunk* next);
 
+  const std::uint32_t* numbers_ = nullptr;
   double per_width_ = 1.0;       // buckets per time
   double origin_ = 0.0;          // time at which bucket 0 starts
   std::int64_t bucket_ = 0;      // number of the current bucket

@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <thread>
 #include <utility>
 
 #include "engine/dynamics/cell_of.h"
+#include "engine/dynamics/prefetch.h"
 
 namespace clatter {
 
@@ -20,9 +22,10 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std:
       halo_(sizes.halo * model.diameter),
       block_of_(particles),
       order_(particles),
-      ends_(particles),
       strayed_(particles) {
   constexpr double kInBlock = 32.0;  // particles
+  ends_.particles.resize(particles);
+  ends_.fit(model, particles);
   const auto count = static_cast<double>(particles);
   const double volume = model.box.prod() / count;  // of a particle
   const double tile = std::pow(sizes.tile * volume, 1.0 / D);
@@ -152,13 +155,15 @@ Subdomain<D> Foresight<D>::subdomain_of(Tile& tile) const {
   return part;
 }
 
-// Collects the particles of a tile and its halo, by ascending number, so that simultaneous events
-// have the same order as in the whole gas.
+// Collects the particles of a tile and its halo.
 template <int D>
 void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
-                          const Subdomain<D>& subdomain, Bench& bench) const {
-  auto& unsorted = bench.unsorted;
-  unsorted.clear();
+                          const Subdomain<D>& subdomain, TileRecord<D>& record) const {
+  constexpr std::uint32_t kAhead = 8;
+  record.numbers.clear();
+  record.own.clear();
+  record.images.clear();
+  record.strays.clear();
   IntVec<D> from = tile.from, to = tile.to;
   for (int axis = 0; axis < D; ++axis) {
     if (cut_[axis] == 0.0) continue;
@@ -178,7 +183,7 @@ void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
     bool own = true;
     Vec<D> boxes = Vec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {
-      int at = from[axis] + rest % extent[axis];
+      const int at = from[axis] + rest % extent[axis];
       rest /= extent[axis];
       own = own && at >= tile.from[axis] && at < tile.to[axis];
       const int count = block_counts_[axis];
@@ -187,76 +192,78 @@ void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
       index += (at - box * count) * stride;
       stride *= count;
     }
-    for (std::uint32_t p = first_[static_cast<std::size_t>(index)];
-         p < first_[static_cast<std::size_t>(index) + 1]; ++p) {
+    const std::uint32_t end = first_[static_cast<std::size_t>(index) + 1];
+    for (std::uint32_t p = first_[static_cast<std::size_t>(index)]; p < end; ++p) {
+      if (p + kAhead < order_.size()) prefetch(gas.particles[order_[p + kAhead]]);
       const std::uint32_t number = order_[p];
       const Vec<D> r = gas.particles[number].flight.at(end_, model_.gravity);
       const Vec<D> image = model_.image_index(r) - boxes;
       const Vec<D> home = r - image.cwiseProduct(model_.box);
       const bool inside = ((home - subdomain.lower).array() >= 0.0).all() &&
                           ((subdomain.upper - home).array() >= 0.0).all();
-      if (own || inside) unsorted.push_back({number, own, home, image});
+      if (!own && !inside) continue;
+      record.numbers.push_back(number);
+      record.own.push_back(own);
+      record.images.push_back(image);
+      auto& stray = record.strays.emplace_back();
+      for (int axis = 0; axis < D; ++axis) {
+        stray.home[axis] = static_cast<float>(home[axis] - subdomain.lower[axis]);
+      }
+      stray.squared_way = 0.0f;
     }
-  }
-  // A radix sort of the numbers.
-  constexpr unsigned kBits = 11;
-  const std::size_t size = unsorted.size();
-  bench.keys.resize(size);
-  bench.sorted.resize(size);
-  for (std::size_t k = 0; k < size; ++k) bench.keys[k] = (std::uint64_t{unsorted[k].number} << 32) | k;
-  for (unsigned shift = 32; shift < 64 && (order_.size() >> (shift - 32)) > 0; shift += kBits) {
-    std::array<std::uint32_t, (1u << kBits) + 1> place{};
-    const auto digit = [&](std::uint64_t key) { return (key >> shift) & ((1u << kBits) - 1); };
-    for (const std::uint64_t key : bench.keys) ++place[digit(key) + 1];
-    for (std::size_t k = 1; k < place.size(); ++k) place[k] += place[k - 1];
-    for (const std::uint64_t key : bench.keys) bench.sorted[place[digit(key)]++] = key;
-    bench.keys.swap(bench.sorted);
-  }
-  bench.record.members.clear();
-  for (const std::uint64_t key : bench.keys) {
-    bench.record.members.push_back(unsorted[static_cast<std::uint32_t>(key)]);
   }
 }
 
 template <int D>
-void Foresight<D>::run(const ParticleStates<D>& gas, double end, std::uint64_t most, Tile& tile,
+void Foresight<D>::run(const ParticleStates<D>& gas, double end, bool keep_events, Tile& tile,
                        Bench& bench) {
   const Subdomain<D> subdomain = subdomain_of(tile);
-  gather(gas, tile, subdomain, bench);
   TileRecord<D>& record = bench.record;
-  record.cut = cut_;
+  gather(gas, tile, subdomain, record);
+  for (int axis = 0; axis < D; ++axis) record.cut[axis] = static_cast<float>(cut_[axis]);
   record.events.clear();
+  record.keeps_events = keep_events;
+  record.pair_collisions = record.wall_collisions = 0;
   EventLoop<D>& loop = bench.loop;
   loop.load(gas, subdomain, record, end_);
+  // A tile with far more events than the others may collapse.
+  const auto most = static_cast<std::uint64_t>(100.0 * sizes_.tile * sizes_.collisions);
   using Halt = typename EventLoop<D>::Halt;
   Halt halt;
   do {
     halt = loop.advance(end, most, kNoLimit);
   } while (halt == Halt::BaseDue);
   tile.overrun = halt != Halt::Time;
-  tile.collisions = loop.counts().collisions();
-  tile.events.assign(record.events.begin(), record.events.end());
-  tile.copies.clear();
-  tile.farthest = 0.0;
-  tile.exposure = -kNever;
-  Vec<D> lower, upper;
-  for (int axis = 0; axis < D; ++axis) {
-    lower[axis] = tile.from[axis] * block_widths_[axis];
-    upper[axis] = tile.to[axis] * block_widths_[axis];
+  tile.pair_collisions = record.pair_collisions;
+  tile.wall_collisions = record.wall_collisions;
+  tile.all_collisions = loop.counts().collisions();
+  tile.checks = loop.checks();
+  tile.events.clear();
+  for (const ForeseenEvent<D>& found : record.events) {
+    ForeseenEvent<D>& event = tile.events.emplace_back(found);
+    event.event.particle = record.numbers[event.event.particle];
+    if (event.event.partner < kWall) event.event.partner = record.numbers[event.event.partner];
   }
   loop.skip_to(end);
   loop.note_all_strays();
-  for (std::size_t k = 0; k < record.members.size(); ++k) {
-    const auto& member = record.members[k];
-    const Flight<D>& flight = loop.particles()[k].flight;
-    constexpr double kUp = 1.0 + 1e-6;  // covers the rounding to single precision
-    const double strayed = std::sqrt(member.strayed) * kUp;
-    double depth = kNever, square = 0.0;
+  tile.copies.clear();
+  tile.farthest = 0.0;
+  tile.exposure = -kNever;
+  std::array<float, D> lower, upper;  // of the core, from the corner of the subdomain
+  for (int axis = 0; axis < D; ++axis) {
+    const double corner = subdomain.lower[axis];
+    lower[axis] = static_cast<float>(tile.from[axis] * block_widths_[axis] - corner);
+    upper[axis] = static_cast<float>(tile.to[axis] * block_widths_[axis] - corner);
+  }
+  for (std::size_t k = 0; k < record.numbers.size(); ++k) {
+    const auto& [home, squared_way] = record.strays[k];
+    const float strayed = std::sqrt(squared_way);
+    float depth = std::numeric_limits<float>::infinity(), square = 0.0f;
     for (int axis = 0; axis < D; ++axis) {
       if (cut_[axis] == 0.0) continue;
-      const double below = lower[axis] - member.home[axis];
-      const double above = member.home[axis] - upper[axis];
-      const double out = std::max({0.0, below, above});
+      const float below = lower[axis] - home[axis];
+      const float above = home[axis] - upper[axis];
+      const float out = std::max({0.0f, below, above});
       square += out * out;
       for (const int side : {0, 1}) {
         if (subdomain.ends[static_cast<std::size_t>(2 * axis + side)] == End::Open) {
@@ -264,14 +271,14 @@ void Foresight<D>::run(const ParticleStates<D>& gas, double end, std::uint64_t m
         }
       }
     }
-    if (member.own) {
-      ends_[member.number] = flight;
-      strayed_[member.number] = static_cast<float>(strayed);
-      tile.farthest = std::max(tile.farthest, strayed);
-      tile.exposure = std::max(tile.exposure, strayed - depth);
+    const std::uint32_t number = record.numbers[k];
+    if (record.own[k]) {
+      ends_.copy(number, loop.gas(), k);
+      strayed_[number] = strayed;
+      tile.farthest = std::max(tile.farthest, double{strayed});
+      tile.exposure = std::max(tile.exposure, double{strayed - depth});
     } else {
-      tile.copies.push_back({member.number, static_cast<float>(strayed),
-                             static_cast<float>(std::sqrt(square) / kUp), flight});
+      tile.copies.push_back({number, strayed, std::sqrt(square), loop.particles()[k].flight});
     }
   }
 }
@@ -291,81 +298,120 @@ template <int D>
 void Foresight<D>::certify(Tile& tile, double farthest, double bend) const {
   double reach = farthest - tile.width;
   for (const Copy& copy : tile.copies) {
-    if (same<D>(ends_[copy.number], copy.end)) continue;
+    if (same<D>(ends_.particles[copy.number].flight, copy.end)) continue;
     const double way = std::max(copy.strayed, strayed_[copy.number]);
     reach = std::max(reach, way - copy.distance);
   }
-  const double contact = 1.001 * model_.diameter;
-  tile.certified = reach + tile.exposure + 2.0 * bend + contact < 0.0;
+  // More than the rounding of distances in single precision.
+  const double rounding = 1e-3 * model_.diameter + 1e-6 * (block_widths_.cwiseProduct(cut_)).norm() *
+                                                       (tile.to - tile.from).maxCoeff();
+  tile.certified = reach + tile.exposure + 2.0 * bend + model_.diameter + rounding < 0.0;
 }
 
+// The end of the next window.
 template <int D>
-bool Foresight<D>::look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most) {
-  constexpr double kMaxHalo = 1.5;  // growth of the halo of a tile that is redone
-  constexpr int kRounds = 6;
-  const auto count = static_cast<double>(gas.particles.size());
-  events_.clear();
-  waiting_.clear();
-  at_ = 0;
-  const double wanted = 0.5 * sizes_.collisions * count;
+double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, double most) const {
   double span;
   if (rate_ > 0.0) {
-    span = std::min(wanted, 1.01 * static_cast<double>(most) + 1.0) / rate_;
+    span = std::min(2.0 * span_, std::min(typical_window(), most) / rate_);
   } else {
-    double square = 0.0;
+    double squares = 0.0;
     for (const Particle<D>& particle : gas.particles) {
-      square += particle.flight.velocity_at(end_, model_.gravity).squaredNorm();
+      squares += particle.flight.velocity_at(end_, model_.gravity).squaredNorm();
     }
-    span = 0.1 * model_.diameter / std::sqrt(square / (D * count));
+    const auto count = static_cast<double>(gas.particles.size());
+    span = 0.1 * model_.diameter / std::sqrt(squares / (D * count));
   }
-  const double start = end_, end = std::min(horizon, start + span);
-  if (!(end > start)) return false;
-  const double bend = model_.gravity.norm() * (end - start) * (end - start) / 8.0;
+  return std::min(horizon, end_ + span);
+}
+
+// Runs all tiles to a time. Returns whether all have a certificate.
+template <int D>
+bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep_events) {
+  constexpr double kGrowth = 1.5;  // of the halo of a tile that is redone
+  constexpr int kRounds = 6;
+  if (!(end > end_)) return false;
+  const double bend = model_.gravity.norm() * (end - end_) * (end - end_) / 8.0;
   sort_into_blocks(gas);
-  for (Tile& tile : tiles_) tile.halo = halo_;
   std::vector<std::size_t> todo(tiles_.size());
-  for (std::size_t k = 0; k < todo.size(); ++k) todo[k] = k;
+  for (std::size_t k = 0; k < todo.size(); ++k) {
+    todo[k] = k;
+    tiles_[k].halo = halo_;
+  }
   ++work_.windows;
-  std::size_t failed_first = 0;
-  for (int round = 0; !todo.empty(); ++round) {
-    if (round == kRounds) return false;
+  for (int round = 0; round < kRounds; ++round) {
     in_parallel(todo.size(), [&](std::size_t k, Bench& bench) {
-      // A tile with far more events than others may collapse.
-      const auto limit = static_cast<std::uint64_t>(100.0 * sizes_.tile * sizes_.collisions);
-      run(gas, end, limit, tiles_[todo[k]], bench);
+      run(gas, end, keep_events, tiles_[todo[k]], bench);
     });
     work_.tiles += todo.size();
     if (round > 0) work_.redone += todo.size();
+    for (const std::size_t k : todo) work_.all += tiles_[k].all_collisions;
     double farthest = 0.0;
     for (const Tile& tile : tiles_) {
       if (tile.overrun) return false;
       farthest = std::max(farthest, tile.farthest);
     }
-    for (const std::size_t k : todo) work_.all += tiles_[k].collisions;
     in_parallel(tiles_.size(),
                 [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
     todo.clear();
     for (std::size_t k = 0; k < tiles_.size(); ++k) {
       if (tiles_[k].certified) continue;
       todo.push_back(k);
-      tiles_[k].halo *= kMaxHalo;
+      tiles_[k].halo *= kGrowth;
     }
-    if (round == 0) failed_first = todo.size();
+    // About one tile in thirty is redone at the best width.
+    if (round == 0) halo_ *= 30 * todo.size() > tiles_.size() ? 1.05 : 0.99;
+    if (todo.empty()) return true;
   }
-  // About one tile in thirty is redone at the best width.
-  halo_ *= 30 * failed_first > tiles_.size() ? 1.05 : 0.99;
-  merge(start, end);
-  const auto found = static_cast<double>(events_.size());
-  work_.own += events_.size();
-  rate_ = found > 0.0 ? found / (end - start) : 0.5 * rate_;
-  if (rate_ == 0.0) return false;
+  return false;
+}
+
+// Notes the rate of collisions in a window that is done.
+template <int D>
+void Foresight<D>::note_window(double end) {
+  std::uint64_t found = 0;
+  for (const Tile& tile : tiles_) found += tile.pair_collisions + tile.wall_collisions;
+  work_.own += found;
+  span_ = end - end_;
+  rate_ = std::max(static_cast<double>(found) / span_, 0.5 * rate_);
   end_ = end;
+}
+
+template <int D>
+bool Foresight<D>::look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most) {
+  constexpr double kMore = 1.01;  // than the expected part of `most`
+  const double start = end_;
+  const double end = choose_end(gas, horizon, kMore * static_cast<double>(most) + 1.0);
+  if (!run_tiles(gas, end, true)) return false;
+  note_window(end);
+  merge(start, end);
+  return true;
+}
+
+template <int D>
+bool Foresight<D>::advance(EventLoop<D>& gas, double horizon, std::uint64_t most) {
+  const double end = choose_end(gas.gas(), horizon, static_cast<double>(most));
+  if (!run_tiles(gas.gas(), end, false)) return false;
+  std::uint64_t pairs = 0, walls = 0;
+  RunChecks checks;
+  for (const Tile& tile : tiles_) {
+    pairs += tile.pair_collisions;
+    walls += tile.wall_collisions;
+    checks.deepest_overlap = std::max(checks.deepest_overlap, tile.checks.deepest_overlap);
+    checks.clock_steps_back = std::max(checks.clock_steps_back, tile.checks.clock_steps_back);
+  }
+  if (pairs + walls >= most) return false;
+  note_window(end);
+  gas.adopt(ends_, end, pairs, walls, checks);
   return true;
 }
 
 // Joins the tiles' events in order. Each part of the window is sorted by one thread.
 template <int D>
 void Foresight<D>::merge(double start, double end) {
+  events_.clear();
+  waiting_.clear();
+  at_ = 0;
   const auto sooner = [](const ForeseenEvent<D>& a, const ForeseenEvent<D>& b) {
     return before(a.event, b.event);
   };

@@ -53,10 +53,20 @@ class Foresight {
   void restart(double time);
   /// Time on the base up to which events are foreseen.
   double end() const { return end_; }
-  /// Finds the events after end(), of about so many particles' mean collisions, but not beyond
-  /// `horizon`. `gas` has had all earlier events. Aims at `most` events. Returns false if tiles got
-  /// no certificate.
+  /// Finds the next events after end(), but none after `horizon`. `gas` has had all earlier events.
+  /// `most` is the number of events for which the caller has use. Returns false without a
+  /// certificate.
   bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most);
+  /// Runs `gas`, which has had all events up to end(), through the next window, up to `horizon` at
+  /// most. Returns false, and changes nothing, without a certificate or after more than `most`
+  /// collisions. Only for gases without t_c that nobody observes.
+  bool advance(EventLoop<D>& gas, double horizon, std::uint64_t most);
+  /// Collisions of the next window as far as they can be estimated.
+  double typical_window() const {
+    return 0.5 * sizes_.collisions * static_cast<double>(order_.size());
+  }
+  /// Whether there are foreseen events.
+  bool has_events() const { return at_ < events_.size() || !waiting_.empty(); }
   /// The next event, or null up to end(). `is_next(event)` returns whether an event begins with the
   /// current flights of its particles.
   template <typename IsNext>
@@ -88,7 +98,10 @@ class Foresight {
     std::vector<ForeseenEvent<D>> events;
     double farthest = 0.0;  // way of an own particle
     double exposure = 0.0;  // largest way of an own particle minus its depth in the core
-    std::uint64_t collisions = 0;
+    std::uint64_t pair_collisions = 0;  // of own particles
+    std::uint64_t wall_collisions = 0;
+    std::uint64_t all_collisions = 0;  // of copies too
+    RunChecks checks;                  // of own particles
     bool overrun = false;   // whether the run had too many events
     bool certified = false;
   };
@@ -97,18 +110,19 @@ class Foresight {
     Bench(const Model<D>& model, const Boundary<D>& boundary) : loop(model, boundary) {}
     EventLoop<D> loop;
     TileRecord<D> record;
-    std::vector<std::uint64_t> keys, sorted;  // numbers of members, and their places
-    std::vector<typename TileRecord<D>::Member> unsorted;
     std::vector<std::uint32_t> offsets;
   };
 
   void in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work);
+  double choose_end(const ParticleStates<D>& gas, double horizon, double most) const;
+  bool run_tiles(const ParticleStates<D>& gas, double end, bool keep_events);
   void sort_into_blocks(const ParticleStates<D>& gas);
   Subdomain<D> subdomain_of(Tile& tile) const;
   void gather(const ParticleStates<D>& gas, const Tile& tile, const Subdomain<D>& subdomain,
-              Bench& bench) const;
-  void run(const ParticleStates<D>& gas, double end, std::uint64_t most, Tile& tile, Bench& bench);
+              TileRecord<D>& record) const;
+  void run(const ParticleStates<D>& gas, double end, bool keep_events, Tile& tile, Bench& bench);
   void certify(Tile& tile, double farthest, double bend) const;
+  void note_window(double end);
   void merge(double start, double end);
 
   const Model<D>& model_;
@@ -124,10 +138,11 @@ class Foresight {
   LargeArray<std::uint32_t> block_of_;           // [N]
   LargeArray<std::uint32_t> order_;              // [N] numbers of particles, by block
   std::vector<std::uint32_t> first_;             // [blocks + 1] places in order_
-  LargeArray<Flight<D>> ends_;                   // [N] last flights of the window
+  ParticleStates<D> ends_;                       // [N] at the end of the window
   LargeArray<float> strayed_;                    // [N]
   double end_ = 0.0;
   double rate_ = 0.0;  // collisions per time; 0: unknown
+  double span_ = 0.0;  // of the last window
   LargeArray<ForeseenEvent<D>> events_;
   std::size_t at_ = 0;  // of the next event
   // Events that come after a simultaneous one by rounding, although their times are earlier.

@@ -45,6 +45,12 @@ class Neighbourhood {
     }
     return cell;
   }
+  /// The cell of a position. For cells only, not for lists of particles.
+  IntVec<D> cell_at(const Vec<D>& position) const { return grid_.cell_at(position); }
+  /// As CellGrid::fill. For cells only.
+  void fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) {
+    grid_.fill(cells, order);
+  }
   /// Adapts the number of cells to the crowding, from the plans of all particles. Returns whether
   /// the grid is now empty.
   template <typename Plans>

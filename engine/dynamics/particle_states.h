@@ -21,6 +21,13 @@ struct ParticleStates {
   LargeArray<Vec<D>> remainders;        ///< [N] rounding errors of positions; empty unless the
                                         ///< box is longer than kLongBox
 
+  /// Copies the data of a particle, but not its image.
+  void copy(std::size_t to, const ParticleStates& source, std::size_t from) {
+    particles.flight(to) = source.particles[from].flight;
+    if (!spins.empty()) spins[to] = source.spins[from];
+    if (!last_collisions.empty()) last_collisions[to] = source.last_collisions[from];
+    if (!remainders.empty()) remainders[to] = source.remainders[from];
+  }
   /// Gives the optional arrays the length that the model needs for a number of particles. New
   /// elements mean no spin, no collision and no error.
   void fit(const Model<D>& model, std::size_t count) {

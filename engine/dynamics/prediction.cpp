@@ -53,9 +53,11 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
                           const IntVec<D>& image, Plan<D>& plan) const {
   if (time > plan.time || time == kNever) return;
   if (time == plan.time) {
+    const auto number = [this](std::uint32_t p) { return numbers_ && p < kWall ? numbers_[p] : p; };
+    const bool swap = number(partner) < number(particle);
     const bool first =
-        partner < plan.partner ||
-        (partner == plan.partner && image_before<D>(image, plan.image, partner < particle));
+        number(partner) < number(plan.partner) ||
+        (partner == plan.partner && image_before<D>(image, plan.image, swap));
     if (!first) return;
   }
   plan.time = time;

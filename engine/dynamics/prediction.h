@@ -43,6 +43,10 @@ class Prediction {
   Prediction(const Model<D>& model, const Boundary<D>& boundary, const ParticleArray<D>& particles,
              const Neighbourhood<D>& near);
 
+  /// Chooses between simultaneous contacts by these original numbers of the particles, which must
+  /// outlive this object. Null: by the particles' own numbers.
+  void order_by(const std::uint32_t* numbers) { numbers_ = numbers; }
+
   /// Plans the first contact with a particle or wall near the particle's cell, or the exit from the
   /// cell.
   void plan(const Request& request, double now) const { planners_.one(*this, {request}, now); }
@@ -112,6 +116,7 @@ class Prediction {
   const Boundary<D>& boundary_;
   const ParticleArray<D>& particles_;
   const Neighbourhood<D>& near_;
+  const std::uint32_t* numbers_ = nullptr;
   bool walled_;  // whether there are walls
   Planners planners_;
   std::array<double, 2 * D> reach_;  // range of each side's wall, from the box's edge

@@ -111,6 +111,7 @@ class Simulation {
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
   typename EventLoop<D>::Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
+  bool advance_window(double stop, std::uint64_t collisions, std::uint64_t steps);
   typename EventLoop<D>::Halt follow_foresight(double stop, std::uint64_t collisions,
                                                std::uint64_t steps);
 

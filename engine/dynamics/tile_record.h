@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,18 +15,23 @@ inline constexpr std::uint32_t kNoFlight = std::uint32_t{1} << 31;
 /// The particles of a tile, and the record of its run.
 template <int D>
 struct TileRecord {
-  /// A particle of the tile or of its halo.
-  struct Member {
-    std::uint32_t number = 0;  ///< in the whole gas
-    bool own = false;          ///< whether the tile owns it; others are copies
-    Vec<D> home = Vec<D>::Zero();   ///< position at the start, in the subdomain's frame
-    Vec<D> image = Vec<D>::Zero();  ///< box lengths from this frame to the frame of its flight
-    double strayed = 0.0;  ///< squared distance from home, the largest at its events
+  /// A particle's place at the start, and the way from there.
+  struct Stray {
+    std::array<float, D> home;  ///< from the lower corner of the subdomain
+    float squared_way;          ///< to the farthest of its events; along cut axes
   };
 
-  Vec<D> cut = Vec<D>::Zero();  ///< 1 along the axes that tiles divide; distances count these
-  std::vector<Member> members;  ///< by ascending number
-  std::vector<ForeseenEvent<D>> events;  ///< of the tile's own particles, in order
+  std::array<float, D> cut = {};       ///< 1 along the axes that tiles divide, 0 along others
+  std::vector<std::uint32_t> numbers;  ///< [n] in the whole gas
+  std::vector<std::uint8_t> own;       ///< [n] 1: the tile owns the particle; 0: a copy
+  std::vector<Vec<D>> images;          ///< [n] box lengths from the subdomain to each flight
+  std::vector<Stray> strays;           ///< [n]
+  bool keeps_events = false;           ///< whether `events` grows
+  /// Collisions of the tile's own particles in order, with the numbers of the tile. A pair belongs
+  /// to the owner of its lower number.
+  std::vector<ForeseenEvent<D>> events;
+  std::uint64_t pair_collisions = 0;  ///< number of those
+  std::uint64_t wall_collisions = 0;  ///< the same with walls
 };
 
 }  // namespace clatter
