@@ -12,6 +12,8 @@
 #include "app/runs/feature_cost.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
+#include "app/system/process_usage.h"
+#include "engine/dynamics/foresight.h"
 #include "engine/physics/theory.h"
 
 namespace clatter {
@@ -31,6 +33,12 @@ void print_parts(const Scene& scene) {
                  off ? "-" : fmt::format("{:.0f}", share).c_str(),
                  off ? "-" : cost_text(part.price).c_str(), part.extent.c_str());
   }
+}
+
+void print_way(const Scene& scene) {
+  const auto particles = static_cast<std::size_t>(scene.particles.count);
+  if (!runs_in_tiles(particles, processors())) return;
+  std::fprintf(stderr, "Runs in tiles on several threads; --threads 1 runs the gas as a whole.\n");
 }
 
 void print_events(const Scene& scene, double end) {
@@ -55,6 +63,7 @@ int check(const CommonOptions& options) {
   if (options.seed) std::fprintf(stderr, ", seed %s", std::to_string(*options.seed).c_str());
   std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
+  print_way(scene);
   print_parts(scene);
   return kOk;
 }

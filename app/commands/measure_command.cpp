@@ -92,7 +92,8 @@ void add_measure_command(CLI::App& program, int& exit_code) {
           ->check(whole_number_between(1, 100'000));
   command
       ->add_option("--threads", options->threads,
-                   "Number of replicas that run at once. Default: the number of processors.")
+                   "Number of threads: replicas that run at once, or threads of one large gas. The "
+                   "results do not depend on it. Default: the number of processors.")
       ->check(whole_number_between(1, 256));
   for (const char* other : {"--resume", "--checkpoint", "--accuracy", "--csv", "--vtk", "--hdf5",
                             "--save-state", "--trajectory", "--events"}) {

@@ -16,6 +16,7 @@
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
+#include "app/system/process_usage.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
@@ -53,6 +54,8 @@ Preset preset_of(Quality quality) {
   return {};
 }
 
+constexpr int kEncodingThreads = 2;
+
 struct RenderOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
@@ -66,7 +69,7 @@ struct RenderOptions {
   std::optional<std::string> frames;  // absent: all
   std::optional<int> supersample;     // absent: 1
   std::optional<double> shutter;      // absent: 0
-  int threads = 2;                    // number of encoding threads
+  std::optional<int> threads;         // of a large gas and of encoding
   bool no_overlay = false;
   bool transparent = false;
   bool overwrite = false;
@@ -250,7 +253,7 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   sink.size = film.size;
   sink.fps = film.times.fps;
   sink.texts = picture_texts(scene, seed);
-  sink.threads = options.threads;
+  sink.threads = options.threads.value_or(kEncodingThreads);
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;
   if (options.frames) sink.end = frames.end;
@@ -303,6 +306,7 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
   const auto context = open_context(options.backend);
   require_drawable(film, context->gl());
   const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
+  run.scheduled().use_threads(options.threads.value_or(processors()));
   Film<D> filming(run, scene, view, film, context->gl());
   bool drawn = false;
   {
@@ -361,7 +365,7 @@ int submit(const RenderOptions& options, const Scene& scene, const FilmState& fi
                                                        .film = film,
                                                        .out = options.out,
                                                        .backend = options.backend,
-                                                       .threads = options.threads,
+                                                       .threads = options.threads.value_or(kEncodingThreads),
                                                        .tasks = options.slurm,
                                                        .limits = options.limits,
                                                        .overwrite = options.overwrite});
@@ -465,9 +469,10 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->check(number_between(0.0, 1.0));
   command
       ->add_option("--threads", options->threads,
-                   "Number of threads that encode the pictures of a folder.")
-      ->check(whole_number_between(1, 256))
-      ->capture_default_str();
+                   "Number of threads that run a large gas, and that encode the pictures of a "
+                   "folder. The pictures do not depend on it. Default: the number of processors, "
+                   "and 2 for encoding.")
+      ->check(whole_number_between(1, 256));
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar and scale bar.");
   command->add_flag("--transparent", options->transparent,

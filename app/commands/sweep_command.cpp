@@ -16,6 +16,7 @@
 #include "app/sweep/sweep_table.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
+#include "app/system/process_usage.h"
 #include "engine/error.h"
 #include "engine/whole_number.h"
 
@@ -32,7 +33,7 @@ struct SweepOptions {
   bool prepare = false;
 
   int processes() const {
-    return threads.value_or(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    return threads.value_or(processors());
   }
 };
 

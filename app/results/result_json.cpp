@@ -132,7 +132,8 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
       {"wall_seconds", performance.wall_seconds},
       {"collisions_per_second",
        performance.cpu_seconds > 0.0 ? collisions / performance.cpu_seconds : 0.0},
-      {"peak_memory_bytes", performance.peak_memory_bytes}};
+      {"peak_memory_bytes", performance.peak_memory_bytes},
+      {"tiles", performance.tiles}};
   return json;
 }
 

@@ -18,6 +18,7 @@ struct Performance {
   double wall_seconds = 0.0;
   std::uint64_t collisions = 0;  ///< of disks, in this time
   std::uint64_t peak_memory_bytes = 0;
+  std::size_t tiles = 0;  ///< into which the gas is divided; 0: it runs as a whole
 };
 
 /// The means of a result, by dotted names as in the result file, for example "energy.dissipated".

@@ -10,6 +10,7 @@
 #include "app/results/result_json.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
+#include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
@@ -38,8 +39,7 @@ class Replicas {
         failed_(done_.size()) {}
 
   void run() {
-    const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t wanted = ensemble_.threads ? *ensemble_.threads : processors;
+    const auto wanted = static_cast<std::size_t>(ensemble_.threads.value_or(processors()));
     std::vector<std::jthread> threads;
     for (std::size_t k = 0; k < std::min(wanted, done_.size()); ++k) {
       threads.emplace_back([this] { work(); });

@@ -306,6 +306,7 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
   const double cpu_before = cpu_seconds();
   const auto began = std::chrono::steady_clock::now();
   Run<D> run("measure", scene, options.common, options.checkpoints, std::move(resumed), checkpoint);
+  run.scheduled().use_threads(options.threads.value_or(processors()));
   Measurement<D>& measurement = run.measure(end);
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
   if (options.accuracy.asked_for()) estimate_for(options.accuracy, measurement.means());
@@ -331,7 +332,7 @@ int measure_one(const MeasureOptions& options, const Scene& scene, std::optional
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
     const Performance performance{cpu_seconds() - cpu_before, elapsed.count(),
                                   run.simulation().counts().pair_collisions - collisions_before,
-                                  peak_memory_bytes()};
+                                  peak_memory_bytes(), run.simulation().tiles()};
     write_results(options, json_of(options, scene, run, measured, performance), measured, run,
                   stop);
   } catch (const Interrupted&) {

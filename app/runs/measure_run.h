@@ -16,7 +16,7 @@ struct MeasureOptions {
   CheckpointOptions checkpoints;
   AccuracyGoal accuracy;
   int replicas = 1;            ///< runs with consecutive seeds
-  std::optional<int> threads;  ///< parallel replicas; absent: the number of processors
+  std::optional<int> threads;  ///< of a large gas, or parallel replicas; absent: processors()
   std::string out;             ///< result file; empty: stdout
   std::string csv;             ///< folder for tables; empty: none
   std::string vtk;             ///< folder for maps; empty: none

@@ -109,8 +109,13 @@ void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uin
       // The wrap of this cell seen from there is the negative of that of there seen from here.
       constexpr Neighbour kOnes = D == 2 ? 0b0101u << kParticleBits<2> : 0b010101u << kParticleBits<3>;
       const Neighbour opposite = wrap ^ ((wrap & kOnes) << 1);
+      list.wraps = list.wraps || (opposite != 0 && starts[near] < starts[near + 1]);
       for (std::uint32_t particle = starts[near]; particle < starts[near + 1]; ++particle) {
-        continuations_.put_on(list, particle | opposite);
+        if (list.count < kCapacity) [[likely]] {
+          list.neighbours[list.count++] = particle | opposite;
+        } else {
+          continuations_.put_on(list, particle | opposite);
+        }
       }
     });
     for (int axis = 0; axis < D && ++cell[axis] == counts_[axis]; ++axis) cell[axis] = 0;

@@ -13,9 +13,25 @@
 
 namespace clatter {
 
+// Growth of the halo of a tile that is redone.
+static constexpr double kGrowth = 1.5;
+
+bool runs_in_tiles(std::size_t particles, int threads) {
+  constexpr std::size_t kLeast = 50'000;  // measured on two cores
+  return threads > 1 && particles >= kLeast;
+}
+
+TileSizes tile_sizes(std::size_t particles, int threads) {
+  constexpr double kTilesPerThread = 4.0;
+  TileSizes sizes;
+  sizes.particles =
+      std::min(sizes.particles, static_cast<double>(particles) / (kTilesPerThread * threads));
+  return sizes;
+}
+
 template <int D>
 Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles,
-                        int threads, const Sizes& sizes)
+                        int threads, const TileSizes& sizes)
     : model_(model),
       boundary_(boundary),
       sizes_(sizes),
@@ -28,12 +44,16 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std:
   ends_.fit(model, particles);
   const auto count = static_cast<double>(particles);
   const double volume = model.box.prod() / count;  // of a particle
-  const double tile = std::pow(sizes.tile * volume, 1.0 / D);
+  const double tile = std::pow(sizes.particles * volume, 1.0 / D);
   const double block = std::pow(kInBlock * volume, 1.0 / D);
   int blocks = 1;
   for (int axis = 0; axis < D; ++axis) {
     const double side = model.box[axis];
-    tile_counts_[axis] = std::max(1, static_cast<int>(std::lround(side / tile)));
+    int tiles = std::max(1, static_cast<int>(std::lround(side / tile)));
+    // Halos must have room to grow before they meet across a periodic border.
+    const double room = 0.5 * (side - side / tiles) - 2.0 * model.diameter;
+    if (model.periodic(axis) && room < kGrowth * halo_) tiles = 1;
+    tile_counts_[axis] = tiles;
     block_counts_[axis] = std::max(tile_counts_[axis], static_cast<int>(side / block));
     block_widths_[axis] = side / block_counts_[axis];
     cut_[axis] = tile_counts_[axis] > 1 ? 1.0 : 0.0;
@@ -227,7 +247,7 @@ void Foresight<D>::run(const ParticleStates<D>& gas, double end, bool keep_event
   EventLoop<D>& loop = bench.loop;
   loop.load(gas, subdomain, record, end_);
   // A tile with far more events than the others may collapse.
-  const auto most = static_cast<std::uint64_t>(100.0 * sizes_.tile * sizes_.collisions);
+  const auto most = static_cast<std::uint64_t>(100.0 * sizes_.particles * sizes_.collisions);
   using Halt = typename EventLoop<D>::Halt;
   Halt halt;
   do {
@@ -328,7 +348,6 @@ double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, do
 // Runs all tiles to a time. Returns whether all have a certificate.
 template <int D>
 bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep_events) {
-  constexpr double kGrowth = 1.5;  // of the halo of a tile that is redone
   constexpr int kRounds = 6;
   if (!(end > end_)) return false;
   const double bend = model_.gravity.norm() * (end - end_) * (end - end_) / 8.0;

@@ -19,6 +19,19 @@
 
 namespace clatter {
 
+/// Sizes of tiles and windows. They affect the speed only.
+struct TileSizes {
+  double particles = 16'000.0;  ///< that a tile owns
+  double collisions = 2.5;      ///< of a particle in a window
+  double halo = 10.0;           ///< width of the first halos, in diameters
+};
+
+/// Whether a gas of so many particles runs faster in tiles than as a whole.
+bool runs_in_tiles(std::size_t particles, int threads);
+
+/// The best sizes for a gas of so many particles: each thread has several tiles.
+TileSizes tile_sizes(std::size_t particles, int threads);
+
 /// Finds the collisions of a large gas on several threads, before the run reaches their times.
 /// Tiles of the box, each with a halo of copies, run alone for a window of time. A certificate then
 /// proves that each tile's own particles had their true collisions; see docs/parallel.md. So the
@@ -26,12 +39,6 @@ namespace clatter {
 template <int D>
 class Foresight {
  public:
-  /// Sizes of tiles and windows. They affect the speed only.
-  struct Sizes {
-    double tile = 16'000.0;    ///< particles that a tile owns
-    double collisions = 2.5;   ///< of a particle in a window
-    double halo = 10.0;        ///< width of the first window's halos, in diameters
-  };
   /// Work since the construction.
   struct Work {
     std::uint64_t windows = 0;
@@ -43,7 +50,7 @@ class Foresight {
 
   /// Foresight for a number of particles. `model` and `boundary` must outlive it.
   Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles, int threads,
-            const Sizes& sizes);
+            const TileSizes& sizes);
   Foresight(const Foresight&) = delete;
   Foresight& operator=(const Foresight&) = delete;
 
@@ -61,9 +68,13 @@ class Foresight {
   /// most. Returns false, and changes nothing, without a certificate or after more than `most`
   /// collisions. Only for gases without t_c that nobody observes.
   bool advance(EventLoop<D>& gas, double horizon, std::uint64_t most);
-  /// Collisions of the next window as far as they can be estimated.
+  /// Number of collisions of a full window.
   double typical_window() const {
     return 0.5 * sizes_.collisions * static_cast<double>(order_.size());
+  }
+  /// Whether a full window is expected to end before a time on the base.
+  bool fits_before(double time) const {
+    return rate_ * (time - end_) >= typical_window() || rate_ == 0.0;
   }
   /// Whether there are foreseen events.
   bool has_events() const { return at_ < events_.size() || !waiting_.empty(); }
@@ -127,7 +138,7 @@ class Foresight {
 
   const Model<D>& model_;
   const Boundary<D>& boundary_;
-  Sizes sizes_;
+  TileSizes sizes_;
   double halo_;
   IntVec<D> tile_counts_;
   IntVec<D> block_counts_;

@@ -146,7 +146,7 @@ void Simulation<D>::move_base() {
 // again anyway, so a change of the way costs nothing.
 template <int D>
 void Simulation<D>::choose_way() {
-  in_tiles_ = foresight_ != nullptr;
+  in_tiles_ = foresight_ && --until_tried_ <= 0;
   if (in_tiles_) {
     loop_.drop_plans();
     foresight_->restart(loop_.now());
@@ -155,16 +155,29 @@ void Simulation<D>::choose_way() {
   }
 }
 
+// Continues without tiles. In a gas that clusters or collapses, tiles may fail again and again, so
+// they are tried ever more rarely.
 template <int D>
-void Simulation<D>::use_threads(int threads) {
-  constexpr std::size_t kLeast = 50'000;  // particles for which tiles pay
-  if (threads < 2 || particles().size() < kLeast) return;
-  use_threads(threads, {});
+void Simulation<D>::leave_tiles() {
+  constexpr int kMostDoublings = 6;
+  in_tiles_ = false;
+  failures_ = std::min(failures_ + 1, kMostDoublings);
+  until_tried_ = 1 << failures_;
+  loop_.plan_again();
 }
 
 template <int D>
-void Simulation<D>::use_threads(int threads, const typename Foresight<D>::Sizes& sizes) {
-  foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads, sizes);
+void Simulation<D>::use_threads(int threads) {
+  if (!runs_in_tiles(particles().size(), threads)) return;
+  use_threads(threads, tile_sizes(particles().size(), threads));
+}
+
+template <int D>
+void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
+  foresight_ =
+      std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads, sizes);
+  if (foresight_->tiles() < 2) foresight_.reset();
+  until_tried_ = 0;
   choose_way();
 }
 
@@ -179,11 +192,13 @@ typename EventLoop<D>::Halt Simulation<D>::advance(double stop, std::uint64_t co
 // has.
 template <int D>
 bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps) {
+  constexpr double kReserve = 1.2;  // a window may have more events than expected
   if (loop_.is_watched() || model_.contact_time || foresight_->has_events()) return false;
   const std::uint64_t most = std::min({loop_.until_base_moves(), collisions - counts().collisions(),
                                        steps - counts().steps()});
-  if (static_cast<double>(most) < 1.2 * foresight_->typical_window()) return false;
-  return foresight_->end() < stop && foresight_->advance(loop_, stop, most);
+  if (static_cast<double>(most) < kReserve * foresight_->typical_window()) return false;
+  const double horizon = std::min(stop, next_kick());
+  return foresight_->fits_before(horizon) && foresight_->advance(loop_, horizon, most);
 }
 
 template <int D>
@@ -197,8 +212,7 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
     if (!next) {
       if (foresight_->end() >= stop) return Halt::Time;
       if (!foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves())) {
-        in_tiles_ = false;
-        loop_.plan_again();
+        leave_tiles();
         return Halt::Limit;
       }
       continue;

@@ -36,13 +36,15 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Uses up to so many threads from now on. Large gases then run in tiles, see Foresight. The run
-  /// has the same bits with any number of threads.
+  /// Uses up to so many threads from now on, if runs_in_tiles(). The run has the same bits with any
+  /// number of threads.
   void use_threads(int threads);
-  /// The same with other sizes of tiles, and for a gas of any size.
-  void use_threads(int threads, const typename Foresight<D>::Sizes& sizes);
-  /// The tiles with which the gas runs now; null: it runs as a whole.
-  const Foresight<D>* foresight() const { return in_tiles_ ? foresight_.get() : nullptr; }
+  /// The same for a gas of any size, with these sizes of its tiles.
+  void use_threads(int threads, const TileSizes& sizes);
+  /// The tiles; null: the gas runs as a whole on one thread.
+  const Foresight<D>* foresight() const { return foresight_.get(); }
+  /// Number of the tiles; 0 without tiles.
+  std::size_t tiles() const { return foresight_ ? foresight_->tiles() : 0; }
 
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or
@@ -110,6 +112,7 @@ class Simulation {
   void move_base();
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
+  void leave_tiles();
   typename EventLoop<D>::Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
   bool advance_window(double stop, std::uint64_t collisions, std::uint64_t steps);
   typename EventLoop<D>::Halt follow_foresight(double stop, std::uint64_t collisions,
@@ -124,7 +127,9 @@ class Simulation {
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;
   std::unique_ptr<Foresight<D>> foresight_;  // null: one thread, or a small gas
-  bool in_tiles_ = false;                    // whether foresight_ finds the events
+  bool in_tiles_ = false;                    // whether foresight_ finds the events now
+  int failures_ = 0;     // bases in succession on which tiles had no certificate
+  int until_tried_ = 0;  // moves of the base before tiles are tried again
 };
 
 extern template class Simulation<2>;

@@ -32,6 +32,12 @@ ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunS
 }
 
 template <int D>
+void ScheduledRun<D>::use_threads(int threads) {
+  threads_ = threads;
+  simulation_->use_threads(threads);
+}
+
+template <int D>
 bool ScheduledRun<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
                                 const StopRequest& stop) {
   while (schedule_.next() <= time) {
@@ -104,6 +110,7 @@ void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next, Averages ave
     shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_, shown_.get());
   }
   simulation_ = std::move(next);
+  simulation_->use_threads(threads_);
 }
 
 template <int D>

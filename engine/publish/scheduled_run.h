@@ -31,6 +31,8 @@ class ScheduledRun {
   ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                const StopRequest& stop = {});
 
+  /// As Simulation::use_threads, under all laws to come.
+  void use_threads(int threads);
   /// The current simulation; a change of laws replaces it.
   Simulation<D>& simulation() { return *simulation_; }
   const Simulation<D>& simulation() const { return *simulation_; }  ///< the same
@@ -86,6 +88,7 @@ class ScheduledRun {
 
   Schedule schedule_;
   std::uint64_t seed_;
+  int threads_ = 1;
   std::unique_ptr<Simulation<D>> simulation_;
   View view_;
   double exposure_ = 0.0;

@@ -1,0 +1,251 @@
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "engine/dimension.h"
+#include "engine/dynamics/simulation.h"
+#include "engine/error.h"
+#include "engine/initial/start_state.h"
+#include "engine/physics/random.h"
+#include "engine/scene/scene_file.h"
+#include "tests/engine/support/gas.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 5;
+
+// Gases with every feature of the engine, in boxes that divide into several tiles.
+const char* const kScenes[] = {
+    R"(box.size = [70, 50]
+       particles.area_fraction = 0.5)",
+    R"(box.size = [70, 50]
+       particles = { area_fraction = 0.3, restitution = 0.9, friction = 0.3 })",
+    R"(box.size = [60, 70]
+       particles = { area_fraction = 0.6, restitution = 0.95, tangential_restitution = 0.4 }
+       walls.left = { kind = "thermal", temperature = 2.0 }
+       walls.right = { kind = "driven", drive_speed = 1.0, friction = 0.2 })",
+    R"(box.size = [70, 60]
+       particles = { area_fraction = 0.2, restitution = 0.95 }
+       gravity.acceleration = [0.1, -0.3]
+       walls.bottom = { kind = "sinusoidal", stroke = 1.0, frequency = 0.7, friction = 0.3 }
+       walls.top = { kind = "sawtooth", stroke = 0.5, frequency = 2.0, phase = 0.25 })",
+    R"(box.size = [60, 60]
+       particles = { area_fraction = 0.3, restitution = 0.9, friction = 0.4 }
+       collapse.contact_time = 1e-3
+       bulk_drive = { interval = 0.8, kick_speed = 0.2, kick_spin = 0.2 })",
+    R"(box.size = [600, 6]
+       particles = { area_fraction = 0.4, restitution = 0.9 }
+       walls.bottom = { kind = "thermal", temperature = 1.0 }
+       walls.top.kind = "static")",
+    R"(box.size = [17000, 3]
+       particles = { count = 2500, restitution = 0.95 })",
+    R"(box.size = [90, 12, 10]
+       particles = { volume_fraction = 0.3, restitution = 0.95 })",
+    R"(box.size = [80, 13, 11]
+       particles = { volume_fraction = 0.2, tangential_restitution = 0.5, friction = 0.2 }
+       gravity.acceleration = [0.1, -0.2, 0.05]
+       walls.bottom = { kind = "sinusoidal", stroke = 0.5, frequency = 2.0 }
+       walls.top = { kind = "thermal", temperature = 2.0 })",
+};
+
+// A hash of all that observers see, in order.
+template <int D>
+class EventHash final : public Observer<D> {
+ public:
+  void on_collision(const PairCollision<D>& collision) override {
+    add(collision.time);
+    for (const ParticleChange<D>& change : collision.particles) add(change);
+    add(collision.separation[0]);
+    add(collision.undissipated);
+  }
+  void on_wall(const WallCollision<D>& collision) override {
+    add(collision.time);
+    add(static_cast<double>(collision.side));
+    add(collision.particle);
+  }
+  void on_kick(const Kick<D>& kick) override { add(kick.particle); }
+  void on_base_moved(double shift) override { add(shift); }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  void add(double number) {
+    number += 0.0;  // the sign of a zero depends on which particle's plan is due first
+    std::uint64_t bits;
+    std::memcpy(&bits, &number, sizeof bits);
+    hash_ = (hash_ ^ bits) * 0x9e3779b97f4a7c15u;
+    hash_ ^= hash_ >> 29;
+  }
+  void add(const ParticleChange<D>& change) {
+    add(static_cast<double>(change.particle));
+    add(static_cast<double>(change.before.number));
+    for (const double r : change.position) add(r);
+    for (const double v : change.velocity) add(v);
+    for (const double p : change.gain.momentum) add(p);
+    add(change.energy);
+  }
+
+  std::uint64_t hash_ = 1;
+};
+
+// Everything that must not depend on tiles.
+struct Outcome {
+  std::vector<std::uint64_t> hashes;  // of the state at each halt
+  std::uint64_t seen = 0;             // by an observer
+  EventCounts counts;
+  double overlap = 0.0;
+  double mean_collision_time = 0.0;
+  std::uint64_t until_base_moves = 0;
+};
+
+void check_equal(const Outcome& a, const Outcome& b) {
+  CHECK(a.hashes == b.hashes);
+  CHECK(a.seen == b.seen);
+  CHECK(a.counts.pair_collisions == b.counts.pair_collisions);
+  CHECK(a.counts.wall_collisions == b.counts.wall_collisions);
+  CHECK(a.counts.kicks == b.counts.kicks);
+  CHECK(a.counts.elasticised == b.counts.elasticised);
+  CHECK(a.counts.elasticised_wall == b.counts.elasticised_wall);
+  CHECK(a.overlap == b.overlap);
+  CHECK(a.mean_collision_time == b.mean_collision_time);
+  CHECK(a.until_base_moves == b.until_base_moves);
+}
+
+template <int D>
+Outcome outcome_of(Simulation<D>& simulation, bool observed, int halts, std::uint64_t per_halt) {
+  EventHash<D> events;
+  if (observed) simulation.add_observer(events);
+  Outcome outcome;
+  for (int k = 1; k <= halts; ++k) {
+    // Halts at times and at numbers of collisions.
+    if (k % 2) {
+      simulation.run_until(kNever, simulation.counts().collisions() + per_halt);
+    } else {
+      simulation.run_until(simulation.time() * 1.1);
+    }
+    outcome.hashes.push_back(simulation.state_hash());
+  }
+  CHECK(simulation.deepest_overlap() < 1e-11);
+  outcome.seen = events.hash();
+  outcome.counts = simulation.counts();
+  outcome.overlap = simulation.checks().deepest_overlap;
+  const RunState<D> saved = simulation.save();
+  outcome.mean_collision_time = saved.mean_collision_time;
+  outcome.until_base_moves = saved.until_base_moves;
+  return outcome;
+}
+
+// Runs a scene as a whole, and in tiles of random sizes on different numbers of threads.
+template <int D>
+void compare_ways(const Scene& scene, bool observed) {
+  const Model<D> model = model_of<D>(scene, kSeed);
+  const State<D> start = start_state<D>(scene, kSeed);
+  const auto count = static_cast<std::uint64_t>(start.positions.size());
+  constexpr int kHalts = 6;
+  Simulation<D> whole(model, start);
+  const Outcome wanted = outcome_of(whole, observed, kHalts, 6 * count);
+  Random random(kSeed, Stream::Kick, 1, 1);
+  std::uint64_t redone = 0;
+  for (const int threads : {1, 2, 3}) {
+    CAPTURE(threads);
+    Simulation<D> tiled(model, start);
+    const TileSizes sizes{.particles = 150.0 + 300.0 * random.uniform(),
+                          .collisions = 0.5 + 2.0 * random.uniform(),
+                          .halo = 1.0 + 6.0 * random.uniform()};
+    CAPTURE(sizes.particles);
+    CAPTURE(sizes.collisions);
+    CAPTURE(sizes.halo);
+    tiled.use_threads(threads, sizes);
+    check_equal(outcome_of(tiled, observed, kHalts, 6 * count), wanted);
+    const auto& work = tiled.foresight()->work();
+    CHECK(tiled.tiles() > 1);
+    CHECK(work.windows > 4);
+    redone += work.redone;
+  }
+  CHECK(redone > 0);
+}
+
+}  // namespace
+
+TEST_CASE("Foresight: tiles give the bits of the whole gas, on any number of threads") {
+  for (const char* const text : kScenes) {
+    CAPTURE(text);
+    const Scene scene = parse_scene(text, "a scene");
+    for (const bool observed : {false, true}) {
+      CAPTURE(observed);
+      with_dimension(scene.dimension(), [&](auto dimension) {
+        compare_ways<dimension>(scene, observed);
+      });
+    }
+  }
+}
+
+TEST_CASE("Foresight: simultaneous collisions in several tiles have the order of the whole gas") {
+  Model<2> model = periodic_box(60.0, 60.0);
+  State<2> start;
+  for (int i = 0; i < 900; ++i) {
+    const Vec2 directions[] = {{1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}, {1.0, -1.0}};
+    start.positions.push_back({1.0 + 2.0 * (i % 30), 1.25 + 2.0 * (i / 30)});
+    start.velocities.push_back(directions[(i + i / 30) % 4]);
+  }
+  Random random(kSeed, Stream::Kick, 2, 2);
+  for (std::size_t i = start.positions.size() - 1; i > 0; --i) {
+    const std::size_t j = random.below(i + 1);
+    std::swap(start.positions[i], start.positions[j]);
+    std::swap(start.velocities[i], start.velocities[j]);
+  }
+  for (const double restitution : {1.0, 0.9}) {
+    model.restitution = restitution;
+    Simulation<2> whole(model, start);
+    const Outcome wanted = outcome_of(whole, true, 8, 2000);
+    Simulation<2> tiled(model, start);
+    tiled.use_threads(2, {.particles = 80.0, .collisions = 1.5, .halo = 4.0});
+    check_equal(outcome_of(tiled, true, 8, 2000), wanted);
+  }
+}
+
+TEST_CASE("Foresight: a saved run continues with the same bits on another number of threads") {
+  const Scene scene = parse_scene(kScenes[2], "a scene");
+  const Model<2> model = model_of<2>(scene, kSeed);
+  const State<2> start = start_state<2>(scene, kSeed);
+  Simulation<2> whole(model, start);
+  const Outcome wanted = outcome_of(whole, false, 3, 9000);
+  Simulation<2> first(model, start);
+  first.use_threads(2, {.particles = 150.0, .collisions = 2.0, .halo = 5.0});
+  outcome_of(first, false, 1, 9000);
+  Simulation<2> second(model, first.save());
+  second.use_threads(3, {.particles = 220.0, .collisions = 1.0, .halo = 4.0});
+  second.run_until(second.time() * 1.1);
+  CHECK(second.state_hash() == wanted.hashes[1]);
+  Simulation<2> third(model, second.save());
+  third.run_until(kNever, third.counts().collisions() + 9000);
+  CHECK(third.state_hash() == wanted.hashes[2]);
+}
+
+TEST_CASE("Foresight: a collapsing gas stops at the same collision as without tiles") {
+  const Scene scene = parse_scene(R"(box.size = [60, 60]
+      particles = { area_fraction = 0.3, restitution = 0.3 })", "a scene");
+  const Model<2> model = model_of<2>(scene, kSeed);
+  const State<2> start = start_state<2>(scene, kSeed);
+  const auto end = [&](bool tiles) {
+    Simulation<2> simulation(model, start);
+    if (tiles) simulation.use_threads(2, {.particles = 200.0, .collisions = 2.0, .halo = 8.0});
+    CHECK_THROWS_AS(simulation.run_until(kNever), PhysicalStop);
+    return simulation.counts().collisions() + simulation.state_hash();
+  };
+  CHECK(end(true) == end(false));
+}
+
+TEST_CASE("Foresight: gases run in tiles where tiles pay") {
+  CHECK(!runs_in_tiles(1'000'000, 1));
+  CHECK(!runs_in_tiles(30'000, 16));
+  CHECK(runs_in_tiles(1'000'000, 2));
+  Simulation<2> small(periodic_box(20.0, 20.0), random_gas(periodic_box(20.0, 20.0), 100, 3));
+  small.use_threads(8);
+  CHECK(small.tiles() == 0);
+}
