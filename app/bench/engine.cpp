@@ -23,6 +23,20 @@
 
 namespace clatter {
 
+Scene elastic_gas(int count, double fraction, int dimension) {
+  Scene scene = default_scene(dimension);
+  scene.particles.count = count;
+  const double volume = count * packing_fraction(dimension, 1.0) / fraction;
+  scene.box.setConstant(dimension == 2 ? std::sqrt(volume) : std::cbrt(volume));
+  return scene;
+}
+
+bool has_room(int count, double fraction, int dimension) {
+  return with_dimension(dimension, [&](auto d) {
+    return lattice_capacity(elastic_gas(count, fraction, d).template start_room<d>()) >= count;
+  });
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -36,21 +50,6 @@ struct EngineRate {
   double bytes_per_particle;  // peak resident size minus the size before the state was built; NaN:
                               // too little for the heap of the process
 };
-
-// Elastic disks in a periodic square, or elastic spheres in a periodic cube.
-Scene scene_of(int count, double fraction, int dimension = 2) {
-  Scene scene = default_scene(dimension);
-  scene.particles.count = count;
-  const double volume = count * packing_fraction(dimension, 1.0) / fraction;
-  scene.box.setConstant(dimension == 2 ? std::sqrt(volume) : std::cbrt(volume));
-  return scene;
-}
-
-bool has_room(int count, double fraction, int dimension) {
-  return with_dimension(dimension, [&](auto d) {
-    return lattice_capacity(scene_of(count, fraction, d).template start_room<d>()) >= count;
-  });
-}
 
 // Equilibrates for a number of collisions per particle.
 template <int D>
@@ -97,7 +96,7 @@ Json print_rates(const std::vector<Cell>& cells, int dimension, std::vector<Engi
               disks ? "bytes/disk" : "bytes/sph.");
   Json json = Json::array();
   for (const auto& [count, fraction] : cells) {
-    EngineRate r = measure_engine(scene_of(count, fraction, dimension));
+    EngineRate r = measure_engine(elastic_gas(count, fraction, dimension));
     r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);
     const double bytes = r.bytes_per_particle;
@@ -117,7 +116,7 @@ Json print_inhomogeneous(int count) {
   std::printf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog.");
   Json json = Json::array();
   for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
-    const double homogeneous = measure_engine(scene_of(count, gas.scene.packing_fraction())).rate;
+    const double homogeneous = measure_engine(elastic_gas(count, gas.scene.packing_fraction())).rate;
     const EngineRate r = measure_engine(gas.scene, gas.after);
     std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.fraction, r.rate,
                 r.rate / homogeneous);
@@ -154,10 +153,10 @@ void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) 
 
 std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
   constexpr double kMeanAreaFraction = 0.1;
-  Scene cooling = scene_of(count, kMeanAreaFraction);
+  Scene cooling = elastic_gas(count, kMeanAreaFraction);
   cooling.particles.restitution = 0.6;
   cooling.contact_time = 1e-6;
-  Scene falling = scene_of(count, kMeanAreaFraction);
+  Scene falling = elastic_gas(count, kMeanAreaFraction);
   falling.particles.restitution = 0.9;
   falling.contact_time = 1e-6;
   falling.walls[kTop] = Wall{};

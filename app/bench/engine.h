@@ -9,6 +9,13 @@
 
 namespace clatter {
 
+/// Elastic disks in a periodic square, or elastic spheres in a periodic cube, that fill a fraction
+/// of the area or volume.
+Scene elastic_gas(int count, double fraction, int dimension = 2);
+
+/// Whether a start state of this gas exists.
+bool has_room(int count, double fraction, int dimension);
+
 /// The cells of the engine's table.
 struct EngineTable {
   int dimension = 2;

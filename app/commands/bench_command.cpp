@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/bench/accuracy.h"
+#include "app/bench/cores.h"
 #include "app/bench/engine.h"
 #include "app/bench/features.h"
 #include "app/bench/fields.h"
@@ -25,6 +26,12 @@ struct TableOptions {
 struct RenderTableOptions {
   TableOptions table;
   int dimension = 2;  // of the box: disks or spheres
+};
+
+struct CoresOptions {
+  std::string json;
+  std::string plot;
+  CoresTable table;
 };
 
 struct EngineOptions {
@@ -135,6 +142,23 @@ void add_window_table(CLI::App& bench, int& exit_code) {
       [options, &exit_code] { exit_code = bench_window(options->json, options->count); });
 }
 
+void add_cores_table(CLI::App& bench, int& exit_code) {
+  auto options = std::make_shared<CoresOptions>();
+  CLI::App* table = bench.add_subcommand(
+      "cores", "Collisions per second of a large gas in tiles, by number of threads.");
+  add_json_flag(*table, options->json);
+  add_count_flag(*table, options->table.count, "Largest number of particles. Default: 10000000.");
+  add_dimension_flag(*table, options->table.dimension);
+  table
+      ->add_option("--threads", options->table.threads,
+                   "Largest number of threads. Default: the number of processors.")
+      ->check(whole_number_between(1, 256));
+  add_plot_flag(*table, options->plot, "File for a plot of the table.");
+  table->callback([options, &exit_code] {
+    exit_code = bench_cores(options->json, options->plot, options->table);
+  });
+}
+
 void add_accuracy_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<AccuracyBench>();
   CLI::App* table = bench.add_subcommand("accuracy", "Cost and error of each setting.");
@@ -171,6 +195,7 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   add_render_table(*command, exit_code);
   add_window_table(*command, exit_code);
   add_accuracy_table(*command, exit_code);
+  add_cores_table(*command, exit_code);
 }
 
 }  // namespace clatter

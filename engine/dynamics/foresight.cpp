@@ -325,7 +325,7 @@ void Foresight<D>::certify(Tile& tile, double farthest, double bend) const {
   // More than the rounding of distances in single precision.
   const double rounding = 1e-3 * model_.diameter + 1e-6 * (block_widths_.cwiseProduct(cut_)).norm() *
                                                        (tile.to - tile.from).maxCoeff();
-  tile.certified = reach + tile.exposure + 2.0 * bend + model_.diameter + rounding < 0.0;
+  tile.lack = reach + tile.exposure + 2.0 * bend + model_.diameter + rounding;
 }
 
 // The end of the next window.
@@ -343,6 +343,18 @@ double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, do
     span = 0.1 * model_.diameter / std::sqrt(squares / (D * count));
   }
   return std::min(horizon, end_ + span);
+}
+
+// Chooses the width of the next window's halos from the widths that this window has shown to be
+// sufficient. At the best width about one tile in thirty is redone.
+template <int D>
+void Foresight<D>::fit_halo() {
+  std::vector<double> lacks;
+  for (const Tile& tile : tiles_) lacks.push_back(tile.lack);
+  const auto place = lacks.begin() + static_cast<std::ptrdiff_t>(29 * (lacks.size() - 1) / 30);
+  std::nth_element(lacks.begin(), place, lacks.end());
+  constexpr double kSlowly = 0.1;
+  halo_ = std::max(halo_ + (*place > 0.0 ? 1.0 : kSlowly) * *place, model_.diameter);
 }
 
 // Runs all tiles to a time. Returns whether all have a certificate.
@@ -374,12 +386,11 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
                 [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
     todo.clear();
     for (std::size_t k = 0; k < tiles_.size(); ++k) {
-      if (tiles_[k].certified) continue;
+      if (tiles_[k].lack < 0.0) continue;
       todo.push_back(k);
-      tiles_[k].halo *= kGrowth;
+      tiles_[k].halo = std::max(kGrowth * tiles_[k].halo, tiles_[k].halo + 1.2 * tiles_[k].lack);
     }
-    // About one tile in thirty is redone at the best width.
-    if (round == 0) halo_ *= 30 * todo.size() > tiles_.size() ? 1.05 : 0.99;
+    if (round == 0) fit_halo();
     if (todo.empty()) return true;
   }
   return false;

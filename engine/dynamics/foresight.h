@@ -114,7 +114,7 @@ class Foresight {
     std::uint64_t all_collisions = 0;  // of copies too
     RunChecks checks;                  // of own particles
     bool overrun = false;   // whether the run had too many events
-    bool certified = false;
+    double lack = 0.0;  // part of the halo's width that a certificate lacks; negative: certified
   };
   // The loop of one thread, which runs one tile after another.
   struct Bench {
@@ -133,6 +133,7 @@ class Foresight {
               TileRecord<D>& record) const;
   void run(const ParticleStates<D>& gas, double end, bool keep_events, Tile& tile, Bench& bench);
   void certify(Tile& tile, double farthest, double bend) const;
+  void fit_halo();
   void note_window(double end);
   void merge(double start, double end);
 

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace clatter {
+
+/// The cells of the table of cores.
+struct CoresTable {
+  int dimension = 2;
+  int count = 0;    ///< largest number of particles; 0: 10^7
+  int threads = 0;  ///< largest number of threads; 0: the number of processors
+};
+
+/// Prints the collision rate of elastic particles in a periodic box, as a whole and in tiles on 1,
+/// 2, 4, ... threads. Writes the table to `json` and a plot to `plot`, unless these are empty.
+/// Throws RunError if a state hash depends on the threads. Returns the exit code.
+int bench_cores(const std::string& json, const std::string& plot, const CoresTable& table);
+
+}  // namespace clatter
