@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/dynamics/cell_of.h"
+#include "engine/dynamics/certificate.h"
 #include "engine/dynamics/prefetch.h"
 
 namespace clatter {
@@ -311,21 +312,19 @@ static bool same(const Flight<D>& a, const Flight<D>& b) {
          std::memcmp(a.v.data(), b.v.data(), sizeof(double) * D) == 0;
 }
 
-// A tile is certified if no particle that it has wrongly, or not at all, could reach one of its own
-// particles. `farthest` is the longest way of all particles, and `bend` the part of a way that
-// parabolas add.
+// `farthest` is the longest way of all particles, and `bend` the part of a way that parabolas add.
 template <int D>
 void Foresight<D>::certify(Tile& tile, double farthest, double bend) const {
-  double reach = farthest - tile.width;
+  // More than the rounding of distances in single precision.
+  const double extent =
+      (tile.to - tile.from).template cast<double>().cwiseProduct(block_widths_).dot(cut_);
+  const double rounding = 1e-3 * model_.diameter + 1e-6 * extent;
+  Certificate certificate(tile.width, model_.diameter + rounding, farthest);
   for (const Copy& copy : tile.copies) {
     if (same<D>(ends_.particles[copy.number].flight, copy.end)) continue;
-    const double way = std::max(copy.strayed, strayed_[copy.number]);
-    reach = std::max(reach, way - copy.distance);
+    certificate.add_wrong_copy(copy.strayed, strayed_[copy.number], copy.distance);
   }
-  // More than the rounding of distances in single precision.
-  const double rounding = 1e-3 * model_.diameter + 1e-6 * (block_widths_.cwiseProduct(cut_)).norm() *
-                                                       (tile.to - tile.from).maxCoeff();
-  tile.lack = reach + tile.exposure + 2.0 * bend + model_.diameter + rounding;
+  tile.lack = certificate.lack(tile.exposure, bend);
 }
 
 // The end of the next window.

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "engine/dimension.h"
+#include "engine/dynamics/certificate.h"
+#include "engine/dynamics/foresight.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
@@ -248,4 +250,74 @@ TEST_CASE("Foresight: gases run in tiles where tiles pay") {
   Simulation<2> small(periodic_box(20.0, 20.0), random_gas(periodic_box(20.0, 20.0), 100, 3));
   small.use_threads(8);
   CHECK(small.tiles() == 0);
+}
+
+TEST_CASE("Certificate: each term counts") {
+  // Halos 10 wide, contact at 1, no particle went farther than 4.
+  const Certificate good(10.0, 1.0, 4.0);
+  CHECK(good.lack(-2.0, 0.0) == doctest::Approx(-7.0));
+  CHECK(good.lack(4.5, 0.0) == doctest::Approx(-0.5));
+  CHECK(good.lack(5.5, 0.0) == doctest::Approx(0.5));
+  CHECK(good.lack(4.5, 0.5) == doctest::Approx(0.5));
+  CHECK(Certificate(10.0, 2.0, 4.0).lack(4.5, 0.0) == doctest::Approx(0.5));
+  CHECK(Certificate(10.0, 1.0, 5.0).lack(4.5, 0.0) == doctest::Approx(0.5));
+  CHECK(Certificate(9.0, 1.0, 4.0).lack(4.5, 0.0) == doctest::Approx(0.5));
+  Certificate wrong_in_tile = good, wrong_in_truth = good, far = good;
+  wrong_in_tile.add_wrong_copy(3.0, 0.0, 2.0);
+  wrong_in_truth.add_wrong_copy(0.0, 3.0, 2.0);
+  far.add_wrong_copy(3.0, 3.0, 9.5);
+  CHECK(wrong_in_tile.lack(-2.5, 0.0) == doctest::Approx(-0.5));
+  CHECK(wrong_in_tile.lack(-1.5, 0.0) == doctest::Approx(0.5));
+  CHECK(wrong_in_truth.lack(-1.5, 0.0) == doctest::Approx(0.5));
+  CHECK(far.lack(-2.0, 0.0) == doctest::Approx(-7.0));
+}
+
+namespace {
+
+// Particles at rest on a lattice in the lower part of a long box, and a row of particles above it:
+// their x, and the velocity of the last.
+State<2> row_of(const std::vector<double>& places, double velocity) {
+  State<2> state;
+  for (int i = 0; i < 4000; ++i) {
+    state.positions.push_back({1.0 + 2.0 * (i % 200), 1.5 + 2.0 * (i / 200)});
+    state.velocities.push_back(Vec2::Zero());
+  }
+  for (const double x : places) {
+    state.positions.push_back({x, 60.0});
+    state.velocities.push_back(Vec2::Zero());
+  }
+  state.velocities.back()[0] = velocity;
+  return state;
+}
+
+// The first window of a gas in a box of 400 x 80, in tiles that meet at x = 96, among others. In this
+// window a particle flies 0.1 diameters at the gas's mean speed: 8.9 diameters if one particle has
+// all the energy.
+struct FirstWindow {
+  std::uint64_t events = 0;
+  std::uint64_t redone = 0;
+};
+FirstWindow first_window(const State<2>& state, double halo) {
+  const Model<2> model = periodic_box(400.0, 80.0);
+  const Boundary<2> boundary(model, Clock());
+  Foresight<2> foresight(model, boundary, state.positions.size(), 2,
+                         {.particles = 1000.0, .collisions = 1.0, .halo = halo});
+  REQUIRE(foresight.tiles() == 4);
+  const EventLoop<2> loop(model, boundary, Simulation<2>(model, state).save());
+  REQUIRE(foresight.look_ahead(loop.gas(), kNever, 1'000'000));
+  return {foresight.work().own, foresight.work().redone};
+}
+
+}  // namespace
+
+TEST_CASE("Foresight: a particle from beyond the halo that reaches the core is found") {
+  const FirstWindow window = first_window(row_of({95.5, 103.0}, -40.0), 6.0);
+  CHECK(window.events == 1);
+  CHECK(window.redone > 0);
+}
+
+TEST_CASE("Foresight: a copy that a particle from beyond the halo pushes into the core is found") {
+  const FirstWindow window = first_window(row_of({95.5, 100.0, 106.3}, -40.0), 9.0);
+  CHECK(window.events == 2);
+  CHECK(window.redone > 0);
 }
