@@ -77,12 +77,12 @@ using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 
 // The functions below list the members that checkpoints keep, see engine/checkpoint/archive.h.
 
-/// Visits all members, in order.
+/// Visits the counts that the run determines, in order. The others depend on cells and tiles.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
   auto& [pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings,
          stale] = counts;
-  io(pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings, stale);
+  io(pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall);
 }
 
 /// Visits all members, in order.

@@ -49,7 +49,7 @@ class Simulation {
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or
   /// `steps` of any kind (EventCounts::steps), since its start. A stop request halts it
-  /// within a thousand steps, and before the next timer or kick. Throws PhysicalStop at inelastic
+  /// within a thousand steps or a window of tiles, and before the next timer or kick. Throws PhysicalStop at inelastic
   /// collapse or if speeds diverge; the state then is valid, at the last collision.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit,
                  const StopRequest& stop_request = {});
