@@ -106,10 +106,8 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
     for (const double phi : {0.1, 0.3, disks ? 0.5 : 0.45, 0.7}) {
       if (!has_room(count, phi, table.dimension)) continue;
       const Scene scene = elastic_gas(count, phi, table.dimension);
-      const std::vector<CoresRate> rates =
-          with_dimension(table.dimension, [&](auto dimension) {
-            return measure_gas<dimension>(scene, most);
-          });
+      const std::vector<CoresRate> rates = with_dimension(
+          table.dimension, [&](auto dimension) { return measure_gas<dimension>(scene, most); });
       plot.panels.push_back({fmt::format("N = {}, phi = {:g}", count, phi), {}});
       for (const CoresRate& rate : rates) {
         const double of_whole = rate.rate / rates.front().rate;

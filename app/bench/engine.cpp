@@ -116,7 +116,8 @@ Json print_inhomogeneous(int count) {
   std::printf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog.");
   Json json = Json::array();
   for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
-    const double homogeneous = measure_engine(elastic_gas(count, gas.scene.packing_fraction())).rate;
+    const double homogeneous =
+        measure_engine(elastic_gas(count, gas.scene.packing_fraction())).rate;
     const EngineRate r = measure_engine(gas.scene, gas.after);
     std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.fraction, r.rate,
                 r.rate / homogeneous);

@@ -360,15 +360,16 @@ int submit(const RenderOptions& options, const Scene& scene, const FilmState& fi
                     "give a film or a folder as --out, or omit --slurm");
   }
   require_apart(options, scene);
-  const std::filesystem::path script = write_film_job({.scene = scene,
-                                                       .seed = options.common.seed.value_or(1),
-                                                       .film = film,
-                                                       .out = options.out,
-                                                       .backend = options.backend,
-                                                       .threads = options.threads.value_or(kEncodingThreads),
-                                                       .tasks = options.slurm,
-                                                       .limits = options.limits,
-                                                       .overwrite = options.overwrite});
+  const std::filesystem::path script =
+      write_film_job({.scene = scene,
+                      .seed = options.common.seed.value_or(1),
+                      .film = film,
+                      .out = options.out,
+                      .backend = options.backend,
+                      .threads = options.threads.value_or(kEncodingThreads),
+                      .tasks = options.slurm,
+                      .limits = options.limits,
+                      .overwrite = options.overwrite});
   if (!options.dry_run) submit_batch(script);
   print(script.string() + '\n');
   return kOk;

@@ -32,9 +32,7 @@ struct SweepOptions {
   std::vector<std::string> ids;
   bool prepare = false;
 
-  int processes() const {
-    return threads.value_or(processors());
-  }
+  int processes() const { return threads.value_or(processors()); }
 };
 
 // First and last number of each part of words such as 17 and 20-25,30.

@@ -1,14 +1,16 @@
 #include "app/system/process_usage.h"
 
-#include <algorithm>
-#include <thread>
-
 #include <sys/resource.h>
 #include <time.h>
 
+#include <algorithm>
+#include <thread>
+
 namespace clatter {
 
-int processors() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+int processors() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 // getrusage() divides the time between program and system by ticks. A run shorter than one tick can
 // then have zero CPU time.

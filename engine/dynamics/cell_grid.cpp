@@ -18,15 +18,13 @@ template <int D>
 static IntVec<D> choose_counts(const Vec<D>& box, double diameter, double cells) {
   std::array<int, D> axes;
   std::iota(axes.begin(), axes.end(), 0);
-  std::stable_sort(axes.begin(), axes.end(),
-                   [&](int a, int b) { return box[a] < box[b]; });
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return box[a] < box[b]; });
   cells = std::max(1.0, cells);
   double volume = box.prod();
   IntVec<D> counts;
   for (int k = 0; k < D; ++k) {
     const double length = box[axes[k]];
-    const double edge =
-        std::max(std::pow(volume / cells, 1.0 / (D - k)), kMinWidth * diameter);
+    const double edge = std::max(std::pow(volume / cells, 1.0 / (D - k)), kMinWidth * diameter);
     const double count = std::max(1.0, std::floor(length / edge));
     counts[axes[k]] = static_cast<int>(count);
     cells = std::max(1.0, cells / count);
@@ -65,7 +63,9 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, double cells) {
     for (int cell = 0; cell < count; ++cell) {
       places[static_cast<std::size_t>(cell) + 1].index = static_cast<std::uint32_t>(cell * stride);
     }
-    const auto end = [&](int upper) { return subdomain.ends[static_cast<std::size_t>(2 * axis + upper)]; };
+    const auto end = [&](int upper) {
+      return subdomain.ends[static_cast<std::size_t>(2 * axis + upper)];
+    };
     if (end(0) == End::Periodic) {
       // Seen from beyond the low border, the box is one length higher; from beyond the high border,
       // one length lower.
@@ -107,7 +107,8 @@ void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uin
   for (List& list : lists_) {
     visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t near, Neighbour wrap) {
       // The wrap of this cell seen from there is the negative of that of there seen from here.
-      constexpr Neighbour kOnes = D == 2 ? 0b0101u << kParticleBits<2> : 0b010101u << kParticleBits<3>;
+      constexpr Neighbour kOnes =
+          D == 2 ? 0b0101u << kParticleBits<2> : 0b010101u << kParticleBits<3>;
       const Neighbour opposite = wrap ^ ((wrap & kOnes) << 1);
       list.wraps = list.wraps || (opposite != 0 && starts[near] < starts[near + 1]);
       for (std::uint32_t particle = starts[near]; particle < starts[near + 1]; ++particle) {

@@ -120,7 +120,8 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
   std::vector<IntVec<D>> cells(count);
   for (std::size_t k = 0; k < count; ++k) {
     Vec<D> home;
-    for (int axis = 0; axis < D; ++axis) home[axis] = lower_[axis] + double{record.strays[k].home[axis]};
+    for (int axis = 0; axis < D; ++axis)
+      home[axis] = lower_[axis] + double{record.strays[k].home[axis]};
     cells[k] = near_.cell_at(home);
   }
   near_.fill(cells, by_cell_);
@@ -247,7 +248,7 @@ bool EventLoop<D>::is_current(const Event& event) const {
 
 template <int D>
 typename EventLoop<D>::Halt EventLoop<D>::advance(double stop, std::uint64_t collisions,
-                                                    std::uint64_t steps) {
+                                                  std::uint64_t steps) {
   const auto live = [this](const Event& event) { return is_current(event); };
   const bool prefetch = gas_.particles.size() >= kPrefetchPlansFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
@@ -279,8 +280,7 @@ template <int D>
 bool EventLoop<D>::is_next(const ForeseenEvent<D>& foreseen) const {
   const auto& [event, flight, partner_flight, image] = foreseen;
   return gas_.particles[event.particle].flight.number == flight &&
-         (event.partner >= kWall ||
-          gas_.particles[event.partner].flight.number == partner_flight);
+         (event.partner >= kWall || gas_.particles[event.partner].flight.number == partner_flight);
 }
 
 template <int D>
@@ -315,8 +315,7 @@ void EventLoop<D>::process(Event event) {
     if (!own) checks_ = before;
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);
-  } else if (plans_[event.particle].partner_flight !=
-             gas_.particles[event.partner].flight.number) {
+  } else if (plans_[event.particle].partner_flight != gas_.particles[event.partner].flight.number) {
     ++counts_.stale;
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);

@@ -155,8 +155,8 @@ class EventLoop {
   std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
   std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
-  TileRecord<D>* record_ = nullptr;  // of a tile; null for the whole gas
-  Vec<D> lower_ = Vec<D>::Zero();    // corner of the tile's subdomain
+  TileRecord<D>* record_ = nullptr;     // of a tile; null for the whole gas
+  Vec<D> lower_ = Vec<D>::Zero();       // corner of the tile's subdomain
   std::vector<std::uint32_t> by_cell_;  // order of the tile's particles
   EventCounts counts_;
   RunChecks checks_;

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "engine/dynamics/collision_rules.h"
-#include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/event_loop.h"
+#include "engine/dynamics/prefetch.h"
 #include "engine/physics/random.h"
 
 // The effects of events on particles; event_loop.cpp has the loop.
@@ -16,8 +16,8 @@ void EventLoop<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
   if (near_.leaves_all(plan.cell, plan.partner)) [[unlikely]]
     return retire(number);
-  gas_.particles.move_image(number,
-                        near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
+  gas_.particles.move_image(
+      number, near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
@@ -97,7 +97,7 @@ void EventLoop<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
 // case the base moves at once.
 template <int D>
 void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
-                                 const Vec<D>& velocity) {
+                                const Vec<D>& velocity) {
   constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
   if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
   if (record_) note_stray(number, position);
@@ -119,13 +119,14 @@ void EventLoop<D>::add_spin(std::uint32_t number, const Spin<D>& gain) {
 
 template <int D>
 bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
-  return !gas_.last_collisions.empty() && now_ - gas_.last_collisions[number] < *model_.contact_time;
+  return !gas_.last_collisions.empty() &&
+         now_ - gas_.last_collisions[number] < *model_.contact_time;
 }
 
 // The record of one particle's change for observers.
 template <int D>
 ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& position,
-                                           const Vec<D>& velocity, const Impulse<D>& gain) const {
+                                          const Vec<D>& velocity, const Impulse<D>& gain) const {
   const double half_inertia = 0.5 * moment_of_inertia(model_.inertia, model_.diameter);
   const Spin<D> w = spin(number);
   ParticleChange<D> change{number, gas_.particles[number].flight, position, velocity, w, gain};
@@ -175,7 +176,8 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   add_spin(second, gain.spin);
   ++counts_.pair_collisions;
   counts_.elasticised += outcome.elasticised;
-  if (!gas_.last_collisions.empty()) gas_.last_collisions[first] = gas_.last_collisions[second] = now_;
+  if (!gas_.last_collisions.empty())
+    gas_.last_collisions[first] = gas_.last_collisions[second] = now_;
 }
 
 template <int D>
@@ -253,9 +255,9 @@ template void EventLoop<3>::note_stray(std::uint32_t, const Vec<3>&);
 template bool EventLoop<2>::within_contact_time(std::uint32_t) const;
 template bool EventLoop<3>::within_contact_time(std::uint32_t) const;
 template ParticleChange<2> EventLoop<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
-                                                    const Impulse<2>&) const;
+                                                   const Impulse<2>&) const;
 template ParticleChange<3> EventLoop<3>::change_of(std::uint32_t, const Vec<3>&, const Vec<3>&,
-                                                    const Impulse<3>&) const;
+                                                   const Impulse<3>&) const;
 template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, const IntVec<2>&);
 template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, const IntVec<3>&);
 template void EventLoop<2>::hit_wall(std::uint32_t, int);

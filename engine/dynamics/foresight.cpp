@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <limits>
 #include <thread>
 #include <utility>
@@ -34,7 +35,6 @@ template <int D>
 Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles,
                         int threads, const TileSizes& sizes)
     : model_(model),
-      boundary_(boundary),
       sizes_(sizes),
       halo_(sizes.halo * model.diameter),
       block_of_(particles),
@@ -45,12 +45,12 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std:
   ends_.fit(model, particles);
   const auto count = static_cast<double>(particles);
   const double volume = model.box.prod() / count;  // of a particle
-  const double tile = std::pow(sizes.particles * volume, 1.0 / D);
+  edge_ = std::pow(sizes.particles * volume, 1.0 / D);
   const double block = std::pow(kInBlock * volume, 1.0 / D);
   int blocks = 1;
   for (int axis = 0; axis < D; ++axis) {
     const double side = model.box[axis];
-    int tiles = std::max(1, static_cast<int>(std::lround(side / tile)));
+    int tiles = std::max(1, static_cast<int>(std::lround(side / edge_)));
     // Halos must have room to grow before they meet across a periodic border.
     const double room = 0.5 * (side - side / tiles) - 2.0 * model.diameter;
     if (model.periodic(axis) && room < kGrowth * halo_) tiles = 1;
@@ -97,14 +97,24 @@ template <int D>
 void Foresight<D>::in_parallel(std::size_t count,
                                const std::function<void(std::size_t, Bench&)>& work) {
   std::atomic<std::size_t> next{0};
-  const auto take = [&](Bench& bench) {
-    for (std::size_t k; (k = next.fetch_add(1)) < count;) work(k, bench);
+  std::vector<std::exception_ptr> errors(benches_.size());
+  const auto take = [&](std::size_t thread) {
+    try {
+      for (std::size_t k; (k = next.fetch_add(1)) < count;) work(k, *benches_[thread]);
+    } catch (...) {
+      errors[thread] = std::current_exception();
+      next = count;
+    }
   };
-  std::vector<std::jthread> threads;
-  for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k) {
-    threads.emplace_back([&, k] { take(*benches_[k]); });
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k)
+      threads.emplace_back(take, k);
+    take(0);
   }
-  take(*benches_[0]);
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
 }
 
 // A counting sort of the numbers of all particles by block, ascending in each block.
@@ -124,8 +134,8 @@ void Foresight<D>::sort_into_blocks(const ParticleStates<D>& gas) {
     counts.assign(blocks, 0);
     for (std::size_t i = part(k); i < part(k + 1); ++i) {
       const Vec<D> place = model_.wrapped(gas.particles[i].flight.at(end_, model_.gravity));
-      const auto block = static_cast<std::uint32_t>(
-          cell_of<D>(place, block_widths_, block_counts_).dot(strides));
+      const auto block =
+          static_cast<std::uint32_t>(cell_of<D>(place, block_widths_, block_counts_).dot(strides));
       block_of_[i] = block;
       ++counts[block];
     }
@@ -341,7 +351,8 @@ double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, do
     const auto count = static_cast<double>(gas.particles.size());
     span = 0.1 * model_.diameter / std::sqrt(squares / (D * count));
   }
-  return std::min(horizon, end_ + span);
+  // A gas at rest has no scale of time: no window.
+  return std::isfinite(span) ? std::min(horizon, end_ + span) : end_;
 }
 
 // Chooses the width of the next window's halos from the widths that this window has shown to be
@@ -353,13 +364,15 @@ void Foresight<D>::fit_halo() {
   const auto place = lacks.begin() + static_cast<std::ptrdiff_t>(29 * (lacks.size() - 1) / 30);
   std::nth_element(lacks.begin(), place, lacks.end());
   constexpr double kSlowly = 0.1;
-  halo_ = std::max(halo_ + (*place > 0.0 ? 1.0 : kSlowly) * *place, model_.diameter);
+  const double wanted = halo_ + (*place > 0.0 ? 1.0 : kSlowly) * *place;
+  halo_ = std::clamp(wanted, model_.diameter, std::max(edge_, model_.diameter));
 }
 
 // Runs all tiles to a time. Returns whether all have a certificate.
 template <int D>
 bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep_events) {
   constexpr int kRounds = 6;
+  constexpr double kWidest = 2.0;  // edges of a tile
   if (!(end > end_)) return false;
   const double bend = model_.gravity.norm() * (end - end_) * (end - end_) / 8.0;
   sort_into_blocks(gas);
@@ -381,8 +394,7 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
       if (tile.overrun) return false;
       farthest = std::max(farthest, tile.farthest);
     }
-    in_parallel(tiles_.size(),
-                [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
+    in_parallel(tiles_.size(), [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
     todo.clear();
     for (std::size_t k = 0; k < tiles_.size(); ++k) {
       if (tiles_[k].lack < 0.0) continue;
@@ -391,6 +403,10 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
     }
     if (round == 0) fit_halo();
     if (todo.empty()) return true;
+    // Tiles that are mostly halo do not pay.
+    const bool pays =
+        std::ranges::all_of(todo, [&](std::size_t k) { return tiles_[k].halo <= kWidest * edge_; });
+    if (!pays) return false;
   }
   return false;
 }

@@ -42,13 +42,14 @@ class Foresight {
   /// Work since the construction.
   struct Work {
     std::uint64_t windows = 0;
-    std::uint64_t tiles = 0;    ///< runs of tiles
-    std::uint64_t redone = 0;   ///< of these, runs with a larger halo
-    std::uint64_t own = 0;      ///< collisions of own particles
-    std::uint64_t all = 0;      ///< collisions of all particles, copies included
+    std::uint64_t tiles = 0;   ///< runs of tiles
+    std::uint64_t redone = 0;  ///< of these, runs with a larger halo
+    std::uint64_t own = 0;     ///< collisions of own particles
+    std::uint64_t all = 0;     ///< collisions of all particles, copies included
   };
 
-  /// Foresight for a number of particles. `model` and `boundary` must outlive it.
+  /// Foresight for a number of particles. `model` and `boundary` must outlive it. It has one tile
+  /// if the box is too small for several.
   Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles, int threads,
             const TileSizes& sizes);
   Foresight(const Foresight&) = delete;
@@ -113,7 +114,7 @@ class Foresight {
     std::uint64_t wall_collisions = 0;
     std::uint64_t all_collisions = 0;  // of copies too
     RunChecks checks;                  // of own particles
-    bool overrun = false;   // whether the run had too many events
+    bool overrun = false;              // whether the run had too many events
     double lack = 0.0;  // part of the halo's width that a certificate lacks; negative: certified
   };
   // The loop of one thread, which runs one tile after another.
@@ -138,9 +139,9 @@ class Foresight {
   void merge(double start, double end);
 
   const Model<D>& model_;
-  const Boundary<D>& boundary_;
   TileSizes sizes_;
   double halo_;
+  double edge_;  // of a tile
   IntVec<D> tile_counts_;
   IntVec<D> block_counts_;
   Vec<D> block_widths_;

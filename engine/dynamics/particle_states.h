@@ -15,11 +15,11 @@ namespace clatter {
 /// All data of particles that physical events change.
 template <int D>
 struct ParticleStates {
-  ParticleArray<D> particles;           ///< [N] stored states
-  LargeArray<Spin<D>> spins;            ///< [N] angular velocities; empty without spins
-  LargeArray<double> last_collisions;   ///< [N] times on the base; empty without a t_c
-  LargeArray<Vec<D>> remainders;        ///< [N] rounding errors of positions; empty unless the
-                                        ///< box is longer than kLongBox
+  ParticleArray<D> particles;          ///< [N] stored states
+  LargeArray<Spin<D>> spins;           ///< [N] angular velocities; empty without spins
+  LargeArray<double> last_collisions;  ///< [N] times on the base; empty without a t_c
+  LargeArray<Vec<D>> remainders;       ///< [N] rounding errors of positions; empty unless the
+                                       ///< box is longer than kLongBox
 
   /// Copies the data of a particle, but not its image.
   void copy(std::size_t to, const ParticleStates& source, std::size_t from) {
@@ -33,8 +33,7 @@ struct ParticleStates {
   void fit(const Model<D>& model, std::size_t count) {
     spins.resize(model.spins ? count : 0, Spin<D>::Zero());
     last_collisions.resize(model.contact_time ? count : 0, -kNever);
-    remainders.resize(model.box.maxCoeff() > kLongBox * model.diameter ? count : 0,
-                      Vec<D>::Zero());
+    remainders.resize(model.box.maxCoeff() > kLongBox * model.diameter ? count : 0, Vec<D>::Zero());
   }
 };
 

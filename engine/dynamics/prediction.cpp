@@ -55,9 +55,8 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
   if (time == plan.time) {
     const auto number = [this](std::uint32_t p) { return numbers_ && p < kWall ? numbers_[p] : p; };
     const bool swap = number(partner) < number(particle);
-    const bool first =
-        number(partner) < number(plan.partner) ||
-        (partner == plan.partner && image_before<D>(image, plan.image, swap));
+    const bool first = number(partner) < number(plan.partner) ||
+                       (partner == plan.partner && image_before<D>(image, plan.image, swap));
     if (!first) return;
   }
   plan.time = time;

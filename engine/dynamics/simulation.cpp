@@ -119,8 +119,7 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
       start_speed_(saved.start_speed),
       kick_origin_(saved.kick_origin),
       kicks_since_origin_(saved.kicks_since_origin),
-      loop_(model_, boundary_,
-            (restart_changed_flights<D>(model_, saved), std::move(saved))) {
+      loop_(model_, boundary_, (restart_changed_flights<D>(model_, saved), std::move(saved))) {
   if (saved.kick_interval != kick_interval<D>(model_)) {
     kick_origin_ = time();
     kicks_since_origin_ = 0;
@@ -146,6 +145,7 @@ void Simulation<D>::move_base() {
 // again anyway, so a change of the way costs nothing.
 template <int D>
 void Simulation<D>::choose_way() {
+  if (in_tiles_) failures_ = 0;
   in_tiles_ = foresight_ && --until_tried_ <= 0;
   if (in_tiles_) {
     loop_.drop_plans();
@@ -194,8 +194,8 @@ template <int D>
 bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps) {
   constexpr double kReserve = 1.2;  // a window may have more events than expected
   if (loop_.is_watched() || model_.contact_time || foresight_->has_events()) return false;
-  const std::uint64_t most = std::min({loop_.until_base_moves(), collisions - counts().collisions(),
-                                       steps - counts().steps()});
+  const std::uint64_t most = std::min(
+      {loop_.until_base_moves(), collisions - counts().collisions(), steps - counts().steps()});
   if (static_cast<double>(most) < kReserve * foresight_->typical_window()) return false;
   const double horizon = std::min(stop, next_kick());
   return foresight_->fits_before(horizon) && foresight_->advance(loop_, horizon, most);
@@ -218,9 +218,8 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
       continue;
     }
     if (next->event.time > stop) return Halt::Time;
-    foresight_->look_past(kAhead, [this](const ForeseenEvent<D>& later) {
-      loop_.prefetch_particles(later.event);
-    });
+    foresight_->look_past(
+        kAhead, [this](const ForeseenEvent<D>& later) { loop_.prefetch_particles(later.event); });
     const Halt halt = loop_.process_foreseen(*next);
     foresight_->pop();
     if (halt != Halt::Limit) return halt;
@@ -259,8 +258,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
     if (in_tiles_ && advance_window(stop, collisions, steps)) continue;
-    const Halt halt =
-        advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook));
+    const Halt halt = advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook));
     attend_to(halt);
     if (halt == Halt::Limit && (counts().collisions() >= collisions || counts().steps() >= steps)) {
       return false;

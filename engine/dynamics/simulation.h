@@ -49,8 +49,9 @@ class Simulation {
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or
   /// `steps` of any kind (EventCounts::steps), since its start. A stop request halts it
-  /// within a thousand steps or a window of tiles, and before the next timer or kick. Throws PhysicalStop at inelastic
-  /// collapse or if speeds diverge; the state then is valid, at the last collision.
+  /// within a thousand steps or a window of tiles, and before the next timer or kick. Throws
+  /// PhysicalStop at inelastic collapse or if speeds diverge; the state then is valid, at the last
+  /// collision.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit,
                  const StopRequest& stop_request = {});
 
@@ -121,8 +122,8 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double start_speed_;    // of the fastest particle at the start
-  double kick_origin_;    // simulation time from which kicks are counted
+  double start_speed_;  // of the fastest particle at the start
+  double kick_origin_;  // simulation time from which kicks are counted
   std::uint64_t kicks_since_origin_;
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;

@@ -180,9 +180,8 @@ TEST_CASE("Foresight: tiles give the bits of the whole gas, on any number of thr
     const Scene scene = parse_scene(text, "a scene");
     for (const bool observed : {false, true}) {
       CAPTURE(observed);
-      with_dimension(scene.dimension(), [&](auto dimension) {
-        compare_ways<dimension>(scene, observed);
-      });
+      with_dimension(scene.dimension(),
+                     [&](auto dimension) { compare_ways<dimension>(scene, observed); });
     }
   }
 }
@@ -231,7 +230,8 @@ TEST_CASE("Foresight: a saved run continues with the same bits on another number
 
 TEST_CASE("Foresight: a collapsing gas stops at the same collision as without tiles") {
   const Scene scene = parse_scene(R"(box.size = [60, 60]
-      particles = { area_fraction = 0.3, restitution = 0.3 })", "a scene");
+      particles = { area_fraction = 0.3, restitution = 0.3 })",
+                                  "a scene");
   const Model<2> model = model_of<2>(scene, kSeed);
   const State<2> start = start_state<2>(scene, kSeed);
   const auto end = [&](bool tiles) {
@@ -290,9 +290,9 @@ State<2> row_of(const std::vector<double>& places, double velocity) {
   return state;
 }
 
-// The first window of a gas in a box of 400 x 80, in tiles that meet at x = 96, among others. In this
-// window a particle flies 0.1 diameters at the gas's mean speed: 8.9 diameters if one particle has
-// all the energy.
+// The first window of a gas in a box of 400 x 80, in tiles that meet at x = 96, among others. In
+// this window a particle flies 0.1 diameters at the gas's mean speed: 8.9 diameters if one particle
+// has all the energy.
 struct FirstWindow {
   std::uint64_t events = 0;
   std::uint64_t redone = 0;
