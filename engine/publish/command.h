@@ -27,11 +27,23 @@ struct Step {
 };
 /// Runs to the next collision of particles and halts.
 struct StepCollision {};
+/// Goes to a simulation time from 0 to Frame::head, and halts there. Other times become the nearest
+/// of these.
+struct Jump {
+  double time = 0.0;
+};
+/// Goes back to the last collision of particles before the present state, and halts just after it.
+/// Without one it goes to time 0.
+struct StepBack {};
+/// Exchanges the future after the last change in the past with the one before that change, and
+/// halts.
+struct ExchangeFutures {};
 /// Sets the simulation time per second of real time, > 0.
 struct SetSpeed {
   double speed = 1.0;
 };
-/// Changes laws from a time on that follows within a tenth of a frame, see Schedule.
+/// Changes laws from a time on that follows within a tenth of a frame, see Schedule. In the past it
+/// begins another future, see WatchedRun::change.
 struct SetLaws {
   std::vector<Override> laws;
 };
@@ -60,8 +72,9 @@ struct Open {
 
 }  // namespace command
 
-using Command = std::variant<command::Play, command::Step, command::StepCollision,
-                             command::SetSpeed, command::SetLaws, command::Show,
-                             command::ShowProfile, command::Pick, command::Open>;
+using Command =
+    std::variant<command::Play, command::Step, command::StepCollision, command::Jump,
+                 command::StepBack, command::ExchangeFutures, command::SetSpeed, command::SetLaws,
+                 command::Show, command::ShowProfile, command::Pick, command::Open>;
 
 }  // namespace clatter

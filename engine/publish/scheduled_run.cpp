@@ -141,6 +141,32 @@ std::string ScheduledRun<D>::save_shown() const {
 }
 
 template <int D>
+void ScheduledRun<D>::set_changes(std::vector<Change> changes) {
+  Scene scene = schedule_.laws();
+  scene.changes = std::move(changes);
+  schedule_ = Schedule(scene, simulation_->time());
+}
+
+template <int D>
+void ScheduledRun<D>::return_to(const Scene& scene, double changed_until, const RunState<D>& state,
+                                const std::vector<Rotation<D>>& rotations) {
+  Schedule schedule(scene, changed_until);
+  auto next = std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), state);
+  if (on_change) on_change(*next);
+  if (shown_) {
+    shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_);
+    shown_->set_rotations(rotations);
+  }
+  simulation_ = std::move(next);
+  schedule_ = std::move(schedule);
+}
+
+template <int D>
+std::vector<Rotation<D>> ScheduledRun<D>::rotations() const {
+  return shown_ ? shown_->rotations() : std::vector<Rotation<D>>();
+}
+
+template <int D>
 Snapshot ScheduledRun<D>::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   if (shown_) shown_->publish(snapshot);

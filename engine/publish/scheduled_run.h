@@ -59,8 +59,8 @@ class ScheduledRun {
   void change_here(const std::vector<Override>& laws);
 
   /// Adds to later snapshots the averages, flights and angles that the view needs. Averages
-  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure time
-  /// of a picture, in simulation time.
+  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure
+  /// time of a picture, in simulation time.
   void show(const View& view, double exposure = 0.0);
   /// The same, continued from the result of save_shown() at this time of a run with the same scene,
   /// view and exposure. An empty `saved` starts new averages.
@@ -70,6 +70,16 @@ class ScheduledRun {
   /// Continues with a new simulation, with the same bits and only the observers that on_change
   /// hands over. This is the only way to remove observers.
   void renew();
+  /// Replaces the changes of the scene. Those up to the simulation's time have no effect. To be
+  /// called after run_until() has returned true or after settle().
+  void set_changes(std::vector<Change> changes);
+  /// Continues from another state of the run. `scene` has the laws at that state and all changes,
+  /// of which those after `changed_until` are to come. `rotations` are rotations() at that state.
+  /// Averages and flights of the view restart.
+  void return_to(const Scene& scene, double changed_until, const RunState<D>& state,
+                 const std::vector<Rotation<D>>& rotations);
+  /// [N] rotations of the particles that the view shows; empty: none.
+  std::vector<Rotation<D>> rotations() const;
   /// The gas at the simulation's time.
   Snapshot snapshot();
 

@@ -16,9 +16,11 @@ namespace clatter {
 
 namespace {
 
-// Whether two commands set the same laws, so that only the later one counts. The user may drag a
-// slider faster than a large gas can change its laws.
+// Whether two commands set the same laws or the time, so that only the later one counts. The user
+// may drag a slider or the timeline faster than a large gas can follow.
 bool supersedes(const Command& later, const Command& earlier) {
+  using command::Jump;
+  if (std::holds_alternative<Jump>(later) && std::holds_alternative<Jump>(earlier)) return true;
   const auto* a = std::get_if<command::SetLaws>(&later);
   const auto* b = std::get_if<command::SetLaws>(&earlier);
   return a && b && std::ranges::equal(a->laws, b->laws, {}, &Override::key, &Override::key);
@@ -32,10 +34,11 @@ class EngineWork {
 
  public:
   EngineWork(double frames_per_second, CommandQueue<Command>& commands, TripleBuffer<Frame>& frames,
-             std::function<void()> on_publish)
+             std::size_t record_bytes, std::function<void()> on_publish)
       : commands_(commands),
         frames_(frames),
         on_publish_(std::move(on_publish)),
+        record_bytes_(record_bytes),
         frame_seconds_(1.0 / frames_per_second),
         pace_(frames_per_second) {}
 
@@ -122,6 +125,23 @@ class EngineWork {
     halt();
     if (watched_) to_collision_ = watched_->counts().pair_collisions + 1;
   }
+  void obey(const command::Jump& asked) {
+    halt();
+    if (watched_) go_to(std::clamp(asked.time, 0.0, watched_->head()));
+  }
+  void obey(const command::StepBack&) {
+    halt();
+    if (!watched_) return;
+    const std::optional<double> collision = watched_->previous_collision();
+    go_to(collision.value_or(0.0));
+    if (!collision) return;
+    watched_->settle();
+    partners_ = watched_->partners();
+  }
+  void obey(const command::ExchangeFutures&) {
+    halt();
+    if (watched_) run_to(watched_->exchange_futures());
+  }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
     // In a tenth of a frame there is a time with few digits, for the scene file.
@@ -144,7 +164,7 @@ class EngineWork {
           [&](auto&& state) { start_from(std::forward<decltype(state)>(state), asked, scene); },
           watched_->state());
     }
-    auto opened = watched_run(scene, asked.seed);
+    auto opened = watched_run(scene, asked.seed, record_bytes_);
     halt();
     watched_ = std::move(opened);
     watched_->show_profile(profiled_.what, profiled_.axis);
@@ -154,6 +174,22 @@ class EngineWork {
     ++runs_;
     stop_.clear();
     rate_since_ = {};
+  }
+
+  // Goes to a time of the run so far.
+  void go_to(double time) {
+    watched_->go_back(time);
+    run_to(time);
+  }
+
+  // Runs up to a time at once, unless the engine is to end.
+  void run_to(double time) {
+    rate_since_ = {};
+    stop_.clear();
+    const auto steps = [this] { return watched_->counts().steps() + kLongestSlice; };
+    while (this->time() < time && !commands_.closed() &&
+           !watched_->run_until(time, kNoLimit, steps())) {
+    }
   }
 
   // Makes the current gas the start state of another scene.
@@ -267,6 +303,7 @@ class EngineWork {
   CommandQueue<Command>& commands_;
   TripleBuffer<Frame>& frames_;
   std::function<void()> on_publish_;
+  std::size_t record_bytes_;
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
@@ -288,9 +325,11 @@ class EngineWork {
 };
 
 static constexpr double kFramesOfSlices = 60.0;  // per second; a single step has this duration
+static constexpr std::size_t kRecordBytesOfSlices = kRecordBytes / 4;  // a page has less memory
 
 SlicedWorker::SlicedWorker()
-    : work_(std::make_unique<EngineWork>(kFramesOfSlices, commands_, frames_, [] {})) {}
+    : work_(std::make_unique<EngineWork>(kFramesOfSlices, commands_, frames_, kRecordBytesOfSlices,
+                                         [] {})) {}
 
 SlicedWorker::~SlicedWorker() = default;
 
@@ -316,7 +355,7 @@ Worker::~Worker() {
 }
 
 void Worker::work(double frames_per_second, const std::function<void()>& on_publish) {
-  EngineWork(frames_per_second, commands_, frames_, on_publish).run();
+  EngineWork(frames_per_second, commands_, frames_, kRecordBytes, on_publish).run();
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
