@@ -115,10 +115,12 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 24> kKeys = {{
+constexpr std::array<KeyLine, 26> kKeys = {{
     {"Space", "play or pause"},
-    {".", "next frame"},
-    {"Shift + .", "next collision, with the pair marked"},
+    {".  ,", "next frame, previous frame"},
+    {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
+    {"←  →", "one second of playing back or forth; also drag the timeline"},
+    {"Home   End", "start of the run; latest time of the run"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},
     {"G", "gallery; / searches it"},

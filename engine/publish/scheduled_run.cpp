@@ -50,10 +50,14 @@ void ScheduledRun<D>::halt_at(double time) {
   }
 }
 
+double settled_time(double time) {
+  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+  return time * (1.0 + kRoundings);
+}
+
 template <int D>
 void ScheduledRun<D>::settle() {
-  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
-  halt_at(simulation_->time() * (1.0 + kRoundings));
+  halt_at(settled_time(simulation_->time()));
 }
 
 // The multiple of a power of ten, as large as possible, in the `span` that begins at a time.

@@ -19,6 +19,9 @@ template <int D>
 std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed,
                                              const StopRequest& stop = {});
 
+/// The time a few rounding errors after a time. All events that belong to the time are before it.
+double settled_time(double time);
+
 /// A simulation with the changes of its scene, and the observers of its view. At a change a new
 /// simulation continues the run under the new laws. All observers must then be handed over, see
 /// on_change.
@@ -45,7 +48,7 @@ class ScheduledRun {
   /// also if the gas cannot continue under new laws; the old laws then remain.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit,
                  const StopRequest& stop = {});
-  /// Runs for a few rounding errors of the time. Afterwards all events up to simulation().time()
+  /// Runs to settled_time() of the present time. Afterwards all events up to simulation().time()
   /// are processed, independent of the way in which the run was halted. At a PhysicalStop it halts
   /// silently; the next run_until() throws it.
   void settle();

@@ -28,7 +28,7 @@ class RunOf : public WatchedRun {
   const EventCounts& counts() const override { return run_.simulation().counts(); }
   AnyState state() const override { return run_.simulation().state(); }
   bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override;
-  void settle() override { run_.settle(); }
+  void settle() override;
   void change(const std::vector<Override>& laws, double delay) override;
   double head() const override { return std::max(head_, time()); }
   double exchange_futures() override;
@@ -107,6 +107,7 @@ class RunOf : public WatchedRun {
   std::shared_ptr<const Scene> scene_;  // of the last frame
   RunRecord<D> record_;
   std::shared_ptr<const Scene> recorded_laws_;  // of the last recorded state; nullptr: others now
+  bool settled_ = false;                        // all events up to the present time are processed
   double head_ = 0.0;                           // latest time reached before the present one
   std::size_t record_bytes_;
   std::optional<Future> other_;  // that the last change in the past replaced
@@ -233,8 +234,14 @@ void RunOf<D>::record(bool stopped) {
 template <int D>
 void RunOf<D>::save_head() {
   if (time() < head_ || record_.before(time()).time == time()) return;
-  run_.settle();
+  settle();
   record();
+}
+
+template <int D>
+void RunOf<D>::settle() {
+  if (!settled_) run_.settle();
+  settled_ = true;
 }
 
 // A watchdog begins with each return to a state, so a replay may stop by itself shortly before the
@@ -242,7 +249,7 @@ void RunOf<D>::save_head() {
 template <int D>
 bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
   try {
-    const bool arrived = run_.run_until(time, collisions, steps);
+    const bool arrived = settled_ = run_.run_until(time, collisions, steps);
     const std::size_t particles = run_.simulation().particles().size();
     if (record_.due(work_of(counts(), particles))) save_head();
     return arrived;
@@ -269,6 +276,7 @@ void RunOf<D>::return_to(const SavedState<D>& saved, const std::vector<Change>& 
   steps_told_ = counts().steps();
   last_.forget();
   last_collision_.reset();
+  settled_ = !saved.stopped;
 }
 
 // An earlier state gives averages and trails the time to form, if it needs little more work.
@@ -315,13 +323,14 @@ void RunOf<D>::change(const std::vector<Override>& laws, double delay) {
     }
     throw;
   }
+  settled_ = true;
   record();
 }
 
 // Begins another future without the user's later changes, and returns the old one.
 template <int D>
 typename RunOf<D>::Future RunOf<D>::fork() {
-  run_.settle();
+  settle();
   Future old = end_future(time());
   std::vector<Change> changes = old.changes;
   const auto own = changes.begin() + static_cast<std::ptrdiff_t>(started_->changes.size());
@@ -358,7 +367,7 @@ std::optional<double> RunOf<D>::previous_collision() {
     last_.search_before(now * (1.0 - kRoundings));
     while (!run_until(end, kNoLimit, kNoLimit)) {
     }
-    if (last_.found()) return last_.found();
+    if (last_.found()) return settled_time(*last_.found());
     end = from;
   }
   return std::nullopt;

@@ -49,9 +49,9 @@ class WatchedRun {
   /// soon reaches this time. The bits are those of the run so far. Averages, profiles and
   /// observables restart, unless the run is just before this time.
   virtual void go_back(double time) = 0;
-  /// Time of the last collision of particles before the present state, which is a collision's own
-  /// state just after it; absent: none. Simultaneous collisions count as one. Afterwards the run is
-  /// elsewhere in the past, to be followed by go_back().
+  /// The settled_time() of the last collision of particles before the present state; absent: none.
+  /// A collision at the present time does not count. Afterwards the run is elsewhere in its past,
+  /// so that go_back() must follow.
   virtual std::optional<double> previous_collision() = 0;
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;

@@ -134,9 +134,7 @@ class EngineWork {
     if (!watched_) return;
     const std::optional<double> collision = watched_->previous_collision();
     go_to(collision.value_or(0.0));
-    if (!collision) return;
-    watched_->settle();
-    partners_ = watched_->partners();
+    if (collision) partners_ = watched_->partners();
   }
   void obey(const command::ExchangeFutures&) {
     halt();
