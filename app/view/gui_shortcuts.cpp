@@ -63,6 +63,8 @@ void Gui::use_key(const KeyPress& press) {
       break;
   }
   switch (press.letter) {
+    case 'b':
+      return session_.frame().backwards ? session_.play(true) : session_.play_backwards();
     case 'f':
       return viewport_.fit();
     case 'g':

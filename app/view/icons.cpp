@@ -26,6 +26,9 @@ static void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32
       list.AddCircleFilled(at(-0.5f, 0.0f), 0.5f * r, ink);
       list.AddCircle(at(0.5f, 0.0f), 0.5f * r, ink, 0, 0.2f * r);
       break;
+    case Icon::Back:
+      list.AddTriangleFilled(at(0.6f, -0.9f), at(0.6f, 0.9f), at(-0.9f, 0.0f), ink);
+      break;
     case Icon::Head:
       list.AddTriangleFilled(at(-0.8f, -0.8f), at(-0.8f, 0.8f), at(0.0f, 0.0f), ink);
       list.AddTriangleFilled(at(-0.1f, -0.8f), at(-0.1f, 0.8f), at(0.7f, 0.0f), ink);

@@ -115,8 +115,9 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 26> kKeys = {{
+constexpr std::array<KeyLine, 27> kKeys = {{
     {"Space", "play or pause"},
+    {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
     {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
     {"←  →", "one second of playing back or forth; also drag the timeline"},

@@ -30,6 +30,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"run", frame.run},
                          {"handled", frame.handled},
                          {"plays", frame.plays},
+                         {"backwards", frame.backwards},
                          {"held", frame.held},
                          {"changes", frame.scene->changes.size()},
                          {"head", frame.head},
@@ -174,6 +175,12 @@ void Session::play(bool on) {
   plays_ = on;
   log_.event(on ? "play" : "pause", {{"command", sent_ + 1}});
   send(command::Play{on});
+}
+
+void Session::play_backwards() {
+  plays_ = true;
+  log_.event("play_backwards", {{"command", sent_ + 1}});
+  send(command::PlayBackwards{});
 }
 
 void Session::play_until(double time) {

@@ -61,6 +61,8 @@ class Session {
   void switch_dimension();
   /// Continues or pauses the simulation.
   void play(bool on);
+  /// Plays the run backwards, to time 0 at most.
+  void play_backwards();
   /// Continues the simulation up to a simulation time, and pauses it there.
   void play_until(double time);
   /// Advances the simulation by one frame at the current speed, and pauses it.

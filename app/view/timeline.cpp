@@ -106,6 +106,11 @@ float Timeline::draw(Session& session, Controls& controls, ScriptLog& log, const
                   "Previous collision (Shift + , )")) {
     session.step_collision_back();
   }
+  const bool back = frame.backwards;
+  if (icon_button(controls, "back", back ? Icon::Pause : Icon::Back,
+                  back ? "Pause (Space)" : "Play backwards (B)")) {
+    back ? session.play(false) : session.play_backwards();
+  }
   const std::string end = fmt::format("{:.2f}", frame.head);
   const float right = ImGui::CalcTextSize(end.c_str()).x + 1.35f * ImGui::GetFrameHeight() +
                       2.0f * ImGui::GetStyle().ItemSpacing.x;
@@ -138,6 +143,7 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
   } else if (ImGui::IsItemActivated()) {
     held_ = true;
     played_ = frame.plays;
+    backwards_ = frame.backwards;
     sent_ = -1.0;
   }
   if (held_) use_mouse(session, snapped(frame, scale, mouse.x, reach));
@@ -180,7 +186,11 @@ void Timeline::use_mouse(Session& session, double time) {
   sent_ = time;
   if (ImGui::IsMouseDown(0)) return;
   held_ = false;
-  if (played_) session.play(true);
+  if (backwards_) {
+    session.play_backwards();
+  } else if (played_) {
+    session.play(true);
+  }
 }
 
 }  // namespace clatter

@@ -20,9 +20,10 @@ class Timeline {
   void track(Session& session, ScriptLog& log, float width);
   void use_mouse(Session& session, double time);
 
-  bool held_ = false;    // the mouse drags the present time
-  bool played_ = false;  // the gas played before the drag
-  double sent_ = 0.0;    // time of the last jump of the drag
+  bool held_ = false;       // the mouse drags the present time
+  bool played_ = false;     // the gas played before the drag
+  bool backwards_ = false;  // and it played backwards
+  double sent_ = 0.0;       // time of the last jump of the drag
 };
 
 }  // namespace clatter

@@ -21,6 +21,8 @@ struct Play {
   bool on = true;
   double until = std::numeric_limits<double>::infinity();  ///< simulation time
 };
+/// Plays the run backwards, and halts at time 0.
+struct PlayBackwards {};
 /// Runs for a duration and halts.
 struct Step {
   double duration = 0.0;
@@ -72,9 +74,9 @@ struct Open {
 
 }  // namespace command
 
-using Command =
-    std::variant<command::Play, command::Step, command::StepCollision, command::Jump,
-                 command::StepBack, command::ExchangeFutures, command::SetSpeed, command::SetLaws,
-                 command::Show, command::ShowProfile, command::Pick, command::Open>;
+using Command = std::variant<command::Play, command::PlayBackwards, command::Step,
+                             command::StepCollision, command::Jump, command::StepBack,
+                             command::ExchangeFutures, command::SetSpeed, command::SetLaws,
+                             command::Show, command::ShowProfile, command::Pick, command::Open>;
 
 }  // namespace clatter

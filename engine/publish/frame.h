@@ -62,6 +62,7 @@ struct Frame {
   std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
   std::uint64_t seed = 1;
   bool plays = false;
+  bool backwards = false;          ///< whether it plays backwards
   double speed = 1.0;              ///< requested simulation time per second
   double held = 1.0;               ///< share of the speed that the engine reaches, at most 1
   double events_per_second = 0.0;  ///< collisions per second of real time

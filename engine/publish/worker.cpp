@@ -10,6 +10,7 @@
 #include "engine/initial/adapt_to_scene.h"
 #include "engine/physics/temperature.h"
 #include "engine/publish/pace.h"
+#include "engine/publish/rewinder.h"
 #include "engine/publish/watched_run.h"
 
 namespace clatter {
@@ -48,6 +49,10 @@ class EngineWork {
       obey_all();
       if (!moves()) {
         commands_.wait();
+      } else if (backwards_) {
+        begin_rewind();
+        const Pace::Goal goal = pace_.next(Clock::now(), -wanted_);
+        if (rewind(-goal.time, goal.due)) commands_.wait_until(goal.due);
       } else if (plays_) {
         const Pace::Goal goal = pace_.next(Clock::now(), time());
         if (play(goal.time, goal.due)) commands_.wait_until(goal.due);
@@ -61,7 +66,11 @@ class EngineWork {
   void run_slice(Clock::duration elapsed, Clock::time_point due) {
     obey_all();
     if (!moves()) return;
-    if (plays_) {
+    if (backwards_) {
+      begin_rewind();
+      pace_.set_frame(elapsed);
+      rewind(-pace_.next(Clock::now(), -wanted_).time, due);
+    } else if (plays_) {
       pace_.set_frame(elapsed);
       play(pace_.next(Clock::now(), time()).time, due);
     } else {
@@ -76,7 +85,10 @@ class EngineWork {
     const std::vector<Command> asked = commands_.take();
     for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
       if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) {
-        attempt([&] { std::visit([this](const auto& command) { obey(command); }, asked[i]); });
+        attempt([&] {
+          end_rewind();
+          std::visit([this](const auto& command) { obey(command); }, asked[i]);
+        });
       }
       ++handled_;
     }
@@ -91,7 +103,7 @@ class EngineWork {
   }
 
   void halt() {
-    plays_ = false;
+    plays_ = backwards_ = false;
     step_to_.reset();
     to_collision_.reset();
     partners_.reset();
@@ -116,6 +128,10 @@ class EngineWork {
     plays_ = asked.on;
     until_ = asked.until;
     if (watched_ && !plays_) watched_->settle();
+  }
+  void obey(const command::PlayBackwards&) {
+    halt();
+    plays_ = backwards_ = watched_ && time() > 0.0;
   }
   void obey(const command::Step& asked) {
     halt();
@@ -190,6 +206,40 @@ class EngineWork {
     }
   }
 
+  void begin_rewind() {
+    if (rewinder_) return;
+    shown_ = wanted_ = time();
+    rewinder_.emplace(*watched_, pace_.speed() * frame_seconds_);
+  }
+
+  // Brings the run to the time of the shown frame.
+  void end_rewind() {
+    if (!rewinder_) return;
+    rewinder_.reset();
+    go_to(shown_);
+  }
+
+  // Shows the frame at a time, and then makes earlier ones, until the real time `due` or the next
+  // command. Returns whether it has time left. If the frame is late, the delay is dropped.
+  bool rewind(double time, Clock::time_point due) {
+    const auto in_time = [&] { return Clock::now() < due && !commands_.pending(); };
+    std::optional<Frame> frame;
+    const bool works = attempt([&] {
+      const bool asked = rewinder_->due(time);
+      while (asked && !(frame = rewinder_->take(time)) && in_time()) rewinder_->work();
+      wanted_ = asked && !frame ? shown_ : time;
+      if (frame) shown_ = frame->snapshot.time;
+      if (frame && shown_ > 0.0) publish_rewound(std::move(*frame));
+      while (rewinder_->busy() && in_time()) rewinder_->work();
+    });
+    if (!works || shown_ == 0.0) {
+      halt();
+      attempt([this] { end_rewind(); });
+      publish();
+    }
+    return backwards_ && in_time();
+  }
+
   // Makes the current gas the start state of another scene.
   template <int D>
   static void start_from(State<D> state, const command::Open& asked, Scene& scene) {
@@ -262,11 +312,22 @@ class EngineWork {
   }
 
   void publish() {
+    if (watched_ && !attempt([&] { watched_->tell(frames_.back(), !moves()); })) halt();
+    send_frame();
+  }
+
+  void publish_rewound(Frame frame) {
+    frames_.back() = std::move(frame);
+    send_frame();
+  }
+
+  // Sends the next frame, with the state of the engine.
+  void send_frame() {
     Frame& frame = frames_.back();
-    if (watched_ && !attempt([&] { watched_->tell(frame, !moves()); })) halt();
     frame.run = runs_;
     frame.handled = handled_;
     frame.plays = plays_;
+    frame.backwards = backwards_;
     frame.speed = pace_.speed();
     frame.held = pace_.held();
     frame.events_per_second = event_rate();
@@ -281,7 +342,7 @@ class EngineWork {
   // Collisions per second of real time over about the last half second.
   double event_rate() {
     constexpr std::chrono::milliseconds kLong{500};
-    if (!plays_ || !watched_) return rate_ = 0.0;
+    if (!plays_ || backwards_ || !watched_) return rate_ = 0.0;
     const auto now = Clock::now();
     const std::uint64_t events = watched_->counts().collisions();
     if (rate_since_ == Clock::time_point{}) {
@@ -307,6 +368,10 @@ class EngineWork {
   std::unique_ptr<WatchedRun> watched_;
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   bool plays_ = false;
+  bool backwards_ = false;            // plays_ backwards
+  std::optional<Rewinder> rewinder_;  // while it plays backwards
+  double shown_ = 0.0;                // simulation time of the last frame of the rewinder
+  double wanted_ = 0.0;               // simulation time that the pace asked for last
   double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
   std::optional<double> step_to_;
   std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt

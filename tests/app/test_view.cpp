@@ -657,6 +657,33 @@ TEST_CASE("Window: a moving gas plays on after a drag of the timeline") {
   });
 }
 
+TEST_CASE("Window: the gas plays backwards, halts to the bit, and plays forwards again") {
+  const GuiDriver driver("--set view.speed=20");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 20.0; });
+  std::size_t told = driver.told();
+  driver.key("b");
+  const json back =
+      driver.wait_for("status", told, [](const json& status) { return status["backwards"]; });
+  driver.wait_for("status", told, [&](const json& status) {
+    return status["backwards"] && status["time"] < back["head"].get<double>() - 10.0;
+  });
+  told = driver.told();
+  driver.click("back");
+  const json still = driver.wait_for("status", told, halted);
+  CHECK(still["time"] < still["head"]);
+  CHECK(hash_of_run(driver, "vibrated", still) == still["hash"]);
+  told = driver.told();
+  driver.key("b");
+  const json start = driver.wait_for(
+      "status", told, [](const json& status) { return halted(status) && status["time"] == 0.0; });
+  CHECK(start["head"] == still["head"]);
+  told = driver.told();
+  driver.key("space");
+  driver.wait_for("status", told, [](const json& status) {
+    return status["plays"] && !status["backwards"] && status["time"] > 0.0;
+  });
+}
+
 TEST_CASE("Window: steps back pass the collisions of the steps forth") {
   const GuiDriver driver("");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 1.0; });

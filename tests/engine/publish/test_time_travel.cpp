@@ -4,6 +4,7 @@
 #include <random>
 
 #include "engine/error.h"
+#include "engine/publish/rewinder.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/publish/watched_run.h"
 #include "engine/publish/worker.h"
@@ -334,4 +335,72 @@ TEST_CASE("Time travel: jumps, futures and steps in any order keep the bits of t
     REQUIRE(frame.state_hash == fresh_hash<2>(played, frame.snapshot.time));
   }
   CHECK(futures > 10);
+}
+
+TEST_CASE("Time travel: backwards, each frame is that of the run at its time") {
+  Scene scene = driven_disks();
+  scene.view.trails = 0.5;
+  const auto run = changed_run(scene);
+  const Scene played = with_changes_of(scene, *run);
+  constexpr double kInterval = 0.0625;
+  go_to(*run, 12.0);
+  Rewinder rewinder(*run, kInterval);
+  for (int number = 1; number <= 192; ++number) {
+    const double time = 12.0 - number * kInterval;
+    std::optional<Frame> frame;
+    while (!(frame = rewinder.take(time))) rewinder.work();
+    REQUIRE(frame->snapshot.time == doctest::Approx(time).epsilon(1e-14));
+    CHECK_FALSE(rewinder.due(time));
+    if (number % 16 != 0) continue;
+    ScheduledRun<2> fresh(played, kSeed);
+    fresh.run_until(time);
+    CHECK(frame->snapshot.positions == fresh.snapshot().positions);
+    CHECK(frame->snapshot.velocities == fresh.snapshot().velocities);
+    CHECK(frame->scene->particles.restitution == (time <= 10.0 ? 0.9 : 0.5));
+    CHECK(frame->head == doctest::Approx(20.0));
+  }
+  CHECK_FALSE(rewinder.busy());
+  CHECK_FALSE(rewinder.take(-1.0));
+}
+
+TEST_CASE("Time travel: frames that are late are left out") {
+  const auto run = changed_run(driven_disks());
+  Rewinder rewinder(*run, 1.0);
+  while (rewinder.busy()) rewinder.work();
+  CHECK(rewinder.take(5.2)->snapshot.time == doctest::Approx(5.0));
+  CHECK(rewinder.take(0.0)->snapshot.time == doctest::Approx(4.0));  // the earliest one made so far
+  while (rewinder.busy()) rewinder.work();
+  CHECK(rewinder.take(0.0)->snapshot.time == 0.0);
+}
+
+TEST_CASE("Time travel: a gas plays backwards, halts to the bit, and reaches the start") {
+  const Scene scene = driven_disks();
+  for (const bool changes_view : {false, true}) {
+    SlicedWorker engine;
+    obey(engine, command::Open{scene, kSeed, false});
+    engine.send(command::SetSpeed{20.0});
+    const double head = obey(engine, command::Play{true, 20.0}).snapshot.time;
+    engine.send(command::PlayBackwards{});
+    const auto rewind_below = [&](double time) {
+      while (engine.frames().front().snapshot.time >= time) {
+        engine.work(std::chrono::milliseconds(2));
+        engine.frames().update();
+      }
+    };
+    rewind_below(12.0);
+    CHECK(engine.frames().front().backwards);
+    if (changes_view) engine.send(command::Show{scene.view});
+    if (changes_view) rewind_below(10.0);
+    const Frame halted = obey(engine, command::Play{false});
+    CHECK_FALSE(halted.plays);
+    CHECK(halted.head == head);
+    CHECK(halted.state_hash == fresh_hash<2>(scene, halted.snapshot.time));
+    const Frame start = obey(engine, command::PlayBackwards{});
+    CHECK(start.snapshot.time == 0.0);
+    CHECK(start.state_hash);
+    CHECK_FALSE(start.plays);
+    CHECK_FALSE(obey(engine, command::PlayBackwards{}).plays);
+    const Frame again = obey(engine, command::Jump{head});
+    CHECK(again.state_hash == fresh_hash<2>(scene, again.snapshot.time));
+  }
 }
