@@ -115,12 +115,13 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 27> kKeys = {{
+constexpr std::array<KeyLine, 28> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
     {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
     {"←  →", "one second of playing back or forth; also drag the timeline"},
+    {"Shift + drag the timeline", "repeat this stretch; Shift and a click end that"},
     {"Home   End", "start of the run; latest time of the run"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},

@@ -39,6 +39,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
   if (frame.other_future) told["other_future"] = *frame.other_future;
+  if (frame.loop) told["loop"] = *frame.loop;
   if (frame.state_hash) told["hash"] = fmt::format("{:016x}", *frame.state_hash);
   if (frame.partners) told["partners"] = *frame.partners;
   if (frame.contact_time_error) told["elasticised"] = frame.contact_time_error->elasticised;
@@ -215,6 +216,14 @@ void Session::skip(double seconds) {
   const bool plays = plays_;
   jump(present() + seconds * speed_);
   if (plays) play(true);
+}
+
+void Session::repeat(double from, double to) {
+  log_.event("repeat", {{"from", from}, {"to", to}, {"command", sent_ + 1}});
+  send(command::Loop{from, to});
+  if (!(from < to)) return;
+  jump(from);
+  play(true);
 }
 
 void Session::step_frame_back() {

@@ -73,6 +73,9 @@ class Session {
   void jump(double time);
   /// Jumps by this many seconds of playing at the current speed, and plays on if it plays.
   void skip(double seconds);
+  /// Repeats a stretch of time: jumps to its start and plays. A stretch without length ends the
+  /// repetition.
+  void repeat(double from, double to);
   /// Goes back by one frame at the current speed, and pauses the simulation.
   void step_frame_back();
   /// Goes back to the last collision of two particles before the picture, and pauses there.

@@ -140,18 +140,25 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
                         mouse.x >= scale.place((*frame.other_future)[0]);
   if (ImGui::IsItemActivated() && on_other) {
     session.exchange_futures();
+  } else if (ImGui::IsItemActivated() && ImGui::GetIO().KeyShift) {
+    loop_from_ = snapped(frame, scale, mouse.x, reach);
   } else if (ImGui::IsItemActivated()) {
     held_ = true;
     played_ = frame.plays;
     backwards_ = frame.backwards;
     sent_ = -1.0;
   }
-  if (held_) use_mouse(session, snapped(frame, scale, mouse.x, reach));
+  const double under_mouse = snapped(frame, scale, mouse.x, reach);
+  std::optional<std::array<double, 2>> loop = frame.loop;
+  if (loop_from_) {
+    loop = {std::min(*loop_from_, under_mouse), std::max(*loop_from_, under_mouse)};
+    mark_loop(session, *loop);
+  }
+  if (held_) use_mouse(session, under_mouse);
   if (ImGui::IsItemHovered() && !held_) {
-    const std::string text =
-        on_other ? "The other future: a click returns to it"
-                 : fmt::format("t = {:.6g}", snapped(frame, scale, mouse.x, reach)) +
-                       marks_near(frame, scale, mouse.x, reach);
+    const std::string text = on_other ? "The other future: a click returns to it"
+                                      : fmt::format("t = {:.6g}", under_mouse) +
+                                            marks_near(frame, scale, mouse.x, reach);
     // Above the strip, so that it covers no mark.
     ImGui::SetNextWindowPos(ImVec2(mouse.x, low.y - unit), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
     ImGui::SetTooltip("%s", text.c_str());
@@ -168,6 +175,12 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
                      ImVec2(scale.place(frame.head), line + 0.5f * thick), known, 0.5f * thick);
   list.AddRectFilled(ImVec2(scale.left, line - 0.5f * thick), ImVec2(now, line + 0.5f * thick),
                      packed(accent_colour()), 0.5f * thick);
+  if (loop) {
+    const auto [from, to] = *loop;
+    list.AddRect(ImVec2(scale.place(from), line - 1.2f * thick),
+                 ImVec2(scale.place(to), line + 1.2f * thick), packed(accent_colour()), thick, 0,
+                 0.4f * thick);
+  }
   if (frame.other_future) {
     const auto [from, to] = *frame.other_future;
     list.AddLine(ImVec2(scale.place(from), line), ImVec2(scale.place(from), thin), known);
@@ -178,6 +191,13 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
   }
   draw_marks(list, frame, scale, line, 0.5f * unit);
   list.AddCircleFilled(ImVec2(now, line), 0.42f * unit, packed(accent_colour()));
+}
+
+// The stretch counts when the mouse is released.
+void Timeline::mark_loop(Session& session, const std::array<double, 2>& loop) {
+  if (ImGui::IsMouseDown(0)) return;
+  loop_from_.reset();
+  session.repeat(loop[0], loop[1]);
 }
 
 // A drag shows the gas at each time; the gas plays on after it if it played before.

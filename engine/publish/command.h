@@ -21,6 +21,12 @@ struct Play {
   bool on = true;
   double until = std::numeric_limits<double>::infinity();  ///< simulation time
 };
+/// Repeats a stretch of the run from now on: a gas that plays goes from its end to its start. A
+/// stretch without length repeats nothing.
+struct Loop {
+  double from = 0.0;  ///< simulation times, 0 <= from <= to
+  double to = 0.0;
+};
 /// Plays the run backwards, and halts at time 0.
 struct PlayBackwards {};
 /// Runs for a duration and halts.
@@ -74,9 +80,10 @@ struct Open {
 
 }  // namespace command
 
-using Command = std::variant<command::Play, command::PlayBackwards, command::Step,
-                             command::StepCollision, command::Jump, command::StepBack,
-                             command::ExchangeFutures, command::SetSpeed, command::SetLaws,
-                             command::Show, command::ShowProfile, command::Pick, command::Open>;
+using Command =
+    std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
+                 command::Jump, command::StepBack, command::ExchangeFutures, command::Loop,
+                 command::SetSpeed, command::SetLaws, command::Show, command::ShowProfile,
+                 command::Pick, command::Open>;
 
 }  // namespace clatter

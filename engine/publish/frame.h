@@ -43,7 +43,8 @@ struct Frame {
   double head = 0.0;          ///< latest simulation time that the run has reached
   std::vector<double> stops;  ///< times up to `head` at which the run stopped by itself
   std::uint64_t futures = 0;  ///< number of times that another future began
-  double forked_at = 0.0;     ///< simulation time at which the last one began
+  std::optional<std::array<double, 2>> loop;  ///< the repeated stretch of time; absent: none
+  double forked_at = 0.0;                     ///< simulation time at which the last one began
   /// Beginning and end of the future that can be exchanged with the present one; absent: none.
   std::optional<std::array<double, 2>> other_future;
   std::size_t record_bytes = 0;  ///< memory of the states that the run keeps

@@ -156,6 +156,10 @@ class EngineWork {
     halt();
     if (watched_) run_to(watched_->exchange_futures());
   }
+  void obey(const command::Loop& asked) {
+    loop_.reset();
+    if (asked.from < asked.to) loop_ = {asked.from, asked.to};
+  }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
     // In a tenth of a frame there is a time with few digits, for the scene file.
@@ -186,6 +190,7 @@ class EngineWork {
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
     ++runs_;
+    loop_.reset();
     stop_.clear();
     rate_since_ = {};
   }
@@ -282,8 +287,15 @@ class EngineWork {
 
   // Runs up to `goal`, but at most until about `due`. Returns whether it arrived and still plays.
   bool play(double goal, Clock::time_point due) {
-    const bool arrived = advance(std::min(goal, until_), kNoLimit, due);
-    if (arrived && time() >= until_) halt();
+    const bool repeats = loop_ && time() < (*loop_)[1];
+    const double end = repeats ? std::min(until_, (*loop_)[1]) : until_;
+    const bool arrived = advance(std::min(goal, end), kNoLimit, due);
+    if (arrived && time() >= until_) {
+      halt();
+    } else if (arrived && repeats && goal >= end) {
+      pace_.restart();
+      if (!attempt([this] { go_to((*loop_)[0]); })) halt();
+    }
     publish();
     return arrived && plays_;
   }
@@ -328,6 +340,7 @@ class EngineWork {
     frame.handled = handled_;
     frame.plays = plays_;
     frame.backwards = backwards_;
+    frame.loop = loop_;
     frame.speed = pace_.speed();
     frame.held = pace_.held();
     frame.events_per_second = event_rate();
@@ -373,6 +386,7 @@ class EngineWork {
   double shown_ = 0.0;                // simulation time of the last frame of the rewinder
   double wanted_ = 0.0;               // simulation time that the pace asked for last
   double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
+  std::optional<std::array<double, 2>> loop_;               // repeated simulation times
   std::optional<double> step_to_;
   std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt
   std::optional<std::array<std::uint32_t, 2>> partners_;

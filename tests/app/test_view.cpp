@@ -684,6 +684,40 @@ TEST_CASE("Window: the gas plays backwards, halts to the bit, and plays forwards
   });
 }
 
+TEST_CASE("Window: a drag with Shift on the timeline repeats a stretch, a click ends that") {
+  const GuiDriver driver("--set view.speed=20");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 20.0; });
+  std::size_t told = driver.told();
+  driver.key("space");
+  driver.wait_for("status", told, halted);
+  told = driver.told();
+  driver.tool("keydown shift");
+  driver.drag("timeline", 0.2, 0.5);
+  driver.tool("keyup shift");
+  const json stretch = driver.wait_for("repeat", told);
+  const auto turns = [&] {
+    double before = 0.0;
+    int count = 0;
+    for (const json& status : driver.events("status")) {
+      const double time = status["time"];
+      if (status.contains("loop") && status["plays"]) count += time < before ? 1 : 0;
+      before = time;
+    }
+    return count;
+  };
+  driver.wait_for("status", told, [&](const json&) { return turns() >= 3; });
+  const json status = driver.wait_for("status", told);
+  CHECK(status["time"] < stretch["to"]);
+  CHECK(status["head"] > stretch["to"]);
+  told = driver.told();
+  driver.tool("keydown shift");
+  driver.click("timeline");
+  driver.tool("keyup shift");
+  driver.wait_for("status", told, [&](const json& status) {
+    return !status.contains("loop") && status["time"] > stretch["to"];
+  });
+}
+
 TEST_CASE("Window: steps back pass the collisions of the steps forth") {
   const GuiDriver driver("");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 1.0; });

@@ -404,3 +404,34 @@ TEST_CASE("Time travel: a gas plays backwards, halts to the bit, and reaches the
     CHECK(again.state_hash == fresh_hash<2>(scene, again.snapshot.time));
   }
 }
+
+TEST_CASE("Time travel: a stretch repeats until it has no length") {
+  const Scene scene = driven_disks();
+  SlicedWorker engine;
+  obey(engine, command::Open{scene, kSeed, false});
+  engine.send(command::SetSpeed{100.0});
+  obey(engine, command::Play{true, 20.0});
+  engine.send(command::Loop{5.0, 8.0});
+  engine.send(command::Jump{4.0});
+  engine.send(command::Play{});
+  double latest = 0.0;
+  for (int turns = 0; turns < 3;) {
+    const double before = engine.frames().front().snapshot.time;
+    engine.work(std::chrono::milliseconds(5));
+    engine.frames().update();
+    const Frame& frame = engine.frames().front();
+    REQUIRE(frame.message == "");
+    CHECK(frame.held >= 0.0);
+    if (before < 8.0) latest = std::max(latest, frame.snapshot.time);
+    if (frame.loop && before < 9.0 && frame.snapshot.time < before) {
+      CHECK(frame.snapshot.time == doctest::Approx(5.0));
+      ++turns;
+    }
+  }
+  CHECK(latest < 8.0);
+  const Frame halted = obey(engine, command::Play{false});
+  CHECK(halted.head == doctest::Approx(20.0));
+  CHECK(halted.state_hash == fresh_hash<2>(scene, halted.snapshot.time));
+  engine.send(command::Loop{});
+  CHECK(obey(engine, command::Play{true, 12.0}).snapshot.time == 12.0);
+}
