@@ -115,13 +115,14 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 28> kKeys = {{
+constexpr std::array<KeyLine, 29> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
     {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
     {"←  →", "one second of playing back or forth; also drag the timeline"},
     {"Shift + drag the timeline", "repeat this stretch; Shift and a click end that"},
+    {"Drag a mark on the timeline", "move the change of laws to another time"},
     {"Home   End", "start of the run; latest time of the run"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},

@@ -241,6 +241,12 @@ void Session::go_to_head() {
   if (plays) play(true);
 }
 
+void Session::move_change(std::size_t number, double time) {
+  log_.event("move_change", {{"number", number}, {"to", time}, {"command", sent_ + 1}});
+  send(command::MoveChange{number, time});
+  remember({.fork = ++forks_});
+}
+
 void Session::exchange_futures() {
   send_exchange();
   remember({.fork = forks_});

@@ -82,6 +82,9 @@ class Session {
   void step_collision_back();
   /// Jumps to the latest time of the run, and plays on if it plays.
   void go_to_head();
+  /// Moves a change of laws to another time > 0 and pauses where the runs differ. `number` is its
+  /// index in the scene.
+  void move_change(std::size_t number, double time);
   /// Exchanges the future after the last change in the past with the one before it. Undo exchanges
   /// them again.
   void exchange_futures();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/view/icons.h"
 #include "app/view/plot_colours.h"
@@ -50,6 +51,28 @@ double snapped(const Frame& frame, const TimeScale& scale, float place, float re
   return std::min(time, frame.head);
 }
 
+// The change whose mark is at a place, if there is one that can move.
+std::optional<std::size_t> mark_at(const Frame& frame, const TimeScale& scale, float place,
+                                   float reach) {
+  std::optional<std::size_t> found;
+  const std::vector<Change>& changes = frame.scene->changes;
+  for (std::size_t number = 0; number < changes.size(); ++number) {
+    const float distance = std::fabs(scale.place(changes[number].time) - place);
+    if (changes[number].time <= 0.0 || changes[number].time > scale.end || distance > reach)
+      continue;
+    reach = distance;
+    found = number;
+  }
+  return found;
+}
+
+// The number with the fewest digits within a pixel of the time at a place, > 0.
+double round_time(const TimeScale& scale, float place) {
+  const double pixel = scale.end / std::max(1.0f, scale.right - scale.left);
+  const double step = std::pow(10.0, std::ceil(std::log10(pixel)));
+  return std::max(1.0, std::round(scale.time(place) / step)) * step;
+}
+
 std::string text_of(const Change& change) {
   std::string text = change.ramp ? fmt::format("t = {:.6g} to {:.6g}", change.time, change.until)
                                  : fmt::format("t = {:.6g}", change.time);
@@ -72,23 +95,29 @@ std::string marks_near(const Frame& frame, const TimeScale& scale, float place, 
   return text;
 }
 
-void draw_marks(ImDrawList& list, const Frame& frame, const TimeScale& scale, float y, float size) {
-  for (const Change& change : frame.scene->changes) {
-    if (change.time > scale.end) continue;
-    const float x = scale.place(change.time);
-    if (change.ramp) {
-      list.AddLine(ImVec2(x, y - size), ImVec2(scale.place(change.until), y - size),
-                   packed(kOrange), 0.25f * size);
-    }
-    list.AddTriangleFilled(ImVec2(x - 0.6f * size, y - 1.6f * size),
-                           ImVec2(x + 0.6f * size, y - 1.6f * size), ImVec2(x, y - 0.5f * size),
-                           packed(kOrange));
+void draw_mark(ImDrawList& list, const TimeScale& scale, const Change& change, float y,
+               float size) {
+  const float x = scale.place(change.time);
+  if (change.ramp) {
+    list.AddLine(ImVec2(x, y - size), ImVec2(scale.place(change.until), y - size), packed(kOrange),
+                 0.25f * size);
   }
-  for (const double stop : frame.stops) {
-    const float x = scale.place(stop);
-    list.AddRectFilled(ImVec2(x - 0.4f * size, y - 1.4f * size),
-                       ImVec2(x + 0.4f * size, y - 0.6f * size), packed(kRed));
-  }
+  list.AddTriangleFilled(ImVec2(x - 0.6f * size, y - 1.6f * size),
+                         ImVec2(x + 0.6f * size, y - 1.6f * size), ImVec2(x, y - 0.5f * size),
+                         packed(kOrange));
+}
+
+void draw_stop(ImDrawList& list, const TimeScale& scale, double stop, float y, float size) {
+  const float x = scale.place(stop);
+  list.AddRectFilled(ImVec2(x - 0.4f * size, y - 1.4f * size),
+                     ImVec2(x + 0.4f * size, y - 0.6f * size), packed(kRed));
+}
+
+// The change with its mark moved to another time.
+Change moved(Change change, double time) {
+  change.until += time - change.time;
+  change.time = time;
+  return change;
 }
 
 }  // namespace
@@ -129,36 +158,28 @@ float Timeline::draw(Session& session, Controls& controls, ScriptLog& log, const
 void Timeline::track(Session& session, ScriptLog& log, float width) {
   const Frame& frame = session.frame();
   const float unit = ImGui::GetFontSize(), height = ImGui::GetFrameHeight();
-  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 low = ImGui::GetCursorScreenPos(), mouse = ImGui::GetIO().MousePos;
   const TimeScale scale(frame, low.x + 0.5f * unit, low.x + width - 0.5f * unit);
   const float line = low.y + 0.6f * height, thin = low.y + 0.9f * height;
   const float reach = 0.35f * unit;
   ImGui::InvisibleButton("##track", ImVec2(width, height));
   log.widget("timeline", scale.left, low.y, scale.right - scale.left, height);
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool on_other = frame.other_future && !held_ && mouse.y > line + reach &&
+  const double time = snapped(frame, scale, mouse.x, reach);
+  const bool on_other = frame.other_future && mouse.y > line + reach &&
                         mouse.x >= scale.place((*frame.other_future)[0]);
   if (ImGui::IsItemActivated() && on_other) {
     session.exchange_futures();
-  } else if (ImGui::IsItemActivated() && ImGui::GetIO().KeyShift) {
-    loop_from_ = snapped(frame, scale, mouse.x, reach);
   } else if (ImGui::IsItemActivated()) {
-    held_ = true;
-    played_ = frame.plays;
-    backwards_ = frame.backwards;
-    sent_ = -1.0;
+    press_ = Press{.place = mouse.x, .time = time};
+    if (mouse.y < line - reach) press_->mark = mark_at(frame, scale, mouse.x, 0.5f * unit);
+    press_->repeats = ImGui::GetIO().KeyShift && !press_->mark;
+    press_->played = frame.plays;
+    press_->backwards = frame.backwards;
   }
-  const double under_mouse = snapped(frame, scale, mouse.x, reach);
-  std::optional<std::array<double, 2>> loop = frame.loop;
-  if (loop_from_) {
-    loop = {std::min(*loop_from_, under_mouse), std::max(*loop_from_, under_mouse)};
-    mark_loop(session, *loop);
-  }
-  if (held_) use_mouse(session, under_mouse);
-  if (ImGui::IsItemHovered() && !held_) {
-    const std::string text = on_other ? "The other future: a click returns to it"
-                                      : fmt::format("t = {:.6g}", under_mouse) +
-                                            marks_near(frame, scale, mouse.x, reach);
+  if (ImGui::IsItemHovered() && !press_) {
+    const std::string text =
+        on_other ? "The other future: a click returns to it"
+                 : fmt::format("t = {:.6g}", time) + marks_near(frame, scale, mouse.x, reach);
     // Above the strip, so that it covers no mark.
     ImGui::SetNextWindowPos(ImVec2(mouse.x, low.y - unit), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
     ImGui::SetTooltip("%s", text.c_str());
@@ -166,50 +187,65 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float thick = 0.28f * unit;
-  const ImU32 empty = ImGui::GetColorU32(ImGuiCol_FrameBgHovered);
   const ImU32 known = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   const float now = scale.place(frame.snapshot.time);
-  list.AddRectFilled(ImVec2(scale.left, line - 0.5f * thick),
-                     ImVec2(scale.right, line + 0.5f * thick), empty, 0.5f * thick);
-  list.AddRectFilled(ImVec2(scale.left, line - 0.5f * thick),
-                     ImVec2(scale.place(frame.head), line + 0.5f * thick), known, 0.5f * thick);
-  list.AddRectFilled(ImVec2(scale.left, line - 0.5f * thick), ImVec2(now, line + 0.5f * thick),
-                     packed(accent_colour()), 0.5f * thick);
-  if (loop) {
-    const auto [from, to] = *loop;
-    list.AddRect(ImVec2(scale.place(from), line - 1.2f * thick),
-                 ImVec2(scale.place(to), line + 1.2f * thick), packed(accent_colour()), thick, 0,
-                 0.4f * thick);
+  const auto bar = [&](float right, ImU32 ink) {
+    list.AddRectFilled(ImVec2(scale.left, line - 0.5f * thick), ImVec2(right, line + 0.5f * thick),
+                       ink, 0.5f * thick);
+  };
+  bar(scale.right, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
+  bar(scale.place(frame.head), known);
+  bar(now, packed(accent_colour()));
+  if (const auto loop =
+          press_ && press_->repeats ? std::optional(press_->stretch(time)) : frame.loop) {
+    list.AddRect(ImVec2(scale.place((*loop)[0]), line - 1.2f * thick),
+                 ImVec2(scale.place((*loop)[1]), line + 1.2f * thick), packed(accent_colour()),
+                 thick, 0, 0.4f * thick);
   }
   if (frame.other_future) {
-    const auto [from, to] = *frame.other_future;
-    list.AddLine(ImVec2(scale.place(from), line), ImVec2(scale.place(from), thin), known);
-    list.AddLine(ImVec2(scale.place(from), thin), ImVec2(scale.place(to), thin),
-                 on_other ? packed(accent_colour()) : known, 0.5f * thick);
-    log.widget("timeline.other_future", scale.place(from), thin - thick,
-               scale.place(to) - scale.place(from), 2.0f * thick);
+    const float from = scale.place((*frame.other_future)[0]),
+                to = scale.place((*frame.other_future)[1]);
+    list.AddLine(ImVec2(from, line), ImVec2(from, thin), known);
+    list.AddLine(ImVec2(from, thin), ImVec2(to, thin), on_other ? packed(accent_colour()) : known,
+                 0.5f * thick);
+    log.widget("timeline.other_future", from, thin - thick, to - from, 2.0f * thick);
   }
-  draw_marks(list, frame, scale, line, 0.5f * unit);
+  const float size = 0.5f * unit;
+  const std::vector<Change>& changes = frame.scene->changes;
+  for (std::size_t number = 0; number < changes.size(); ++number) {
+    const Change& change = changes[number];
+    if (change.time > scale.end) continue;
+    const bool drags = press_ && press_->mark == number && press_->moved(mouse.x);
+    draw_mark(list, scale, drags ? moved(change, round_time(scale, mouse.x)) : change, line, size);
+    log.widget(fmt::format("timeline.change.{}", number), scale.place(change.time) - size,
+               line - 1.6f * size, 2.0f * size, size);
+  }
+  for (const double stop : frame.stops) draw_stop(list, scale, stop, line, size);
   list.AddCircleFilled(ImVec2(now, line), 0.42f * unit, packed(accent_colour()));
+  if (press_) drag(session, time, round_time(scale, mouse.x), mouse.x);
 }
 
-// The stretch counts when the mouse is released.
-void Timeline::mark_loop(Session& session, const std::array<double, 2>& loop) {
-  if (ImGui::IsMouseDown(0)) return;
-  loop_from_.reset();
-  session.repeat(loop[0], loop[1]);
-}
-
-// A drag shows the gas at each time; the gas plays on after it if it played before.
-void Timeline::use_mouse(Session& session, double time) {
-  if (time != sent_) session.jump(time);
-  sent_ = time;
-  if (ImGui::IsMouseDown(0)) return;
-  held_ = false;
-  if (backwards_) {
-    session.play_backwards();
-  } else if (played_) {
-    session.play(true);
+// A drag shows the gas at each time. A stretch and a mark count when the mouse is released.
+void Timeline::drag(Session& session, double time, double mark_time, float place) {
+  const bool down = ImGui::IsMouseDown(0), moves_mark = press_->mark && press_->moved(place);
+  if (!press_->mark && !press_->repeats && press_->jumped_to != time) {
+    press_->jumped_to = time;
+    session.jump(time);
+  }
+  if (down) return;
+  const Press press = *std::exchange(press_, std::nullopt);
+  if (press.repeats) {
+    const auto [from, to] = press.stretch(time);
+    session.repeat(from, to);
+  } else if (moves_mark) {
+    session.move_change(*press.mark, mark_time);
+  } else {
+    if (press.mark) session.jump(press.time);
+    if (press.backwards) {
+      session.play_backwards();
+    } else if (press.played) {
+      session.play(true);
+    }
   }
 }
 

@@ -43,6 +43,11 @@ struct Jump {
 /// Goes back to the last collision of particles before the present state, and halts just after it.
 /// Without one it goes to time 0.
 struct StepBack {};
+/// Moves a change of laws to another time, see WatchedRun::move_change(), and halts.
+struct MoveChange {
+  std::size_t number = 0;  ///< index into Scene::changes
+  double time = 0.0;       ///< simulation time > 0; a ramp keeps its duration
+};
 /// Exchanges the future after the last change in the past with the one before that change, and
 /// halts.
 struct ExchangeFutures {};
@@ -82,8 +87,8 @@ struct Open {
 
 using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
-                 command::Jump, command::StepBack, command::ExchangeFutures, command::Loop,
-                 command::SetSpeed, command::SetLaws, command::Show, command::ShowProfile,
-                 command::Pick, command::Open>;
+                 command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
+                 command::Loop, command::SetSpeed, command::SetLaws, command::Show,
+                 command::ShowProfile, command::Pick, command::Open>;
 
 }  // namespace clatter

@@ -31,6 +31,7 @@ class RunOf : public WatchedRun {
   void settle() override;
   void change(const std::vector<Override>& laws, double delay) override;
   double head() const override { return std::max(head_, time()); }
+  double move_change(std::size_t number, double time) override;
   double exchange_futures() override;
   std::optional<double> previous_collision() override;
   void go_back(double time) override;
@@ -339,6 +340,22 @@ typename RunOf<D>::Future RunOf<D>::fork() {
   run_.set_changes(std::move(changes));
   record();
   return old;
+}
+
+template <int D>
+double RunOf<D>::move_change(std::size_t number, double time) {
+  std::vector<Change> changes = run_.scene().changes;
+  if (number >= changes.size() || !(std::min(changes[number].time, time) > 0.0)) {
+    throw UserError({}, "there is no such change after time 0", "move another change");
+  }
+  save_head();
+  const double from = std::min({changes[number].time, time, head_});
+  changes[number].until += time - changes[number].time;
+  changes[number].time = time;
+  other_ = end_future(from);
+  return_to(record_.before(from), changes);
+  head_ = from;
+  return from;
 }
 
 template <int D>

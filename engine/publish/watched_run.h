@@ -43,6 +43,11 @@ class WatchedRun {
   /// present time, or that of the change if it is earlier. Throws UserError if there is no other
   /// future.
   virtual double exchange_futures() = 0;
+  /// Moves a change of laws to another simulation time > 0. Another future begins at the earlier of
+  /// its two times, and the old one is kept, as by change(). Goes to a state from which run_until()
+  /// soon reaches the returned time, at which this future begins. Throws UserError if there is no
+  /// such change after time 0.
+  virtual double move_change(std::size_t number, double time) = 0;
   /// Latest simulation time that the run has reached.
   virtual double head() const = 0;
   /// Goes to a state at or before a simulation time between 0 and head(), from which run_until()

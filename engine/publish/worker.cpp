@@ -152,6 +152,10 @@ class EngineWork {
     go_to(collision.value_or(0.0));
     if (collision) partners_ = watched_->partners();
   }
+  void obey(const command::MoveChange& asked) {
+    halt();
+    if (watched_) run_to(watched_->move_change(asked.number, asked.time));
+  }
   void obey(const command::ExchangeFutures&) {
     halt();
     if (watched_) run_to(watched_->exchange_futures());

@@ -718,6 +718,38 @@ TEST_CASE("Window: a drag with Shift on the timeline repeats a stretch, a click 
   });
 }
 
+TEST_CASE("Window: the mark of a change is dragged to another time, undo takes it back") {
+  const GuiDriver driver("--set view.speed=20");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 10.0; });
+  driver.drag("particles.restitution", 0.88, 0.5);
+  driver.wait_for("status", driver.told(),
+                  [](const json& status) { return status["time"] > 40.0; });
+  std::size_t told = driver.told();
+  driver.key("space");
+  const json head = driver.wait_for("status", told, halted);
+  told = driver.told();
+  driver.pull("timeline.change.0", -60, 0);
+  const json move = driver.wait_for("move_change", told);
+  CHECK(move["number"] == 0);
+  const json now = driver.wait_for("status", told, halted);
+  CHECK(now["time"].get<double>() == doctest::Approx(move["to"].get<double>()));
+  CHECK(now["head"] == now["time"]);
+  CHECK(now["changes"] == head["changes"]);
+  told = driver.told();
+  driver.key("period");
+  driver.wait_for("status", told, halted);
+  check_saved_scene(driver);
+  told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("status", told,
+                  [&](const json& status) { return status["head"] == head["time"]; });
+  told = driver.told();
+  driver.key("End");
+  CHECK(driver.wait_for("status", told, [&](const json& status) {
+    return halted(status) && status["time"] == head["time"];
+  })["hash"] == head["hash"]);
+}
+
 TEST_CASE("Window: steps back pass the collisions of the steps forth") {
   const GuiDriver driver("");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 1.0; });

@@ -220,6 +220,48 @@ TEST_CASE("Time travel: a change at time 0 replaces the whole future") {
   CHECK(hash_of(*run) == fresh_hash<2>(old, 12.0));
 }
 
+TEST_CASE("Time travel: a change that is moved takes effect at its new time") {
+  const Scene scene = driven_disks();
+  for (const double to : {5.0, 14.0, 20.5}) {
+    const auto run = changed_run(scene);
+    const Scene old = with_changes_of(scene, *run);
+    REQUIRE(old.changes[2].time == doctest::Approx(10.0));
+    const double begin = run->move_change(2, to);
+    run_to(*run, begin);
+    CHECK(begin == doctest::Approx(std::min(10.0, to)));
+    CHECK(run->head() == doctest::Approx(begin));
+    const Scene now = with_changes_of(scene, *run);
+    CHECK(now.changes[2].time == to);
+    run_to(*run, 21.0);
+    CHECK(frame_of(*run).scene->particles.restitution == doctest::Approx(0.5));
+    CHECK(hash_of(*run) == fresh_hash<2>(now, 21.0));
+    go_to(*run, 12.0);
+    CHECK(hash_of(*run) == fresh_hash<2>(now, 12.0));
+    run_to(*run, run->exchange_futures());
+    run_to(*run, 20.0);
+    CHECK(hash_of(*run) == fresh_hash<2>(old, 20.0));
+  }
+}
+
+TEST_CASE("Time travel: a ramp that is moved keeps its duration") {
+  const Scene scene = driven_disks();
+  const auto run = watched_run(scene, kSeed);
+  run_to(*run, 160.0);  // amid the ramp
+  run_to(*run, run->move_change(1, 120.0));
+  const Scene now = with_changes_of(scene, *run);
+  CHECK(now.changes[1].time == 120.0);
+  CHECK(now.changes[1].until == 240.0);
+  run_to(*run, 180.0);
+  CHECK(hash_of(*run) == fresh_hash<2>(now, 180.0));
+}
+
+TEST_CASE("Time travel: changes that do not exist, and times before the start, are refused") {
+  const auto run = changed_run(driven_disks());
+  CHECK_THROWS_AS(run->move_change(3, 5.0), UserError);
+  CHECK_THROWS_AS(run->move_change(2, 0.0), UserError);
+  CHECK(run->head() == doctest::Approx(20.0));
+}
+
 TEST_CASE("Time travel: a refused change in the past keeps the future") {
   const Scene scene = driven_disks();
   const auto run = changed_run(scene);
