@@ -80,17 +80,16 @@ std::string text_of(const Change& change) {
   return text;
 }
 
-// The marks under the mouse in words.
+// The marks under the mouse in words; empty: none.
 std::string marks_near(const Frame& frame, const TimeScale& scale, float place, float reach) {
   std::string text;
-  const auto near = [&](double time) {
-    return time <= frame.head && std::fabs(scale.place(time) - place) < reach;
+  const auto add = [&](double time, const std::string& mark) {
+    if (time > frame.head || std::fabs(scale.place(time) - place) >= reach) return;
+    text += (text.empty() ? "" : "\n\n") + mark;
   };
-  for (const Change& change : frame.scene->changes) {
-    if (near(change.time)) text += "\n\n" + text_of(change);
-  }
+  for (const Change& change : frame.scene->changes) add(change.time, text_of(change));
   for (const double stop : frame.stops) {
-    if (near(stop)) text += fmt::format("\n\nt = {:.6g}\nThe run stopped by itself", stop);
+    add(stop, fmt::format("t = {:.6g}\nThe run stopped by itself", stop));
   }
   return text;
 }
@@ -177,9 +176,9 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
     press_->backwards = frame.backwards;
   }
   if (ImGui::IsItemHovered() && !press_) {
-    const std::string text =
-        on_other ? "The other future: a click returns to it"
-                 : fmt::format("t = {:.6g}", time) + marks_near(frame, scale, mouse.x, reach);
+    std::string text = marks_near(frame, scale, mouse.x, reach);
+    if (text.empty()) text = fmt::format("t = {:.6g}", time);
+    if (on_other) text = "The other future: a click returns to it";
     // Above the strip, so that it covers no mark.
     ImGui::SetNextWindowPos(ImVec2(mouse.x, low.y - unit), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
     ImGui::SetTooltip("%s", text.c_str());
