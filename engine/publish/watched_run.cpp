@@ -70,6 +70,7 @@ class RunOf : public WatchedRun {
   void observe(Simulation<D>& simulation);
   void observe_requested(Simulation<D>& simulation, double window);
   void close_window();
+
   // The part of a run after a change in the past.
   struct Future {
     double from = 0.0;  // time of the change
@@ -249,6 +250,7 @@ void RunOf<D>::settle() {
 // run did. The run then continues from the next recorded state.
 template <int D>
 bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
+  settled_ = false;
   try {
     const bool arrived = settled_ = run_.run_until(time, collisions, steps);
     const std::size_t particles = run_.simulation().particles().size();
@@ -345,11 +347,12 @@ typename RunOf<D>::Future RunOf<D>::fork() {
 template <int D>
 double RunOf<D>::move_change(std::size_t number, double time) {
   std::vector<Change> changes = run_.scene().changes;
-  if (number >= changes.size() || !(std::min(changes[number].time, time) > 0.0)) {
+  const double from =
+      number < changes.size() ? std::min({changes[number].time, time, head()}) : 0.0;
+  if (!(from > 0.0)) {
     throw UserError({}, "there is no such change after time 0", "move another change");
   }
   save_head();
-  const double from = std::min({changes[number].time, time, head_});
   changes[number].until += time - changes[number].time;
   changes[number].time = time;
   other_ = end_future(from);

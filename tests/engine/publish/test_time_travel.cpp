@@ -259,6 +259,8 @@ TEST_CASE("Time travel: changes that do not exist, and times before the start, a
   const auto run = changed_run(driven_disks());
   CHECK_THROWS_AS(run->move_change(3, 5.0), UserError);
   CHECK_THROWS_AS(run->move_change(2, 0.0), UserError);
+  const auto unstarted = watched_run(driven_disks(), kSeed);
+  CHECK_THROWS_AS(unstarted->move_change(0, 5.0), UserError);
   CHECK(run->head() == doctest::Approx(20.0));
 }
 
