@@ -10,6 +10,7 @@
 #include "app/view/icons.h"
 #include "app/view/plot_colours.h"
 #include "app/view/style.h"
+#include "render/layers/fonts.h"
 
 namespace clatter {
 
