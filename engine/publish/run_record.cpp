@@ -20,7 +20,7 @@ bool RunRecord<D>::due(std::uint64_t work) const {
 template <int D>
 void RunRecord<D>::add(SavedState<D> state) {
   // A return to a state predicts the plans of all particles: the work of some events of each.
-  constexpr std::uint64_t kFewEvents = 20'000, kEventsPerParticle = 10;
+  constexpr std::uint64_t kFewEvents = 20'000, kEventsPerParticle = 5;
   if (spacing_ == 0) spacing_ = kFewEvents + kEventsPerParticle * state.run.flights.size();
   if (!states_.empty() && states_.back().time == state.time) {
     state.stopped |= states_.back().stopped;
