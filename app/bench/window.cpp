@@ -55,15 +55,6 @@ double thread_cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// The vibrated box over a heatmap of its temperature. Its area grows with the number of disks.
-Scene bench_scene(int count) {
-  Scene scene = load_scene("vibrated");
-  scene.box *= std::sqrt(static_cast<double>(count) / scene.particles.count);
-  scene.particles.count = count;
-  scene.view.field = Quantity::Temperature;
-  return scene;
-}
-
 // The times of pictures with a new frame of the engine, in seconds, sorted.
 std::vector<double> picture_times(const Scene& scene, Size size) {
   constexpr int kWarmUp = 30, kPictures = 300;
@@ -100,10 +91,18 @@ std::vector<double> picture_times(const Scene& scene, Size size) {
 
 }  // namespace
 
+Scene window_scene(int count) {
+  Scene scene = load_scene("vibrated");
+  scene.box *= std::sqrt(static_cast<double>(count) / scene.particles.count);
+  scene.particles.count = count;
+  scene.view.field = Quantity::Temperature;
+  return scene;
+}
+
 int bench_window(const std::string& json, int count) {
   if (count == 0) count = 10'000;
   const Size size{1280, 720};
-  const std::vector<double> times = picture_times(bench_scene(count), size);
+  const std::vector<double> times = picture_times(window_scene(count), size);
   const double median = 1e3 * times[times.size() / 2];
   const double most = 1e3 * times[times.size() * 99 / 100];
   std::fprintf(stderr, "window of %dx%d, temperature field, OpenGL without effect; CPU time\n",

@@ -2,7 +2,13 @@
 
 #include <string>
 
+#include "engine/scene/scene.h"
+
 namespace clatter {
+
+/// The scene of the tables about the window: the vibrated box over a heatmap of its temperature.
+/// Its area grows with the number of disks.
+Scene window_scene(int count);
 
 /// Prints the CPU time of the window's thread per picture, with many disks over a heatmap and an
 /// OpenGL without any effect. `count` is the number of disks; 0: 10,000. Writes the table also to

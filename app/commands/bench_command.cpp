@@ -6,6 +6,7 @@
 #include "app/bench/features.h"
 #include "app/bench/fields.h"
 #include "app/bench/render.h"
+#include "app/bench/timeline.h"
 #include "app/bench/window.h"
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
@@ -159,6 +160,16 @@ void add_cores_table(CLI::App& bench, int& exit_code) {
   });
 }
 
+void add_timeline_table(CLI::App& bench, int& exit_code) {
+  auto options = std::make_shared<TableOptions>();
+  CLI::App* table = bench.add_subcommand(
+      "timeline", "Time of a jump to the past of a run, and memory of the record.");
+  add_json_flag(*table, options->json);
+  add_count_flag(*table, options->count, "Number of disks. Default: 1000 and 20000.");
+  table->callback(
+      [options, &exit_code] { exit_code = bench_timeline(options->json, options->count); });
+}
+
 void add_accuracy_table(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<AccuracyBench>();
   CLI::App* table = bench.add_subcommand("accuracy", "Cost and error of each setting.");
@@ -194,6 +205,7 @@ void add_bench_command(CLI::App& program, int& exit_code) {
   add_fields_table(*command, exit_code);
   add_render_table(*command, exit_code);
   add_window_table(*command, exit_code);
+  add_timeline_table(*command, exit_code);
   add_accuracy_table(*command, exit_code);
   add_cores_table(*command, exit_code);
 }

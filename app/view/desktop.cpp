@@ -19,8 +19,7 @@ Desktop::Desktop(GLFWwindow* window, WindowInput& input) : window_(window) {
   glfwSetWindowUserPointer(window, &input);
   glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int held) {
     if (action == GLFW_RELEASE) return;
-    // Only the step keys repeat while held down.
-    if (action == GLFW_REPEAT && key != GLFW_KEY_PERIOD) return;
+    if (action == GLFW_REPEAT && !repeats(key)) return;
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))
         ->press(
             {key, letter_of(key), (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0});

@@ -113,6 +113,9 @@ void Gui::panels() {
   if (panels_.lesson && !panels_.gallery) {
     area_.high.y -= lesson_strip(session_.scene(), area_, controls_, panels_.lesson);
   }
+  if (panels_.panels && session_.frame().scene) {
+    area_.high.y -= timeline_.draw(session_, controls_, log_, area_);
+  }
 }
 
 // The panel along the upper edge. Returns its height.

@@ -12,6 +12,7 @@
 #include "app/view/panel_visibility.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
+#include "app/view/timeline.h"
 #include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
 #include "app/view/window_input.h"
@@ -76,6 +77,7 @@ class Gui {
   WallGrip wall_grip_;
   Gallery gallery_;
   History history_;
+  Timeline timeline_;
   int profiled_ = 0;  // index into profile_names()
   int profile_axis_ = 0;
   std::string observable_;  // table_title() of the plotted table; unknown: the first

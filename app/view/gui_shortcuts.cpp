@@ -49,10 +49,22 @@ void Gui::use_key(const KeyPress& press) {
       return session_.play(!session_.frame().plays);
     case GLFW_KEY_PERIOD:
       return press.shift ? session_.step_collision() : session_.step_frame();
+    case GLFW_KEY_COMMA:
+      return press.shift ? session_.step_collision_back() : session_.step_frame_back();
+    case GLFW_KEY_LEFT:
+      return session_.skip(-1.0);
+    case GLFW_KEY_RIGHT:
+      return session_.skip(1.0);
+    case GLFW_KEY_HOME:
+      return session_.jump(0.0);
+    case GLFW_KEY_END:
+      return session_.go_to_head();
     default:
       break;
   }
   switch (press.letter) {
+    case 'b':
+      return session_.frame().backwards ? session_.play(true) : session_.play_backwards();
     case 'f':
       return viewport_.fit();
     case 'g':

@@ -36,16 +36,18 @@ std::vector<Vec2> VelocityHistogram::density(int axis) const {
 }
 
 void History::add(const Frame& frame) {
-  if (frame.run != run_ || frame.tally.time < last_.time) {
+  if (frame.run != run_) {
     run_ = frame.run;
+    futures_ = frame.futures;
     last_ = {};
     last_.temperature_integral.setZero(frame.tally.temperature_integral.size());
     spacing_ = 0.0;
     samples_.clear();
     velocities_.clear();
   }
+  if (frame.futures != futures_) fork(frame);
   const double span = frame.tally.time - last_.time;
-  if (!(span > 0.0)) return;
+  if (frame.snapshot.time < frame.head || !(span > 0.0)) return;
   velocities_.add(frame.snapshot);
   if (span < spacing_) return;
   Sample sample;
@@ -63,6 +65,12 @@ void History::add(const Frame& frame) {
   spacing_ = std::max(spacing_, frame.speed / 10.0);
   constexpr std::size_t kMax = 1200;
   if (samples_.size() > kMax) thin_out();
+}
+
+void History::fork(const Frame& frame) {
+  futures_ = frame.futures;
+  last_ = frame.tally;
+  std::erase_if(samples_, [&](const Sample& sample) { return sample.time > frame.forked_at; });
 }
 
 // Merges pairs of samples, and doubles the spacing of later ones.

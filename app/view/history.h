@@ -38,10 +38,11 @@ class VelocityHistogram {
 };
 
 /// Time series for the plots. The number of samples is bounded: their spacing grows with the length
-/// of the run.
+/// of the run. A look into the past adds no samples.
 class History {
  public:
-  /// Adds a frame. A frame of another run clears the history.
+  /// Adds a frame at the head of the run. A frame of another run clears the history, and one of
+  /// another future removes the samples since its beginning.
   void add(const Frame& frame);
 
   /// The samples in order of time.
@@ -51,8 +52,10 @@ class History {
 
  private:
   void thin_out();
+  void fork(const Frame& frame);
 
   std::uint64_t run_ = 0;
+  std::uint64_t futures_ = 0;  // Frame::futures of the last frame
   Tally last_;
   double spacing_ = 0.0;  // smallest time between samples
   std::vector<Sample> samples_;

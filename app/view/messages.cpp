@@ -115,10 +115,14 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 24> kKeys = {{
+constexpr std::array<KeyLine, 28> kKeys = {{
     {"Space", "play or pause"},
-    {".", "next frame"},
-    {"Shift + .", "next collision, with the pair marked"},
+    {"B", "play backwards, or forwards again"},
+    {".  ,", "next frame, previous frame"},
+    {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
+    {"←  →   Home   End", "back, forth by a second of playing; start, latest time"},
+    {"Shift + drag", "on the timeline: repeat this stretch; a click ends that"},
+    {"Drag a mark", "on the timeline: move a change of laws to another time"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},
     {"G", "gallery; / searches it"},

@@ -30,12 +30,16 @@ static nlohmann::json status(const Frame& frame) {
                          {"run", frame.run},
                          {"handled", frame.handled},
                          {"plays", frame.plays},
+                         {"backwards", frame.backwards},
                          {"held", frame.held},
                          {"changes", frame.scene->changes.size()},
+                         {"head", frame.head},
                          {"box", std::vector(frame.snapshot.box.begin(), frame.snapshot.box.end())},
                          {"particles", frame.snapshot.count()},
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
+  if (frame.other_future) told["other_future"] = *frame.other_future;
+  if (frame.loop) told["loop"] = *frame.loop;
   if (frame.state_hash) told["hash"] = fmt::format("{:016x}", *frame.state_hash);
   if (frame.partners) told["partners"] = *frame.partners;
   if (frame.contact_time_error) told["elasticised"] = frame.contact_time_error->elasticised;
@@ -69,6 +73,7 @@ bool Session::update() {
 // Takes the state of the engine, which drops refused settings.
 void Session::answered(const Frame& now) {
   plays_ = now.plays;
+  jumped_to_.reset();
   speed_ = now.speed;
   seed_ = now.seed;
   if (before_ && before_->run == now.run) {
@@ -173,6 +178,12 @@ void Session::play(bool on) {
   send(command::Play{on});
 }
 
+void Session::play_backwards() {
+  plays_ = true;
+  log_.event("play_backwards", {{"command", sent_ + 1}});
+  send(command::PlayBackwards{});
+}
+
 void Session::play_until(double time) {
   plays_ = true;
   log_.event("play", {{"until", time}, {"command", sent_ + 1}});
@@ -187,6 +198,63 @@ void Session::step_frame() {
 void Session::step_collision() {
   log_.event("step_collision", {{"command", sent_ + 1}});
   send(command::StepCollision{});
+}
+
+void Session::jump(double time) {
+  log_.event("jump", {{"to", time}, {"command", sent_ + 1}});
+  plays_ = false;
+  jumped_to_ = std::clamp(time, 0.0, frame().head);
+  send(command::Jump{*jumped_to_});
+}
+
+// The simulation time on screen, or the one that will be there.
+double Session::present() const {
+  return jumped_to_.value_or(frame().snapshot.time);
+}
+
+void Session::skip(double seconds) {
+  const bool plays = plays_;
+  jump(present() + seconds * speed_);
+  if (plays) play(true);
+}
+
+void Session::repeat(double from, double to) {
+  log_.event("repeat", {{"from", from}, {"to", to}, {"command", sent_ + 1}});
+  send(command::Loop{from, to});
+  if (!(from < to)) return;
+  jump(from);
+  play(true);
+}
+
+void Session::step_frame_back() {
+  jump(present() - speed_ / kFramesPerSecond);
+}
+
+void Session::step_collision_back() {
+  log_.event("step_collision_back", {{"command", sent_ + 1}});
+  send(command::StepBack{});
+}
+
+void Session::go_to_head() {
+  const bool plays = plays_;
+  jump(frame().head);
+  if (plays) play(true);
+}
+
+void Session::move_change(std::size_t number, double time) {
+  log_.event("move_change", {{"number", number}, {"to", time}, {"command", sent_ + 1}});
+  send(command::MoveChange{number, time});
+  remember({.fork = ++forks_});
+}
+
+void Session::exchange_futures() {
+  send_exchange();
+  remember({.fork = forks_});
+}
+
+void Session::send_exchange() {
+  log_.event("exchange_futures", {{"command", sent_ + 1}});
+  send(command::ExchangeFutures{});
 }
 
 void Session::set_speed(double speed) {
@@ -210,6 +278,10 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
   log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
   const auto live = [](const Override& setting) { return may_change_live(setting.key); };
   if (std::ranges::all_of(settings, live)) {
+    if (frame().snapshot.time < frame().head && !forked_) {
+      ++forks_;
+      forked_ = true;
+    }
     send(command::SetLaws{settings});
   } else {
     refit(shift);
@@ -217,14 +289,18 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
 }
 
 void Session::remember(Edit edit) {
+  if (!edit.after.empty() && std::exchange(forked_, false)) edit.fork = forks_;
   done_.push_back(std::move(edit));
   undone_.clear();
 }
 
-void Session::apply(const Edit& edit, bool again) {
+void Session::apply(Edit& edit, bool again) {
   if (!edit.scenes.empty()) start(edit.scenes[again ? 1 : 0], "open");
-  if (!edit.after.empty()) {
+  if (edit.fork > 0 && edit.fork == forks_ && frame().other_future) {
+    send_exchange();
+  } else if (!edit.after.empty()) {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
+    if (std::exchange(forked_, false)) edit.fork = forks_;
   }
   if (edit.views) set_view((*edit.views)[again ? 1 : 0]);
 }

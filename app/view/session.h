@@ -25,6 +25,8 @@ struct Edit {
   std::optional<std::array<View, 2>> views = {};  ///< view before and after; absent: unchanged
   /// Scenes before and after, which start again; empty: no other scene.
   std::vector<OpenedScene> scenes = {};
+  /// Number of the change in the past whose two futures the entry exchanges; 0: none.
+  std::uint64_t fork = 0;
 };
 
 /// The simulation in the window: its scene, its view and the undo history. It sends commands to the
@@ -43,8 +45,7 @@ class Session {
   const Scene& opened() const { return opened_; }
   /// The current view.
   const View& view() const { return view_; }
-  /// The scene that reproduces the picture on screen: the start of the run, with all later changes
-  /// up to the newest frame. Requires a frame.
+  /// The scene that reproduces the run: its start, with all later changes. Requires a frame.
   Scene recorded() const;
 
   /// Opens and starts a scene. Undo starts the former scene with its changes. Without `plays` the
@@ -60,12 +61,33 @@ class Session {
   void switch_dimension();
   /// Continues or pauses the simulation.
   void play(bool on);
+  /// Plays the run backwards, to time 0 at most.
+  void play_backwards();
   /// Continues the simulation up to a simulation time, and pauses it there.
   void play_until(double time);
   /// Advances the simulation by one frame at the current speed, and pauses it.
   void step_frame();
   /// Advances the simulation to the next collision of two particles, and pauses it.
   void step_collision();
+  /// Goes to a simulation time of the run so far, and pauses there. Times outside become its ends.
+  void jump(double time);
+  /// Jumps by this many seconds of playing at the current speed, and plays on if it plays.
+  void skip(double seconds);
+  /// Repeats a stretch of time: jumps to its start and plays. A stretch without length ends the
+  /// repetition.
+  void repeat(double from, double to);
+  /// Goes back by one frame at the current speed, and pauses the simulation.
+  void step_frame_back();
+  /// Goes back to the last collision of two particles before the picture, and pauses there.
+  void step_collision_back();
+  /// Jumps to the latest time of the run, and plays on if it plays.
+  void go_to_head();
+  /// Moves a change of laws to another time > 0 and pauses where the runs differ. `number` is its
+  /// index in the scene.
+  void move_change(std::size_t number, double time);
+  /// Exchanges the future after the last change in the past with the one before it. Undo exchanges
+  /// them again.
+  void exchange_futures();
   /// Sets the speed, simulation time per second. It is clamped to 1e-4..1e6.
   void set_speed(double speed);
 
@@ -108,8 +130,10 @@ class Session {
 
   void answered(const Frame& now);
   void send(Command command);
-  void apply(const Edit& edit, bool again);
+  void apply(Edit& edit, bool again);
   void refit(const VecX& shift);
+  void send_exchange();
+  double present() const;
   void start(const OpenedScene& opened, const char* event);
   Scene restarted() const;
 
@@ -120,6 +144,7 @@ class Session {
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;
+  std::optional<double> jumped_to_;  // until the engine has answered
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   std::optional<std::size_t> picked_;
   double speed_ = 1.0;
@@ -132,6 +157,8 @@ class Session {
   std::uint64_t messages_ = 0;    // Frame::messages of the last frame
   std::vector<Edit> done_;
   std::vector<Edit> undone_;
+  std::uint64_t forks_ = 0;  // changes in the past; the last one has the present two futures
+  bool forked_ = false;      // since the last entry of the undo history
   std::string message_;
   std::uint64_t told_ = 0;
   Clock::time_point logged_;

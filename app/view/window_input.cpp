@@ -1,8 +1,16 @@
 #include "app/view/window_input.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <utility>
 
 namespace clatter {
+
+bool repeats(int key) {
+  return key == GLFW_KEY_PERIOD || key == GLFW_KEY_COMMA || key == GLFW_KEY_LEFT ||
+         key == GLFW_KEY_RIGHT;
+}
 
 std::vector<KeyPress> WindowInput::take_presses() {
   return std::exchange(presses_, {});

@@ -13,6 +13,9 @@ struct KeyPress {
   bool ctrl = false;
 };
 
+/// Whether a key presses again while it is held down: the keys that step in time.
+bool repeats(int key);
+
 /// Key presses and dropped files of a window. Dear ImGui samples the state of the keys once per
 /// frame, and so misses a key that was released before.
 class WindowInput {

@@ -88,7 +88,7 @@ class Page {
     io.KeysDown[press.key] = down;
     io.KeyShift = press.shift;
     io.KeyCtrl = press.ctrl;
-    if (down && (!repeated || press.key == GLFW_KEY_PERIOD)) input_.press(press);
+    if (down && (!repeated || repeats(press.key))) input_.press(press);
     settle();
   }
 

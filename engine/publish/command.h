@@ -21,17 +21,42 @@ struct Play {
   bool on = true;
   double until = std::numeric_limits<double>::infinity();  ///< simulation time
 };
+/// Repeats a stretch of the run from now on: a gas that plays goes from its end to its start. A
+/// stretch without length repeats nothing.
+struct Loop {
+  double from = 0.0;  ///< simulation times, 0 <= from <= to
+  double to = 0.0;
+};
+/// Plays the run backwards, and halts at time 0.
+struct PlayBackwards {};
 /// Runs for a duration and halts.
 struct Step {
   double duration = 0.0;
 };
 /// Runs to the next collision of particles and halts.
 struct StepCollision {};
+/// Goes to a simulation time from 0 to Frame::head, and halts there. Other times become the nearest
+/// of these.
+struct Jump {
+  double time = 0.0;
+};
+/// Goes back to the last collision of particles before the present state, and halts just after it.
+/// Without one it goes to time 0.
+struct StepBack {};
+/// Moves a change of laws to another time, see WatchedRun::move_change(), and halts.
+struct MoveChange {
+  std::size_t number = 0;  ///< index into Scene::changes
+  double time = 0.0;       ///< simulation time > 0; a ramp keeps its duration
+};
+/// Exchanges the future after the last change in the past with the one before that change, and
+/// halts.
+struct ExchangeFutures {};
 /// Sets the simulation time per second of real time, > 0.
 struct SetSpeed {
   double speed = 1.0;
 };
-/// Changes laws from a time on that follows within a tenth of a frame, see Schedule.
+/// Changes laws from a time on that follows within a tenth of a frame, see Schedule. In the past it
+/// begins another future, see WatchedRun::change.
 struct SetLaws {
   std::vector<Override> laws;
 };
@@ -60,8 +85,10 @@ struct Open {
 
 }  // namespace command
 
-using Command = std::variant<command::Play, command::Step, command::StepCollision,
-                             command::SetSpeed, command::SetLaws, command::Show,
-                             command::ShowProfile, command::Pick, command::Open>;
+using Command =
+    std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
+                 command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
+                 command::Loop, command::SetSpeed, command::SetLaws, command::Show,
+                 command::ShowProfile, command::Pick, command::Open>;
 
 }  // namespace clatter

@@ -40,8 +40,17 @@ struct Frame {
   std::uint64_t run = 0;      ///< number of runs opened; 0: none, and all else is undefined
   std::uint64_t handled = 0;  ///< number of commands done or refused
   Snapshot snapshot;
+  double head = 0.0;          ///< latest simulation time that the run has reached
+  std::vector<double> stops;  ///< times up to `head` at which the run stopped by itself
+  std::uint64_t futures = 0;  ///< number of times that another future began
+  std::optional<std::array<double, 2>> loop;  ///< the repeated stretch of time; absent: none
+  double forked_at = 0.0;                     ///< simulation time at which the last one began
+  /// Beginning and end of the future that can be exchanged with the present one; absent: none.
+  std::optional<std::array<double, 2>> other_future;
+  std::size_t record_bytes = 0;  ///< memory of the states that the run keeps
   Tally tally;
-  std::shared_ptr<const Scene> scene;  ///< with the current laws, and all changes
+  std::shared_ptr<const Scene> scene;  ///< with the laws of this time, and all changes up to `head`
+                                       ///< and planned
   std::shared_ptr<const Scene>
       started;                     ///< at the run's start; its start state may exist in no file
   std::optional<Profile> profile;  ///< since its request or the last change of laws, averages or
@@ -54,6 +63,7 @@ struct Frame {
   std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
   std::uint64_t seed = 1;
   bool plays = false;
+  bool backwards = false;          ///< whether it plays backwards
   double speed = 1.0;              ///< requested simulation time per second
   double held = 1.0;               ///< share of the speed that the engine reaches, at most 1
   double events_per_second = 0.0;  ///< collisions per second of real time

@@ -54,6 +54,14 @@ void Rotations<D>::on_base_moved(double shift) {
 }
 
 template <int D>
+void Rotations<D>::set_rotations(const std::vector<Rotation<D>>& rotations) {
+  turned_.clear();
+  for (const Rotation<D>& rotation : rotations) {
+    turned_.push_back({rotation, simulation_.base_time()});
+  }
+}
+
+template <int D>
 std::vector<Rotation<D>> Rotations<D>::rotations() const {
   std::vector<Rotation<D>> rotations;
   rotations.reserve(turned_.size());

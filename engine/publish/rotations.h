@@ -57,6 +57,8 @@ class Rotations : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
+  /// Continues from these rotations [N] at the simulation's time.
+  void set_rotations(const std::vector<Rotation<D>>& rotations);
   /// [N] rotations at the simulation's time.
   std::vector<Rotation<D>> rotations() const;
 

@@ -56,10 +56,14 @@ void ScheduledRun<D>::halt_at(double time) {
   }
 }
 
+double settled_time(double time) {
+  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+  return time * (1.0 + kRoundings);
+}
+
 template <int D>
 void ScheduledRun<D>::settle() {
-  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
-  halt_at(simulation_->time() * (1.0 + kRoundings));
+  halt_at(settled_time(simulation_->time()));
 }
 
 // The multiple of a power of ten, as large as possible, in the `span` that begins at a time.
@@ -145,6 +149,32 @@ void ScheduledRun<D>::show(const View& view, const std::string& saved, double ex
 template <int D>
 std::string ScheduledRun<D>::save_shown() const {
   return shown_ ? shown_->save() : "";
+}
+
+template <int D>
+void ScheduledRun<D>::set_changes(std::vector<Change> changes) {
+  Scene scene = schedule_.laws();
+  scene.changes = std::move(changes);
+  schedule_ = Schedule(scene, simulation_->time());
+}
+
+template <int D>
+void ScheduledRun<D>::return_to(const Scene& scene, double changed_until, const RunState<D>& state,
+                                const std::vector<Rotation<D>>& rotations) {
+  Schedule schedule(scene, changed_until);
+  auto next = std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), state);
+  if (on_change) on_change(*next);
+  if (shown_) {
+    shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_);
+    shown_->set_rotations(rotations);
+  }
+  simulation_ = std::move(next);
+  schedule_ = std::move(schedule);
+}
+
+template <int D>
+std::vector<Rotation<D>> ScheduledRun<D>::rotations() const {
+  return shown_ ? shown_->rotations() : std::vector<Rotation<D>>();
 }
 
 template <int D>

@@ -19,6 +19,9 @@ template <int D>
 std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t seed,
                                              const StopRequest& stop = {});
 
+/// The time a few rounding errors after a time. All events that belong to the time are before it.
+double settled_time(double time);
+
 /// A simulation with the changes of its scene, and the observers of its view. At a change a new
 /// simulation continues the run under the new laws. All observers must then be handed over, see
 /// on_change.
@@ -47,7 +50,7 @@ class ScheduledRun {
   /// also if the gas cannot continue under new laws; the old laws then remain.
   bool run_until(double time, std::uint64_t collisions = kNoLimit, std::uint64_t steps = kNoLimit,
                  const StopRequest& stop = {});
-  /// Runs for a few rounding errors of the time. Afterwards all events up to simulation().time()
+  /// Runs to settled_time() of the present time. Afterwards all events up to simulation().time()
   /// are processed, independent of the way in which the run was halted. At a PhysicalStop it halts
   /// silently; the next run_until() throws it.
   void settle();
@@ -61,8 +64,8 @@ class ScheduledRun {
   void change_here(const std::vector<Override>& laws);
 
   /// Adds to later snapshots the averages, flights and angles that the view needs. Averages
-  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure time
-  /// of a picture, in simulation time.
+  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure
+  /// time of a picture, in simulation time.
   void show(const View& view, double exposure = 0.0);
   /// The same, continued from the result of save_shown() at this time of a run with the same scene,
   /// view and exposure. An empty `saved` starts new averages.
@@ -72,6 +75,16 @@ class ScheduledRun {
   /// Continues with a new simulation, with the same bits and only the observers that on_change
   /// hands over. This is the only way to remove observers.
   void renew();
+  /// Replaces the changes of the scene. Those up to the simulation's time have no effect. To be
+  /// called after run_until() has returned true or after settle().
+  void set_changes(std::vector<Change> changes);
+  /// Continues from another state of the run. `scene` has the laws at that state and all changes,
+  /// of which those after `changed_until` are to come. `rotations` are rotations() at that state.
+  /// Averages and flights of the view restart.
+  void return_to(const Scene& scene, double changed_until, const RunState<D>& state,
+                 const std::vector<Rotation<D>>& rotations);
+  /// [N] rotations of the particles that the view shows; empty: none.
+  std::vector<Rotation<D>> rotations() const;
   /// The gas at the simulation's time.
   Snapshot snapshot();
 

@@ -46,6 +46,16 @@ std::string ViewObservers<D>::save() {
 }
 
 template <int D>
+std::vector<Rotation<D>> ViewObservers<D>::rotations() const {
+  return rotations_ ? rotations_->rotations() : std::vector<Rotation<D>>();
+}
+
+template <int D>
+void ViewObservers<D>::set_rotations(const std::vector<Rotation<D>>& rotations) {
+  if (rotations_) rotations_->set_rotations(rotations);
+}
+
+template <int D>
 void ViewObservers<D>::watch_field(Simulation<D>& simulation, ViewObservers* before) {
   if (before && before->field_ && before->view_.averages_like(view_)) {
     field_.emplace(simulation, view_, std::move(*before->field_));

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/publish/flight_recorder.h"
@@ -30,6 +31,10 @@ class ViewObservers {
   std::string save();
   /// Ends the averages, so that observers which continue these begin new ones.
   void drop_averages() { field_.reset(); }
+  /// [N] rotations of the particles at the simulation's time; empty: they have no spins.
+  std::vector<Rotation<D>> rotations() const;
+  /// Continues from these rotations, as rotations() returned them at the simulation's time.
+  void set_rotations(const std::vector<Rotation<D>>& rotations);
   /// Writes the data of the view at the simulation's time into the snapshot.
   void publish(Snapshot& snapshot);
 

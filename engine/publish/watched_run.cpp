@@ -1,12 +1,16 @@
 #include "engine/publish/watched_run.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/dimension.h"
+#include "engine/error.h"
 #include "engine/measure/totals.h"
 #include "engine/publish/live_observables.h"
 #include "engine/publish/live_profile.h"
 #include "engine/publish/moving_sum.h"
+#include "engine/publish/run_record.h"
 #include "engine/publish/scheduled_run.h"
 
 namespace clatter {
@@ -16,45 +20,78 @@ namespace {
 template <int D>
 class RunOf : public WatchedRun {
  public:
-  RunOf(const Scene& scene, std::uint64_t seed);
+  RunOf(const Scene& scene, std::uint64_t seed, std::size_t record_bytes);
   RunOf(const RunOf&) = delete;
   RunOf& operator=(const RunOf&) = delete;
 
   double time() const override { return run_.simulation().time(); }
   const EventCounts& counts() const override { return run_.simulation().counts(); }
   AnyState state() const override { return run_.simulation().state(); }
-  bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override {
-    return run_.run_until(time, collisions, steps);
-  }
-  void settle() override { run_.settle(); }
-  void change(const std::vector<Override>& laws, double delay) override {
-    run_.change(laws, delay);
-  }
+  bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override;
+  void settle() override;
+  void change(const std::vector<Override>& laws, double delay) override;
+  double head() const override { return std::max(head_, time()); }
+  double move_change(std::size_t number, double time) override;
+  double exchange_futures() override;
+  std::optional<double> previous_collision() override;
+  void go_back(double time) override;
   void show(const View& view) override;
   void show_profile(Profiled what, Axis axis) override;
   void pick(std::optional<std::uint32_t> particle) override;
   void tell(Frame& frame, bool halted) override;
   const std::optional<std::array<std::uint32_t, 2>>& partners() const override {
-    return last_.partners;
+    return last_.partners();
   }
 
  private:
-  struct LastCollision : Observer<D> {
+  // The last collision of two particles, and the time of the last one before a given time.
+  class LastCollision : public Observer<D> {
+   public:
+    explicit LastCollision(const RunOf& run) : run_(run) {}
     void on_collision(const PairCollision<D>& collision) override {
-      partners = {{collision.particles[0].particle, collision.particles[1].particle}};
+      partners_ = {{collision.particles[0].particle, collision.particles[1].particle}};
+      if (const double time = run_.time(); time < before_) found_ = time;
     }
-    std::optional<std::array<std::uint32_t, 2>> partners;
+    void forget() { partners_.reset(); }
+    void search_before(double time) {
+      before_ = time;
+      found_.reset();
+    }
+    const std::optional<std::array<std::uint32_t, 2>>& partners() const { return partners_; }
+    const std::optional<double>& found() const { return found_; }
+
+   private:
+    const RunOf& run_;
+    std::optional<std::array<std::uint32_t, 2>> partners_;
+    double before_ = 0.0;
+    std::optional<double> found_;
   };
 
   void observe(Simulation<D>& simulation);
   void observe_requested(Simulation<D>& simulation, double window);
   void close_window();
+
+  // The part of a run after a change in the past.
+  struct Future {
+    double from = 0.0;  // time of the change
+    double head = 0.0;
+    std::vector<Change> changes;  // all changes of the run
+    std::vector<SavedState<D>> states;
+    std::size_t bytes() const;
+  };
+
+  SavedState<D> saved_state();
+  void record(bool stopped = false);
+  void save_head();
+  void return_to(const SavedState<D>& saved, const std::vector<Change>& changes);
+  Future end_future(double from);
+  Future fork();
   std::optional<ParticleCollision> next_collision(bool halted);
   std::optional<ContactTimeError> contact_time_error() const;
 
   ScheduledRun<D> run_;
   std::optional<Totals<D>> totals_;
-  LastCollision last_;
+  LastCollision last_{*this};
   std::optional<std::uint32_t> picked_;
   std::optional<CollisionWatch<D>> picked_collisions_;  // of the picked particle
   std::optional<ParticleCollision> last_collision_;  // its last collision before a change of laws
@@ -70,11 +107,22 @@ class RunOf : public WatchedRun {
   Tally tally_at_laws_;  // at the last change of laws
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // of the last frame
+  RunRecord<D> record_;
+  std::shared_ptr<const Scene> recorded_laws_;  // of the last recorded state; nullptr: others now
+  bool settled_ = false;                        // all events up to the present time are processed
+  double head_ = 0.0;                           // latest time reached before the present one
+  std::size_t record_bytes_;
+  std::optional<Future> other_;  // that the last change in the past replaced
+  std::uint64_t futures_ = 0;    // number of changes of the future
+  double forked_at_ = 0.0;       // time of the last one
 };
 
 template <int D>
-RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed)
-    : run_(scene, seed), started_(std::make_shared<const Scene>(scene)) {
+RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, std::size_t record_bytes)
+    : run_(scene, seed),
+      started_(std::make_shared<const Scene>(scene)),
+      record_(record_bytes),
+      record_bytes_(record_bytes) {
   tally_.temperature_integral = Vec<D>::Zero();
   tally_at_laws_ = tally_;
   run_.show(scene.view);
@@ -82,8 +130,12 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed)
     close_window();
     observe(next);
     scene_.reset();
+    recorded_laws_.reset();
   };
   observe(run_.simulation());
+  SavedState<D> start = saved_state();
+  start.changed_until = -std::numeric_limits<double>::infinity();
+  record_.add(std::move(start));
 }
 
 template <int D>
@@ -153,6 +205,194 @@ void RunOf<D>::close_window() {
   tally_.elasticised += static_cast<std::uint64_t>(window.elasticised);
 }
 
+// The present state. The particles of the start are those of the run's start.
+template <int D>
+SavedState<D> RunOf<D>::saved_state() {
+  close_window();
+  if (!recorded_laws_) {
+    Scene laws = run_.laws();
+    laws.particles.start = {};
+    recorded_laws_ = std::make_shared<const Scene>(std::move(laws));
+  }
+  return {.time = time(),
+          .run = run_.simulation().save(),
+          .laws = recorded_laws_,
+          .changed_until = time(),
+          .rotations = run_.rotations(),
+          .tally = tally_};
+}
+
+// Records the present state as the latest one. The other future gives way if memory is short.
+template <int D>
+void RunOf<D>::record(bool stopped) {
+  head_ = time();
+  SavedState<D> state = saved_state();
+  state.stopped = stopped;
+  if (other_ && record_.bytes() + state.bytes() + other_->bytes() > record_bytes_) other_.reset();
+  record_.add(std::move(state));
+}
+
+// Records the present state, if it is the latest and not yet recorded.
+template <int D>
+void RunOf<D>::save_head() {
+  if (time() < head_ || record_.before(time()).time == time()) return;
+  settle();
+  record();
+}
+
+template <int D>
+void RunOf<D>::settle() {
+  if (!settled_) run_.settle();
+  settled_ = true;
+}
+
+// A watchdog begins with each return to a state, so a replay may stop by itself shortly before the
+// run did. The run then continues from the next recorded state.
+template <int D>
+bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
+  settled_ = false;
+  try {
+    const bool arrived = settled_ = run_.run_until(time, collisions, steps);
+    const std::size_t particles = run_.simulation().particles().size();
+    if (record_.due(work_of(counts(), particles))) save_head();
+    return arrived;
+  } catch (const PhysicalStop&) {
+    const SavedState<D>* next = record_.after(this->time(), counts().collisions());
+    if (next && next->time <= time) {
+      return_to(*next, run_.scene().changes);
+      return false;
+    }
+    if (this->time() >= head_) record(true);
+    throw;
+  }
+}
+
+// The start state is that of the run, which recorded laws lack.
+template <int D>
+void RunOf<D>::return_to(const SavedState<D>& saved, const std::vector<Change>& changes) {
+  head_ = head();
+  Scene scene = *saved.laws;
+  scene.particles.start = started_->particles.start;
+  scene.changes = changes;
+  run_.return_to(scene, saved.changed_until, saved.run, saved.rotations);
+  tally_ = tally_at_laws_ = saved.tally;
+  steps_told_ = counts().steps();
+  last_.forget();
+  last_collision_.reset();
+  settled_ = !saved.stopped;
+}
+
+// An earlier state gives averages and trails the time to form, if it needs little more work.
+template <int D>
+void RunOf<D>::go_back(double time) {
+  save_head();
+  const View& view = run_.laws().view;
+  const double span =
+      std::max(view.shows_averages() ? view.window : 0.0, view.trails.value_or(0.0));
+  const SavedState<D>& nearest = record_.before(time);
+  if (nearest.time <= this->time() && this->time() <= time) return;
+  const SavedState<D>& early = record_.before(time - span);
+  const bool near = nearest.work() - early.work() <= record_.spacing();
+  return_to(near ? early : nearest, run_.scene().changes);
+}
+
+template <int D>
+std::size_t RunOf<D>::Future::bytes() const {
+  std::size_t bytes = 0;
+  for (const SavedState<D>& state : states) bytes += state.bytes();
+  return bytes;
+}
+
+// Removes the states of the run from a time on, and returns this part of the run.
+template <int D>
+typename RunOf<D>::Future RunOf<D>::end_future(double from) {
+  ++futures_;
+  forked_at_ = from;
+  return {from, std::exchange(head_, from), run_.scene().changes, record_.cut(from)};
+}
+
+// An impossible change in the past restores the future.
+template <int D>
+void RunOf<D>::change(const std::vector<Override>& laws, double delay) {
+  const bool forks = time() < head_;
+  std::optional<Future> before;
+  if (forks) before = std::exchange(other_, fork());
+  try {
+    run_.change(laws, delay);
+  } catch (...) {
+    if (forks) {
+      run_.run_until(exchange_futures());
+      other_ = std::move(before);
+    }
+    throw;
+  }
+  settled_ = true;
+  record();
+}
+
+// Begins another future without the user's later changes, and returns the old one.
+template <int D>
+typename RunOf<D>::Future RunOf<D>::fork() {
+  settle();
+  Future old = end_future(time());
+  std::vector<Change> changes = old.changes;
+  const auto own = changes.begin() + static_cast<std::ptrdiff_t>(started_->changes.size());
+  const auto later = [this](const Change& change) { return change.time > head_; };
+  changes.erase(std::remove_if(own, changes.end(), later), changes.end());
+  run_.set_changes(std::move(changes));
+  record();
+  return old;
+}
+
+template <int D>
+double RunOf<D>::move_change(std::size_t number, double time) {
+  std::vector<Change> changes = run_.scene().changes;
+  const double from =
+      number < changes.size() ? std::min({changes[number].time, time, head()}) : 0.0;
+  if (!(from > 0.0)) {
+    throw UserError({}, "there is no such change after time 0", "move another change");
+  }
+  save_head();
+  changes[number].until += time - changes[number].time;
+  changes[number].time = time;
+  other_ = end_future(from);
+  return_to(record_.before(from), changes);
+  head_ = from;
+  return from;
+}
+
+template <int D>
+double RunOf<D>::exchange_futures() {
+  if (!other_) throw UserError({}, "there is no other future", "change a law in the past first");
+  save_head();
+  const double time = std::min(this->time(), other_->from);
+  Future now = end_future(other_->from);
+  record_.append(std::move(other_->states));
+  return_to(record_.before(time), other_->changes);
+  head_ = other_->head;
+  other_ = std::move(now);
+  return time;
+}
+
+// Searches from one recorded state to the next, backwards.
+template <int D>
+std::optional<double> RunOf<D>::previous_collision() {
+  constexpr double kRoundings = 8.0 * std::numeric_limits<double>::epsilon();
+  save_head();
+  const double now = time();
+  for (double end = now; end > 0.0;) {
+    const SavedState<D>& start = record_.before(std::nextafter(end, 0.0));
+    const double from = start.time;
+    return_to(start, run_.scene().changes);
+    last_.search_before(now * (1.0 - kRoundings));
+    while (!run_until(end, kNoLimit, kNoLimit)) {
+    }
+    if (last_.found()) return settled_time(*last_.found());
+    end = from;
+  }
+  return std::nullopt;
+}
+
 template <int D>
 std::optional<ContactTimeError> RunOf<D>::contact_time_error() const {
   const double dissipated = tally_.dissipated - tally_at_laws_.dissipated;
@@ -183,6 +423,13 @@ void RunOf<D>::tell(Frame& frame, bool halted) {
   close_window();
   if (!scene_) scene_ = std::make_shared<const Scene>(run_.scene());
   frame.snapshot = run_.snapshot();
+  frame.head = head();
+  frame.stops = record_.stops();
+  frame.futures = futures_;
+  frame.forked_at = forked_at_;
+  frame.other_future.reset();
+  if (other_) frame.other_future = {other_->from, other_->head};
+  frame.record_bytes = record_.bytes() + (other_ ? other_->bytes() : 0);
   frame.tally = tally_;
   frame.scene = scene_;
   frame.started = started_;
@@ -206,9 +453,10 @@ void RunOf<D>::tell(Frame& frame, bool halted) {
 
 }  // namespace
 
-std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed) {
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed,
+                                        std::size_t record_bytes) {
   return with_dimension(scene.dimension(), [&](auto dimension) -> std::unique_ptr<WatchedRun> {
-    return std::make_unique<RunOf<dimension()>>(scene, seed);
+    return std::make_unique<RunOf<dimension()>>(scene, seed, record_bytes);
   });
 }
 

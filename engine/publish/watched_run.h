@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,9 @@
 #include "engine/publish/frame.h"
 
 namespace clatter {
+
+/// Usual memory of the record of a run, bytes.
+inline constexpr std::size_t kRecordBytes = 256'000'000;
 
 /// A run of disks or spheres, and its frames. Frames and scene have the same types in two and three
 /// dimensions.
@@ -30,8 +34,30 @@ class WatchedRun {
   virtual bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) = 0;
   /// As ScheduledRun::settle.
   virtual void settle() = 0;
-  /// As ScheduledRun::change.
+  /// As ScheduledRun::change. In the past it begins another future: the user's changes after the
+  /// present time are removed, those of the scene remain. The old future is kept for
+  /// exchange_futures(), as long as there is memory for it.
   virtual void change(const std::vector<Override>& laws, double delay) = 0;
+  /// Replaces the future after the last change in the past by the one before that change, and keeps
+  /// the present one. Goes to a state from which run_until() soon reaches the returned time: the
+  /// present time, or that of the change if it is earlier. Throws UserError if there is no other
+  /// future.
+  virtual double exchange_futures() = 0;
+  /// Moves a change of laws to another simulation time > 0. Another future begins at the earlier of
+  /// its two times, and the old one is kept, as by change(). Goes to a state from which run_until()
+  /// soon reaches the returned time, at which this future begins. Throws UserError if there is no
+  /// such change after time 0.
+  virtual double move_change(std::size_t number, double time) = 0;
+  /// Latest simulation time that the run has reached.
+  virtual double head() const = 0;
+  /// Goes to a state at or before a simulation time between 0 and head(), from which run_until()
+  /// soon reaches this time. The bits are those of the run so far. Averages, profiles and
+  /// observables restart, unless the run is just before this time.
+  virtual void go_back(double time) = 0;
+  /// The settled_time() of the last collision of particles before the present state; absent: none.
+  /// A collision at the present time does not count. Afterwards the run is elsewhere in its past,
+  /// so that go_back() must follow.
+  virtual std::optional<double> previous_collision() = 0;
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;
 
@@ -46,7 +72,9 @@ class WatchedRun {
   virtual const std::optional<std::array<std::uint32_t, 2>>& partners() const = 0;
 };
 
-/// The run of a scene and a seed, at time 0. Throws UserError if the machine has not enough memory.
-std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed);
+/// The run of a scene and a seed, at time 0. Its record of past states has at most `record_bytes`,
+/// see RunRecord. Throws UserError if the machine has not enough memory.
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed,
+                                        std::size_t record_bytes = kRecordBytes);
 
 }  // namespace clatter

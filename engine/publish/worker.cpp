@@ -10,15 +10,18 @@
 #include "engine/initial/adapt_to_scene.h"
 #include "engine/physics/temperature.h"
 #include "engine/publish/pace.h"
+#include "engine/publish/rewinder.h"
 #include "engine/publish/watched_run.h"
 
 namespace clatter {
 
 namespace {
 
-// Whether two commands set the same laws, so that only the later one counts. The user may drag a
-// slider faster than a large gas can change its laws.
+// Whether two commands set the same laws or the time, so that only the later one counts. The user
+// may drag a slider or the timeline faster than a large gas can follow.
 bool supersedes(const Command& later, const Command& earlier) {
+  using command::Jump;
+  if (std::holds_alternative<Jump>(later) && std::holds_alternative<Jump>(earlier)) return true;
   const auto* a = std::get_if<command::SetLaws>(&later);
   const auto* b = std::get_if<command::SetLaws>(&earlier);
   return a && b && std::ranges::equal(a->laws, b->laws, {}, &Override::key, &Override::key);
@@ -32,10 +35,11 @@ class EngineWork {
 
  public:
   EngineWork(double frames_per_second, CommandQueue<Command>& commands, TripleBuffer<Frame>& frames,
-             std::function<void()> on_publish)
+             std::size_t record_bytes, std::function<void()> on_publish)
       : commands_(commands),
         frames_(frames),
         on_publish_(std::move(on_publish)),
+        record_bytes_(record_bytes),
         frame_seconds_(1.0 / frames_per_second),
         pace_(frames_per_second) {}
 
@@ -45,6 +49,10 @@ class EngineWork {
       obey_all();
       if (!moves()) {
         commands_.wait();
+      } else if (backwards_) {
+        begin_rewind();
+        const Pace::Goal goal = pace_.next(Clock::now(), -wanted_);
+        if (rewind(-goal.time, goal.due)) commands_.wait_until(goal.due);
       } else if (plays_) {
         const Pace::Goal goal = pace_.next(Clock::now(), time());
         if (play(goal.time, goal.due)) commands_.wait_until(goal.due);
@@ -58,7 +66,11 @@ class EngineWork {
   void run_slice(Clock::duration elapsed, Clock::time_point due) {
     obey_all();
     if (!moves()) return;
-    if (plays_) {
+    if (backwards_) {
+      begin_rewind();
+      pace_.set_frame(elapsed);
+      rewind(-pace_.next(Clock::now(), -wanted_).time, due);
+    } else if (plays_) {
       pace_.set_frame(elapsed);
       play(pace_.next(Clock::now(), time()).time, due);
     } else {
@@ -73,7 +85,10 @@ class EngineWork {
     const std::vector<Command> asked = commands_.take();
     for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
       if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) {
-        attempt([&] { std::visit([this](const auto& command) { obey(command); }, asked[i]); });
+        attempt([&] {
+          end_rewind();
+          std::visit([this](const auto& command) { obey(command); }, asked[i]);
+        });
       }
       ++handled_;
     }
@@ -88,7 +103,7 @@ class EngineWork {
   }
 
   void halt() {
-    plays_ = false;
+    plays_ = backwards_ = false;
     step_to_.reset();
     to_collision_.reset();
     partners_.reset();
@@ -114,6 +129,10 @@ class EngineWork {
     until_ = asked.until;
     if (watched_ && !plays_) watched_->settle();
   }
+  void obey(const command::PlayBackwards&) {
+    halt();
+    plays_ = backwards_ = watched_ && time() > 0.0;
+  }
   void obey(const command::Step& asked) {
     halt();
     if (watched_) step_to_ = time() + asked.duration;
@@ -121,6 +140,29 @@ class EngineWork {
   void obey(const command::StepCollision&) {
     halt();
     if (watched_) to_collision_ = watched_->counts().pair_collisions + 1;
+  }
+  void obey(const command::Jump& asked) {
+    halt();
+    if (watched_) go_to(std::clamp(asked.time, 0.0, watched_->head()));
+  }
+  void obey(const command::StepBack&) {
+    halt();
+    if (!watched_) return;
+    const std::optional<double> collision = watched_->previous_collision();
+    go_to(collision.value_or(0.0));
+    if (collision) partners_ = watched_->partners();
+  }
+  void obey(const command::MoveChange& asked) {
+    halt();
+    if (watched_) run_to(watched_->move_change(asked.number, asked.time));
+  }
+  void obey(const command::ExchangeFutures&) {
+    halt();
+    if (watched_) run_to(watched_->exchange_futures());
+  }
+  void obey(const command::Loop& asked) {
+    loop_.reset();
+    if (asked.from < asked.to) loop_ = {asked.from, asked.to};
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
@@ -144,7 +186,7 @@ class EngineWork {
           [&](auto&& state) { start_from(std::forward<decltype(state)>(state), asked, scene); },
           watched_->state());
     }
-    auto opened = watched_run(scene, asked.seed);
+    auto opened = watched_run(scene, asked.seed, record_bytes_);
     halt();
     watched_ = std::move(opened);
     watched_->show_profile(profiled_.what, profiled_.axis);
@@ -152,8 +194,59 @@ class EngineWork {
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
     ++runs_;
+    loop_.reset();
     stop_.clear();
     rate_since_ = {};
+  }
+
+  // Goes to a time of the run so far.
+  void go_to(double time) {
+    watched_->go_back(time);
+    run_to(time);
+  }
+
+  // Runs up to a time at once, unless the engine is to end.
+  void run_to(double time) {
+    rate_since_ = {};
+    stop_.clear();
+    const auto steps = [this] { return watched_->counts().steps() + kLongestSlice; };
+    while (this->time() < time && !commands_.closed() &&
+           !watched_->run_until(time, kNoLimit, steps())) {
+    }
+  }
+
+  void begin_rewind() {
+    if (rewinder_) return;
+    shown_ = wanted_ = time();
+    rewinder_.emplace(*watched_, pace_.speed() * frame_seconds_);
+  }
+
+  // Brings the run to the time of the shown frame.
+  void end_rewind() {
+    if (!rewinder_) return;
+    rewinder_.reset();
+    go_to(shown_);
+  }
+
+  // Shows the frame at a time, and then makes earlier ones, until the real time `due` or the next
+  // command. Returns whether it has time left. If the frame is late, the delay is dropped.
+  bool rewind(double time, Clock::time_point due) {
+    const auto in_time = [&] { return Clock::now() < due && !commands_.pending(); };
+    std::optional<Frame> frame;
+    const bool works = attempt([&] {
+      const bool asked = rewinder_->due(time);
+      while (asked && !(frame = rewinder_->take(time)) && in_time()) rewinder_->work();
+      wanted_ = asked && !frame ? shown_ : time;
+      if (frame) shown_ = frame->snapshot.time;
+      if (frame && shown_ > 0.0) publish_rewound(std::move(*frame));
+      while (rewinder_->busy() && in_time()) rewinder_->work();
+    });
+    if (!works || shown_ == 0.0) {
+      halt();
+      attempt([this] { end_rewind(); });
+      publish();
+    }
+    return backwards_ && in_time();
   }
 
   // Makes the current gas the start state of another scene.
@@ -198,8 +291,15 @@ class EngineWork {
 
   // Runs up to `goal`, but at most until about `due`. Returns whether it arrived and still plays.
   bool play(double goal, Clock::time_point due) {
-    const bool arrived = advance(std::min(goal, until_), kNoLimit, due);
-    if (arrived && time() >= until_) halt();
+    const bool repeats = loop_ && time() < (*loop_)[1];
+    const double end = repeats ? std::min(until_, (*loop_)[1]) : until_;
+    const bool arrived = advance(std::min(goal, end), kNoLimit, due);
+    if (arrived && time() >= until_) {
+      halt();
+    } else if (arrived && repeats && goal >= end) {
+      pace_.restart();
+      if (!attempt([this] { go_to((*loop_)[0]); })) halt();
+    }
     publish();
     return arrived && plays_;
   }
@@ -228,11 +328,23 @@ class EngineWork {
   }
 
   void publish() {
+    if (watched_ && !attempt([&] { watched_->tell(frames_.back(), !moves()); })) halt();
+    send_frame();
+  }
+
+  void publish_rewound(Frame frame) {
+    frames_.back() = std::move(frame);
+    send_frame();
+  }
+
+  // Sends the next frame, with the state of the engine.
+  void send_frame() {
     Frame& frame = frames_.back();
-    if (watched_ && !attempt([&] { watched_->tell(frame, !moves()); })) halt();
     frame.run = runs_;
     frame.handled = handled_;
     frame.plays = plays_;
+    frame.backwards = backwards_;
+    frame.loop = loop_;
     frame.speed = pace_.speed();
     frame.held = pace_.held();
     frame.events_per_second = event_rate();
@@ -247,7 +359,7 @@ class EngineWork {
   // Collisions per second of real time over about the last half second.
   double event_rate() {
     constexpr std::chrono::milliseconds kLong{500};
-    if (!plays_ || !watched_) return rate_ = 0.0;
+    if (!plays_ || backwards_ || !watched_) return rate_ = 0.0;
     const auto now = Clock::now();
     const std::uint64_t events = watched_->counts().collisions();
     if (rate_since_ == Clock::time_point{}) {
@@ -267,12 +379,18 @@ class EngineWork {
   CommandQueue<Command>& commands_;
   TripleBuffer<Frame>& frames_;
   std::function<void()> on_publish_;
+  std::size_t record_bytes_;
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   bool plays_ = false;
+  bool backwards_ = false;            // plays_ backwards
+  std::optional<Rewinder> rewinder_;  // while it plays backwards
+  double shown_ = 0.0;                // simulation time of the last frame of the rewinder
+  double wanted_ = 0.0;               // simulation time that the pace asked for last
   double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
+  std::optional<std::array<double, 2>> loop_;               // repeated simulation times
   std::optional<double> step_to_;
   std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt
   std::optional<std::array<std::uint32_t, 2>> partners_;
@@ -288,9 +406,11 @@ class EngineWork {
 };
 
 static constexpr double kFramesOfSlices = 60.0;  // per second; a single step has this duration
+static constexpr std::size_t kRecordBytesOfSlices = kRecordBytes / 4;  // a page has less memory
 
 SlicedWorker::SlicedWorker()
-    : work_(std::make_unique<EngineWork>(kFramesOfSlices, commands_, frames_, [] {})) {}
+    : work_(std::make_unique<EngineWork>(kFramesOfSlices, commands_, frames_, kRecordBytesOfSlices,
+                                         [] {})) {}
 
 SlicedWorker::~SlicedWorker() = default;
 
@@ -316,7 +436,7 @@ Worker::~Worker() {
 }
 
 void Worker::work(double frames_per_second, const std::function<void()>& on_publish) {
-  EngineWork(frames_per_second, commands_, frames_, on_publish).run();
+  EngineWork(frames_per_second, commands_, frames_, kRecordBytes, on_publish).run();
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;

@@ -62,10 +62,13 @@ static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Ove
   return settings;
 }
 
-Schedule::Schedule(const Scene& scene) : laws_(scene) {
+Schedule::Schedule(const Scene& scene)
+    : Schedule(scene, -std::numeric_limits<double>::infinity()) {}
+
+Schedule::Schedule(const Scene& scene, double time) : laws_(scene) {
   changes_ = std::make_shared<const std::vector<Change>>(std::move(laws_.changes));
   laws_.changes.clear();
-  for (std::size_t number = 0; number < changes_->size(); ++number) plan(number);
+  for (std::size_t number = 0; number < changes_->size(); ++number) plan(number, time);
 }
 
 Scene Schedule::scene() const {
@@ -82,14 +85,23 @@ void Schedule::add(const Change& change) {
   std::vector<Change> all = *changes_;
   all.push_back(change);
   changes_ = std::make_shared<const std::vector<Change>>(std::move(all));
-  plan(changes_->size() - 1);
+  plan(changes_->size() - 1, -std::numeric_limits<double>::infinity());
 }
 
-void Schedule::plan(std::size_t number) {
+// The time of a part of a ramp, or of a change without a ramp.
+static double time_of(const Change& change, int part) {
+  if (!change.ramp) return change.time;
+  const double share = static_cast<double>(part) / Schedule::kRampSteps;
+  return change.time + share * (change.until - change.time);
+}
+
+// Puts the first step of a change after a time, if there is one.
+void Schedule::plan(std::size_t number, double after) {
   const Change& change = (*changes_)[number];
-  const double first =
-      change.ramp ? change.time + (change.until - change.time) / kRampSteps : change.time;
-  put({first, number, 1});
+  const int parts = change.ramp ? kRampSteps : 1;
+  int part = 1;
+  while (part <= parts && time_of(change, part) <= after) ++part;
+  if (part <= parts) put({time_of(change, part), number, part});
 }
 
 void Schedule::put(const Step& step) {
@@ -114,8 +126,7 @@ void Schedule::advance() {
     return;
   }
   const int part = step.part + 1;
-  const double share = static_cast<double>(part) / kRampSteps;
-  put({change.time + share * (change.until - change.time), step.change, part});
+  put({time_of(change, part), step.change, part});
   // The share refers to the remaining way, so that the last step reaches the target.
   change_to(on_the_way(laws_, change.set, 1.0 / (kRampSteps - step.part + 1)));
 }

@@ -19,6 +19,8 @@ class Schedule {
  public:
   /// At the scene's start, before all changes.
   explicit Schedule(const Scene& scene);
+  /// With the laws of a scene at a time. Only changes after this time are to come.
+  Schedule(const Scene& scene, double time);
 
   /// The scene with the current laws, without its changes.
   const Scene& laws() const { return laws_; }
@@ -55,7 +57,7 @@ class Schedule {
     }
   };
 
-  void plan(std::size_t number);
+  void plan(std::size_t number, double after);
   void put(const Step& step);
   void change_to(const std::vector<Override>& settings);
 

@@ -375,6 +375,20 @@ TEST_CASE("Bench: the table of render has the cost of each stage, for pictures o
   }
 }
 
+TEST_CASE("Bench: the table of the timeline has the time of jumps and the memory of the record") {
+  const Shell shell;
+  const Outcome outcome = shell.run("clatter bench timeline --count 20 --json t.json");
+  CHECK(outcome.code == 0);
+  const json rows = json::parse(shell.read("t.json"));
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0]["count"] == 20);
+  CHECK(rows[0]["median_milliseconds"] > 0.0);
+  CHECK(rows[0]["longest_milliseconds"] >= rows[0]["median_milliseconds"]);
+  // At least the states at the start and at the end: position, velocity, time and number.
+  CHECK(rows[0]["record_megabytes"] >= 2e-6 * 20 * 48);
+  CHECK(rows[0]["record_megabytes"] < 1.0);
+}
+
 TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in its numbers") {
   // The memory of so few disks is within the noise of the program. A sanitizer adds memory.
   const std::regex cell(std::string(R"((?:^|\n) +100 +0\.300 +[.\d]+ +[.\d]+ +)") +

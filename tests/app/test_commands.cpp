@@ -216,6 +216,7 @@ TEST_CASE("Commands: every command explains its flags, and only those") {
       {"bench fields", {"--json", "--duration"}},
       {"bench render", {"--json", "--count", "--dimension"}},
       {"bench window", {"--json", "--count"}},
+      {"bench timeline", {"--json", "--count"}},
       {"bench accuracy",
        {"SCENE", "--json", "--duration", "--dial", "--csv", "--plot", "--markdown"}}};
   for (const auto& [command, flags] : commands) {

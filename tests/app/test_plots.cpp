@@ -114,6 +114,34 @@ void check_last(const LivePlot& plot, const std::string& name, double x, double 
 
 }  // namespace
 
+TEST_CASE("Plots: a look into the past adds no samples, another future removes the later ones") {
+  TwoFrames run;
+  run.begin.head = run.begin.snapshot.time;
+  run.end.head = run.end.snapshot.time;
+  Frame later = run.end;
+  later.tally.time = 7.0;
+  later.snapshot.time = later.head = run.end.snapshot.time + 3.0;
+  for (const Frame& frame : {run.begin, run.end, later}) run.history.add(frame);
+  const std::size_t samples = run.history.samples().size();
+  Frame past = run.end;
+  past.head = later.head;
+  run.history.add(past);
+  run.history.add(later);
+  CHECK(run.history.samples().size() == samples);
+
+  Frame fork = run.end;
+  fork.futures = 1;
+  fork.forked_at = fork.head;
+  run.history.add(fork);
+  CHECK(run.history.samples().size() == samples - 1);
+  CHECK(run.history.samples().back().time < fork.forked_at);
+  Frame after = later;
+  after.futures = 1;
+  after.forked_at = fork.forked_at;
+  run.history.add(after);
+  CHECK(run.history.samples().size() == samples);
+}
+
 TEST_CASE("Plots: a constant quantity looks constant, in spite of rounding errors") {
   const auto height = [](std::vector<Vec2> points, double span) {
     LivePlot plot{.title = "", .x_label = "", .curves = {{"", {}, std::move(points)}}};

@@ -156,7 +156,8 @@ TEST_CASE("Wrong use: no run starts if its output cannot be written") {
   check_refused(shell, "clatter render vibrated --to 1e5 --out missing/x.mp4",
                 {"--out", "missing"});
   check_refused(shell, "clatter render vibrated --to 1e5 --out x.avi", {"x.avi", ".mp4"});
-  for (const std::string table : {"engine", "growth", "features", "fields", "render", "window"}) {
+  for (const std::string table :
+       {"engine", "growth", "features", "fields", "render", "window", "timeline"}) {
     check_refused(shell, "clatter bench " + table + " --json missing/x", {"--json", "missing"});
   }
   check_refused(shell, "clatter bench growth --plot missing/x.png", {"--plot", "missing"});

@@ -80,6 +80,27 @@ TEST_CASE("Schedule: a change added during the run comes before later ones") {
   CHECK(schedule.scene().particles.restitution == 0.9);
 }
 
+TEST_CASE("Schedule: from a time on, it continues as the schedule that went there") {
+  const Scene scene = scene_with(
+      "[[change]]\ntime = 3\nset = { 'particles.restitution' = 0.5 }\n"
+      "[[change]]\ntime = 4\nuntil = 12\nramp = 'linear'\nset = { 'walls.left.drive_speed' = 9 "
+      "}\n");
+  for (const double time : {2.0, 3.0, 3.5, 4.0, 5.0, 5.03, 11.99, 12.0, 20.0}) {
+    CAPTURE(time);
+    Schedule whole(scene);
+    whole.skip_to(time);
+    Schedule rest(whole.scene(), time);
+    CHECK(rest.next() == whole.next());
+    CHECK(rest.scene().changes.size() == 2);
+    for (const double later : {6.5, 30.0}) {
+      whole.skip_to(later);
+      rest.skip_to(later);
+      CHECK(rest.laws().particles.restitution == 0.5);
+      CHECK(rest.laws().walls[kLeft]->drive_speed == whole.laws().walls[kLeft]->drive_speed);
+    }
+  }
+}
+
 TEST_CASE("Schedule: changes are written as a scene file that reads back") {
   const Scene scene = scene_with(
       "[[change]]\ntime = 1.5\nset = { 'particles.restitution' = 0.5, walls.left = {kind = "
