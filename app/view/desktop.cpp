@@ -62,8 +62,4 @@ void Desktop::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
-void Desktop::wake() {
-  glfwPostEmptyEvent();
-}
-
 }  // namespace clatter

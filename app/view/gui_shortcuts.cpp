@@ -40,6 +40,10 @@ void Gui::use_function_key(const KeyPress& press) {
 
 void Gui::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
+  // An embedded gas has no other parts.
+  const bool opens = press.key == GLFW_KEY_TAB ||
+                     std::string_view("ghlpt").find(press.letter) != std::string_view::npos;
+  if (controls_.chooses() && opens) return;
   // Who types a name into the gallery before the search is active must not restart the gas.
   if (panels_.gallery && press.letter != 'g' && press.letter != 'h') return;
   switch (press.key) {
@@ -64,13 +68,11 @@ void Gui::use_key(const KeyPress& press) {
     case 'm':
       return fix_range();
     case 'p':
-      panels_.plots = !panels_.plots;
-      return;
+      return panels_.toggle(Sheet::Plots);
     case 'r':
       return press.shift ? session_.restart_with_new_seed() : session_.restart();
     case 't':
-      panels_.lesson = !panels_.lesson;
-      return;
+      return panels_.toggle(Sheet::Lesson);
     default:
       return face_preset(press.letter);
   }
@@ -112,6 +114,7 @@ void Gui::close_something() {
     *open = false;
     return;
   }
+  if (panels_.narrow && panels_.sheet != Sheet::None) return panels_.toggle(panels_.sheet);
   if (panels_.lecture) return lecture(false);
   viewport_.let_go();
 }

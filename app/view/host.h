@@ -11,6 +11,8 @@ class Host {
 
   /// Scale of the text: pixels per point of the display.
   virtual float content_scale() const = 0;
+  /// Smallest height of a widget that the pointer hits easily, pixels; 0: any.
+  virtual float least_target() const = 0;
   /// Sets the title of the window.
   virtual void set_title(const std::string& title) = 0;
   /// Puts a text into the clipboard.
@@ -21,8 +23,6 @@ class Host {
   virtual void close() = 0;
   /// Gives a written file to the user, if files of the program are not yet those of the user.
   virtual void deliver(const std::string& file) = 0;
-  /// Makes the window draw again. May be called from other threads.
-  virtual void wake() = 0;
   /// The address that opens this window with a fragment of link_of(); empty: there is none.
   virtual std::string link_to(const std::string& fragment) const = 0;
   /// Whether the program can start processes, which make films.

@@ -6,7 +6,7 @@
 namespace clatter {
 
 Recording record_panel(Controls& controls, bool films, std::optional<double> filmed) {
-  if (!group("Record")) return Recording::None;
+  if (!controls.group("Record")) return Recording::None;
   Recording asked = Recording::None;
   const float width = ImGui::GetContentRegionAvail().x;
   if (controls.button("screenshot", "Screenshot", "A PNG of the view, with its scene inside (F2)",
@@ -21,8 +21,7 @@ Recording record_panel(Controls& controls, bool films, std::optional<double> fil
                         width)) {
       asked = Recording::CopyLink;
     }
-    ImGui::Spacing();
-    return asked;
+      return asked;
   }
   if (filmed) {
     const std::string label = fmt::format("Stop film, {:.0f} %###film", 100.0 * *filmed);
@@ -41,7 +40,6 @@ Recording record_panel(Controls& controls, bool films, std::optional<double> fil
                       width)) {
     asked = Recording::CopyCommand;
   }
-  ImGui::Spacing();
   return asked;
 }
 

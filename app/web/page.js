@@ -4,6 +4,7 @@
 
 const canvas = document.getElementById('canvas');
 const note = document.getElementById('note');
+const finger = matchMedia('(pointer: coarse)');
 const query = new URLSearchParams(location.search);
 const log = [];  // lines of the script log, with ?log
 
@@ -44,6 +45,8 @@ function save(name, bytes) {
 var Module = {
   page: {
     scale: () => devicePixelRatio,
+    // Fingers hit areas of 40 pixels of the page.
+    target: () => finger.matches ? 40 * devicePixelRatio : 0,
     title: (text) => { document.title = text; },
     copy: (text) => { navigator.clipboard?.writeText(text).catch(() => {}); },
     fullScreen: () => {
@@ -51,7 +54,6 @@ var Module = {
       else document.documentElement.requestFullscreen?.().catch(() => {});
     },
     deliver: (file) => save(file, Module.FS.readFile(file)),
-    wake,
     link: (fragment) => location.href.split(/[?#]/)[0] + '#' + fragment,
   },
   print: (line) => { log.push(line); },
@@ -76,13 +78,25 @@ function resize() {
   wake();
 }
 
-// ---- pointers: mouse, pen and touch; two fingers move and zoom ----
+// ---- pointers: mouse, pen and touch ----
 
+// One finger is the left button of the mouse, except that it scrolls panels along y. Two fingers
+// move and zoom the view.
 const fingers = new Map();
 let pinch = null;  // middle and distance of two fingers
+let touch = null;  // the only finger on a panel: its place at the start, and what it does
 
 function point(x, y, buttons, wheel = 0) {
   Module._clatter_point(x * devicePixelRatio, y * devicePixelRatio, buttons, wheel);
+  wake();
+}
+
+function place(x, y) {
+  Module._clatter_place(x * devicePixelRatio, y * devicePixelRatio);
+}
+
+function scroll(x, y, way) {
+  Module._clatter_scroll(x * devicePixelRatio, y * devicePixelRatio, way * devicePixelRatio);
   wake();
 }
 
@@ -91,32 +105,70 @@ function pinched() {
   return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y)};
 }
 
+function use_pinch() {
+  const now = pinched();
+  const right = 2;
+  if (!pinch) place(now.x, now.y);
+  // A zoom step of the wheel is a factor of .85.
+  const wheel = pinch ? Math.log(now.apart / pinch.apart) / -Math.log(0.85) : 0;
+  point(now.x, now.y, right, wheel);
+  pinch = now;
+}
+
+function put_finger(x, y) {
+  const on_gas = Module._clatter_shows_gas(x * devicePixelRatio, y * devicePixelRatio);
+  touch = {x, y, last: y, does: on_gas ? 'press' : 'nothing yet'};
+  place(x, y);
+  point(x, y, on_gas ? 1 : 0);
+}
+
+function move_finger(x, y) {
+  const slack = 8;
+  const [right, down] = [Math.abs(x - touch.x), Math.abs(y - touch.y)];
+  if (touch.does === 'nothing yet' && Math.max(right, down) > slack) {
+    touch.does = down > right ? 'scroll' : 'press';
+  }
+  if (touch.does === 'press') point(x, y, 1);
+  if (touch.does === 'scroll') {
+    scroll(touch.x, touch.y, y - touch.last);
+    touch.last = y;
+  }
+}
+
+function lift_finger(x, y) {
+  if (touch?.does === 'nothing yet') point(x, y, 1);
+  point(x, y, 0);
+  Module._clatter_lift();
+  touch = null;
+}
+
+function on_touch(event) {
+  const {clientX: x, clientY: y, pointerId: id} = event;
+  const begins = event.type === 'pointerdown';
+  const held = begins || fingers.has(id);
+  const moves = event.type === 'pointermove';
+  if (!held) return;
+  if (begins || moves) fingers.set(id, {x, y});
+  else fingers.delete(id);
+  if (fingers.size === 2) {
+    touch = null;
+    use_pinch();
+    return;
+  }
+  if (begins && fingers.size === 1) put_finger(x, y);
+  else if (moves && touch) move_finger(x, y);
+  else if (fingers.size === 0) lift_finger(x, y);
+  pinch = null;
+}
+
 function on_pointer(event) {
-  const touch = event.pointerType === 'touch';
   if (event.type === 'pointerdown') {
     canvas.focus();
     canvas.setPointerCapture(event.pointerId);
-    if (touch) fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-  } else if (event.type === 'pointermove') {
-    if (fingers.has(event.pointerId)) {
-      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-    }
-  } else {
-    fingers.delete(event.pointerId);
   }
-  if (fingers.size === 2) {
-    const now = pinched();
-    const right = 2;
-    // A zoom step of the wheel is a factor of .85.
-    const wheel = pinch ? Math.log(now.apart / pinch.apart) / -Math.log(0.85) : 0;
-    point(now.x, now.y, right, wheel);
-    pinch = now;
-  } else if (fingers.size < 2) {
-    pinch = null;
-    // DOM: left, right, middle are 1, 2, 4, as for Dear ImGui.
-    const buttons = touch ? fingers.size : event.buttons;
-    point(event.clientX, event.clientY, buttons);
-  }
+  if (event.pointerType === 'touch') on_touch(event);
+  // DOM: left, right, middle are 1, 2, 4, as for Dear ImGui.
+  else point(event.clientX, event.clientY, event.buttons);
   event.preventDefault();
 }
 
@@ -190,6 +242,7 @@ function start() {
     note.textContent = failure;
     return;
   }
+  if (query.has('embed')) text_of('clatter_embed', query.get('controls') || '');
   ready = true;
   note.textContent = '';
   resize();

@@ -8,12 +8,12 @@ namespace clatter {
 class PageHost final : public Host {
  public:
   float content_scale() const override;
+  float least_target() const override;
   void set_title(const std::string& title) override;
   void copy(const std::string& text) override;
   void toggle_full_screen() override;
   void close() override {}
   void deliver(const std::string& file) override;
-  void wake() override;
   bool has_processes() const override { return false; }
   std::string link_to(const std::string& fragment) const override;
 };
