@@ -25,6 +25,7 @@ class Desktop final : public Host {
   void deliver(const std::string&) override {}
   std::string link_to(const std::string&) const override { return {}; }
   bool has_processes() const override { return true; }
+  ScreenRecorder* recorder() override { return nullptr; }
 
  private:
   GLFWwindow* window_;

@@ -91,6 +91,10 @@ void Gui::draw() {
     }
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));
+    if (screen_film_) {
+      host_.recorder()->add(static_cast<int>(area_.low.x * scale_),
+                            static_cast<int>(area_.low.y * scale_), size);
+    }
   }
   gl.Viewport(0, 0, static_cast<int>(whole.x * scale_), static_cast<int>(whole.y * scale_));
   gl.Enable(GL_BLEND);
@@ -152,8 +156,13 @@ void Gui::left_panel(float top, float width) {
 
 // The buttons of the record panel and their actions.
 void Gui::record() {
-  switch (record_panel(controls_, host_.has_processes(),
-                       film_ ? std::optional(film_->done()) : std::nullopt)) {
+  std::optional<double> filmed;
+  if (film_) filmed = film_->done();
+  if (screen_film_) filmed = ImGui::GetTime() - screen_film_->since;
+  const Films films = host_.has_processes() ? Films::OfRun
+                      : host_.recorder()    ? Films::OfScreen
+                                            : Films::None;
+  switch (record_panel(controls_, films, filmed)) {
     case Recording::Screenshot:
       screenshot();
       break;
@@ -171,6 +180,12 @@ void Gui::record() {
       break;
     case Recording::StopFilm:
       film_->interrupt();
+      break;
+    case Recording::FilmScreen:
+      film_screen();
+      break;
+    case Recording::StopScreen:
+      stop_screen_film();
       break;
     case Recording::None:
       break;

@@ -81,6 +81,8 @@ class Gui {
   void copy_link();
   void film();
   void watch_film();
+  void film_screen();
+  void stop_screen_film();
 
   Host& host_;
   const Gl* gl_;
@@ -97,6 +99,11 @@ class Gui {
   std::string observable_;  // table_title() of the plotted table; unknown: the first
   std::optional<ProgramJob> film_;
   std::string film_file_;  // file of the film that is made
+  struct ScreenFilm {
+    std::string file;
+    double since;  // ImGui::GetTime() at its beginning
+  };
+  std::optional<ScreenFilm> screen_film_;
   GuiLayer gui_;
   PanelVisibility panels_;
   MessageNote message_;

@@ -2,7 +2,25 @@
 
 #include <string>
 
+#include "render/camera.h"
+
 namespace clatter {
+
+/// Makes films of the picture in the window, in real time.
+class ScreenRecorder {
+ public:
+  virtual ~ScreenRecorder() = default;
+
+  /// Extension of the files, such as ".mp4".
+  virtual std::string extension() const = 0;
+  /// Begins a film of pictures of `size` pixels.
+  virtual void begin(Size size) = 0;
+  /// Adds the picture of `size` pixels that is now on the window, with its upper left corner at
+  /// (x, y). It is scaled to the size of the film.
+  virtual void add(int x, int y, Size size) = 0;
+  /// Ends the film, and gives it to the user as a file with this name.
+  virtual void end(const std::string& name) = 0;
+};
 
 /// The surroundings of the window: a desktop, or a page of a browser.
 class Host {
@@ -27,6 +45,8 @@ class Host {
   virtual std::string link_to(const std::string& fragment) const = 0;
   /// Whether the program can start processes, which make films.
   virtual bool has_processes() const = 0;
+  /// The recorder of the window; nullptr: there is none.
+  virtual ScreenRecorder* recorder() = 0;
 };
 
 }  // namespace clatter

@@ -21,6 +21,8 @@ class Viewport {
   void draw(const Frame& frame, const View& view, Size size, double letters, double least);
   /// Copies the picture to the window. (x, y) is its lower left corner in pixels of the window.
   void show(int x, int y) const;
+  /// Size of the picture, pixels. Requires drawn().
+  Size size() const { return canvas_->size(); }
   /// The current picture. Requires drawn().
   Image picture() const { return canvas_->read(); }
 

@@ -32,14 +32,55 @@ function wake() {
 
 // ---- what the program asks of the page ----
 
-function save(name, bytes) {
-  const types = {png: 'image/png', csv: 'text/csv', toml: 'application/toml'};
+function save(name, pieces) {
+  const types = {png: 'image/png', csv: 'text/csv', toml: 'application/toml', mp4: 'video/mp4',
+                 webm: 'video/webm'};
   const link = document.createElement('a');
   const type = types[name.split('.').pop()] || 'application/octet-stream';
-  link.href = URL.createObjectURL(new Blob([bytes], {type}));
+  link.href = URL.createObjectURL(new Blob(pieces, {type}));
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+// ---- films: the part of the canvas with the gas, by the encoders of the browser ----
+
+const film_types = ['video/mp4;codecs=avc1.64002A', 'video/webm;codecs=vp9', 'video/webm', 'video/mp4'];
+const film_type = typeof MediaRecorder === 'function'
+    ? film_types.find((type) => MediaRecorder.isTypeSupported(type)) : undefined;
+let film = null;  // the film that is recorded
+
+class Film {
+  constructor(width, height) {
+    const longest = 1920, bits_per_pixel = 6, even = (length) => 2 * Math.round(length / 2);
+    const scale = Math.min(1, longest / Math.max(width, height));
+    this.sheet = document.createElement('canvas');
+    this.sheet.width = even(scale * width);
+    this.sheet.height = even(scale * height);
+    this.pen = this.sheet.getContext('2d', {alpha: false});
+    const stream = this.sheet.captureStream(0);  // takes a frame when asked
+    this.track = stream.getVideoTracks()[0];
+    this.recorder = new MediaRecorder(stream, {
+      mimeType: film_type, videoBitsPerSecond: bits_per_pixel * this.sheet.width * this.sheet.height});
+    this.pieces = [];
+    this.recorder.ondataavailable = (event) => { this.pieces.push(event.data); };
+    this.recorder.start();
+  }
+
+  add(x, y, width, height) {
+    const {sheet, pen} = this;
+    const scale = Math.min(sheet.width / width, sheet.height / height);
+    const [wide, tall] = [scale * width, scale * height];
+    pen.clearRect(0, 0, sheet.width, sheet.height);
+    pen.drawImage(canvas, x, y, width, height, (sheet.width - wide) / 2, (sheet.height - tall) / 2,
+                  wide, tall);
+    this.track.requestFrame();
+  }
+
+  end(name) {
+    this.recorder.onstop = () => save(name, this.pieces);
+    this.recorder.stop();
+  }
 }
 
 var Module = {
@@ -53,7 +94,11 @@ var Module = {
       if (document.fullscreenElement) document.exitFullscreen();
       else document.documentElement.requestFullscreen?.().catch(() => {});
     },
-    deliver: (file) => save(file, Module.FS.readFile(file)),
+    deliver: (file) => save(file, [Module.FS.readFile(file)]),
+    filmExtension: () => film_type ? '.' + film_type.split(/[/;]/)[1] : '',
+    beginFilm: (width, height) => { film = new Film(width, height); },
+    film: (x, y, width, height) => film?.add(x, y, width, height),
+    endFilm: (name) => { film.end(name); film = null; },
     link: (fragment) => location.href.split(/[?#]/)[0] + '#' + fragment,
   },
   print: (line) => { log.push(line); },
@@ -136,9 +181,8 @@ function move_finger(x, y) {
 }
 
 function lift_finger(x, y) {
-  if (touch?.does === 'nothing yet') point(x, y, 1);
+  if (touch.does === 'nothing yet') point(x, y, 1);
   point(x, y, 0);
-  Module._clatter_lift();
   touch = null;
 }
 
@@ -155,10 +199,12 @@ function on_touch(event) {
     use_pinch();
     return;
   }
+  if (pinch) point(pinch.x, pinch.y, 0);
+  pinch = null;
   if (begins && fingers.size === 1) put_finger(x, y);
   else if (moves && touch) move_finger(x, y);
-  else if (fingers.size === 0) lift_finger(x, y);
-  pinch = null;
+  else if (touch) lift_finger(x, y);
+  if (fingers.size === 0) Module._clatter_lift();
 }
 
 function on_pointer(event) {

@@ -4,6 +4,15 @@
 
 namespace clatter {
 
+/// The MediaRecorder of a browser.
+class PageRecorder final : public ScreenRecorder {
+ public:
+  std::string extension() const override;
+  void begin(Size size) override;
+  void add(int x, int y, Size size) override;
+  void end(const std::string& name) override;
+};
+
 /// A page of a browser, through the functions of `Module.page` in page.js.
 class PageHost final : public Host {
  public:
@@ -16,6 +25,10 @@ class PageHost final : public Host {
   void deliver(const std::string& file) override;
   bool has_processes() const override { return false; }
   std::string link_to(const std::string& fragment) const override;
+  ScreenRecorder* recorder() override;
+
+ private:
+  PageRecorder recorder_;
 };
 
 }  // namespace clatter
