@@ -267,6 +267,7 @@ void Gui::viewport() {
     if (chosen) open_gallery_scene(*chosen);
   }
   if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
+  if (frame.opening) opening_note(session_, controls_, area_);
   if (!frame.scene) return;
   use_viewport();
   const ImGuiIO& io = ImGui::GetIO();

@@ -107,6 +107,7 @@ void Gui::use_signs() {
 
 void Gui::close_something() {
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return ImGui::ClosePopupToLevel(0, true);
+  if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
   // Dear ImGui ends the typing of a number.
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;
   for (bool* open : {&panels_.gallery, &panels_.help, &panels_.plots}) {

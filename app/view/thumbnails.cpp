@@ -25,6 +25,7 @@ void Thumbnails::work(std::chrono::milliseconds budget) {
     textures_[making_->name];
   }
   making_ = nullptr;
+  opening_.reset();
   run_.reset();
 }
 
@@ -33,14 +34,18 @@ void Thumbnails::work(std::chrono::milliseconds budget) {
 bool Thumbnails::advance(std::chrono::milliseconds budget) {
   constexpr double kSeconds = 20.0;
   constexpr std::uint64_t kMaxSteps = 60'000, kSlice = 500;
-  using Clock = std::chrono::steady_clock;
+  const auto due = std::chrono::steady_clock::now() + budget;
+  const auto over = [due] { return std::chrono::steady_clock::now() >= due; };
   if (!run_) {
-    const Scene scene = load_gallery_scene(*making_);
-    view_ = scene.view;
-    run_ = watched_run(scene, 1);
-    return false;
+    if (!opening_) {
+      const Scene scene = load_gallery_scene(*making_);
+      view_ = scene.view;
+      opening_.emplace(scene, 1);
+    }
+    if (!opening_->advance(over)) return false;
+    run_ = std::exchange(opening_, std::nullopt)->take();
   }
-  for (const auto due = Clock::now() + budget; Clock::now() < due;) {
+  while (!over()) {
     const std::uint64_t steps = run_->counts().steps();
     if (steps >= kMaxSteps) return true;
     if (run_->run_until(kSeconds * view_.speed, kNoLimit, steps + kSlice)) return true;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/embedded_file.h"
+#include "engine/publish/opening_run.h"
 #include "engine/publish/watched_run.h"
 #include "render/gl/gl_object.h"
 #include "render/layers/renderer.h"
@@ -38,7 +39,8 @@ class Thumbnails {
   std::map<std::string_view, std::optional<Texture>> textures_;  // absent: failed
   const EmbeddedFile* making_ = nullptr;                         // scene of the run; null: none
   View view_;                                                    // of that scene
-  std::unique_ptr<WatchedRun> run_;                              // from its first slice on
+  std::optional<OpeningRun> opening_;                            // until the run has started
+  std::unique_ptr<WatchedRun> run_;                              // from its start on
 };
 
 }  // namespace clatter

@@ -58,10 +58,15 @@ struct Open {
   VecX shift = {};  ///< displacement of the kept particles; empty: none
 };
 
+/// Abandons the scene that is being opened, and the commands after its Open. The former gas
+/// remains.
+struct CancelOpen {};
+
 }  // namespace command
 
-using Command = std::variant<command::Play, command::Step, command::StepCollision,
-                             command::SetSpeed, command::SetLaws, command::Show,
-                             command::ShowProfile, command::Pick, command::Open>;
+using Command =
+    std::variant<command::Play, command::Step, command::StepCollision, command::SetSpeed,
+                 command::SetLaws, command::Show, command::ShowProfile, command::Pick,
+                 command::Open, command::CancelOpen>;
 
 }  // namespace clatter

@@ -27,6 +27,8 @@ class ScheduledRun {
  public:
   /// Starts a run as the scene describes. Throws Interrupted.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
+  /// Starts a run as the scene describes, from its start state made before.
+  ScheduledRun(const Scene& scene, std::uint64_t seed, State<D> start);
   /// Continues a saved run. The scene's changes up to its time are in force. Throws Interrupted.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                const StopRequest& stop = {});
@@ -59,8 +61,8 @@ class ScheduledRun {
   void change_here(const std::vector<Override>& laws);
 
   /// Adds to later snapshots the averages, flights and angles that the view needs. Averages
-  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure time
-  /// of a picture, in simulation time.
+  /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure
+  /// time of a picture, in simulation time.
   void show(const View& view, double exposure = 0.0);
   /// The same, continued from the result of save_shown() at this time of a run with the same scene,
   /// view and exposure. An empty `saved` starts new averages.

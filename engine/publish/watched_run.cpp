@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "engine/dimension.h"
+#include "engine/dynamics/memory.h"
+#include "engine/initial/start_state.h"
 #include "engine/measure/totals.h"
 #include "engine/publish/live_observables.h"
 #include "engine/publish/live_profile.h"
@@ -16,7 +17,7 @@ namespace {
 template <int D>
 class RunOf : public WatchedRun {
  public:
-  RunOf(const Scene& scene, std::uint64_t seed);
+  RunOf(const Scene& scene, std::uint64_t seed, State<D> start);
   RunOf(const RunOf&) = delete;
   RunOf& operator=(const RunOf&) = delete;
 
@@ -73,8 +74,8 @@ class RunOf : public WatchedRun {
 };
 
 template <int D>
-RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed)
-    : run_(scene, seed), started_(std::make_shared<const Scene>(scene)) {
+RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start)
+    : run_(scene, seed, std::move(start)), started_(std::make_shared<const Scene>(scene)) {
   tally_.temperature_integral = Vec<D>::Zero();
   tally_at_laws_ = tally_;
   run_.show(scene.view);
@@ -206,10 +207,19 @@ void RunOf<D>::tell(Frame& frame, bool halted) {
 
 }  // namespace
 
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed, AnyState start) {
+  return std::visit(
+      [&]<int D>(State<D>& state) -> std::unique_ptr<WatchedRun> {
+        return std::make_unique<RunOf<D>>(scene, seed, std::move(state));
+      },
+      start);
+}
+
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed) {
-  return with_dimension(scene.dimension(), [&](auto dimension) -> std::unique_ptr<WatchedRun> {
-    return std::make_unique<RunOf<dimension()>>(scene, seed);
-  });
+  require_memory(scene);
+  StartMaker maker(scene, seed);
+  maker.advance();
+  return watched_run(scene, seed, maker.take());
 }
 
 }  // namespace clatter

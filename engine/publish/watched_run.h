@@ -48,5 +48,7 @@ class WatchedRun {
 
 /// The run of a scene and a seed, at time 0. Throws UserError if the machine has not enough memory.
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed);
+/// The same from the start state of the scene, made before by a StartMaker.
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed, AnyState start);
 
 }  // namespace clatter
