@@ -461,6 +461,85 @@ test('a hidden page does not run', async () => {
   await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).collisions > ${before}`);
 });
 
+// ---- speed ----
+
+// Durations of the tasks of more than 50 ms from now on, in milliseconds.
+const watch_tasks = () => browser.value(`void (globalThis.tasks = [], new PerformanceObserver((list) => {
+  for (const entry of list.getEntries()) tasks.push(entry.duration);
+}).observe({entryTypes: ['longtask']}))`);
+
+test('the first gas moves soon after the files have arrived', async () => {
+  await browser.open(`${server.address}?log#vibrated`,
+                     `log.some((line) => { const e = JSON.parse(line); return e.event === 'status' && e.time > 0; })`);
+  const milliseconds = await browser.value(`performance.now() - Math.max(
+      ...performance.getEntriesByType('resource').map((entry) => entry.responseEnd))`);
+  console.log(`  ${Math.round(milliseconds)} ms after the last file`);
+  assert.ok(milliseconds < 2000);
+});
+
+test('a large scene opens in slices, and can be cancelled', async () => {
+  await open('cradle');
+  await watch_tasks();
+  const dense = 'vibrated&particles.count=100000&box.size=[340.0,400.0]';
+  const go = (fragment) => browser.value(`void (location.hash = '${fragment}')`);
+  await go(dense);
+  // Its place is final from its second picture on.
+  await browser.until(`log.filter((line) => line.includes('"opening.cancel"')).length > 1`);
+  await click('opening.cancel');
+  await browser.until(`log.some((line) => line.includes('"cancel"'))`);
+  await sleep(500);
+  const {time} = await last('status');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).time > ${time}`);
+  assert.equal((await last('status')).run, 1);
+  await go('vibrated&particles.count=100000&box.size=[400.0,600.0]');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 100000`);
+  const longest = await browser.value('Math.max(0, ...tasks)');
+  console.log(`  longest task ${Math.round(longest)} ms`);
+  assert.ok(longest < 500, `${longest} ms`);  // of a busy machine
+});
+
+test('the gallery opens, and its pictures are made in slices', async () => {
+  await open('cradle', '&until=0');
+  await watch_tasks();
+  await click('gallery');
+  await browser.until('log.some((line) => line.includes(\'"gallery.vibrated"\'))');
+  await sleep(8000);
+  const longest = await browser.value('Math.max(0, ...tasks)');
+  console.log(`  longest task ${Math.round(longest)} ms`);
+  assert.ok(longest < 1000, `${longest} ms`);  // of a busy machine, which compiles shaders too
+  // Pictures of scenes have more colours than the list without them.
+  const [x, y, , height] = await place_of('gallery.vibrated');
+  const colours = await browser.value(`(() => {
+    Module._clatter_draw();
+    const gl = canvas.getContext('webgl2');
+    const pixels = new Uint8Array(4 * 90 * 60);
+    gl.readPixels(${Math.round(x)} + 5, canvas.height - ${Math.round(y + height)} + 5, 90, 60, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return new Set(new Uint32Array(pixels.buffer)).size;
+  })()`);
+  assert.ok(colours > 100, `${colours} colours`);
+  await click('gallery.close');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"gallery"')).pop()).open === false`);
+});
+
+test('10 000 disks need less than 33 ms per picture without the work of OpenGL', async () => {
+  await open('vibrated&particles.count=10000&box.size=[120.0,150.0]');
+  const milliseconds = await browser.value(`(() => {
+    const calls = WebGL2RenderingContext.prototype;
+    for (const name of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced',
+                        'bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D', 'blitFramebuffer',
+                        'clear', 'clearBufferfv', 'finish', 'flush']) {
+      calls[name] = () => {};
+    }
+    const pictures = 60;
+    Module._clatter_draw();
+    const began = performance.now();
+    for (let k = 0; k < pictures; ++k) Module._clatter_draw();
+    return (performance.now() - began) / pictures;
+  })()`);
+  console.log(`  ${milliseconds.toFixed(1)} ms per picture`);
+  assert.ok(milliseconds < 33);
+});
+
 // A page with the same query and fragment in an iframe.
 const frame = '<!DOCTYPE html><link rel="icon" href="data:,"><iframe width="640" height="480"></iframe><script>' +
     "document.querySelector('iframe').src = 'index.html' + location.search + location.hash</script>";
