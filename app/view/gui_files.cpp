@@ -151,7 +151,7 @@ void Gui::film_screen() {
     ScreenRecorder& recorder = *host_.recorder();
     screen_film_ = {free_name(recorder.extension()), ImGui::GetTime()};
     recorder.begin(viewport_.size());
-    session_.tell("Filming until Stop film");
+    session_.tell("Stop film ends the film");
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }

@@ -46,14 +46,14 @@ float Gui::sheet_bar() {
   const float around = (ImGui::GetContentRegionAvail().x - text - (kCount - 1.0f) * edge) / kCount;
   for (const auto& [sheet, key, title] : kSheets) {
     const bool open = panels_.sheet == sheet;
-    if (open)
-      ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const ImGuiCol colour = open ? ImGuiCol_ButtonActive : ImGuiCol_Button;
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(colour));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
     if (controls_.button(key, title, "", ImGui::CalcTextSize(title).x + around)) {
       panels_.toggle(sheet);
     }
     ImGui::PopStyleVar();
-    if (open) ImGui::PopStyleColor();
+    ImGui::PopStyleColor();
     ImGui::SameLine();
   }
   ImGui::End();
