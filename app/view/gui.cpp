@@ -62,7 +62,8 @@ void Gui::begin() {
 void Gui::draw() {
   begin();
   if (session_.update()) {
-    viewport_.redraw();
+    // While a scene is being opened, the former gas stands still.
+    if (!session_.frame().opening) viewport_.redraw();
     history_.add(session_.frame());
   }
   if (title_ != session_.opened().title) {

@@ -182,7 +182,7 @@ class EngineWork {
 
   // Continues the opening for a slice of time. Returns whether it is complete.
   bool work_on_opening() {
-    constexpr std::chrono::milliseconds kSlice{30};
+    constexpr std::chrono::milliseconds kSlice{50};
     const auto due = Clock::now() + kSlice;
     bool complete = false;
     const bool possible = attempt([&] {

@@ -324,9 +324,11 @@ test('two fingers move and zoom the view, and pick nothing', () => as_telephone(
 
 test('one finger turns spheres', () => as_telephone(async () => {
   await open('spheres_vibrated', '&until=0');
-  await swipe([[180, 300], [240, 300]]);
-  const turn = await last('turn');
-  assert.ok(turn, 'no turn');
+  // A busy machine may draw the press and the motion in one picture, and then sees no drag.
+  for (let turn = 0; turn < 5 && !(await events('turn')).length; ++turn) {
+    await swipe([[180, 300], [240, 300]]);
+  }
+  assert.ok((await events('turn')).length);
 }));
 
 // ---- embedded ----
@@ -504,11 +506,14 @@ test('a large scene opens in slices, and can be cancelled', async () => {
   const {time} = await last('status');
   await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).time > ${time}`);
   assert.equal((await last('status')).run, 1);
-  await go('vibrated&particles.count=100000&box.size=[400.0,600.0]');
-  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 100000`);
+  await browser.value('void (tasks.length = 0)');
+  const began = Date.now();
+  await go(dense + '&seed=2');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 100000`, 120);
+  const whole = Date.now() - began;
   const longest = await browser.value('Math.max(0, ...tasks)');
-  console.log(`  longest task ${Math.round(longest)} ms`);
-  assert.ok(longest < 500, `${longest} ms`);  // of a busy machine
+  console.log(`  longest task ${Math.round(longest)} ms of ${whole} ms`);
+  assert.ok(longest < 0.25 * whole);
 });
 
 test('the gallery opens, and its pictures are made in slices', async () => {
